@@ -1,0 +1,42 @@
+#pragma once
+// What a user says about one cable.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cable/link.h"
+
+namespace sheave {
+
+/// When the tangents, and with them the rest lengths, follow the bodies.
+enum class TangentUpdate {
+  iteration,  ///< in every iteration: accurate
+  substep,    ///< once per substep, as in the paper
+};
+inline constexpr std::array<std::string_view, 2> tangent_update_names{"iteration", "substep"};
+
+/// Settings of one cable: an ordered list of links; span k joins link k and link k + 1.
+struct CableDef {
+  std::string name;     ///< unique among the cables
+  bool closed = false;  ///< a last span joins the last link and the first: a belt
+  /// Of each span [m/N], >= 0, 0 is rigid. Excludes axial_stiffness.
+  std::optional<double> compliance;
+  /// Of the cable's material, EA [N], > 0: a span then has the compliance rest length / EA.
+  std::optional<double> axial_stiffness;
+  double damping = 0.0;  ///< of each span [N s/m], >= 0; needs an elastic cable
+  TangentUpdate tangent_update = TangentUpdate::iteration;
+  /// Rest length of each span at time 0 [m], one per span; default: its length, so that the cable
+  /// is just taut. Shorter than the length only for elastic cables.
+  std::vector<double> rest_lengths;
+  std::vector<std::shared_ptr<const LinkDef>> links;  ///< at least 2
+
+  /// Every member but the links.
+  static std::span<const Field> field_table();
+  [[nodiscard]] int span_count() const {
+    return static_cast<int>(links.size()) - (closed ? 0 : 1);
+  }
+};
+
+}  // namespace sheave

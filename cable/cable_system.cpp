@@ -1,0 +1,134 @@
+// Cost of a substep: per span one tangent in begin(), one per sweep, one in finish(); see bench/.
+
+#include "cable/cable_system.h"
+
+#include <algorithm>
+
+namespace sheave {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+/// The multiple of `quantum`, a power of two, nearest to `length`.
+double quantised(double length, double quantum) { return std::round(length / quantum) * quantum; }
+
+}  // namespace
+
+double CableSystem::compliance_of(const CompiledCable& cable, double rest_length) const {
+  // A material's spring gets softer in proportion to the length that stretches.
+  return cable.compliance + cable.inverse_stiffness * std::max(rest_length, 0.0);
+}
+
+void CableSystem::begin(const Substep& substep, const FeatureState& state) {
+  std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
+  for (std::size_t k = 0; k < spans_.size(); ++k) {
+    const SpanSetup& setup = spans_[k];
+    const LinkGeometry& first = links_[at(setup.first)];
+    const LinkGeometry& second = links_[at(setup.second)];
+    references_[k] = span_reference(substep, setup, first, second, state.reals[k]);
+    if (cables_[at(setup.cable)].tangent_update == TangentUpdate::substep) {
+      const SpanGeometry span = span_geometry(substep, setup, first, second);
+      const auto own_point = [&](int body, const Vector3& point) -> Vector3 {
+        return substep.orientation(body).conjugate() * (point - substep.position(body));
+      };
+      references_[k].first_point = own_point(first.body, span.start);
+      references_[k].second_point = own_point(second.body, span.end);
+    }
+  }
+}
+
+SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row) const {
+  const SpanSetup& setup = spans_[at(span)];
+  const CompiledCable& cable = cables_[at(setup.cable)];
+  const LinkGeometry& first = links_[at(setup.first)];
+  const LinkGeometry& second = links_[at(setup.second)];
+  const SpanReference& reference = references_[at(span)];
+  row.lower = 0.0;  // a cable pulls and never pushes
+  const SpanGeometry geometry =
+      cable.tangent_update == TangentUpdate::iteration
+          ? evaluate_span(substep, setup, first, second, reference, row)
+          : evaluate_span_frozen(substep, first, second, reference, row);
+  row.compliance = compliance_of(cable, row.value + geometry.length);
+  row.damping = cable.damping;
+  return geometry;
+}
+
+double CableSystem::sweep(Substep& substep) {
+  double correction = 0.0;
+  Row row;
+  for (int k = 0; k < row_count(); ++k) {
+    row.clear();
+    evaluate(substep, k, row);
+    double& multiplier = multipliers_[at(k)];
+    if (row.value >= 0.0 && multiplier == 0.0) continue;  // slack
+    correction = std::max(correction, solve_row(row, substep.h, multiplier, substep.moving));
+  }
+  return correction;
+}
+
+void CableSystem::linearise(Substep& substep, std::vector<Row>& rows) {
+  for (int k = 0; k < row_count(); ++k) evaluate(substep, k, rows.emplace_back());
+}
+
+void CableSystem::finish(Substep& substep, FeatureState& next) {
+  const double inverse_square = 1.0 / (substep.h * substep.h);
+  for (int k = 0; k < row_count(); ++k) {
+    const SpanSetup& setup = spans_[at(k)];
+    const LinkGeometry& first = links_[at(setup.first)];
+    const LinkGeometry& second = links_[at(setup.second)];
+    const double quantum = cables_[at(setup.cable)].quantum;
+    const SpanGeometry span = span_geometry(substep, setup, first, second);
+    if (!span.has_tangent) {
+      if (fallbacks_[at(k)].substeps++ == 0) fallbacks_[at(k)].first_time = substep.next.time;
+      ++substep.statistics.geometry_fallbacks;
+    }
+    const SpanTransport transport =
+        span_transport(substep, setup, first, second, references_[at(k)], span);
+    double& rest_length = next.reals[rest_length_index(k)];
+    // What is smaller than the quantum waits for the next substep.
+    const auto move = [&](double amount, int link, int end) {
+      double& remainder = next.reals[remainder_index(k, end)];
+      const double moved = quantised(amount + remainder, quantum);
+      remainder += amount - moved;
+      rest_length += moved;
+      next.reals[stored_length_index(link)] -= moved;
+    };
+    if (first.signed_radius != 0.0) move(transport.from_first, setup.first, 0);
+    if (second.signed_radius != 0.0) move(transport.from_second, setup.second, 1);
+    next.reals[tension_index(k)] = multipliers_[at(k)] * inverse_square;
+  }
+}
+
+double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
+                                   const FeatureState& own) const {
+  const auto elastic = [](const CompiledCable& cable) {
+    return cable.compliance > 0.0 || cable.inverse_stiffness > 0.0;
+  };
+  if (std::none_of(cables_.begin(), cables_.end(), elastic)) return 0.0;
+  const Substep now(bodies, state, 1.0, 1);
+  double energy = 0.0;
+  for (int k = 0; k < row_count(); ++k) {
+    const SpanSetup& setup = spans_[at(k)];
+    const double rest_length = own.reals[rest_length_index(k)];
+    const double compliance = compliance_of(cables_[at(setup.cable)], rest_length);
+    const double stretch =
+        span_geometry(now, setup, links_[at(setup.first)], links_[at(setup.second)]).length -
+        rest_length;
+    if (compliance > 0.0 && stretch > 0.0) energy += 0.5 * stretch * stretch / compliance;
+  }
+  return energy;
+}
+
+std::vector<CableSystem::TangentWarning> CableSystem::tangent_warnings() const {
+  std::vector<TangentWarning> warnings;
+  for (int k = 0; k < row_count(); ++k) {
+    const Fallback& fallback = fallbacks_[at(k)];
+    if (fallback.substeps == 0) continue;
+    const CompiledCable& cable = cables_[at(spans_[at(k)].cable)];
+    warnings.push_back(
+        {cable.name, k - cable.first_span, fallback.substeps, fallback.first_time});
+  }
+  return warnings;
+}
+
+}  // namespace sheave

@@ -1,0 +1,107 @@
+#pragma once
+// All cables of a world: one unilateral distance row per free span.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cable/cable.h"
+#include "cable/cable_report.h"
+#include "cable/span_row.h"
+#include "engine/constraint_batch.h"
+
+namespace sheave {
+
+/// Constants of one cable.
+struct CompiledCable {
+  std::string name;
+  bool closed = false;
+  int first_link = 0;  ///< its links and spans within those of all cables
+  int link_count = 0;
+  int first_span = 0;
+  int span_count = 0;
+  double compliance = 0.0;         ///< [m/N]; 0 if rigid or of a material
+  double inverse_stiffness = 0.0;  ///< 1/EA [1/N]; 0 if not of a material
+  double damping = 0.0;            ///< [N s/m]
+  TangentUpdate tangent_update = TangentUpdate::iteration;
+  double start_length = 0.0;       ///< rest and stored lengths at time 0 [m]
+  /// Power of two that all rest and stored lengths are multiples of [m], about 1e-15 of the cable.
+  /// Sums and differences of such numbers are exact, so moving cable from span to wheel to span
+  /// cannot lose any: the length invariant holds to the last bit, for ever.
+  double quantum = 0.0;
+  std::vector<std::string_view> link_types;
+};
+
+/// The feature "cables" of a world. Layout of its state, with the spans and links of all cables in
+/// order: reals = rest length per span [m], stored length per link [m], tension per span [N],
+/// transport below the quantum per span end (first, second) [m]; no integers.
+class CableSystem final : public ConstraintBatch {
+ public:
+  /// Checks and compiles the cables. Errors have paths "/cables/i/...".
+  static Result<std::unique_ptr<CableSystem>> create(const std::vector<CableDef>& cables,
+                                                     const BodySet& bodies);
+
+  [[nodiscard]] const std::vector<CompiledCable>& cables() const { return cables_; }
+  /// One report per cable for a state of the world this system is a feature of; `own` is the
+  /// system's own part of it.
+  [[nodiscard]] std::vector<CableReport> report(const BodySet& bodies, const State& state,
+                                                const FeatureState& own) const;
+
+  /// A span that had no tangent in some substeps since the system was created.
+  struct TangentWarning {
+    std::string cable;
+    int span = 0;         ///< within its cable
+    long substeps = 0;
+    double first_time = 0.0;  ///< [s]
+  };
+  [[nodiscard]] std::vector<TangentWarning> tangent_warnings() const;
+
+  [[nodiscard]] std::string_view name() const override { return "cables"; }
+  [[nodiscard]] FeatureState initial_state() const override { return initial_; }
+  [[nodiscard]] int row_count() const override { return static_cast<int>(spans_.size()); }
+  void begin(const Substep& substep, const FeatureState& state) override;
+  double sweep(Substep& substep) override;
+  void linearise(Substep& substep, std::vector<Row>& rows) override;
+  void finish(Substep& substep, FeatureState& next) override;
+  [[nodiscard]] double elastic_energy(const BodySet& bodies, const State& state,
+                                      const FeatureState& own) const override;
+
+  // Where the parts of the state begin in FeatureState::reals.
+  [[nodiscard]] std::size_t rest_length_index(int span) const {
+    return static_cast<std::size_t>(span);
+  }
+  [[nodiscard]] std::size_t stored_length_index(int link) const {
+    return spans_.size() + static_cast<std::size_t>(link);
+  }
+  [[nodiscard]] std::size_t tension_index(int span) const {
+    return spans_.size() + links_.size() + static_cast<std::size_t>(span);
+  }
+  [[nodiscard]] std::size_t remainder_index(int span, int end) const {
+    return 2 * spans_.size() + links_.size() + 2 * static_cast<std::size_t>(span) +
+           static_cast<std::size_t>(end);
+  }
+
+ private:
+  friend class CableCompiler;
+  CableSystem() = default;
+  SpanGeometry evaluate(const Substep& substep, int span, Row& row) const;
+  [[nodiscard]] double compliance_of(const CompiledCable& cable, double rest_length) const;
+  void append_links(const CompiledCable& cable, const Substep& now, const FeatureState& own,
+                    CableReport& report) const;
+
+  std::vector<CompiledCable> cables_;
+  std::vector<LinkGeometry> links_;
+  std::vector<SpanSetup> spans_;
+  FeatureState initial_;
+  // Scratch of a substep, filled by begin().
+  std::vector<SpanReference> references_;
+  std::vector<double> multipliers_;
+  // Diagnostics, no part of the simulation.
+  struct Fallback {
+    long substeps = 0;
+    double first_time = 0.0;
+  };
+  std::vector<Fallback> fallbacks_;
+};
+
+}  // namespace sheave

@@ -1,0 +1,58 @@
+#pragma once
+// What every link type must provide. Adding one: a file in cable/links/ and a line in
+// cable/link_registry.cpp.
+
+#include <memory>
+#include <string>
+
+#include "engine/body_set.h"
+#include "engine/field.h"
+#include "engine/result.h"
+
+namespace sheave {
+
+/// Which way a cable runs round a wheel, from the first link of the cable to the last, seen against
+/// the normal of the link's plane (from its tip).
+enum class Winding { counter_clockwise, clockwise };
+inline constexpr std::array<std::string_view, 2> winding_names{"counter-clockwise", "clockwise"};
+
+/// A link as the step needs it. All link types share one geometry: a circle of signed radius in a
+/// plane fixed to a body; a point is a circle of radius 0.
+struct LinkGeometry {
+  int body = 0;     ///< the body the cable touches: its turning moves cable
+  int carrier = 0;  ///< the body that carries `center` and `normal`: of a wheel on a mounted rotor
+                    ///< the rotor's carrier, otherwise `body`
+  bool mounted = false;  ///< whether `body` is a mounted rotor
+  Vector3 center = Vector3::Zero();    ///< [m], own frame of the carrier
+  Vector3 normal = Vector3::UnitZ();   ///< unit normal of the link's plane, own frame of the carrier
+  double signed_radius = 0.0;          ///< > 0 counter-clockwise, < 0 clockwise, 0 a point [m]
+  /// Cable on the body at time 0 [m] as the user gave it; NaN: the arc between the tangents.
+  double given_stored_length = 0.0;
+  int extra_turns = 0;  ///< whole turns beyond the arc between the tangents
+};
+
+/// Settings of one link of a cable; derived types add their own.
+class LinkDef {
+ public:
+  virtual ~LinkDef() = default;
+
+  BodyId body;  ///< the body the cable touches; default: the world
+
+  /// body.
+  static std::span<const Field> common_field_table();
+  [[nodiscard]] virtual std::string_view type() const = 0;  ///< key in the registry, e.g. "rolling"
+  [[nodiscard]] virtual const void* settings() const = 0;   ///< this, as its own type
+  /// The link's geometry, or its faults; `path` is prepended to theirs.
+  [[nodiscard]] virtual Result<LinkGeometry> compile(const BodySet& bodies,
+                                                     const std::string& path) const = 0;
+
+ protected:
+  LinkDef() = default;
+  LinkDef(const LinkDef&) = default;
+  LinkDef& operator=(const LinkDef&) = default;
+};
+
+/// All link types, in the order of the documentation.
+[[nodiscard]] std::span<const TypeEntry<LinkDef>> link_types();
+
+}  // namespace sheave

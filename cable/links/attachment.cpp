@@ -1,0 +1,23 @@
+#include "cable/links/attachment.h"
+
+namespace sheave {
+
+std::span<const Field> AttachmentLink::field_table() {
+  static const std::array table{
+      field<&AttachmentLink::point>("point", "m", any_number(), optional,
+                                    "where the cable is fixed, body frame (default its origin)"),
+  };
+  return table;
+}
+
+Result<LinkGeometry> AttachmentLink::compile(const BodySet& bodies,
+                                             const std::string& /*path*/) const {
+  LinkGeometry link;
+  link.body = link.carrier = bodies.index(body);
+  link.mounted = bodies[link.body].mount >= 0;
+  link.center = point - bodies[link.body].center_of_mass;
+  link.given_stored_length = 0.0;
+  return link;
+}
+
+}  // namespace sheave

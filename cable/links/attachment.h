@@ -1,0 +1,22 @@
+#pragma once
+
+#include "cable/link.h"
+
+namespace sheave {
+
+/// A cable end, or a point between its ends, fixed to a point of a body.
+class AttachmentLink final : public LinkDef {
+ public:
+  Vector3 point = Vector3::Zero();  ///< [m], body frame
+
+  static constexpr std::string_view type_name = "attachment";
+  static constexpr std::string_view type_meaning = "the cable is fixed to a point of a body";
+  static std::span<const Field> field_table();
+
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] Result<LinkGeometry> compile(const BodySet& bodies,
+                                             const std::string& path) const override;
+};
+
+}  // namespace sheave

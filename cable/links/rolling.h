@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+
+#include "cable/link.h"
+
+namespace sheave {
+
+/// The cable runs over a wheel without slipping. At the end of an open cable it is wound onto the
+/// wheel, which then needs a stored length.
+class RollingLink final : public LinkDef {
+ public:
+  Winding winding = Winding::counter_clockwise;
+  /// [m], body frame; default: the centre of the body's first wheel-like shape
+  std::optional<Vector3> center;
+  /// Normal of the cable's plane, body frame, any length but 0; default: that shape's z axis
+  std::optional<Vector3> normal;
+  /// [m], > 0; default: that shape's radius
+  std::optional<double> radius;
+  /// Cable on the wheel at time 0 [m], >= 0; default: the arc between the tangents. Required at the
+  /// end of an open cable, where there is no second tangent.
+  std::optional<double> stored_length;
+  int turns = 0;  ///< whole turns in addition to the arc between the tangents, 0 ... 1000
+
+  static constexpr std::string_view type_name = "rolling";
+  static constexpr std::string_view type_meaning =
+      "the cable runs over a wheel without slipping, or is wound onto it at a cable's end";
+  static std::span<const Field> field_table();
+
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] Result<LinkGeometry> compile(const BodySet& bodies,
+                                             const std::string& path) const override;
+};
+
+}  // namespace sheave

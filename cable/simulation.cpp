@@ -1,0 +1,31 @@
+#include "cable/simulation.h"
+
+namespace sheave {
+
+Result<Simulation> Simulation::create(const Model& model, const std::vector<CableDef>& cables) {
+  Result<BodySet> compiled = BodySet::create(model);
+  if (!compiled) return compiled.errors();
+  auto bodies = std::make_shared<const BodySet>(std::move(*compiled));
+  Errors errors;
+  std::vector<std::unique_ptr<ConstraintBatch>> features;
+  const CableSystem* system = nullptr;
+  if (!cables.empty()) {
+    Result<std::unique_ptr<CableSystem>> created = CableSystem::create(cables, *bodies);
+    if (!created) errors = created.errors();
+    if (created) {
+      system = created->get();
+      features.push_back(std::move(*created));
+    }
+  }
+  Result<World> world = World::create(model, bodies, std::move(features));
+  if (!world) errors.insert(errors.end(), world.errors().begin(), world.errors().end());
+  if (!errors.empty()) return errors;
+  return Simulation{std::move(*world), system};
+}
+
+std::vector<CableReport> Simulation::cable_reports() const {
+  if (cables == nullptr) return {};
+  return cables->report(world.bodies(), world.state(), world.state().features.back());
+}
+
+}  // namespace sheave

@@ -1,0 +1,28 @@
+#pragma once
+// Bodies and cables together: what most programs embed.
+//
+//   sheave::Model model;  std::vector<sheave::CableDef> cables;
+//   auto simulation = sheave::Simulation::create(model, cables);
+//   simulation->world.step();
+//   double tension = simulation->cable_reports()[0].spans[2].tension;
+
+#include <vector>
+
+#include "cable/cable_system.h"
+#include "engine/world.h"
+
+namespace sheave {
+
+/// A world and, if it has any, its cables.
+struct Simulation {
+  World world;
+  /// Owned by the world; null if there are no cables.
+  const CableSystem* cables = nullptr;
+
+  /// All faults of bodies, joints and cables are reported together.
+  static Result<Simulation> create(const Model& model, const std::vector<CableDef>& cables);
+  /// One report per cable, for the world's current state.
+  [[nodiscard]] std::vector<CableReport> cable_reports() const;
+};
+
+}  // namespace sheave

@@ -1,0 +1,94 @@
+#pragma once
+// The free span between two links: where it leaves the first and meets the second.
+//
+// Coplanar circles (design 5.1). With signed radii q (> 0: the cable runs counter-clockwise round
+// the circle, seen against the plane normal n; 0: a point), D = p2 - p1, d = |D|, q = q2 - q1, the
+// tangent has the length l = sqrt(d^2 - q^2) and the unit direction
+//   u = D/d turned by -b about n, sin b = q/d:   u = (l D - q n x D) / d^2,
+// and its ends are a_i = p_i - q_i n x u. This covers points and all four common tangents without
+// branches or inverse trigonometry. There is none for d <= |q| (nested circles, or the crossing
+// tangent of overlapping ones); then the length is 0 and u the limit direction, -sign(q) n x D / d.
+//
+// Circles in different planes. Each end lies on its own circle, a_i = c_i + r_i e_i with a unit
+// vector e_i in plane i, and the span is tangent to both circles in the sense of the paper, section
+// 3.4: seen along the normal of its plane, e_i . (a_j - c_i) = r_i. For a fixed other end this is
+// the point-circle tangent with the end projected into the plane, and the two are solved in turn.
+
+#include "engine/vector.h"
+
+namespace sheave {
+
+/// A circle in the world frame; signed_radius 0 is a point and has no normal.
+struct LinkCircle {
+  Vector3 center = Vector3::Zero();   ///< [m]
+  Vector3 normal = Vector3::UnitZ();  ///< unit normal of its plane
+  double signed_radius = 0.0;         ///< [m]
+};
+
+/// A span as geometry.
+struct SpanGeometry {
+  Vector3 start = Vector3::Zero();      ///< where it leaves the first link [m]
+  Vector3 end = Vector3::Zero();        ///< where it meets the second link [m]
+  Vector3 direction = Vector3::Zero();  ///< unit vector from start to end; 0 if they coincide
+  double length = 0.0;                  ///< [m]
+  bool has_tangent = true;              ///< false: the fallback of the head of this file
+};
+
+/// The span between two points.
+[[nodiscard]] inline SpanGeometry straight_span(const Vector3& start, const Vector3& end) {
+  SpanGeometry span{start, end, end - start, 0.0, true};
+  span.length = span.direction.norm();
+  if (span.length > 0.0) span.direction /= span.length;
+  return span;
+}
+
+/// The span between two coplanar circles with the common unit normal `normal`.
+[[nodiscard]] inline SpanGeometry planar_span(const Vector3& center1, double signed_radius1,
+                                              const Vector3& center2, double signed_radius2,
+                                              const Vector3& normal) {
+  SpanGeometry span;
+  const Vector3 apart = center2 - center1;
+  const Vector3 across = normal.cross(apart);
+  const double difference = signed_radius2 - signed_radius1;
+  const double distance_squared = apart.squaredNorm();
+  const double length_squared = distance_squared - difference * difference;
+  if (length_squared > 0.0) {
+    span.length = std::sqrt(length_squared);
+    span.direction = (span.length * apart - difference * across) / distance_squared;
+  } else {
+    span.has_tangent = false;
+    if (distance_squared > 0.0) {
+      span.direction = across * ((difference > 0.0 ? -1.0 : 1.0) / std::sqrt(distance_squared));
+    }
+  }
+  const Vector3 left = normal.cross(span.direction);
+  span.start = center1 - signed_radius1 * left;
+  span.end = center2 - signed_radius2 * left;
+  return span;
+}
+
+/// The span between two circles in any planes. Points may take either place.
+[[nodiscard]] SpanGeometry spatial_span(const LinkCircle& first, const LinkCircle& second);
+
+/// The angle from unit vector `from` to unit vector `to`, both perpendicular to the unit vector
+/// `normal`, about it, in (-pi, pi]. Small angles, which are the rule between two evaluations in
+/// one substep, come from the series of the arc sine to full precision, large ones from atan2.
+[[nodiscard]] inline double angle_between(const Vector3& from, const Vector3& to,
+                                          const Vector3& normal) {
+  const double sine = normal.dot(from.cross(to));
+  const double cosine = from.dot(to);
+  const double s = sine * sine;
+  if (s < 1e-3 && cosine > 0.0) {
+    // The first term left out is 63/2816 s^5 < 3e-17.
+    return sine * (1.0 + s * (1.0 / 6.0 + s * (3.0 / 40.0 + s * (15.0 / 336.0 + s * (105.0 / 3456.0)))));
+  }
+  return std::atan2(sine, cosine);
+}
+
+/// `angle` plus the multiple of 2 pi that brings it closest to `expected` [rad].
+[[nodiscard]] inline double unwrapped(double angle, double expected) {
+  if (std::abs(expected - angle) < pi) return angle;
+  return angle + 2.0 * pi * std::round((expected - angle) / (2.0 * pi));
+}
+
+}  // namespace sheave

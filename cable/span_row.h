@@ -1,0 +1,98 @@
+#pragma once
+// One free span as a constraint row; internal to the cable library.
+//
+// C = L - l >= 0 with the length l and the rest length L. With no slip, L follows from the bodies'
+// motion since the start of the substep (design 5.2): with the change A of the angle of the span's
+// tangent point in the link's plane and the rotation B of the body about the plane's normal,
+//   incoming end:  L += q2 (A2 - B2)        outgoing end:  L -= q1 (A1 - B1).
+// In one plane A1 = A2 is the change of the span's direction. So C is a function of the positions,
+// and nothing drifts.
+//
+// Gradient, coplanar: moving the tangent points along the circles changes l and L alike, so only
+// the material points count (envelope theorem): grad C = +u at the start, -u at the end.
+//
+// Gradient, different planes: at the end of a span on a wheel, the span's direction u and the
+// wheel's tangent t = o n x e (o = sign q) need not agree, and moving the tangent point by
+// r dpsi along t changes l - L by r (u.t - 1) dpsi. Where psi moves follows from differentiating
+// the tangency conditions G1 = e1.(a2 - c1) - r1 = 0 and G2 = e2.(a1 - c2) - r2 = 0:
+//   M (dpsi1, dpsi2) = -(g1, g2),   M = [ t1'.(a2-c1)   r2 e1.t2' ;  r1 e2.t1'   t2'.(a1-c2) ],
+//   g1 = e1.(v2(a2) - v1(a2)),   g2 = e2.(v1(a1) - v2(a1)),   t' = n x e,
+// with v_i(p) the motion of the material point of body i at p. So with y = M^-T k,
+// k = (-(r1 u.t1' - q1), r2 u.t2' - q2), the row has, besides +-u, a pair of opposite forces along
+// e1 between the bodies at a2 and a pair along e2 at a1. This keeps C's gradient exact, hence the
+// motion energy-conserving and the tension equal on both sides of a skew wheel, as a frictionless
+// flange that guides the cable into the groove does. (The paper uses +-u alone, whose torque on the
+// wheel is too small by the factor u.t.)
+
+#include <cstddef>
+
+#include "cable/link.h"
+#include "cable/span_geometry.h"
+#include "engine/substep.h"
+
+namespace sheave {
+
+/// How the geometry of a span is computed.
+enum class SpanKind {
+  straight,  ///< between two points
+  planar,    ///< both links stay in one plane that never turns
+  spatial,   ///< anything else
+};
+
+/// Constants of one span.
+struct SpanSetup {
+  int cable = 0;
+  int first = 0;   ///< link it leaves; index into the links of all cables
+  int second = 0;  ///< link it meets
+  SpanKind kind = SpanKind::straight;
+  Vector3 normal = Vector3::UnitZ();  ///< planar: of the common plane, world frame
+  double first_radius = 0.0;          ///< planar: signed radii, seen against `normal` [m]
+  double second_radius = 0.0;
+};
+
+/// What a span remembers during a substep: the reference its transport is measured from.
+struct SpanReference {
+  double rest_length = 0.0;                      ///< at the start of the substep [m]
+  Vector3 direction = Vector3::Zero();           ///< planar: u at the start
+  double expected_turn = 0.0;                    ///< planar: of u over the substep [rad]
+  Vector3 first_radial = Vector3::Zero();        ///< spatial: e1 at the start, carrier's own frame
+  Vector3 second_radial = Vector3::Zero();       ///< spatial: e2 at the start
+  Vector3 first_point = Vector3::Zero();         ///< tangent_update substep: own frame of the body
+  Vector3 second_point = Vector3::Zero();
+};
+
+/// Rest length that has come in since the start of the substep.
+struct SpanTransport {
+  double from_first = 0.0;   ///< from the first link [m]
+  double from_second = 0.0;  ///< from the second link [m]
+};
+
+/// The link's circle in the world, now.
+[[nodiscard]] LinkCircle circle_of(const Substep& substep, const LinkGeometry& link);
+
+/// The span as it is now.
+[[nodiscard]] SpanGeometry span_geometry(const Substep& substep, const SpanSetup& setup,
+                                         const LinkGeometry& first, const LinkGeometry& second);
+
+/// The reference for the coming substep; bodies are where they were at its start.
+[[nodiscard]] SpanReference span_reference(const Substep& substep, const SpanSetup& setup,
+                                           const LinkGeometry& first, const LinkGeometry& second,
+                                           double rest_length);
+
+/// Transport since the start of the substep, with the bodies and the span as they are now.
+[[nodiscard]] SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
+                                           const LinkGeometry& first, const LinkGeometry& second,
+                                           const SpanReference& reference,
+                                           const SpanGeometry& geometry);
+
+/// Value and gradient of the row (bounds and compliance are the caller's). Returns the span.
+SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
+                           const LinkGeometry& first, const LinkGeometry& second,
+                           const SpanReference& reference, Row& row);
+
+/// The same with attachments that stay fixed to the bodies during the substep, as in the paper.
+SpanGeometry evaluate_span_frozen(const Substep& substep, const LinkGeometry& first,
+                                  const LinkGeometry& second, const SpanReference& reference,
+                                  Row& row);
+
+}  // namespace sheave

@@ -1,0 +1,42 @@
+#include "engine/body.h"
+
+namespace sheave {
+
+std::span<const Field> BodyDef::field_table() {
+  static const std::array table{
+      field<&BodyDef::name>("name", "", {}, required, "unique name, not \"world\""),
+      choice_field<&BodyDef::mobility>("mobility", mobility_names, optional,
+                                       "which motions the body has"),
+      field<&BodyDef::axis>("axis", "", any_number(), optional,
+                            "planar: normal (default z); slider: direction (required); rotor: axle "
+                            "(default the body's own z axis)"),
+      field<&BodyDef::mount>("mount", "", {}, optional, "rotor: the body that carries the axle"),
+      field<&BodyDef::position>("position", "m", any_number(), optional,
+                                "origin of the body frame"),
+      field<&BodyDef::orientation>("orientation", "", any_number(), optional,
+                                   "unit quaternion [w, x, y, z], body frame to world frame"),
+      field<&BodyDef::velocity>("velocity", "m/s", any_number(), optional,
+                                "of the body frame's origin"),
+      field<&BodyDef::angular_velocity>("angular_velocity", "rad/s", any_number(), optional,
+                                        "absolute, also of a mounted rotor"),
+      field<&BodyDef::mass>("mass", "kg", above(0.0), optional, "excludes density"),
+      field<&BodyDef::density>("density", "kg/m3", above(0.0), optional,
+                               "mass and inertia follow from the shapes; excludes mass"),
+      field<&BodyDef::inertia>("inertia", "kg m2", above(0.0), optional,
+                               "moments about the centre of mass and the body's x, y, z axes; "
+                               "default: from the shapes, scaled to the mass"),
+      field<&BodyDef::force>("force", "N", any_number(), optional,
+                             "constant, at the centre of mass"),
+      field<&BodyDef::torque>("torque", "N m", any_number(), optional, "constant"),
+      field<&BodyDef::oscillation>("oscillation", "m", any_number(), optional,
+                                   "kinematic: amplitude A of the motion position + velocity t + "
+                                   "A (sin(2 pi f t + p) - sin p)"),
+      field<&BodyDef::oscillation_frequency>("oscillation_frequency", "Hz", at_least(0.0), optional,
+                                             "kinematic: frequency f of that motion"),
+      field<&BodyDef::oscillation_phase>("oscillation_phase", "rad", any_number(), optional,
+                                         "kinematic: phase p of that motion"),
+  };
+  return table;
+}
+
+}  // namespace sheave

@@ -1,0 +1,58 @@
+#pragma once
+// What a user says about one body.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/body_id.h"
+#include "engine/shape.h"
+
+namespace sheave {
+
+/// Which motions a body has; its inverse mass and inverse inertia are restricted to them exactly.
+enum class Mobility {
+  fixed,      ///< "static": none
+  free,       ///< all six
+  planar,     ///< translation perpendicular to `axis`, rotation about it
+  slider,     ///< translation along `axis`
+  rotor,      ///< rotation about `axis`; on a fixed axle, or on an axle carried by `mount`
+  kinematic,  ///< moves as a given function of time, whatever pulls at it
+};
+inline constexpr std::array<std::string_view, 6> mobility_names{"static", "free",  "planar",
+                                                                "slider", "rotor", "kinematic"};
+
+/// Settings of one body. Positions and vectors are in the world frame at time 0.
+struct BodyDef {
+  std::string name;  ///< unique in the model, not "world"
+  Mobility mobility = Mobility::free;
+  /// planar: normal of the plane (default z). slider: direction (required). rotor: axle (default
+  /// the body's own z axis). Any length but 0; not allowed for other mobilities.
+  std::optional<Vector3> axis;
+  /// rotor only: the body that carries the axle. The rotor's mass and its inertia across the axle
+  /// are then part of that body, which may be free, planar, slider, static or kinematic.
+  std::optional<BodyId> mount;
+  Vector3 position = Vector3::Zero();                ///< origin of the body frame [m]
+  Quaternion orientation = Quaternion::Identity();   ///< body frame to world frame, unit length
+  Vector3 velocity = Vector3::Zero();                ///< of the body frame's origin [m/s]
+  Vector3 angular_velocity = Vector3::Zero();        ///< [rad/s]; absolute, also of a mounted rotor
+  std::optional<double> mass;     ///< [kg], > 0; excludes density
+  std::optional<double> density;  ///< [kg/m3], > 0; mass and inertia follow from the shapes
+  /// Moments of inertia [kg m2] about the centre of mass and the body's x, y, z axes, which are
+  /// then principal axes. Default: from the shapes, scaled to the mass.
+  std::optional<Vector3> inertia;
+  Vector3 force = Vector3::Zero();   ///< constant, at the centre of mass [N]
+  Vector3 torque = Vector3::Zero();  ///< constant [N m]
+  /// kinematic only: the position is position + velocity t + oscillation (sin(2 pi f t + p) - sin p)
+  /// and the body turns with angular_velocity.
+  Vector3 oscillation = Vector3::Zero();  ///< amplitude [m]
+  double oscillation_frequency = 0.0;     ///< f [Hz], >= 0
+  double oscillation_phase = 0.0;         ///< p [rad]
+  std::vector<PlacedShape> shapes;        ///< may be empty if mass and inertia are given
+
+  /// Every member but the shapes.
+  static std::span<const Field> field_table();
+};
+
+}  // namespace sheave

@@ -1,0 +1,206 @@
+#include "engine/body_check.h"
+
+#include <Eigen/Eigenvalues>
+#include <set>
+
+#include "engine/field_check.h"
+#include "engine/model.h"
+
+namespace sheave {
+namespace {
+
+/// Checks one body and collects its faults.
+class BodyCheck {
+ public:
+  BodyCheck(const Model& model, int index, Errors& errors)
+      : model_(model),
+        body_(model.bodies[static_cast<std::size_t>(index)]),
+        path_("/bodies/" + std::to_string(index)),
+        errors_(errors) {}
+
+  void run() {
+    const std::size_t before = errors_.size();
+    check_fields(BodyDef::field_table(), &body_, path_, errors_);
+    for (std::size_t i = 0; i < body_.shapes.size(); ++i) check_shape(i);
+    if (errors_.size() > before) return;  // what follows computes with these numbers
+    check_axis();
+    check_mount();
+    check_motion();
+    if (moves()) check_mass();
+  }
+
+ private:
+  void fail(const std::string& field, const std::string& message) {
+    errors_.push_back({path_ + field, "body \"" + body_.name + "\": " + message});
+  }
+  [[nodiscard]] bool is(Mobility mobility) const { return body_.mobility == mobility; }
+  [[nodiscard]] bool moves() const { return !is(Mobility::fixed) && !is(Mobility::kinematic); }
+  [[nodiscard]] std::string mobility_name() const {
+    return std::string(mobility_names[static_cast<std::size_t>(body_.mobility)]);
+  }
+
+  void check_shape(std::size_t i) {
+    const PlacedShape& placed = body_.shapes[i];
+    const std::string path =
+        path_ + (body_.shapes.size() == 1 ? "/shape" : "/shapes/" + std::to_string(i));
+    if (!placed.shape) {
+      errors_.push_back({path, "body \"" + body_.name + "\": shape is missing"});
+      return;
+    }
+    check_fields(PlacedShape::field_table(), &placed, path, errors_);
+    for (const auto& entry : shape_types()) {
+      if (entry.name != placed.shape->type()) continue;
+      check_fields(entry.fields(), placed.shape->settings(), path, errors_);
+    }
+    for (const Error& error : placed.shape->validate(path)) errors_.push_back(error);
+  }
+
+  void check_axis() {
+    const bool uses_axis = is(Mobility::planar) || is(Mobility::slider) || is(Mobility::rotor);
+    if (body_.axis && !uses_axis) {
+      fail("/axis", "mobility " + mobility_name() +
+                        " has no axis; only planar, slider and rotor have one");
+    }
+    if (!body_.axis && is(Mobility::slider)) {
+      fail("", "mobility slider needs \"axis\", the direction in which the body slides");
+    }
+    if (body_.axis && !(body_.axis->norm() > 1e-12)) {
+      fail("/axis", "axis must have a direction; its length is " + number_text(body_.axis->norm()));
+    }
+  }
+
+  void check_mount() {
+    if (!body_.mount) return;
+    if (!is(Mobility::rotor)) {
+      fail("/mount", "only a rotor can be mounted; mobility is " + mobility_name());
+      return;
+    }
+    const int mount = body_.mount->index;
+    if (mount < 0 || mount >= static_cast<int>(model_.bodies.size())) {
+      fail("/mount", "a rotor on an axle that does not move needs no mount; leave it out");
+      return;
+    }
+    const BodyDef& carrier = model_.bodies[static_cast<std::size_t>(mount)];
+    if (carrier.mobility == Mobility::rotor) {
+      fail("/mount", "the carrier \"" + carrier.name +
+                         "\" is a rotor itself; it may be static, free, planar, slider or "
+                         "kinematic");
+    }
+  }
+
+  void check_motion() {
+    const Vector3 axis = body_.axis ? body_.axis->normalized()
+                         : is(Mobility::rotor)
+                             ? Vector3(body_.orientation.normalized() * Vector3::UnitZ())
+                             : Vector3(Vector3::UnitZ());
+    const Vector3& v = body_.velocity;
+    const Vector3& w = body_.angular_velocity;
+    const double small_v = 1e-9 * v.norm();
+    const double small_w = 1e-9 * w.norm();
+    const bool across_v = v.cross(axis).norm() > small_v;
+    const bool along_v = std::abs(v.dot(axis)) > small_v;
+    const bool across_w = w.cross(axis).norm() > small_w;
+    const bool bad_v = (is(Mobility::fixed) && v.norm() > 0.0) ||
+                       (is(Mobility::rotor) && v.norm() > 0.0) ||
+                       (is(Mobility::slider) && across_v) || (is(Mobility::planar) && along_v);
+    const bool bad_w = ((is(Mobility::fixed) || is(Mobility::slider)) && w.norm() > 0.0) ||
+                       ((is(Mobility::planar) || is(Mobility::rotor)) && across_w);
+    if (bad_v) {
+      fail("/velocity", "the velocity is not one that mobility " + mobility_name() + " allows");
+    }
+    if (bad_w) {
+      fail("/angular_velocity",
+           "the angular velocity is not one that mobility " + mobility_name() + " allows");
+    }
+    if (!is(Mobility::kinematic) &&
+        (body_.oscillation.norm() > 0.0 || body_.oscillation_frequency > 0.0)) {
+      fail("/oscillation", "only a kinematic body follows an oscillation; mobility is " +
+                               mobility_name());
+    }
+  }
+
+  void check_mass() {
+    if (body_.mass && body_.density) {
+      fail("/density", "mass and density exclude each other; leave one out");
+      return;
+    }
+    if (!body_.mass && !body_.density) {
+      fail("", "a body that moves needs \"mass\" or \"density\"");
+      return;
+    }
+    if (body_.density && body_.shapes.empty()) {
+      fail("/density", "density needs a shape; give mass and inertia instead");
+      return;
+    }
+    const bool rotates = !is(Mobility::slider);
+    if (body_.shapes.empty() && !body_.inertia && rotates) {
+      fail("", "a body without a shape needs \"inertia\"");
+      return;
+    }
+    if (body_.inertia) check_inertia();
+    if (is(Mobility::rotor)) check_rotor_balance();
+  }
+
+  void check_inertia() {
+    const Vector3& i = *body_.inertia;
+    const double slack = 1e-9 * i.sum();
+    if (i.x() <= i.y() + i.z() + slack && i.y() <= i.z() + i.x() + slack &&
+        i.z() <= i.x() + i.y() + slack) {
+      return;
+    }
+    fail("/inertia", "no body has these moments of inertia: each must be at most the sum of the "
+                     "other two");
+  }
+
+  /// A rotor's centre of mass lies on its axle, and a mounted one is symmetric about it; otherwise
+  /// the spin would not be a degree of freedom of its own.
+  void check_rotor_balance() {
+    const Vector3 axle = body_.axis ? Vector3(body_.orientation.normalized().conjugate() *
+                                              body_.axis->normalized())
+                                    : Vector3(Vector3::UnitZ());
+    const MassProperties shape = combine(body_.shapes, 1.0);
+    double size = 0.0;
+    for (const PlacedShape& placed : body_.shapes) {
+      size = std::max(size, placed.shape->half_extent().norm());
+    }
+    if (shape.center_of_mass.cross(axle).norm() > 1e-9 * size) {
+      fail("/shape", "the centre of mass of a rotor must lie on its axle; use mobility planar and a "
+                     "hinge joint for an unbalanced one");
+    }
+    if (!body_.mount) return;
+    const Matrix3 inertia = body_.inertia ? Matrix3(body_.inertia->asDiagonal()) : shape.inertia;
+    const Vector3 across = any_perpendicular(axle);
+    const Matrix3 symmetric =
+        axle.dot(inertia * axle) * axle * axle.transpose() +
+        across.dot(inertia * across) * (Matrix3::Identity() - axle * axle.transpose());
+    if ((inertia - symmetric).norm() > 1e-6 * inertia.norm()) {
+      fail("/inertia", "a mounted rotor must be symmetric about its axle; mount the body with a "
+                       "hinge joint instead");
+    }
+  }
+
+  const Model& model_;
+  const BodyDef& body_;
+  std::string path_;
+  Errors& errors_;
+};
+
+}  // namespace
+
+Errors check_bodies(const Model& model) {
+  Errors errors;
+  std::set<std::string> names;
+  for (int i = 0; i < static_cast<int>(model.bodies.size()); ++i) {
+    const std::string& name = model.bodies[static_cast<std::size_t>(i)].name;
+    const std::string path = "/bodies/" + std::to_string(i) + "/name";
+    if (name.empty()) errors.push_back({path, "a body needs a name that is not empty"});
+    if (name == "world") errors.push_back({path, "the name \"world\" belongs to the fixed frame"});
+    if (!names.insert(name).second) {
+      errors.push_back({path, "two bodies are called \"" + name + "\"; names must differ"});
+    }
+    BodyCheck(model, i, errors).run();
+  }
+  return errors;
+}
+
+}  // namespace sheave

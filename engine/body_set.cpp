@@ -1,0 +1,231 @@
+// Lumping a mounted rotor into its carrier: the rotor's mass acts at its centre on the axle, and
+// its inertia across the axle turns with the carrier; its inertia about the axle does not, because
+// the rotor's spin is a coordinate of its own. With rotor mass m at offset c from the carrier's
+// centre of mass and inertia I_r (symmetric about the axle a, J = a.I_r a):
+//   mass += m,   inertia += m (c.c E - c c^T) + I_r - J a a^T.
+
+#include "engine/body_set.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "engine/body_check.h"
+#include "engine/model.h"
+
+namespace sheave {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+/// Mass properties in the body frame as the definition gives them.
+MassProperties defined_mass_properties(const BodyDef& body) {
+  MassProperties result;
+  if (!body.shapes.empty()) {
+    const MassProperties unit = combine(body.shapes, 1.0);
+    const double density = body.density.value_or(body.mass ? *body.mass / unit.mass : 0.0);
+    result = {density * unit.mass, unit.center_of_mass, density * unit.inertia};
+  }
+  if (body.mass) result.mass = *body.mass;
+  if (body.inertia) result.inertia = body.inertia->asDiagonal();
+  return result;
+}
+
+/// Unit axis in the world frame at time 0.
+Vector3 world_axis(const BodyDef& body) {
+  if (body.axis) return body.axis->normalized();
+  if (body.mobility == Mobility::rotor) return body.orientation.normalized() * Vector3::UnitZ();
+  return Vector3::UnitZ();
+}
+
+BodyProperties compile_body(const BodyDef& body) {
+  BodyProperties result;
+  result.mobility = body.mobility;
+  result.start_orientation = body.orientation.normalized();
+  if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) return result;
+  const MassProperties own = defined_mass_properties(body);
+  result.mass = own.mass;
+  result.inertia = own.inertia;
+  result.axis = world_axis(body);
+  // The axle of a rotor passes through the origin of its frame; check_body has made sure that the
+  // centre of mass lies on the axle, and where along it is of no consequence.
+  if (body.mobility != Mobility::rotor) result.center_of_mass = own.center_of_mass;
+  return result;
+}
+
+/// Makes rotor `i` part of its carrier.
+void lump_mounted_rotor(std::vector<BodyProperties>& bodies, const std::vector<BodyDef>& defs,
+                        int i) {
+  BodyProperties& rotor = bodies[at(i)];
+  const BodyDef& def = defs[at(i)];
+  const int mount = def.mount->index;
+  BodyProperties& carrier = bodies[at(mount)];
+  const BodyDef& carrier_def = defs[at(mount)];
+  const Quaternion carrier_inverse = carrier_def.orientation.normalized().conjugate();
+  const Vector3 spin_axis = def.orientation.normalized().conjugate() * rotor.axis;
+  const double spin_inertia = spin_axis.dot(rotor.inertia * spin_axis);
+  rotor.mount = mount;
+  rotor.axis_inertia = spin_inertia;
+  rotor.axis = carrier_inverse * rotor.axis;
+  rotor.start_orientation = carrier_inverse * def.orientation.normalized();
+  rotor.mount_position = carrier_inverse * (def.position - carrier_def.position);  // body frame yet
+  carrier.mounted_rotors.push_back(i);
+  if (carrier.mobility == Mobility::fixed || carrier.mobility == Mobility::kinematic) return;
+  const Matrix3 rotation = rotor.start_orientation.toRotationMatrix();
+  const Matrix3 across = rotation * rotor.inertia * rotation.transpose() -
+                         spin_inertia * rotor.axis * rotor.axis.transpose();
+  const double total = carrier.mass + rotor.mass;
+  const Vector3 center =
+      (carrier.mass * carrier.center_of_mass + rotor.mass * rotor.mount_position) / total;
+  carrier.inertia += across + point_inertia(carrier.mass, carrier.center_of_mass - center) +
+                     point_inertia(rotor.mass, rotor.mount_position - center);
+  carrier.mass = total;
+  carrier.center_of_mass = center;
+}
+
+/// What can be computed only when all mounted rotors are lumped in.
+void finish_body(BodyProperties& body, const BodyDef& def) {
+  const Vector3 own_axis = def.orientation.normalized().conjugate() * body.axis;
+  if (body.mobility == Mobility::free) {
+    body.inverse_inertia = body.inertia.inverse();
+    const double mean = body.inertia.trace() / 3.0;
+    body.isotropic = (body.inertia - mean * Matrix3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * mean;
+  }
+  if (body.mobility == Mobility::planar || (body.mobility == Mobility::rotor && body.mount < 0)) {
+    body.axis_inertia = own_axis.dot(body.inertia * own_axis);
+  }
+}
+
+/// Diagonal of the box round all bodies.
+double scene_scale(const std::vector<BodyDef>& bodies) {
+  Eigen::AlignedBox3d box;
+  double largest = 0.0;
+  for (const BodyDef& body : bodies) {
+    box.extend(Eigen::Vector3d(body.position));
+    for (const PlacedShape& placed : body.shapes) {
+      const double radius = placed.shape->half_extent().norm();
+      largest = std::max(largest, 2.0 * radius);
+      const Eigen::Vector3d center = body.position + body.orientation * placed.position;
+      box.extend(Eigen::Vector3d(center.array() - radius));
+      box.extend(Eigen::Vector3d(center.array() + radius));
+    }
+  }
+  const double diagonal = box.isEmpty() ? 0.0 : box.diagonal().norm();
+  return std::max({diagonal, largest, std::numeric_limits<double>::min()});
+}
+
+}  // namespace
+
+Result<BodySet> BodySet::create(const Model& model) {
+  Errors errors = check_bodies(model);
+  if (!errors.empty()) return errors;
+  BodySet set;
+  set.definitions_ = model.bodies;
+  set.gravity_ = model.gravity;
+  for (const BodyDef& body : model.bodies) set.properties_.push_back(compile_body(body));
+  for (int i = 0; i < set.count(); ++i) {
+    if (model.bodies[at(i)].mount) lump_mounted_rotor(set.properties_, model.bodies, i);
+  }
+  for (int i = 0; i < set.count(); ++i) {
+    BodyProperties& body = set.properties_[at(i)];
+    if (body.mount >= 0) body.mount_position -= set.properties_[at(body.mount)].center_of_mass;
+    finish_body(body, model.bodies[at(i)]);
+  }
+  set.properties_.emplace_back();  // the world
+  set.scale_ = scene_scale(model.bodies);
+  return set;
+}
+
+const std::string& BodySet::name(int index) const {
+  static const std::string world = "world";
+  return index == count() ? world : definition(index).name;
+}
+
+State BodySet::initial_state() const {
+  State state;
+  for (int i = 0; i < count(); ++i) {
+    const BodyDef& def = definition(i);
+    BodyState body;
+    if ((*this)[i].mobility == Mobility::kinematic) {
+      state.bodies.push_back(kinematic_state(i, 0.0));
+      continue;
+    }
+    body.orientation = def.orientation.normalized();
+    const Vector3 offset = body.orientation * (*this)[i].center_of_mass;
+    body.position = def.position + offset;
+    body.velocity = def.velocity + def.angular_velocity.cross(offset);
+    body.angular_velocity = def.angular_velocity;
+    state.bodies.push_back(body);
+  }
+  for (int i = 0; i < count(); ++i) {
+    // A mounted rotor moves with its carrier; only its spin about the axle is its own.
+    const int mount = (*this)[i].mount;
+    if (mount < 0) continue;
+    const BodyState& carrier = state.bodies[at(mount)];
+    BodyState& rotor = state.bodies[at(i)];
+    const Vector3 axis = carrier.orientation * (*this)[i].axis;
+    const Vector3 offset = carrier.orientation * (*this)[i].mount_position;
+    rotor.position = carrier.position + offset;
+    rotor.velocity = carrier.velocity + carrier.angular_velocity.cross(offset);
+    rotor.angular_velocity = carrier.angular_velocity +
+                             axis * axis.dot(rotor.angular_velocity - carrier.angular_velocity);
+  }
+  return state;
+}
+
+Quaternion BodySet::initial_orientation(int index) const {
+  if (index == count()) return Quaternion::Identity();
+  return definition(index).orientation.normalized();
+}
+
+Vector3 BodySet::initial_point(int index, const Vector3& local) const {
+  if (index == count()) return local;
+  return definition(index).position + initial_orientation(index) * local;
+}
+
+Vector3 BodySet::initial_local(int index, const Vector3& point) const {
+  if (index == count()) return point;
+  return initial_orientation(index).conjugate() * (point - definition(index).position);
+}
+
+bool BodySet::stays_in_plane(int index, const Vector3& normal) const {
+  constexpr double tolerance = 1e-12;  // rounding of a normalised vector
+  const BodyProperties& body = (*this)[index];
+  const auto parallel = [&](const Vector3& v) { return v.cross(normal).norm() <= tolerance; };
+  switch (body.mobility) {
+    case Mobility::fixed:
+      return true;
+    case Mobility::planar:
+      return parallel(body.axis);
+    case Mobility::slider:
+      return std::abs(body.axis.dot(normal)) <= tolerance;
+    case Mobility::rotor:
+      if (body.mount >= 0) {
+        return stays_in_plane(body.mount, normal) &&
+               parallel(initial_orientation(body.mount) * body.axis);
+      }
+      return parallel(body.axis);
+    case Mobility::kinematic: {
+      const BodyDef& def = definition(index);
+      return def.velocity.dot(normal) == 0.0 && def.oscillation.dot(normal) == 0.0 &&
+             def.angular_velocity.cross(normal).norm() == 0.0;
+    }
+    case Mobility::free:
+      return false;
+  }
+  return false;
+}
+
+BodyState BodySet::kinematic_state(int index, double time) const {
+  const BodyDef& def = definition(index);
+  const double rate = 2.0 * pi * def.oscillation_frequency;
+  const double phase = rate * time + def.oscillation_phase;
+  BodyState state;
+  state.position = def.position + time * def.velocity +
+                   (std::sin(phase) - std::sin(def.oscillation_phase)) * def.oscillation;
+  state.velocity = def.velocity + rate * std::cos(phase) * def.oscillation;
+  state.angular_velocity = def.angular_velocity;
+  state.orientation = rotation_by(time * def.angular_velocity) * def.orientation.normalized();
+  return state;
+}
+
+}  // namespace sheave

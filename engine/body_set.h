@@ -1,0 +1,78 @@
+#pragma once
+// Bodies as the step needs them: everything that follows from the definitions once and for all.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/body.h"
+#include "engine/result.h"
+#include "engine/state.h"
+
+namespace sheave {
+
+struct Model;
+
+/// Constants of one body. "Own frame": axes of the body frame, origin at the centre of mass.
+struct BodyProperties {
+  Mobility mobility = Mobility::fixed;
+  int mount = -1;  ///< index of the body that carries a mounted rotor; -1 for all others
+  /// Of the body and the rotors mounted on it [kg]; 0 where it has no effect on the motion.
+  double mass = 0.0;
+  Vector3 center_of_mass = Vector3::Zero();  ///< [m], body frame
+  /// About the centre of mass [kg m2], own frame, with the mounted rotors' mass and their inertia
+  /// across the axle, but without their inertia about it.
+  Matrix3 inertia = Matrix3::Zero();
+  Matrix3 inverse_inertia = Matrix3::Zero();  ///< of `inertia`; zero where the body cannot turn
+  bool isotropic = false;  ///< free bodies: `inertia` is a multiple of the identity
+  /// Unit vector: planar normal, slider direction or axle, in the world frame; of a mounted rotor
+  /// in its carrier's own frame.
+  Vector3 axis = Vector3::UnitZ();
+  double axis_inertia = 0.0;  ///< about the axis [kg m2]; planar bodies and rotors
+  Vector3 mount_position = Vector3::Zero();  ///< centre of a mounted rotor, carrier's own frame [m]
+  Quaternion start_orientation = Quaternion::Identity();  ///< at angle 0; relative to the carrier
+  std::vector<int> mounted_rotors;  ///< indices of the rotors this body carries
+};
+
+/// All bodies of a model, ready to step. Immutable.
+class BodySet {
+ public:
+  /// Checks and compiles the bodies. Faults are reported for all bodies, not only the first.
+  static Result<BodySet> create(const Model& model);
+
+  [[nodiscard]] int count() const { return static_cast<int>(definitions_.size()); }
+  /// Index of `id` among count() + 1 bodies; the world comes last.
+  [[nodiscard]] int index(BodyId id) const { return id.is_world() ? count() : id.index; }
+  [[nodiscard]] const BodyProperties& operator[](int index) const {
+    return properties_[static_cast<std::size_t>(index)];
+  }
+  [[nodiscard]] const BodyDef& definition(int index) const {
+    return definitions_[static_cast<std::size_t>(index)];
+  }
+  [[nodiscard]] const std::string& name(int index) const;
+  [[nodiscard]] const Vector3& gravity() const { return gravity_; }
+  /// Length [m] that "large" and "small" are measured by: the diagonal of the box round all bodies
+  /// at time 0, at least the largest body; > 0.
+  [[nodiscard]] double scale() const { return scale_; }
+
+  /// The state at time 0, without features.
+  [[nodiscard]] State initial_state() const;
+  /// Pose at time 0 of the body frame's point `local` [m] of body `index`, or of the world.
+  [[nodiscard]] Vector3 initial_point(int index, const Vector3& local) const;
+  /// The body-frame coordinates of a world point at time 0.
+  [[nodiscard]] Vector3 initial_local(int index, const Vector3& point) const;
+  [[nodiscard]] Quaternion initial_orientation(int index) const;
+  /// Whether the body keeps every point of it in a plane with this normal (world frame at time 0).
+  [[nodiscard]] bool stays_in_plane(int index, const Vector3& normal) const;
+
+  /// Position [m] and velocity of a kinematic body's origin at `time`, and its rotation since 0.
+  [[nodiscard]] BodyState kinematic_state(int index, double time) const;
+
+ private:
+  std::vector<BodyDef> definitions_;
+  std::vector<BodyProperties> properties_;  // one more than definitions_: the world
+  Vector3 gravity_ = Vector3::Zero();
+  double scale_ = 1.0;
+};
+
+}  // namespace sheave

@@ -1,0 +1,49 @@
+#pragma once
+// All constraints of one type: one virtual call per batch and stage, a plain loop inside.
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "engine/row.h"
+#include "engine/state.h"
+
+namespace sheave {
+
+class BodySet;
+struct Substep;
+
+/// A feature of a world that constrains bodies. Its settings are fixed; what it carries from
+/// substep to substep is a FeatureState; members beyond those are scratch that begin() fills anew
+/// in every substep.
+class ConstraintBatch {
+ public:
+  virtual ~ConstraintBatch() = default;
+  ConstraintBatch(const ConstraintBatch&) = delete;
+  ConstraintBatch& operator=(const ConstraintBatch&) = delete;
+
+  /// Name of the feature's stages, e.g. "hinge joints", "cables".
+  [[nodiscard]] virtual std::string_view name() const = 0;
+  /// The feature's state at time 0.
+  [[nodiscard]] virtual FeatureState initial_state() const = 0;
+  /// Number of rows that linearise() appends.
+  [[nodiscard]] virtual int row_count() const = 0;
+
+  /// Called before bodies are predicted. `state` is the feature's own state at the start.
+  virtual void begin(const Substep& substep, const FeatureState& state) = 0;
+  /// One Gauss-Seidel sweep: each row in order, re-evaluated at the current positions and solved.
+  /// Returns the largest correction, as an error of a row [m or rad].
+  virtual double sweep(Substep& substep) = 0;
+  /// Appends all rows at the current positions without moving anything.
+  virtual void linearise(Substep& substep, std::vector<Row>& rows) = 0;
+  /// Called when positions are final: writes the feature's state at the end of the substep.
+  virtual void finish(Substep& substep, FeatureState& next) = 0;
+  /// Elastic energy stored in the feature [J], between substeps.
+  [[nodiscard]] virtual double elastic_energy(const BodySet& bodies, const State& state,
+                                              const FeatureState& own) const = 0;
+
+ protected:
+  ConstraintBatch() = default;
+};
+
+}  // namespace sheave

@@ -1,0 +1,84 @@
+#include "engine/field_check.h"
+
+#include <charconv>
+
+namespace sheave {
+namespace {
+
+/// Checks the numbers of one field.
+class NumberCheck {
+ public:
+  NumberCheck(const Field& field, const std::string& path, Errors& errors)
+      : field_(field), path_(path + "/" + std::string(field.name)), errors_(errors) {}
+
+  void operator()(double* value) const { check(*value, path_); }
+  void operator()(int* value) const { check(*value, path_); }
+  void operator()(Vector3* value) const { check_components(*value, path_); }
+  void operator()(Quaternion* value) const {
+    const double norm = value->norm();
+    if (std::abs(norm - 1.0) <= 1e-6) return;  // what six printed decimals leave
+    errors_.push_back({path_, std::string(field_.name) + " must be a unit quaternion [w, x, y, z]; "
+                                  "its length is " + number_text(norm)});
+  }
+  void operator()(std::optional<double>* value) const {
+    if (*value) check(**value, path_);
+  }
+  void operator()(std::optional<Vector3>* value) const {
+    if (*value) check_components(**value, path_);
+  }
+  void operator()(std::vector<double>* value) const {
+    for (std::size_t i = 0; i < value->size(); ++i) check((*value)[i], item(i));
+  }
+  void operator()(std::vector<Vector3>* value) const {
+    for (std::size_t i = 0; i < value->size(); ++i) check_components((*value)[i], item(i));
+  }
+  template <class Other>
+  void operator()(const Other& /*no number*/) const {}
+
+ private:
+  [[nodiscard]] std::string item(std::size_t i) const { return path_ + "/" + std::to_string(i); }
+  void check_components(const Vector3& value, const std::string& path) const {
+    for (int i = 0; i < 3; ++i) check(value[i], path + "/" + std::to_string(i));
+  }
+  void check(double value, const std::string& path) const {
+    if (field_.range.contains(value)) return;
+    errors_.push_back({path, std::string(field_.name) + " is " + number_text(value) +
+                                 "; it must be " + describe(field_.range) +
+                                 (field_.unit.empty() ? "" : " " + std::string(field_.unit))});
+  }
+
+  const Field& field_;
+  std::string path_;
+  Errors& errors_;
+};
+
+}  // namespace
+
+std::string number_text(double value) {
+  char buffer[32];
+  const auto [end, code] = std::to_chars(buffer, buffer + sizeof buffer, value);
+  return code == std::errc() ? std::string(buffer, end) : std::string("?");
+}
+
+std::string describe(const Range& range) {
+  const bool has_minimum = std::isfinite(range.minimum);
+  const bool has_maximum = std::isfinite(range.maximum);
+  const std::string low =
+      (range.minimum_allowed ? "at least " : "greater than ") + number_text(range.minimum);
+  const std::string high =
+      (range.maximum_allowed ? "at most " : "less than ") + number_text(range.maximum);
+  if (has_minimum && has_maximum) return low + " and " + high;
+  if (has_minimum) return low;
+  if (has_maximum) return high;
+  return "a finite number";
+}
+
+void check_fields(std::span<const Field> fields, const void* object, const std::string& path,
+                  Errors& errors) {
+  for (const Field& field : fields) {
+    // Slots are shared by reading and writing; nothing is written here.
+    std::visit(NumberCheck(field, path, errors), field.slot(const_cast<void*>(object)));
+  }
+}
+
+}  // namespace sheave

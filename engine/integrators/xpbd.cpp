@@ -1,0 +1,195 @@
+// The integrator of extended position-based dynamics: predict, project, derive velocities.
+//
+//   v* = v + h g,  x* = x + h v*,  constraints move x* to x',  v' = (x' - x) / h.
+//
+// First order: a mass circling on a rigid cable loses speed as w(t) = w0 / sqrt(1 + 2 w0^2 h t),
+// because the projection shortens each chord of the circle.
+//
+// Rotation. Constraints act as impulses, so the angular velocity is w' = w* + (turn' - turn*) / h
+// with w*, turn* those of the free motion. For bodies with one axis turn* = h w*, which is the
+// formula for v'. The free motion of other bodies, with rotors of spin angular momentum J s a
+// mounted on them (a gyrostat), conserves L = I w + sum J s a exactly: an explicit midpoint step
+//   q_half = exp(h/2 w) q,   w_half = I(q_half)^-1 (L_half - sum J s a(q_half)),
+//   q* = exp(h w_half) q,    w* = I(q*)^-1 (L_end - sum J s a(q*)),   turn* = h w_half,
+// of second order. The bearing passes no torque about a, so s is constant without constraints.
+// This deviates from the paper's engine, which gets w' from the difference of orientations: that
+// aliases beyond half a turn per substep and does not conserve L.
+
+#include "engine/stages.h"
+
+namespace sheave {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+/// World inertia of a free body with this orientation.
+Matrix3 world_inertia(const BodyProperties& body, const Quaternion& orientation, bool inverse) {
+  const Matrix3& own = inverse ? body.inverse_inertia : body.inertia;
+  if (body.isotropic) return own;
+  const Matrix3 rotation = orientation.toRotationMatrix();
+  return rotation * own * rotation.transpose();
+}
+
+/// Angular momentum of the rotors mounted on a body with this orientation.
+Vector3 rotor_momentum(const Substep& substep, const BodyProperties& carrier,
+                       const Quaternion& carrier_start, const Quaternion& orientation) {
+  Vector3 sum = Vector3::Zero();
+  for (const int i : carrier.mounted_rotors) {
+    const BodyProperties& rotor = substep.bodies[i];
+    const double spin =
+        (carrier_start * rotor.axis).dot(substep.start.bodies[at(i)].angular_velocity);
+    sum += rotor.axis_inertia * spin * (orientation * rotor.axis);
+  }
+  return sum;
+}
+
+/// Free rotation of a free body over the substep.
+void rotate_freely(Substep& substep, int i) {
+  const BodyProperties& body = substep.bodies[i];
+  const BodyState& start = substep.start.bodies[at(i)];
+  MovingBody& moving = substep.moving[at(i)];
+  const double h = substep.h;
+  const Vector3& torque = substep.bodies.definition(i).torque;
+  Vector3 half_velocity;
+  Vector3 end_velocity;
+  if (body.isotropic && body.mounted_rotors.empty()) {
+    end_velocity = start.angular_velocity + h * (body.inverse_inertia * torque);
+    half_velocity = end_velocity;
+    moving.orientation = turned(start.orientation, h * half_velocity);
+  } else {
+    const auto rotors = [&](const Quaternion& q) {
+      return rotor_momentum(substep, body, start.orientation, q);
+    };
+    const Vector3 momentum =
+        world_inertia(body, start.orientation, false) * start.angular_velocity +
+        rotors(start.orientation);
+    const Quaternion half = turned(start.orientation, 0.5 * h * start.angular_velocity);
+    half_velocity =
+        world_inertia(body, half, true) * (momentum + 0.5 * h * torque - rotors(half));
+    moving.orientation = turned(start.orientation, h * half_velocity);
+    moving.inverse_inertia = world_inertia(body, moving.orientation, true);
+    end_velocity =
+        moving.inverse_inertia * (momentum + h * torque - rotors(moving.orientation));
+  }
+  moving.turn = h * half_velocity;
+  substep.predicted[at(i)].angular_velocity = end_velocity;
+}
+
+/// Rotation about one axis: no gyroscopic effects, and turn = h w exactly.
+void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
+  const BodyProperties& body = substep.bodies[i];
+  MovingBody& moving = substep.moving[at(i)];
+  const double torque = axis.dot(substep.bodies.definition(i).torque);
+  const double spin = axis.dot(substep.start.bodies[at(i)].angular_velocity) +
+                      substep.h * torque / body.axis_inertia;
+  moving.turn = (substep.h * spin) * axis;
+  if (body.mount < 0) moving.orientation = turned(moving.orientation, moving.turn);
+  substep.predicted[at(i)].angular_velocity = spin * axis;
+}
+
+}  // namespace
+
+void move_kinematic_bodies(Substep& substep) {
+  for (int i = 0; i < substep.bodies.count(); ++i) {
+    if (substep.bodies[i].mobility != Mobility::kinematic) continue;
+    const BodyState end =
+        substep.bodies.kinematic_state(i, substep.next.time);
+    MovingBody& moving = substep.moving[at(i)];
+    moving.position = end.position;
+    moving.orientation = end.orientation;
+    moving.turn = substep.h * end.angular_velocity;
+    substep.predicted[at(i)] = end;
+  }
+}
+
+void predict(Substep& substep) {
+  const double h = substep.h;
+  for (int i = 0; i < substep.bodies.count(); ++i) {
+    const BodyProperties& body = substep.bodies[i];
+    const BodyState& start = substep.start.bodies[at(i)];
+    MovingBody& moving = substep.moving[at(i)];
+    if (moving.translates) {
+      // W M (v + h g + h f / m): the inverse mass matrix keeps what the mobility allows.
+      const Vector3 force =
+          body.mass * substep.bodies.gravity() + substep.bodies.definition(i).force;
+      const Vector3 velocity = start.velocity + h * (moving.inverse_mass * force);
+      moving.position = start.position + h * velocity;
+    }
+    switch (body.mobility) {
+      case Mobility::free:
+        rotate_freely(substep, i);
+        break;
+      case Mobility::planar:
+        rotate_about_axis(substep, i, body.axis);
+        break;
+      case Mobility::rotor: {
+        const bool mounted = body.mount >= 0;
+        rotate_about_axis(
+            substep, i,
+            mounted ? Vector3(substep.start.bodies[at(body.mount)].orientation * body.axis)
+                    : body.axis);
+        break;
+      }
+      case Mobility::fixed:
+      case Mobility::slider:
+      case Mobility::kinematic:
+        break;
+    }
+    substep.predicted_turn[at(i)] = moving.turn;
+  }
+}
+
+void derive_velocities(Substep& substep) {
+  const double h = substep.h;
+  for (int i = 0; i < substep.bodies.count(); ++i) {
+    const BodyProperties& body = substep.bodies[i];
+    const MovingBody& moving = substep.moving[at(i)];
+    const BodyState& start = substep.start.bodies[at(i)];
+    BodyState& next = substep.next.bodies[at(i)];
+    if (body.mount >= 0 || body.mobility == Mobility::fixed) continue;
+    next.position = moving.position;
+    next.orientation = moving.orientation;
+    if (body.mobility == Mobility::kinematic) {
+      next.velocity = substep.predicted[at(i)].velocity;
+      next.angular_velocity = substep.predicted[at(i)].angular_velocity;
+      continue;
+    }
+    if (moving.translates) next.velocity = (moving.position - start.position) / h;
+    if (moving.rotates) {
+      next.angular_velocity = substep.predicted[at(i)].angular_velocity +
+                              (moving.turn - substep.predicted_turn[at(i)]) / h;
+    }
+    if (body.mobility == Mobility::planar || body.mobility == Mobility::rotor) {
+      // The pose of a body with one axis is a function of its angle, so that neither can drift.
+      next.angle = start.angle + body.axis.dot(moving.turn);
+      next.orientation = rotation_by(next.angle * body.axis) * body.start_orientation;
+    }
+  }
+}
+
+void place_mounted_rotors(Substep& substep) {
+  for (int i = 0; i < substep.bodies.count(); ++i) {
+    const BodyProperties& rotor = substep.bodies[i];
+    if (rotor.mount < 0) continue;
+    const MovingBody& moving = substep.moving[at(i)];
+    const MovingBody& carrier_moving = substep.moving[at(rotor.mount)];
+    const BodyState& carrier = substep.next.bodies[at(rotor.mount)];
+    BodyState& next = substep.next.bodies[at(i)];
+    // The spin lives on the axle of the start of the substep; the axle has turned with the carrier.
+    const Vector3 start_axis =
+        substep.start.bodies[at(rotor.mount)].orientation * rotor.axis;
+    const Vector3 axis = carrier.orientation * rotor.axis;
+    const double spin = start_axis.dot(substep.predicted[at(i)].angular_velocity +
+                                       (moving.turn - substep.predicted_turn[at(i)]) / substep.h);
+    const Vector3 offset = carrier.orientation * rotor.mount_position;
+    next.angle = substep.start.bodies[at(i)].angle + axis.dot(moving.turn - carrier_moving.turn);
+    next.position = carrier.position + offset;
+    next.orientation = carrier.orientation * rotation_by(next.angle * rotor.axis) *
+                       rotor.start_orientation;
+    next.velocity = carrier.velocity + carrier.angular_velocity.cross(offset);
+    next.angular_velocity =
+        carrier.angular_velocity - axis * axis.dot(carrier.angular_velocity) + spin * axis;
+  }
+}
+
+}  // namespace sheave

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "engine/joint.h"
+
+namespace sheave {
+
+/// Leaves two bodies one relative rotation about a common axis.
+class HingeJoint final : public JointDef {
+ public:
+  Vector3 anchor = Vector3::Zero();  ///< a point of the axis, world frame at time 0 [m]
+  Vector3 axis = Vector3::UnitZ();   ///< direction, world frame at time 0; any length but 0
+  double compliance = 0.0;           ///< of each direction of translation [m/N], >= 0
+
+  static constexpr std::string_view type_name = "hinge";
+  static constexpr std::string_view type_meaning =
+      "leaves two bodies one rotation about a common axis";
+  static std::span<const Field> field_table();
+
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] Errors validate(const BodySet& bodies, const std::string& path) const override;
+  [[nodiscard]] std::unique_ptr<ConstraintBatch> make_batch(
+      const BodySet& bodies, std::span<const JointDef* const> joints) const override;
+};
+
+}  // namespace sheave

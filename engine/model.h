@@ -1,0 +1,30 @@
+#pragma once
+// A model is all that a user defines and a step never changes.
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/body.h"
+#include "engine/contacts/ground.h"
+#include "engine/joint.h"
+#include "engine/step_settings.h"
+
+namespace sheave {
+
+/// Everything a simulation is built from, except features of other libraries (cables).
+struct Model {
+  Vector3 gravity = Vector3::Zero();  ///< [m/s2]; "up" is against it
+  StepSettings step;
+  std::vector<BodyDef> bodies;        ///< BodyId indexes this list
+  std::vector<std::shared_ptr<const JointDef>> joints;
+  std::optional<GroundDef> ground;    ///< absent: nothing to fall on, and no stage for it
+
+  /// Appends a body and returns its id.
+  BodyId add(BodyDef body) {
+    bodies.push_back(std::move(body));
+    return {static_cast<int>(bodies.size()) - 1};
+  }
+};
+
+}  // namespace sheave

@@ -1,0 +1,144 @@
+#pragma once
+// A constraint is a set of scalar rows, and solvers know nothing else.
+//
+// A row is C(x) with C = 0 (bilateral) or C >= 0 (unilateral), its gradient per touched body, and
+// bounds on its multiplier. With substep h, compliance a~ = a / h^2 and the accumulated multiplier
+// l, one step of XPBD (Macklin et al. 2016, eq. 18; damping eq. 26) is
+//
+//   dl = (-C - a~ l - g C') / ((1 + g) w + a~),   w = grad C  W  grad C^T,   g = a b / h,
+//   C' = grad C (x - x_start),
+//   l <- l + dl, clamped to the bounds;  x <- x + W grad C^T dl  with what is left of dl.
+//
+// l has the unit of C times kg (m kg for lengths); the generalised force of the row is l / h^2,
+// along +grad C. So a cable, which pulls, has C = rest length - length and l in [0, inf), and its
+// tension [N] is l / h^2.
+
+#include <array>
+#include <cassert>
+#include <limits>
+#include <span>
+
+#include "engine/vector.h"
+
+namespace sheave {
+
+/// A body during a substep: the only body data that constraint solving touches.
+struct MovingBody {
+  Vector3 position = Vector3::Zero();               ///< of the centre of mass [m]
+  Quaternion orientation = Quaternion::Identity();  ///< own frame to world frame
+  /// Rotation since the start of the substep [rad], as the sum of all rotation vectors applied. It
+  /// is not wrapped: a wheel may turn several times in one substep.
+  Vector3 turn = Vector3::Zero();
+  Matrix3 inverse_mass = Matrix3::Zero();     ///< [1/kg], world frame
+  Matrix3 inverse_inertia = Matrix3::Zero();  ///< [1/(kg m2)], world frame
+  bool translates = false;                    ///< inverse_mass is not zero
+  bool rotates = false;                       ///< inverse_inertia is not zero
+  Vector3 start_position = Vector3::Zero();   ///< position at the start of the substep [m]
+};
+
+/// Gradient of a row with respect to one body.
+struct RowTerm {
+  int body = 0;                            ///< index into the bodies of the substep
+  Vector3 linear = Vector3::Zero();        ///< dC / d position
+  Vector3 angular = Vector3::Zero();       ///< dC / d rotation vector, world frame
+};
+
+/// One scalar constraint, linearised at the current positions.
+struct Row {
+  static constexpr int max_terms = 4;  ///< two ends, each on a rotor mounted on a carrier
+  static constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+  double value = 0.0;       ///< C [m or rad]
+  double compliance = 0.0;  ///< a [m/N or rad/(N m)], >= 0
+  double damping = 0.0;     ///< b [N s/m or N m s/rad], >= 0; acts only with compliance > 0
+  double lower = -unbounded;  ///< bounds of the multiplier
+  double upper = unbounded;
+  int term_count = 0;
+  std::array<RowTerm, max_terms> terms;
+
+  /// Makes the row empty: no terms, rigid, bilateral, value 0.
+  void clear() {
+    value = compliance = damping = 0.0;
+    lower = -unbounded;
+    upper = unbounded;
+    term_count = 0;
+  }
+  /// Adds to the gradient of `body`. Contributions to the same body are summed, because w needs
+  /// the body's whole gradient (a cable that touches one body twice).
+  void add(int body, const Vector3& linear, const Vector3& angular) {
+    for (int i = 0; i < term_count; ++i) {
+      RowTerm& term = terms[static_cast<std::size_t>(i)];
+      if (term.body != body) continue;
+      term.linear += linear;
+      term.angular += angular;
+      return;
+    }
+    assert(term_count < max_terms);
+    terms[static_cast<std::size_t>(term_count++)] = {body, linear, angular};
+  }
+  [[nodiscard]] std::span<const RowTerm> active_terms() const {
+    return {terms.data(), static_cast<std::size_t>(term_count)};
+  }
+};
+
+/// w = grad C W grad C^T [1/kg]: how easily the row's bodies yield along its gradient.
+[[nodiscard]] inline double effective_inverse_mass(const Row& row,
+                                                   std::span<const MovingBody> bodies) {
+  double w = 0.0;
+  for (const RowTerm& term : row.active_terms()) {
+    const MovingBody& body = bodies[static_cast<std::size_t>(term.body)];
+    if (body.translates) w += term.linear.dot(body.inverse_mass * term.linear);
+    if (body.rotates) w += term.angular.dot(body.inverse_inertia * term.angular);
+  }
+  return w;
+}
+
+/// grad C (x - x_start): change of the row's value over the substep so far, to first order.
+[[nodiscard]] inline double substep_change(const Row& row, std::span<const MovingBody> bodies) {
+  double change = 0.0;
+  for (const RowTerm& term : row.active_terms()) {
+    const MovingBody& body = bodies[static_cast<std::size_t>(term.body)];
+    change += term.linear.dot(body.position - body.start_position) + term.angular.dot(body.turn);
+  }
+  return change;
+}
+
+/// x <- x + W grad C^T increment.
+inline void apply_multiplier(const Row& row, double increment, std::span<MovingBody> bodies) {
+  for (const RowTerm& term : row.active_terms()) {
+    MovingBody& body = bodies[static_cast<std::size_t>(term.body)];
+    if (body.translates) body.position += body.inverse_mass * (increment * term.linear);
+    if (body.rotates) {
+      const Vector3 turn = body.inverse_inertia * (increment * term.angular);
+      body.turn += turn;
+      body.orientation = turned(body.orientation, turn);
+    }
+  }
+}
+
+/// One XPBD step of one row with substep `h` [s]; updates the bodies and the accumulated
+/// `multiplier`. Returns the magnitude of the row's error before the step, as far as its bounds
+/// allowed to correct it [m or rad].
+inline double solve_row(const Row& row, double h, double& multiplier,
+                        std::span<MovingBody> bodies) {
+  const double scaled_compliance = row.compliance / (h * h);
+  double w = effective_inverse_mass(row, bodies);
+  double error = row.value + scaled_compliance * multiplier;
+  if (row.damping > 0.0) {
+    const double gamma = row.compliance * row.damping / h;
+    error += gamma * substep_change(row, bodies);
+    w *= 1.0 + gamma;
+  }
+  const double denominator = w + scaled_compliance;
+  if (!(denominator > 0.0) || !(w > 0.0)) return 0.0;  // nothing that could move
+  double next = multiplier - error / denominator;
+  if (next < row.lower) next = row.lower;
+  if (next > row.upper) next = row.upper;
+  const double increment = next - multiplier;
+  if (increment == 0.0) return 0.0;
+  multiplier = next;
+  apply_multiplier(row, increment, bodies);
+  return std::abs(increment) * denominator;
+}
+
+}  // namespace sheave

@@ -1,0 +1,44 @@
+#include "engine/shape.h"
+
+#include <array>
+
+namespace sheave {
+
+Errors Shape::validate(const std::string& /*path*/) const { return {}; }
+
+std::span<const Field> PlacedShape::field_table() {
+  static const std::array table{
+      field<&PlacedShape::position>("position", "m", any_number(), optional,
+                                    "origin of the shape in the body frame"),
+      field<&PlacedShape::orientation>("orientation", "", any_number(), optional,
+                                       "unit quaternion [w, x, y, z], shape frame to body frame"),
+  };
+  return table;
+}
+
+Matrix3 point_inertia(double mass, const Vector3& offset) {
+  return mass * (offset.squaredNorm() * Matrix3::Identity() - offset * offset.transpose());
+}
+
+MassProperties combine(std::span<const PlacedShape> shapes, double density) {
+  MassProperties total;
+  std::vector<MassProperties> parts;
+  for (const PlacedShape& placed : shapes) {
+    MassProperties part = placed.shape->unit_density();
+    const Matrix3 rotation = placed.orientation.toRotationMatrix();
+    part.mass *= density;
+    part.inertia = (density * rotation * part.inertia * rotation.transpose()).eval();
+    part.center_of_mass = placed.position + rotation * part.center_of_mass;
+    total.mass += part.mass;
+    total.center_of_mass += part.mass * part.center_of_mass;
+    parts.push_back(part);
+  }
+  if (total.mass > 0.0) total.center_of_mass /= total.mass;
+  for (const MassProperties& part : parts) {
+    total.inertia +=
+        part.inertia + point_inertia(part.mass, part.center_of_mass - total.center_of_mass);
+  }
+  return total;
+}
+
+}  // namespace sheave

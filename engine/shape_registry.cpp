@@ -1,0 +1,26 @@
+// The shape types: one line each.
+
+#include <array>
+
+#include "engine/shapes/box.h"
+#include "engine/shapes/capsule.h"
+#include "engine/shapes/cylinder.h"
+#include "engine/shapes/polyhedron.h"
+#include "engine/shapes/prism.h"
+#include "engine/shapes/sphere.h"
+
+namespace sheave {
+
+std::span<const TypeEntry<Shape>> shape_types() {
+  static const std::array types{
+      type_entry<Shape, Box>(),
+      type_entry<Shape, Sphere>(),
+      type_entry<Shape, Cylinder>(),
+      type_entry<Shape, Capsule>(),
+      type_entry<Shape, Prism>(),
+      type_entry<Shape, Polyhedron>(),
+  };
+  return types;
+}
+
+}  // namespace sheave

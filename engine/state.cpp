@@ -1,0 +1,131 @@
+#include "engine/state.h"
+
+#include <bit>
+#include <cstring>
+
+namespace sheave {
+namespace {
+
+constexpr std::uint64_t format_tag = 0x31'45'54'41'54'53'48'53;  // "SHSTATE1"
+
+/// Calls visit(word) for every number of a state in a fixed order; shared by hash and to_bytes, so
+/// that neither can forget a member.
+template <class Visit>
+void for_each_word(const State& state, const Visit& visit) {
+  const auto real = [&](double x) { visit(std::bit_cast<std::uint64_t>(x)); };
+  const auto integer = [&](std::int64_t i) { visit(std::bit_cast<std::uint64_t>(i)); };
+  const auto count = [&](std::size_t n) { visit(static_cast<std::uint64_t>(n)); };
+  const auto vector = [&](const Vector3& v) {
+    for (const double x : v) real(x);
+  };
+  integer(state.steps);
+  real(state.time);
+  count(state.bodies.size());
+  for (const BodyState& body : state.bodies) {
+    vector(body.position);
+    for (const double x : body.orientation.coeffs()) real(x);
+    vector(body.velocity);
+    vector(body.angular_velocity);
+    real(body.angle);
+  }
+  count(state.features.size());
+  for (const FeatureState& feature : state.features) {
+    count(feature.reals.size());
+    for (const double x : feature.reals) real(x);
+    count(feature.integers.size());
+    for (const std::int64_t i : feature.integers) integer(i);
+  }
+}
+
+/// Reads words back; every read past the end or absurd count sets `failed`.
+class Reader {
+ public:
+  explicit Reader(const std::string& bytes) : bytes_(bytes) {}
+  std::uint64_t word() {
+    std::uint64_t result = 0;
+    if (position_ + sizeof result > bytes_.size()) {
+      failed_ = true;
+      return 0;
+    }
+    std::memcpy(&result, bytes_.data() + position_, sizeof result);
+    position_ += sizeof result;
+    return result;
+  }
+  double real() { return std::bit_cast<double>(word()); }
+  std::int64_t integer() { return std::bit_cast<std::int64_t>(word()); }
+  /// A list's length; each element takes at least `words` words, so a longer list is a fault.
+  std::size_t count(std::size_t words) {
+    const std::uint64_t n = word();
+    const std::size_t left = (bytes_.size() - position_) / (sizeof(std::uint64_t) * words);
+    if (n > left) failed_ = true;
+    return failed_ ? 0 : static_cast<std::size_t>(n);
+  }
+  Vector3 vector() {
+    Vector3 v;
+    for (double& x : v) x = real();
+    return v;
+  }
+  [[nodiscard]] bool complete() const { return !failed_ && position_ == bytes_.size(); }
+
+ private:
+  const std::string& bytes_;
+  std::size_t position_ = 0;
+  bool failed_ = false;
+};
+
+}  // namespace
+
+std::uint64_t hash(const State& state) {
+  std::uint64_t result = 0xcbf29ce484222325;
+  for_each_word(state, [&](std::uint64_t word) {
+    // FNV-1a multiplies after every byte; a whole word at a time needs the high bits folded back,
+    // or they would never reach the low ones.
+    result = (result ^ word) * 0x100000001b3;
+    result ^= result >> 32;
+  });
+  return result;
+}
+
+std::string to_bytes(const State& state) {
+  std::string bytes;
+  const auto append = [&](std::uint64_t word) {
+    char buffer[sizeof word];
+    std::memcpy(buffer, &word, sizeof word);
+    bytes.append(buffer, sizeof word);
+  };
+  append(format_tag);
+  for_each_word(state, append);
+  return bytes;
+}
+
+Result<State> state_from_bytes(const std::string& bytes) {
+  Reader reader(bytes);
+  if (reader.word() != format_tag) {
+    return Error{"", "not a saved state of this program: the first eight bytes must be SHSTATE1"};
+  }
+  State state;
+  state.steps = reader.integer();
+  state.time = reader.real();
+  state.bodies.resize(reader.count(14));
+  for (BodyState& body : state.bodies) {
+    body.position = reader.vector();
+    for (double& x : body.orientation.coeffs()) x = reader.real();
+    body.velocity = reader.vector();
+    body.angular_velocity = reader.vector();
+    body.angle = reader.real();
+  }
+  state.features.resize(reader.count(2));
+  for (FeatureState& feature : state.features) {
+    feature.reals.resize(reader.count(1));
+    for (double& x : feature.reals) x = reader.real();
+    feature.integers.resize(reader.count(1));
+    for (std::int64_t& i : feature.integers) i = reader.integer();
+  }
+  if (!reader.complete()) {
+    return Error{"", "a saved state must be complete: these " + std::to_string(bytes.size()) +
+                         " bytes are truncated or hold something else"};
+  }
+  return state;
+}
+
+}  // namespace sheave

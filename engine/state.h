@@ -1,0 +1,47 @@
+#pragma once
+// All that a step changes, as one value: copy it to take a snapshot, assign it to go back.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/result.h"
+#include "engine/vector.h"
+
+namespace sheave {
+
+/// Motion of one body.
+struct BodyState {
+  Vector3 position = Vector3::Zero();               ///< of the centre of mass [m]
+  Quaternion orientation = Quaternion::Identity();  ///< body frame to world frame
+  Vector3 velocity = Vector3::Zero();               ///< of the centre of mass [m/s]
+  Vector3 angular_velocity = Vector3::Zero();       ///< [rad/s]
+  /// Planar bodies and rotors: angle turned about the axis since time 0 [rad], unwrapped; of a
+  /// mounted rotor relative to its carrier. 0 for others.
+  double angle = 0.0;
+};
+
+/// What one feature (a batch of joints, the cables) carries from substep to substep. The feature
+/// documents the layout.
+struct FeatureState {
+  std::vector<double> reals;
+  std::vector<std::int64_t> integers;
+};
+
+/// The state of a world between two substeps.
+struct State {
+  std::int64_t steps = 0;   ///< completed steps
+  double time = 0.0;        ///< [s]
+  std::vector<BodyState> bodies;       ///< one per body of the model
+  std::vector<FeatureState> features;  ///< one per feature of the world, in its order
+};
+
+/// Order-dependent 64-bit hash of every bit of the state (FNV-1a over 8-byte words).
+[[nodiscard]] std::uint64_t hash(const State& state);
+
+/// The state as bytes, for a file; restores bit for bit on machines of the same byte order.
+[[nodiscard]] std::string to_bytes(const State& state);
+/// The inverse of to_bytes; an error names what is wrong with `bytes`.
+[[nodiscard]] Result<State> state_from_bytes(const std::string& bytes);
+
+}  // namespace sheave

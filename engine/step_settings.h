@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "engine/field.h"
+
+namespace sheave {
+
+/// How the constraint rows of a substep are solved.
+enum class SolverKind { gauss_seidel };
+inline constexpr std::array<std::string_view, 1> solver_names{"gauss-seidel"};
+
+/// How states are carried forward in time.
+enum class IntegratorKind { xpbd };
+inline constexpr std::array<std::string_view, 1> integrator_names{"xpbd"};
+
+/// Accuracy against cost, chosen per scene.
+struct StepSettings {
+  double dt = 1.0 / 60.0;  ///< time per step, one frame [s], > 0
+  int substeps = 1;        ///< substeps per step, 1 ... 100 000; h = dt / substeps
+  int iterations = 10;     ///< sweeps over all rows per substep, 1 ... 1 000 000
+  SolverKind solver = SolverKind::gauss_seidel;
+  IntegratorKind integrator = IntegratorKind::xpbd;
+
+  static std::span<const Field> field_table();
+};
+
+}  // namespace sheave

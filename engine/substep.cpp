@@ -1,0 +1,129 @@
+// Mounted rotors. A rotor on an axle with the unit direction a (fixed in its carrier B) through the
+// point c of B has one degree of freedom of its own, the absolute spin s about a; everything else
+// of its motion is B's: w = w_B - a (a.w_B) + a s. A unit force n at the point p of the rotor has
+// the power n.(v_B + w_B x (c - x_B) + w x (p - c)), and collecting the factors of v_B, w_B and s:
+//   on B:      linear n,  angular (p - x_B) x n - a (a . ((p - c) x n))
+//   on rotor:  angular a (a . ((p - c) x n))
+// A unit torque t on the rotor likewise splits into t - a (a.t) on B and a (a.t) on the rotor.
+
+#include "engine/substep.h"
+
+namespace sheave {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+/// Inverse mass and inverse inertia in the world frame of a body with this orientation.
+void set_inverse_masses(const BodyProperties& properties, MovingBody& body) {
+  const Vector3& axis = properties.axis;
+  const Matrix3 along = axis * axis.transpose();
+  switch (properties.mobility) {
+    case Mobility::fixed:
+    case Mobility::kinematic:
+      break;
+    case Mobility::free: {
+      const Matrix3 rotation = body.orientation.toRotationMatrix();
+      body.inverse_mass = Matrix3::Identity() / properties.mass;
+      body.inverse_inertia = properties.isotropic ? properties.inverse_inertia
+                                                  : Matrix3(rotation * properties.inverse_inertia *
+                                                            rotation.transpose());
+      break;
+    }
+    case Mobility::planar:
+      body.inverse_mass = (Matrix3::Identity() - along) / properties.mass;
+      body.inverse_inertia = along / properties.axis_inertia;
+      break;
+    case Mobility::slider:
+      body.inverse_mass = along / properties.mass;
+      break;
+    case Mobility::rotor:
+      body.inverse_inertia = along / properties.axis_inertia;
+      break;
+  }
+}
+
+}  // namespace
+
+Substep::Substep(const BodySet& body_set, const State& state_at_start, double length, int sweeps)
+    : bodies(body_set), start(state_at_start), h(length), iterations(sweeps) {
+  const std::size_t count = at(bodies.count());
+  moving.resize(count + 1);
+  predicted.resize(count);
+  predicted_turn.resize(count, Vector3::Zero());
+  for (int i = 0; i < bodies.count(); ++i) {
+    MovingBody& body = moving[at(i)];
+    const Mobility mobility = bodies[i].mobility;
+    body.translates = mobility == Mobility::free || mobility == Mobility::planar ||
+                      mobility == Mobility::slider;
+    body.rotates = mobility == Mobility::free || mobility == Mobility::planar ||
+                   mobility == Mobility::rotor;
+    body.orientation = start.bodies[at(i)].orientation;
+    if (bodies[i].mount < 0) set_inverse_masses(bodies[i], body);
+  }
+  restart();
+}
+
+void Substep::restart() {
+  for (int i = 0; i < bodies.count(); ++i) {
+    const BodyState& from = start.bodies[at(i)];
+    MovingBody& body = moving[at(i)];
+    body.position = body.start_position = from.position;
+    body.orientation = from.orientation;
+    body.turn.setZero();
+    const BodyProperties& properties = bodies[i];
+    if (properties.mobility == Mobility::free && !properties.isotropic) {
+      set_inverse_masses(properties, body);
+    }
+    if (properties.mount >= 0) {
+      const Vector3 axis = start.bodies[at(properties.mount)].orientation * properties.axis;
+      body.inverse_inertia = axis * axis.transpose() / properties.axis_inertia;
+    }
+    predicted_turn[at(i)].setZero();
+  }
+}
+
+Quaternion Substep::orientation(int body) const {
+  const BodyProperties& properties = bodies[body];
+  if (properties.mount < 0) return moving[at(body)].orientation;
+  const MovingBody& carrier = moving[at(properties.mount)];
+  const Vector3 axis = carrier.orientation * properties.axis;
+  const double angle =
+      start.bodies[at(body)].angle + axis.dot(moving[at(body)].turn - carrier.turn);
+  return carrier.orientation * rotation_by(angle * properties.axis) * properties.start_orientation;
+}
+
+Vector3 Substep::position(int body) const {
+  const BodyProperties& properties = bodies[body];
+  if (properties.mount < 0) return moving[at(body)].position;
+  const MovingBody& carrier = moving[at(properties.mount)];
+  return carrier.position + carrier.orientation * properties.mount_position;
+}
+
+void Substep::add_force(Row& row, int body, const Vector3& at_point,
+                        const Vector3& direction) const {
+  const int mount = bodies[body].mount;
+  if (mount < 0) {
+    const Vector3 arm = at_point - moving[at(body)].position;
+    row.add(body, direction, arm.cross(direction));
+    return;
+  }
+  const MovingBody& carrier = moving[at(mount)];
+  const Vector3 axis = carrier.orientation * bodies[body].axis;
+  const Vector3 spin = axis * axis.dot((at_point - position(body)).cross(direction));
+  row.add(mount, direction, (at_point - carrier.position).cross(direction) - spin);
+  row.add(body, Vector3::Zero(), spin);
+}
+
+void Substep::add_torque(Row& row, int body, const Vector3& direction) const {
+  const int mount = bodies[body].mount;
+  if (mount < 0) {
+    row.add(body, Vector3::Zero(), direction);
+    return;
+  }
+  const Vector3 axis = moving[at(mount)].orientation * bodies[body].axis;
+  const Vector3 spin = axis * axis.dot(direction);
+  row.add(mount, Vector3::Zero(), direction - spin);
+  row.add(body, Vector3::Zero(), spin);
+}
+
+}  // namespace sheave

@@ -1,0 +1,65 @@
+#pragma once
+// What the stages of one substep share: an explicit context, no globals.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/body_set.h"
+#include "engine/row.h"
+#include "engine/state.h"
+
+namespace sheave {
+
+/// What a step observed; sums and maxima over its substeps.
+struct StepStatistics {
+  int rows = 0;         ///< constraint rows solved per substep
+  int row_solves = 0;   ///< rows x iterations x substeps
+  /// Largest correction, as an error of a row, in the last sweep of a substep [m or rad]: how far
+  /// the solver was from convergence.
+  double last_correction = 0.0;
+  /// How often a feature had to fall back on a substitute because its geometry has no solution (a
+  /// span without a tangent); details are in the feature's report.
+  int geometry_fallbacks = 0;
+};
+
+/// The working data of one substep. Stages read the state at its start and write into `moving`;
+/// the state itself changes only when the substep is complete, so a substep that fails leaves the
+/// last good state behind.
+struct Substep {
+  const BodySet& bodies;
+  const State& start;                ///< state at the start of the substep
+  double h;                          ///< length [s]
+  int iterations;
+  std::vector<MovingBody> moving;    ///< bodies.count() + 1; the world comes last and never moves
+  std::vector<BodyState> predicted;  ///< velocities, and poses, without constraints
+  std::vector<Vector3> predicted_turn;  ///< [rad], without constraints
+  State next;                        ///< the state at the end, written by the last stages
+  StepStatistics statistics;
+
+  /// A substep of `bodies` from `state_at_start`; both must outlive it. Bodies are placed at the
+  /// start, with their inverse mass and inertia there; nothing is predicted yet.
+  Substep(const BodySet& body_set, const State& state_at_start, double length, int sweeps);
+  /// Prepares for the next substep, which starts from the current content of `start`.
+  void restart();
+
+  // Where bodies are now, in the course of the substep. A rotor mounted on a carrier follows it.
+
+  /// Rotation from own frame to world frame.
+  [[nodiscard]] Quaternion orientation(int body) const;
+  /// Position of the centre of mass (of a mounted rotor: its centre) [m].
+  [[nodiscard]] Vector3 position(int body) const;
+  /// World position of the point `local` [m] of the body's own frame.
+  [[nodiscard]] Vector3 point(int body, const Vector3& local) const {
+    return position(body) + orientation(body) * local;
+  }
+
+  // Gradients of what acts on a body, mounted or not (design, section 2).
+
+  /// Adds to `row` the effect of a unit force along `direction` at the world point `at`.
+  void add_force(Row& row, int body, const Vector3& at, const Vector3& direction) const;
+  /// Adds to `row` the effect of a unit torque about `direction`.
+  void add_torque(Row& row, int body, const Vector3& direction) const;
+};
+
+}  // namespace sheave

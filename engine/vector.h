@@ -1,0 +1,58 @@
+#pragma once
+// Vectors and rotations.
+//
+// Frames: unless a name says otherwise, vectors are in the world frame, right-handed, SI units.
+// "body frame" is the frame in which a body's shapes and link points are written; its origin need
+// not be the centre of mass. Quaternions turn body-frame vectors into world-frame vectors.
+//
+// Quaternion is an unaligned Eigen type and Vector3 and Matrix3 never are aligned ones, so that the
+// layout of public structs does not depend on the instruction set a program is compiled for.
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace sheave {
+
+using Vector3 = Eigen::Vector3d;
+using Matrix3 = Eigen::Matrix3d;
+using Quaternion = Eigen::Quaternion<double, Eigen::DontAlign>;
+
+constexpr double pi = 3.14159265358979323846;
+
+/// The rotation by |turn| radians about turn/|turn| [rad], exact to rounding for any size.
+/// Small turns (every correction of a solver is one) use the Taylor series of sin and cos, which
+/// at |turn| < 0.2 is exact to the last bit and several times faster.
+[[nodiscard]] inline Quaternion rotation_by(const Vector3& turn) {
+  const double half_squared = 0.25 * turn.squaredNorm();
+  double half_cosine = 0.0;
+  double half_sinc = 0.0;  // sin(half angle) / half angle
+  if (half_squared < 0.01) {
+    const double t = half_squared;
+    half_cosine = 1.0 - t / 2.0 * (1.0 - t / 12.0 * (1.0 - t / 30.0 * (1.0 - t / 56.0 * (1.0 - t / 90.0))));
+    half_sinc = 1.0 - t / 6.0 * (1.0 - t / 20.0 * (1.0 - t / 42.0 * (1.0 - t / 72.0 * (1.0 - t / 110.0))));
+  } else {
+    const double half_angle = std::sqrt(half_squared);
+    half_cosine = std::cos(half_angle);
+    half_sinc = std::sin(half_angle) / half_angle;
+  }
+  const double scale = 0.5 * half_sinc;
+  return {half_cosine, scale * turn.x(), scale * turn.y(), scale * turn.z()};
+}
+
+/// `orientation` turned further by the world-frame rotation vector `turn` [rad]. One Newton step
+/// towards unit length undoes rounding, so that a unit quaternion stays one for ever.
+[[nodiscard]] inline Quaternion turned(const Quaternion& orientation, const Vector3& turn) {
+  Quaternion result = rotation_by(turn) * orientation;
+  result.coeffs() *= 1.5 - 0.5 * result.squaredNorm();
+  return result;
+}
+
+/// Some unit vector perpendicular to the unit vector `direction`; a continuous choice is
+/// impossible, so callers must not depend on which one.
+[[nodiscard]] inline Vector3 any_perpendicular(const Vector3& direction) {
+  const Vector3 helper = std::abs(direction.x()) < 0.6 ? Vector3::UnitX() : Vector3::UnitY();
+  return direction.cross(helper).normalized();
+}
+
+}  // namespace sheave

@@ -1,0 +1,241 @@
+#include "engine/world.h"
+
+#include "engine/contacts/ground_batch.h"
+#include "engine/field_check.h"
+
+namespace sheave {
+namespace {
+
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
+
+/// Beyond this many scene sizes from the origin, or per substep, a state means nothing any more:
+/// with 16 digits, positions there have lost the scene's own length scale.
+constexpr double runaway_sizes = 1e9;
+
+void check_joints(const Model& model, const BodySet& bodies, Errors& errors) {
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const JointDef& joint = *model.joints[i];
+    const std::string path = "/joints/" + std::to_string(i);
+    for (std::size_t k = 0; k < i; ++k) {
+      if (model.joints[k]->name == joint.name) {
+        errors.push_back({path + "/name", "two joints are called \"" + joint.name +
+                                              "\"; names must differ"});
+        break;
+      }
+    }
+    const std::size_t before = errors.size();
+    check_fields(JointDef::common_field_table(), &joint, path, errors);
+    for (const auto& entry : joint_types()) {
+      if (entry.name == joint.type()) check_fields(entry.fields(), joint.settings(), path, errors);
+    }
+    if (errors.size() > before) continue;
+    for (const Error& error : joint.validate(bodies, path)) errors.push_back(error);
+  }
+}
+
+Errors check_model(const Model& model, const BodySet& bodies) {
+  Errors errors;
+  for (int i = 0; i < 3; ++i) {
+    if (!std::isfinite(model.gravity[i])) {
+      errors.push_back({"/gravity/" + std::to_string(i), "gravity must be finite"});
+    }
+  }
+  check_fields(StepSettings::field_table(), &model.step, "/step", errors);
+  if (model.ground) {
+    check_fields(GroundDef::field_table(), &*model.ground, "/ground", errors);
+    if (!(model.ground->normal.norm() > 1e-12)) {
+      errors.push_back({"/ground/normal", "the normal must have a direction; its length is 0"});
+    }
+  }
+  check_joints(model, bodies, errors);
+  return errors;
+}
+
+/// The batches a model itself asks for, joints in the order of the registry.
+std::vector<std::unique_ptr<ConstraintBatch>> model_features(const Model& model,
+                                                             const BodySet& bodies) {
+  std::vector<std::unique_ptr<ConstraintBatch>> features;
+  for (const auto& entry : joint_types()) {
+    std::vector<const JointDef*> joints;
+    for (const auto& joint : model.joints) {
+      if (joint->type() == entry.name) joints.push_back(joint.get());
+    }
+    if (!joints.empty()) features.push_back(joints.front()->make_batch(bodies, joints));
+  }
+  if (model.ground) features.push_back(make_ground_batch(*model.ground, bodies));
+  return features;
+}
+
+}  // namespace
+
+struct World::Content {
+  Model model;
+  std::shared_ptr<const BodySet> bodies;
+  std::vector<std::unique_ptr<ConstraintBatch>> features;
+  State state;
+  Substep substep;
+  std::vector<Stage> stages;
+
+  Content(Model m, std::shared_ptr<const BodySet> b,
+          std::vector<std::unique_ptr<ConstraintBatch>> f, State s)
+      : model(std::move(m)),
+        bodies(std::move(b)),
+        features(std::move(f)),
+        state(std::move(s)),
+        substep(*bodies, state, model.step.dt / model.step.substeps, model.step.iterations),
+        stages(substep_stages(model, features)) {
+    substep.next = state;
+  }
+
+  /// The first body whose new state is not finite or has run away.
+  [[nodiscard]] std::optional<Divergence> find_divergence() const {
+    const double farthest = runaway_sizes * bodies->scale();
+    for (int i = 0; i < bodies->count(); ++i) {
+      const BodyState& body = substep.next.bodies[at(i)];
+      const char* what = nullptr;
+      // Comparisons are written so that NaN fails them.
+      if (!(body.position.cwiseAbs().maxCoeff() <= farthest)) what = "position";
+      if (!(body.velocity.cwiseAbs().maxCoeff() * substep.h <= farthest)) what = "velocity";
+      if (!body.orientation.coeffs().allFinite()) what = "orientation";
+      if (!(body.angular_velocity.cwiseAbs().maxCoeff() * substep.h <= runaway_sizes)) {
+        what = "angular velocity";
+      }
+      if (what == nullptr) continue;
+      const double time = substep.next.time;
+      return Divergence{{i}, time, "body \"" + bodies->name(i) + "\": " + what +
+                                       " is not finite or has run away at time " +
+                                       number_text(time) + " s"};
+    }
+    return std::nullopt;
+  }
+};
+
+World::World(std::unique_ptr<Content> content) : content_(std::move(content)) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+Result<World> World::create(Model model, std::vector<std::unique_ptr<ConstraintBatch>> features) {
+  Result<BodySet> bodies = BodySet::create(model);
+  if (!bodies) return bodies.errors();
+  auto shared = std::make_shared<const BodySet>(std::move(*bodies));
+  return create(std::move(model), std::move(shared), std::move(features));
+}
+
+Result<World> World::create(Model model, std::shared_ptr<const BodySet> bodies,
+                            std::vector<std::unique_ptr<ConstraintBatch>> features) {
+  Errors errors = check_model(model, *bodies);
+  if (!errors.empty()) return errors;
+  std::vector<std::unique_ptr<ConstraintBatch>> all = model_features(model, *bodies);
+  for (auto& feature : features) all.push_back(std::move(feature));
+  State state = bodies->initial_state();
+  for (const auto& feature : all) state.features.push_back(feature->initial_state());
+  return World(std::make_unique<Content>(std::move(model), std::move(bodies), std::move(all),
+                                         std::move(state)));
+}
+
+StepReport World::step() {
+  Content& c = *content_;
+  StepReport report;
+  c.substep.statistics = {};
+  const int substeps = c.model.step.substeps;
+  for (int i = 0; i < substeps; ++i) {
+    // Time comes from counters, not from a running sum, so that it does not drift.
+    const double end = static_cast<double>(i + 1) / substeps;
+    c.substep.restart();
+    c.substep.next.time = (static_cast<double>(c.state.steps) + end) * c.model.step.dt;
+    for (const Stage& stage : c.stages) stage.run(c.substep);
+    report.divergence = c.find_divergence();
+    if (report.divergence) break;
+    // Same shape on both sides, so this copies without allocating.
+    c.state.bodies = c.substep.next.bodies;
+    c.state.features = c.substep.next.features;
+    c.state.time = c.substep.next.time;
+  }
+  if (report.ok()) ++c.state.steps;
+  report.statistics = c.substep.statistics;
+  return report;
+}
+
+const Model& World::model() const { return content_->model; }
+const BodySet& World::bodies() const { return *content_->bodies; }
+const State& World::state() const { return content_->state; }
+const std::vector<Stage>& World::stages() const { return content_->stages; }
+std::span<const std::unique_ptr<ConstraintBatch>> World::features() const {
+  return content_->features;
+}
+const FeatureState& World::feature_state(std::size_t index) const {
+  return content_->state.features[index];
+}
+
+Errors World::restore(const State& state) {
+  const State& own = content_->state;
+  bool fits = state.bodies.size() == own.bodies.size() &&
+              state.features.size() == own.features.size();
+  for (std::size_t i = 0; fits && i < own.features.size(); ++i) {
+    fits = state.features[i].reals.size() == own.features[i].reals.size() &&
+           state.features[i].integers.size() == own.features[i].integers.size();
+  }
+  if (!fits) {
+    return {{"", "the state does not belong to this world: it must have the same bodies, joints "
+                 "and cables"}};
+  }
+  content_->state = state;
+  content_->substep.next = state;
+  return {};
+}
+
+Energy World::energy() const {
+  const Content& c = *content_;
+  Energy energy;
+  for (int i = 0; i < c.bodies->count(); ++i) {
+    const BodyProperties& body = (*c.bodies)[i];
+    const BodyState& state = c.state.bodies[at(i)];
+    if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) continue;
+    const Vector3& w = state.angular_velocity;
+    if (body.mobility == Mobility::rotor) {
+      const Vector3 axis = body.mount >= 0
+                               ? Vector3(c.state.bodies[at(body.mount)].orientation * body.axis)
+                               : body.axis;
+      const double spin = axis.dot(w);
+      energy.kinetic += 0.5 * body.axis_inertia * spin * spin;
+      continue;
+    }
+    const Vector3 own_w = state.orientation.conjugate() * w;
+    energy.kinetic +=
+        0.5 * body.mass * state.velocity.squaredNorm() + 0.5 * own_w.dot(body.inertia * own_w);
+    energy.potential -= state.position.dot(body.mass * c.model.gravity +
+                                           c.model.bodies[at(i)].force);
+  }
+  for (std::size_t i = 0; i < c.features.size(); ++i) {
+    energy.elastic += c.features[i]->elastic_energy(*c.bodies, c.state, c.state.features[i]);
+  }
+  return energy;
+}
+
+Vector3 World::point(BodyId body, const Vector3& local) const {
+  const int i = content_->bodies->index(body);
+  if (body.is_world()) return local;
+  const BodyState& state = content_->state.bodies[at(i)];
+  return state.position + state.orientation * (local - (*content_->bodies)[i].center_of_mass);
+}
+
+Vector3 World::position(BodyId body) const { return point(body, Vector3::Zero()); }
+
+Quaternion World::orientation(BodyId body) const {
+  if (body.is_world()) return Quaternion::Identity();
+  return content_->state.bodies[at(body.index)].orientation;
+}
+
+Vector3 World::velocity(BodyId body) const {
+  if (body.is_world()) return Vector3::Zero();
+  const BodyState& state = content_->state.bodies[at(body.index)];
+  return state.velocity + state.angular_velocity.cross(position(body) - state.position);
+}
+
+Vector3 World::angular_velocity(BodyId body) const {
+  if (body.is_world()) return Vector3::Zero();
+  return content_->state.bodies[at(body.index)].angular_velocity;
+}
+
+}  // namespace sheave

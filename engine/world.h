@@ -1,0 +1,84 @@
+#pragma once
+// The simulation of one model.
+//
+//   sheave::Model model;                          // bodies, joints, gravity, step settings
+//   auto world = sheave::World::create(model);    // or with features: cables
+//   if (!world) report(world.errors());
+//   while (world->state().time < 2.0) world->step();
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/model.h"
+#include "engine/step.h"
+
+namespace sheave {
+
+/// A state that no longer means anything: not finite, or out of all proportion to the scene.
+struct Divergence {
+  BodyId body;       ///< the first bad body
+  double time = 0.0; ///< end of the substep that produced it [s]
+  std::string message;  ///< one sentence: body, quantity, time
+};
+
+/// What one step did.
+struct StepReport {
+  StepStatistics statistics;
+  std::optional<Divergence> divergence;  ///< if set, the state is the last good one
+  [[nodiscard]] bool ok() const { return !divergence.has_value(); }
+};
+
+/// Energy of all bodies and features [J].
+struct Energy {
+  double kinetic = 0.0;
+  double potential = 0.0;  ///< of gravity and of constant forces; zero at the world's origin
+  double elastic = 0.0;
+  [[nodiscard]] double total() const { return kinetic + potential + elastic; }
+};
+
+/// A model, its features and their state. Movable, not copyable; copy its State.
+class World {
+ public:
+  /// Builds the features that the model itself asks for (joints, ground) and appends `features`.
+  static Result<World> create(Model model,
+                              std::vector<std::unique_ptr<ConstraintBatch>> features = {});
+  /// The same for bodies that are already compiled (features of other libraries need them first).
+  static Result<World> create(Model model, std::shared_ptr<const BodySet> bodies,
+                              std::vector<std::unique_ptr<ConstraintBatch>> features);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  /// Advances by dt. After a divergence the state stays at the last good substep.
+  StepReport step();
+
+  [[nodiscard]] const Model& model() const;
+  [[nodiscard]] const BodySet& bodies() const;
+  [[nodiscard]] const State& state() const;
+  [[nodiscard]] const std::vector<Stage>& stages() const;  ///< of one substep
+  [[nodiscard]] std::span<const std::unique_ptr<ConstraintBatch>> features() const;
+  /// State of the feature at this index of features().
+  [[nodiscard]] const FeatureState& feature_state(std::size_t index) const;
+
+  /// Goes back (or ahead) to a state of this world; an error if its shape does not fit.
+  [[nodiscard]] Errors restore(const State& state);
+
+  [[nodiscard]] Energy energy() const;
+  /// Pose of the body frame's origin [m] (not of the centre of mass).
+  [[nodiscard]] Vector3 position(BodyId body) const;
+  [[nodiscard]] Quaternion orientation(BodyId body) const;
+  /// Velocity of the body frame's origin [m/s].
+  [[nodiscard]] Vector3 velocity(BodyId body) const;
+  [[nodiscard]] Vector3 angular_velocity(BodyId body) const;
+  /// World position of the body-frame point `local` [m].
+  [[nodiscard]] Vector3 point(BodyId body, const Vector3& local) const;
+
+ private:
+  struct Content;
+  explicit World(std::unique_ptr<Content> content);
+  std::unique_ptr<Content> content_;
+};
+
+}  // namespace sheave
