@@ -94,6 +94,7 @@ class CableCompiler {
         continue;
       }
       links_.push_back(*compiled);
+      links_.back().centered = compiled->center.isZero(0.0);
       const bool end = !def.closed && (i == 0 || i + 1 == def.links.size());
       check_stored_length(*compiled, end, "/links/" + std::to_string(i));
     }

@@ -48,22 +48,23 @@ struct SpanGeometry {
                                               const Vector3& normal) {
   SpanGeometry span;
   const Vector3 apart = center2 - center1;
-  const Vector3 across = normal.cross(apart);
+  const Vector3 across = cross(normal, apart);
   const double difference = signed_radius2 - signed_radius1;
-  const double distance_squared = apart.squaredNorm();
+  const double distance_squared = dot(apart, apart);
   const double length_squared = distance_squared - difference * difference;
   if (length_squared > 0.0) {
     span.length = std::sqrt(length_squared);
-    span.direction = (span.length * apart - difference * across) / distance_squared;
+    const double scale = 1.0 / distance_squared;
+    span.direction = sum(span.length * scale * apart, -difference * scale, across);
   } else {
     span.has_tangent = false;
     if (distance_squared > 0.0) {
       span.direction = across * ((difference > 0.0 ? -1.0 : 1.0) / std::sqrt(distance_squared));
     }
   }
-  const Vector3 left = normal.cross(span.direction);
-  span.start = center1 - signed_radius1 * left;
-  span.end = center2 - signed_radius2 * left;
+  const Vector3 left = cross(normal, span.direction);
+  span.start = sum(center1, -signed_radius1, left);
+  span.end = sum(center2, -signed_radius2, left);
   return span;
 }
 
@@ -75,8 +76,8 @@ struct SpanGeometry {
 /// one substep, come from the series of the arc sine to full precision, large ones from atan2.
 [[nodiscard]] inline double angle_between(const Vector3& from, const Vector3& to,
                                           const Vector3& normal) {
-  const double sine = normal.dot(from.cross(to));
-  const double cosine = from.dot(to);
+  const double sine = dot(normal, cross(from, to));
+  const double cosine = dot(from, to);
   const double s = sine * sine;
   if (s < 1e-3 && cosine > 0.0) {
     // The first term left out is 63/2816 s^5 < 3e-17.

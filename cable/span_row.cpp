@@ -8,15 +8,14 @@ namespace {
 std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Centre of the link now; bodies that hold it at their centre of mass need no rotation.
-Vector3 center_of(const Substep& substep, const LinkGeometry& link) {
-  if (link.mounted && link.carrier == link.body) return substep.point(link.body, link.center);
-  const MovingBody& carrier = substep.moving[at(link.carrier)];
-  if (link.center.isZero(0.0)) return carrier.position;
-  return carrier.position + carrier.orientation * link.center;
+inline Vector3 center_of(const Substep& substep, const LinkGeometry& link) {
+  const bool on_mounted_rotor = link.mounted && link.carrier == link.body;
+  if (link.centered && !on_mounted_rotor) return substep.moving[at(link.carrier)].position;
+  return substep.point(link.carrier, link.center);
 }
 
 /// Adds a unit force along `direction` at the world point `point` of the link's body.
-void add_link_force(const Substep& substep, Row& row, const LinkGeometry& link,
+inline void add_link_force(const Substep& substep, Row& row, const LinkGeometry& link,
                     const Vector3& point, const Vector3& direction) {
   if (link.mounted) {
     substep.add_force(row, link.body, point, direction);
@@ -24,14 +23,15 @@ void add_link_force(const Substep& substep, Row& row, const LinkGeometry& link,
   }
   const MovingBody& body = substep.moving[at(link.body)];
   if (!body.translates && !body.rotates) return;
-  row.add(link.body, direction, (point - body.position).cross(direction));
+  row.add(link.body, direction, cross(point - body.position, direction));
 }
 
 /// Velocity of the link's centre at the start of the substep.
 Vector3 start_velocity(const Substep& substep, const LinkGeometry& link) {
   if (link.carrier == substep.bodies.count()) return Vector3::Zero();
   const BodyState& carrier = substep.start.bodies[at(link.carrier)];
-  return carrier.velocity + carrier.angular_velocity.cross(carrier.orientation * link.center);
+  if (link.centered) return carrier.velocity;
+  return carrier.velocity + cross(carrier.angular_velocity, carrier.orientation * link.center);
 }
 
 /// Unit vector from the centre of `circle` to `point` on it.
@@ -43,9 +43,10 @@ Vector3 radial(const LinkCircle& circle, const Vector3& point) {
 double relative_turn(const Substep& substep, const LinkGeometry& link, const Vector3& start_radial,
                      const Vector3& point) {
   const MovingBody& carrier = substep.moving[at(link.carrier)];
-  const Vector3 normal = carrier.orientation * link.normal;
+  const Quaternion orientation = substep.orientation(link.carrier);
+  const Vector3 normal = orientation * link.normal;
   const Vector3 center = center_of(substep, link);
-  const Vector3 now = carrier.orientation.conjugate() * (point - center);
+  const Vector3 now = orientation.conjugate() * (point - center);
   const double raw =
       angle_between(start_radial, now / std::abs(link.signed_radius), link.normal);
   const double carrier_turn = normal.dot(carrier.turn);
@@ -89,11 +90,11 @@ void add_skew_terms(const Substep& substep, const LinkGeometry& first, const Lin
 }  // namespace
 
 LinkCircle circle_of(const Substep& substep, const LinkGeometry& link) {
-  return {center_of(substep, link), substep.moving[at(link.carrier)].orientation * link.normal,
+  return {center_of(substep, link), substep.orientation(link.carrier) * link.normal,
           link.signed_radius};
 }
 
-SpanGeometry span_geometry(const Substep& substep, const SpanSetup& setup,
+inline SpanGeometry span_geometry_now(const Substep& substep, const SpanSetup& setup,
                            const LinkGeometry& first, const LinkGeometry& second) {
   switch (setup.kind) {
     case SpanKind::straight:
@@ -107,6 +108,11 @@ SpanGeometry span_geometry(const Substep& substep, const SpanSetup& setup,
   return spatial_span(circle_of(substep, first), circle_of(substep, second));
 }
 
+SpanGeometry span_geometry(const Substep& substep, const SpanSetup& setup,
+                           const LinkGeometry& first, const LinkGeometry& second) {
+  return span_geometry_now(substep, setup, first, second);
+}
+
 SpanReference span_reference(const Substep& substep, const SpanSetup& setup,
                              const LinkGeometry& first, const LinkGeometry& second,
                              double rest_length) {
@@ -118,16 +124,16 @@ SpanReference span_reference(const Substep& substep, const SpanSetup& setup,
     reference.direction = span.direction;
     const Vector3 apart = center_of(substep, second) - center_of(substep, first);
     const Vector3 velocity = start_velocity(substep, second) - start_velocity(substep, first);
-    const double distance_squared = apart.squaredNorm();
+    const double distance_squared = dot(apart, apart);
     if (distance_squared > 0.0) {
       reference.expected_turn =
-          substep.h * setup.normal.dot(apart.cross(velocity)) / distance_squared;
+          substep.h * dot(setup.normal, cross(apart, velocity)) / distance_squared;
     }
     return reference;
   }
   const auto own_radial = [&](const LinkGeometry& link, const Vector3& point) -> Vector3 {
     if (link.signed_radius == 0.0) return Vector3::Zero();
-    return substep.moving[at(link.carrier)].orientation.conjugate() *
+    return substep.orientation(link.carrier).conjugate() *
            radial(circle_of(substep, link), point);
   };
   reference.first_radial = own_radial(first, span.start);
@@ -147,7 +153,7 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
           unwrapped(angle_between(reference.direction, geometry.direction, setup.normal),
                     reference.expected_turn);
       const auto body_turn = [&](const LinkGeometry& link) {
-        return setup.normal.dot(substep.moving[at(link.body)].turn);
+        return dot(setup.normal, substep.moving[at(link.body)].turn);
       };
       transport.from_first = -setup.first_radius * (turn - body_turn(first));
       transport.from_second = setup.second_radius * (turn - body_turn(second));
@@ -172,7 +178,7 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
 SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
                            const LinkGeometry& first, const LinkGeometry& second,
                            const SpanReference& reference, Row& row) {
-  const SpanGeometry span = span_geometry(substep, setup, first, second);
+  const SpanGeometry span = span_geometry_now(substep, setup, first, second);
   const SpanTransport transport =
       span_transport(substep, setup, first, second, reference, span);
   row.value =

@@ -25,7 +25,10 @@ namespace sheave {
 /// A body during a substep: the only body data that constraint solving touches.
 struct MovingBody {
   Vector3 position = Vector3::Zero();               ///< of the centre of mass [m]
-  Quaternion orientation = Quaternion::Identity();  ///< own frame to world frame
+  /// Own frame to world frame. Of a body that does not track it (a rotor on a fixed axle, which
+  /// most rows never ask for its orientation) at the start of the substep; Substep::orientation()
+  /// then computes the current one.
+  Quaternion orientation = Quaternion::Identity();
   /// Rotation since the start of the substep [rad], as the sum of all rotation vectors applied. It
   /// is not wrapped: a wheel may turn several times in one substep.
   Vector3 turn = Vector3::Zero();
@@ -33,6 +36,7 @@ struct MovingBody {
   Matrix3 inverse_inertia = Matrix3::Zero();  ///< [1/(kg m2)], world frame
   bool translates = false;                    ///< inverse_mass is not zero
   bool rotates = false;                       ///< inverse_inertia is not zero
+  bool tracks_orientation = true;             ///< `orientation` follows every correction
   Vector3 start_position = Vector3::Zero();   ///< position at the start of the substep [m]
 };
 
@@ -81,16 +85,29 @@ struct Row {
   }
 };
 
-/// w = grad C W grad C^T [1/kg]: how easily the row's bodies yield along its gradient.
-[[nodiscard]] inline double effective_inverse_mass(const Row& row,
-                                                   std::span<const MovingBody> bodies) {
+/// W grad C^T of one row, body by body: how its bodies respond to a unit multiplier.
+struct RowResponse {
+  std::array<Vector3, Row::max_terms> linear;   ///< [m per unit]
+  std::array<Vector3, Row::max_terms> angular;  ///< [rad per unit]
+  double inverse_mass = 0.0;  ///< w = grad C W grad C^T [1/kg]: how easily the row yields
+};
+
+/// The response of `row` at the bodies' current inverse masses.
+inline void respond(const Row& row, std::span<const MovingBody> bodies, RowResponse& response) {
   double w = 0.0;
-  for (const RowTerm& term : row.active_terms()) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(row.term_count); ++i) {
+    const RowTerm& term = row.terms[i];
     const MovingBody& body = bodies[static_cast<std::size_t>(term.body)];
-    if (body.translates) w += term.linear.dot(body.inverse_mass * term.linear);
-    if (body.rotates) w += term.angular.dot(body.inverse_inertia * term.angular);
+    if (body.translates) {
+      response.linear[i] = times(body.inverse_mass, term.linear);
+      w += dot(term.linear, response.linear[i]);
+    }
+    if (body.rotates) {
+      response.angular[i] = times(body.inverse_inertia, term.angular);
+      w += dot(term.angular, response.angular[i]);
+    }
   }
-  return w;
+  response.inverse_mass = w;
 }
 
 /// grad C (x - x_start): change of the row's value over the substep so far, to first order.
@@ -98,20 +115,21 @@ struct Row {
   double change = 0.0;
   for (const RowTerm& term : row.active_terms()) {
     const MovingBody& body = bodies[static_cast<std::size_t>(term.body)];
-    change += term.linear.dot(body.position - body.start_position) + term.angular.dot(body.turn);
+    change += dot(term.linear, body.position - body.start_position) + dot(term.angular, body.turn);
   }
   return change;
 }
 
 /// x <- x + W grad C^T increment.
-inline void apply_multiplier(const Row& row, double increment, std::span<MovingBody> bodies) {
-  for (const RowTerm& term : row.active_terms()) {
-    MovingBody& body = bodies[static_cast<std::size_t>(term.body)];
-    if (body.translates) body.position += body.inverse_mass * (increment * term.linear);
+inline void apply_multiplier(const Row& row, const RowResponse& response, double increment,
+                             std::span<MovingBody> bodies) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(row.term_count); ++i) {
+    MovingBody& body = bodies[static_cast<std::size_t>(row.terms[i].body)];
+    if (body.translates) body.position = sum(body.position, increment, response.linear[i]);
     if (body.rotates) {
-      const Vector3 turn = body.inverse_inertia * (increment * term.angular);
+      const Vector3 turn = increment * response.angular[i];
       body.turn += turn;
-      body.orientation = turned(body.orientation, turn);
+      if (body.tracks_orientation) body.orientation = turned(body.orientation, turn);
     }
   }
 }
@@ -122,7 +140,9 @@ inline void apply_multiplier(const Row& row, double increment, std::span<MovingB
 inline double solve_row(const Row& row, double h, double& multiplier,
                         std::span<MovingBody> bodies) {
   const double scaled_compliance = row.compliance / (h * h);
-  double w = effective_inverse_mass(row, bodies);
+  RowResponse response;
+  respond(row, bodies, response);
+  double w = response.inverse_mass;
   double error = row.value + scaled_compliance * multiplier;
   if (row.damping > 0.0) {
     const double gamma = row.compliance * row.damping / h;
@@ -137,7 +157,7 @@ inline double solve_row(const Row& row, double h, double& multiplier,
   const double increment = next - multiplier;
   if (increment == 0.0) return 0.0;
   multiplier = next;
-  apply_multiplier(row, increment, bodies);
+  apply_multiplier(row, response, increment, bodies);
   return std::abs(increment) * denominator;
 }
 

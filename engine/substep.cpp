@@ -57,6 +57,7 @@ Substep::Substep(const BodySet& body_set, const State& state_at_start, double le
                       mobility == Mobility::slider;
     body.rotates = mobility == Mobility::free || mobility == Mobility::planar ||
                    mobility == Mobility::rotor;
+    body.tracks_orientation = mobility != Mobility::rotor;
     body.orientation = start.bodies[at(i)].orientation;
     if (bodies[i].mount < 0) set_inverse_masses(bodies[i], body);
   }
@@ -84,7 +85,10 @@ void Substep::restart() {
 
 Quaternion Substep::orientation(int body) const {
   const BodyProperties& properties = bodies[body];
-  if (properties.mount < 0) return moving[at(body)].orientation;
+  if (properties.mount < 0) {
+    const MovingBody& own = moving[at(body)];
+    return own.tracks_orientation ? own.orientation : turned(own.orientation, own.turn);
+  }
   const MovingBody& carrier = moving[at(properties.mount)];
   const Vector3 axis = carrier.orientation * properties.axis;
   const double angle =
@@ -104,13 +108,13 @@ void Substep::add_force(Row& row, int body, const Vector3& at_point,
   const int mount = bodies[body].mount;
   if (mount < 0) {
     const Vector3 arm = at_point - moving[at(body)].position;
-    row.add(body, direction, arm.cross(direction));
+    row.add(body, direction, cross(arm, direction));
     return;
   }
   const MovingBody& carrier = moving[at(mount)];
   const Vector3 axis = carrier.orientation * bodies[body].axis;
-  const Vector3 spin = axis * axis.dot((at_point - position(body)).cross(direction));
-  row.add(mount, direction, (at_point - carrier.position).cross(direction) - spin);
+  const Vector3 spin = axis * dot(axis, cross(at_point - position(body), direction));
+  row.add(mount, direction, cross(at_point - carrier.position, direction) - spin);
   row.add(body, Vector3::Zero(), spin);
 }
 

@@ -83,7 +83,7 @@ void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
   const double spin = axis.dot(substep.start.bodies[at(i)].angular_velocity) +
                       substep.h * torque / body.axis_inertia;
   moving.turn = (substep.h * spin) * axis;
-  if (body.mount < 0) moving.orientation = turned(moving.orientation, moving.turn);
+  if (moving.tracks_orientation) moving.orientation = turned(moving.orientation, moving.turn);
   substep.predicted[at(i)].angular_velocity = spin * axis;
 }
 
@@ -112,7 +112,7 @@ void predict(Substep& substep) {
       // W M (v + h g + h f / m): the inverse mass matrix keeps what the mobility allows.
       const Vector3 force =
           body.mass * substep.bodies.gravity() + substep.bodies.definition(i).force;
-      const Vector3 velocity = start.velocity + h * (moving.inverse_mass * force);
+      const Vector3 velocity = start.velocity + h * times(moving.inverse_mass, force);
       moving.position = start.position + h * velocity;
     }
     switch (body.mobility) {

@@ -13,7 +13,8 @@
 // new triangle cannot be degenerate, because p on the line of e would be in the plane of the
 // visible face at e, and then that face would not be visible.
 //
-// Cost: O(n log n) typical. 4096 points on a sphere, the most a polyhedron may have, take 15 ms.
+// Cost: O(n log n) typical. 4096 points on a sphere, the most a polyhedron may have, take some
+// 0.1 s; a hundred points, well under a millisecond.
 
 #include <algorithm>
 #include <cstdint>
@@ -147,23 +148,18 @@ class GrowingHull {
     faces_.push_back(std::move(face));
   }
 
-  /// The highest point above a face if it stands out, otherwise -1. Of points that are equally high
-  /// up to rounding the last: among the points of a parallel flat face, a corner of that face.
+  /// The highest point above a face if it stands out, otherwise -1. Of several the last, so that it
+  /// is a corner of the hull and no middle of one of its faces.
   [[nodiscard]] int highest_above(const Face& face) const {
-    const double twice_area = length_of(face.normal);
-    std::vector<double> heights;
+    int best = -1;
+    Wide best_height = 0;
     for (const int point : face.above) {
-      heights.push_back(static_cast<double>(height(face.normal, face.corners[0], point)) /
-                        twice_area);
+      const Wide here = height(face.normal, face.corners[0], point);
+      if (here < best_height) continue;
+      best = point;
+      best_height = here;
     }
-    if (heights.empty()) return -1;
-    const double most = *std::ranges::max_element(heights);
-    if (most <= flat_cells) return -1;
-    std::size_t chosen = heights.size() - 1;
-    while (heights[chosen] < most - flat_cells) {
-      --chosen;
-    }
-    return face.above[chosen];
+    return static_cast<double>(best_height) > flat_cells * length_of(face.normal) ? best : -1;
   }
 
   void add(int point) {
