@@ -34,9 +34,7 @@ struct CableDef {
 
   /// Every member but the links.
   static std::span<const Field> field_table();
-  [[nodiscard]] int span_count() const {
-    return static_cast<int>(links.size()) - (closed ? 0 : 1);
-  }
+  [[nodiscard]] int span_count() const { return static_cast<int>(links.size()) - (closed ? 0 : 1); }
 };
 
 }  // namespace sheave

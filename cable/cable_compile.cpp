@@ -9,7 +9,9 @@
 namespace sheave {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
 
 /// A length to be printed for people.
 std::string metres(double length) {
@@ -43,8 +45,7 @@ class CableCompiler {
     CableSystem& s = *system_;
     const std::size_t spans = s.spans_.size();
     s.initial_.reals = rest_lengths_;
-    s.initial_.reals.insert(s.initial_.reals.end(), stored_lengths_.begin(),
-                            stored_lengths_.end());
+    s.initial_.reals.insert(s.initial_.reals.end(), stored_lengths_.begin(), stored_lengths_.end());
     s.initial_.reals.resize(s.initial_.reals.size() + 3 * spans, 0.0);  // tensions, remainders
     s.references_.resize(spans);
     s.multipliers_.resize(spans);
@@ -60,7 +61,8 @@ class CableCompiler {
   void check_settings(const CableDef& def) {
     check_fields(CableDef::field_table(), &def, path_, errors_);
     if (def.name.empty()) fail("/name", "a cable needs a name that is not empty");
-    if (!names_.insert(def.name).second) fail("/name", "two cables have this name; names must differ");
+    if (!names_.insert(def.name).second)
+      fail("/name", "two cables have this name; names must differ");
     if (def.compliance && def.axial_stiffness) {
       fail("/axial_stiffness", "compliance and axial_stiffness exclude each other");
     }
@@ -71,7 +73,8 @@ class CableCompiler {
     if (def.links.size() < 2) {
       fail("/links", "a cable needs at least 2 links; it has " + std::to_string(def.links.size()));
     }
-    if (!def.rest_lengths.empty() && static_cast<int>(def.rest_lengths.size()) != def.span_count()) {
+    if (!def.rest_lengths.empty() &&
+        static_cast<int>(def.rest_lengths.size()) != def.span_count()) {
       fail("/rest_lengths", "one rest length per span is needed, " +
                                 std::to_string(def.span_count()) + "; there are " +
                                 std::to_string(def.rest_lengths.size()));
@@ -171,22 +174,28 @@ class CableCompiler {
     const double rb = std::abs(b.signed_radius);
     const double distance = (circle_of(now_, b).center - circle_of(now_, a).center).norm();
     if (ra == 0.0 && rb == 0.0) {
-      if (a.body == b.body) fail(field, pair + " are points of one body; the span between them "
-                                               "would do nothing");
+      if (a.body == b.body)
+        fail(field, pair +
+                        " are points of one body; the span between them "
+                        "would do nothing");
       return check_rest_length(def, first, span);
     }
     if (span.has_tangent) return check_rest_length(def, first, span);
     if (ra == 0.0 || rb == 0.0) {
       fail(field, "the attachment at " + link_name(ra == 0.0 ? first : second) +
                       " lies inside the wheel of " + link_name(ra == 0.0 ? second : first) +
-                      ": it is " + metres(distance) + " from the wheel's centre and must be more "
-                      "than the radius, " + metres(ra + rb));
+                      ": it is " + metres(distance) +
+                      " from the wheel's centre and must be more "
+                      "than the radius, " +
+                      metres(ra + rb));
     } else if (distance <= std::abs(ra - rb)) {
       fail(field, "no tangent joins " + pair + ": one wheel lies inside the other");
     } else {
-      fail(field, "no tangent joins " + pair + ": the wheels overlap, and with opposite windings "
-                      "the cable would cross between them; their centres are " + metres(distance) +
-                      " apart and must be more than " + metres(ra + rb) + " apart");
+      fail(field, "no tangent joins " + pair +
+                      ": the wheels overlap, and with opposite windings "
+                      "the cable would cross between them; their centres are " +
+                      metres(distance) + " apart and must be more than " + metres(ra + rb) +
+                      " apart");
     }
   }
 
@@ -240,13 +249,16 @@ class CableCompiler {
                             : link.given_stored_length);
     }
     double total = 0.0;
-    for (const double length : lengths) total += length;
+    for (const double length : lengths)
+      total += length;
     // 50 bits for the cable's length leave 3 of a double's 53 for stretches beyond it.
     int exponent = 0;
     static_cast<void>(std::frexp(total, &exponent));
     cable.quantum = std::ldexp(1.0, exponent - 50);
-    for (double& length : lengths) length = std::round(length / cable.quantum) * cable.quantum;
-    for (const double length : lengths) cable.start_length += length;
+    for (double& length : lengths)
+      length = std::round(length / cable.quantum) * cable.quantum;
+    for (const double length : lengths)
+      cable.start_length += length;
     const auto spans_end = lengths.begin() + cable.span_count;
     rest_lengths_.insert(rest_lengths_.end(), lengths.begin(), spans_end);
     stored_lengths_.insert(stored_lengths_.end(), spans_end, lengths.end());
@@ -275,7 +287,8 @@ class CableCompiler {
 Result<std::unique_ptr<CableSystem>> CableSystem::create(const std::vector<CableDef>& cables,
                                                          const BodySet& bodies) {
   CableCompiler compiler(bodies);
-  for (const CableDef& cable : cables) compiler.add(cable);
+  for (const CableDef& cable : cables)
+    compiler.add(cable);
   return compiler.finish();
 }
 

@@ -13,10 +13,10 @@ namespace sheave {
 struct LinkReport {
   std::string_view type;  ///< "attachment", "rolling", ...
   BodyId body;
-  Vector3 center = Vector3::Zero();  ///< of the wheel, or the point itself [m]
+  Vector3 center = Vector3::Zero();   ///< of the wheel, or the point itself [m]
   Vector3 normal = Vector3::UnitZ();  ///< of the link's plane
-  double radius = 0.0;  ///< [m], 0 for a point
-  int winding = 0;      ///< +1 counter-clockwise, -1 clockwise, 0 for a point
+  double radius = 0.0;                ///< [m], 0 for a point
+  int winding = 0;                    ///< +1 counter-clockwise, -1 clockwise, 0 for a point
   /// Where the cable meets and leaves the body [m]. At the ends of an open cable, where one of the
   /// two does not exist, both are the one that does.
   Vector3 entry = Vector3::Zero();
@@ -29,10 +29,10 @@ struct LinkReport {
 struct SpanReport {
   Vector3 start = Vector3::Zero();  ///< where it leaves its first link [m]
   Vector3 end = Vector3::Zero();    ///< where it meets its second link [m]
-  double length = 0.0;       ///< [m]
-  double rest_length = 0.0;  ///< [m]; greater than length: the span is slack
-  double tension = 0.0;      ///< in the last substep [N], >= 0
-  bool has_tangent = true;   ///< false: the wheels overlap so that no tangent exists
+  double length = 0.0;              ///< [m]
+  double rest_length = 0.0;         ///< [m]; greater than length: the span is slack
+  double tension = 0.0;             ///< in the last substep [N], >= 0
+  bool has_tangent = true;          ///< false: the wheels overlap so that no tangent exists
 };
 
 /// One cable.
@@ -41,7 +41,7 @@ struct CableReport {
   bool closed = false;
   std::vector<LinkReport> links;
   std::vector<SpanReport> spans;  ///< span k joins link k and link k + 1 (cyclic if closed)
-  double total_length = 0.0;  ///< sum of rest lengths and stored lengths [m]
+  double total_length = 0.0;      ///< sum of rest lengths and stored lengths [m]
   /// (total_length - its value at time 0 - what was fed) / that value; the length invariant.
   double length_error = 0.0;
   double max_stretch = 0.0;  ///< largest (length - rest length) / rest length of a rigid span

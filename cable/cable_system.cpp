@@ -7,10 +7,14 @@
 namespace sheave {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
 
 /// The multiple of `quantum`, a power of two, nearest to `length`.
-double quantised(double length, double quantum) { return std::round(length / quantum) * quantum; }
+double quantised(double length, double quantum) {
+  return std::round(length / quantum) * quantum;
+}
 
 }  // namespace
 
@@ -44,10 +48,9 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row) c
   const LinkGeometry& second = links_[at(setup.second)];
   const SpanReference& reference = references_[at(span)];
   row.lower = 0.0;  // a cable pulls and never pushes
-  const SpanGeometry geometry =
-      cable.tangent_update == TangentUpdate::iteration
-          ? evaluate_span(substep, setup, first, second, reference, row)
-          : evaluate_span_frozen(substep, first, second, reference, row);
+  const SpanGeometry geometry = cable.tangent_update == TangentUpdate::iteration
+                                    ? evaluate_span(substep, setup, first, second, reference, row)
+                                    : evaluate_span_frozen(substep, first, second, reference, row);
   row.compliance = compliance_of(cable, row.value + geometry.length);
   row.damping = cable.damping;
   return geometry;
@@ -67,7 +70,8 @@ double CableSystem::sweep(Substep& substep) {
 }
 
 void CableSystem::linearise(Substep& substep, std::vector<Row>& rows) {
-  for (int k = 0; k < row_count(); ++k) evaluate(substep, k, rows.emplace_back());
+  for (int k = 0; k < row_count(); ++k)
+    evaluate(substep, k, rows.emplace_back());
 }
 
 void CableSystem::finish(Substep& substep, FeatureState& next) {
@@ -125,8 +129,7 @@ std::vector<CableSystem::TangentWarning> CableSystem::tangent_warnings() const {
     const Fallback& fallback = fallbacks_[at(k)];
     if (fallback.substeps == 0) continue;
     const CompiledCable& cable = cables_[at(spans_[at(k)].cable)];
-    warnings.push_back(
-        {cable.name, k - cable.first_span, fallback.substeps, fallback.first_time});
+    warnings.push_back({cable.name, k - cable.first_span, fallback.substeps, fallback.first_time});
   }
   return warnings;
 }

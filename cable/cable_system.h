@@ -24,7 +24,7 @@ struct CompiledCable {
   double inverse_stiffness = 0.0;  ///< 1/EA [1/N]; 0 if not of a material
   double damping = 0.0;            ///< [N s/m]
   TangentUpdate tangent_update = TangentUpdate::iteration;
-  double start_length = 0.0;       ///< rest and stored lengths at time 0 [m]
+  double start_length = 0.0;  ///< rest and stored lengths at time 0 [m]
   /// Power of two that all rest and stored lengths are multiples of [m], about 1e-15 of the cable.
   /// Sums and differences of such numbers are exact, so moving cable from span to wheel to span
   /// cannot lose any: the length invariant holds to the last bit, for ever.
@@ -50,7 +50,7 @@ class CableSystem final : public ConstraintBatch {
   /// A span that had no tangent in some substeps since the system was created.
   struct TangentWarning {
     std::string cable;
-    int span = 0;         ///< within its cable
+    int span = 0;  ///< within its cable
     long substeps = 0;
     double first_time = 0.0;  ///< [s]
   };

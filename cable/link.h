@@ -22,11 +22,11 @@ struct LinkGeometry {
   int body = 0;     ///< the body the cable touches: its turning moves cable
   int carrier = 0;  ///< the body that carries `center` and `normal`: of a wheel on a mounted rotor
                     ///< the rotor's carrier, otherwise `body`
-  bool mounted = false;  ///< whether `body` is a mounted rotor
-  Vector3 center = Vector3::Zero();    ///< [m], own frame of the carrier
-  bool centered = false;               ///< `center` is 0, so its position needs no rotation
-  Vector3 normal = Vector3::UnitZ();   ///< unit normal of the link's plane, own frame of the carrier
-  double signed_radius = 0.0;          ///< > 0 counter-clockwise, < 0 clockwise, 0 a point [m]
+  bool mounted = false;               ///< whether `body` is a mounted rotor
+  Vector3 center = Vector3::Zero();   ///< [m], own frame of the carrier
+  bool centered = false;              ///< `center` is 0, so its position needs no rotation
+  Vector3 normal = Vector3::UnitZ();  ///< unit normal of the link's plane, own frame of the carrier
+  double signed_radius = 0.0;         ///< > 0 counter-clockwise, < 0 clockwise, 0 a point [m]
   /// Cable on the body at time 0 [m] as the user gave it; NaN: the arc between the tangents.
   double given_stored_length = 0.0;
   int extra_turns = 0;  ///< whole turns beyond the arc between the tangents

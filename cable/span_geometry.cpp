@@ -12,9 +12,8 @@ bool tangent_point(const LinkCircle& circle, const Vector3& target, bool incomin
   const double off_plane = circle.normal.dot(target - circle.center);
   const Vector3 projected = target - off_plane * circle.normal;
   const SpanGeometry span =
-      incoming
-          ? planar_span(projected, 0.0, circle.center, circle.signed_radius, circle.normal)
-          : planar_span(circle.center, circle.signed_radius, projected, 0.0, circle.normal);
+      incoming ? planar_span(projected, 0.0, circle.center, circle.signed_radius, circle.normal)
+               : planar_span(circle.center, circle.signed_radius, projected, 0.0, circle.normal);
   point = incoming ? span.end : span.start;
   return span.has_tangent;
 }
@@ -30,8 +29,7 @@ SpanGeometry spatial_span(const LinkCircle& first, const LinkCircle& second) {
   Vector3 end = second.center;
   bool has_tangent = true;
   const bool both = first.signed_radius != 0.0 && second.signed_radius != 0.0;
-  const double size =
-      std::max(std::abs(first.signed_radius), std::abs(second.signed_radius));
+  const double size = std::max(std::abs(first.signed_radius), std::abs(second.signed_radius));
   bool converged = false;
   for (int round = 0; round < max_rounds && !converged; ++round) {
     const Vector3 last_start = start;

@@ -81,7 +81,8 @@ struct SpanGeometry {
   const double s = sine * sine;
   if (s < 1e-3 && cosine > 0.0) {
     // The first term left out is 63/2816 s^5 < 3e-17.
-    return sine * (1.0 + s * (1.0 / 6.0 + s * (3.0 / 40.0 + s * (15.0 / 336.0 + s * (105.0 / 3456.0)))));
+    return sine *
+           (1.0 + s * (1.0 / 6.0 + s * (3.0 / 40.0 + s * (15.0 / 336.0 + s * (105.0 / 3456.0)))));
   }
   return std::atan2(sine, cosine);
 }

@@ -5,7 +5,9 @@
 namespace sheave {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
 
 /// Centre of the link now; bodies that hold it at their centre of mass need no rotation.
 inline Vector3 center_of(const Substep& substep, const LinkGeometry& link) {
@@ -16,7 +18,7 @@ inline Vector3 center_of(const Substep& substep, const LinkGeometry& link) {
 
 /// Adds a unit force along `direction` at the world point `point` of the link's body.
 inline void add_link_force(const Substep& substep, Row& row, const LinkGeometry& link,
-                    const Vector3& point, const Vector3& direction) {
+                           const Vector3& point, const Vector3& direction) {
   if (link.mounted) {
     substep.add_force(row, link.body, point, direction);
     return;
@@ -47,8 +49,7 @@ double relative_turn(const Substep& substep, const LinkGeometry& link, const Vec
   const Vector3 normal = orientation * link.normal;
   const Vector3 center = center_of(substep, link);
   const Vector3 now = orientation.conjugate() * (point - center);
-  const double raw =
-      angle_between(start_radial, now / std::abs(link.signed_radius), link.normal);
+  const double raw = angle_between(start_radial, now / std::abs(link.signed_radius), link.normal);
   const double carrier_turn = normal.dot(carrier.turn);
   // In the carrier's frame the tangent point moves against the carrier's rotation.
   const double relative_to_carrier = unwrapped(raw, -carrier_turn);
@@ -95,13 +96,13 @@ LinkCircle circle_of(const Substep& substep, const LinkGeometry& link) {
 }
 
 inline SpanGeometry span_geometry_now(const Substep& substep, const SpanSetup& setup,
-                           const LinkGeometry& first, const LinkGeometry& second) {
+                                      const LinkGeometry& first, const LinkGeometry& second) {
   switch (setup.kind) {
     case SpanKind::straight:
       return straight_span(center_of(substep, first), center_of(substep, second));
     case SpanKind::planar:
-      return planar_span(center_of(substep, first), setup.first_radius,
-                         center_of(substep, second), setup.second_radius, setup.normal);
+      return planar_span(center_of(substep, first), setup.first_radius, center_of(substep, second),
+                         setup.second_radius, setup.normal);
     case SpanKind::spatial:
       break;
   }
@@ -133,8 +134,7 @@ SpanReference span_reference(const Substep& substep, const SpanSetup& setup,
   }
   const auto own_radial = [&](const LinkGeometry& link, const Vector3& point) -> Vector3 {
     if (link.signed_radius == 0.0) return Vector3::Zero();
-    return substep.orientation(link.carrier).conjugate() *
-           radial(circle_of(substep, link), point);
+    return substep.orientation(link.carrier).conjugate() * radial(circle_of(substep, link), point);
   };
   reference.first_radial = own_radial(first, span.start);
   reference.second_radial = own_radial(second, span.end);
@@ -179,10 +179,8 @@ SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
                            const LinkGeometry& first, const LinkGeometry& second,
                            const SpanReference& reference, Row& row) {
   const SpanGeometry span = span_geometry_now(substep, setup, first, second);
-  const SpanTransport transport =
-      span_transport(substep, setup, first, second, reference, span);
-  row.value =
-      reference.rest_length + transport.from_first + transport.from_second - span.length;
+  const SpanTransport transport = span_transport(substep, setup, first, second, reference, span);
+  row.value = reference.rest_length + transport.from_first + transport.from_second - span.length;
   add_link_force(substep, row, first, span.start, span.direction);
   add_link_force(substep, row, second, span.end, -span.direction);
   if (setup.kind == SpanKind::spatial && span.has_tangent && span.length > 0.0) {
@@ -194,9 +192,8 @@ SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
 SpanGeometry evaluate_span_frozen(const Substep& substep, const LinkGeometry& first,
                                   const LinkGeometry& second, const SpanReference& reference,
                                   Row& row) {
-  const SpanGeometry span =
-      straight_span(substep.point(first.body, reference.first_point),
-                    substep.point(second.body, reference.second_point));
+  const SpanGeometry span = straight_span(substep.point(first.body, reference.first_point),
+                                          substep.point(second.body, reference.second_point));
   row.value = reference.rest_length - span.length;
   add_link_force(substep, row, first, span.start, span.direction);
   add_link_force(substep, row, second, span.end, -span.direction);

@@ -52,12 +52,12 @@ struct SpanSetup {
 
 /// What a span remembers during a substep: the reference its transport is measured from.
 struct SpanReference {
-  double rest_length = 0.0;                      ///< at the start of the substep [m]
-  Vector3 direction = Vector3::Zero();           ///< planar: u at the start
-  double expected_turn = 0.0;                    ///< planar: of u over the substep [rad]
-  Vector3 first_radial = Vector3::Zero();        ///< spatial: e1 at the start, carrier's own frame
-  Vector3 second_radial = Vector3::Zero();       ///< spatial: e2 at the start
-  Vector3 first_point = Vector3::Zero();         ///< tangent_update substep: own frame of the body
+  double rest_length = 0.0;                 ///< at the start of the substep [m]
+  Vector3 direction = Vector3::Zero();      ///< planar: u at the start
+  double expected_turn = 0.0;               ///< planar: of u over the substep [rad]
+  Vector3 first_radial = Vector3::Zero();   ///< spatial: e1 at the start, carrier's own frame
+  Vector3 second_radial = Vector3::Zero();  ///< spatial: e2 at the start
+  Vector3 first_point = Vector3::Zero();    ///< tangent_update substep: own frame of the body
   Vector3 second_point = Vector3::Zero();
 };
 

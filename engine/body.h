@@ -33,19 +33,19 @@ struct BodyDef {
   /// rotor only: the body that carries the axle. The rotor's mass and its inertia across the axle
   /// are then part of that body, which may be free, planar, slider, static or kinematic.
   std::optional<BodyId> mount;
-  Vector3 position = Vector3::Zero();                ///< origin of the body frame [m]
-  Quaternion orientation = Quaternion::Identity();   ///< body frame to world frame, unit length
-  Vector3 velocity = Vector3::Zero();                ///< of the body frame's origin [m/s]
-  Vector3 angular_velocity = Vector3::Zero();        ///< [rad/s]; absolute, also of a mounted rotor
-  std::optional<double> mass;     ///< [kg], > 0; excludes density
+  Vector3 position = Vector3::Zero();               ///< origin of the body frame [m]
+  Quaternion orientation = Quaternion::Identity();  ///< body frame to world frame, unit length
+  Vector3 velocity = Vector3::Zero();               ///< of the body frame's origin [m/s]
+  Vector3 angular_velocity = Vector3::Zero();       ///< [rad/s]; absolute, also of a mounted rotor
+  std::optional<double> mass;                       ///< [kg], > 0; excludes density
   std::optional<double> density;  ///< [kg/m3], > 0; mass and inertia follow from the shapes
   /// Moments of inertia [kg m2] about the centre of mass and the body's x, y, z axes, which are
   /// then principal axes. Default: from the shapes, scaled to the mass.
   std::optional<Vector3> inertia;
   Vector3 force = Vector3::Zero();   ///< constant, at the centre of mass [N]
   Vector3 torque = Vector3::Zero();  ///< constant [N m]
-  /// kinematic only: the position is position + velocity t + oscillation (sin(2 pi f t + p) - sin p)
-  /// and the body turns with angular_velocity.
+  /// kinematic only: the position is position + velocity t + oscillation (sin(2 pi f t + p) - sin
+  /// p) and the body turns with angular_velocity.
   Vector3 oscillation = Vector3::Zero();  ///< amplitude [m]
   double oscillation_frequency = 0.0;     ///< f [Hz], >= 0
   double oscillation_phase = 0.0;         ///< p [rad]

@@ -1,7 +1,8 @@
 #include "engine/body_check.h"
 
-#include <Eigen/Eigenvalues>
 #include <set>
+
+#include <Eigen/Eigenvalues>
 
 #include "engine/field_check.h"
 #include "engine/model.h"
@@ -21,7 +22,8 @@ class BodyCheck {
   void run() {
     const std::size_t before = errors_.size();
     check_fields(BodyDef::field_table(), &body_, path_, errors_);
-    for (std::size_t i = 0; i < body_.shapes.size(); ++i) check_shape(i);
+    for (std::size_t i = 0; i < body_.shapes.size(); ++i)
+      check_shape(i);
     if (errors_.size() > before) return;  // what follows computes with these numbers
     check_axis();
     check_mount();
@@ -52,14 +54,15 @@ class BodyCheck {
       if (entry.name != placed.shape->type()) continue;
       check_fields(entry.fields(), placed.shape->settings(), path, errors_);
     }
-    for (const Error& error : placed.shape->validate(path)) errors_.push_back(error);
+    for (const Error& error : placed.shape->validate(path))
+      errors_.push_back(error);
   }
 
   void check_axis() {
     const bool uses_axis = is(Mobility::planar) || is(Mobility::slider) || is(Mobility::rotor);
     if (body_.axis && !uses_axis) {
-      fail("/axis", "mobility " + mobility_name() +
-                        " has no axis; only planar, slider and rotor have one");
+      fail("/axis",
+           "mobility " + mobility_name() + " has no axis; only planar, slider and rotor have one");
     }
     if (!body_.axis && is(Mobility::slider)) {
       fail("", "mobility slider needs \"axis\", the direction in which the body slides");
@@ -114,8 +117,8 @@ class BodyCheck {
     }
     if (!is(Mobility::kinematic) &&
         (body_.oscillation.norm() > 0.0 || body_.oscillation_frequency > 0.0)) {
-      fail("/oscillation", "only a kinematic body follows an oscillation; mobility is " +
-                               mobility_name());
+      fail("/oscillation",
+           "only a kinematic body follows an oscillation; mobility is " + mobility_name());
     }
   }
 
@@ -148,24 +151,26 @@ class BodyCheck {
         i.z() <= i.x() + i.y() + slack) {
       return;
     }
-    fail("/inertia", "no body has these moments of inertia: each must be at most the sum of the "
-                     "other two");
+    fail("/inertia",
+         "no body has these moments of inertia: each must be at most the sum of the "
+         "other two");
   }
 
   /// A rotor's centre of mass lies on its axle, and a mounted one is symmetric about it; otherwise
   /// the spin would not be a degree of freedom of its own.
   void check_rotor_balance() {
-    const Vector3 axle = body_.axis ? Vector3(body_.orientation.normalized().conjugate() *
-                                              body_.axis->normalized())
-                                    : Vector3(Vector3::UnitZ());
+    const Vector3 axle =
+        body_.axis ? Vector3(body_.orientation.normalized().conjugate() * body_.axis->normalized())
+                   : Vector3(Vector3::UnitZ());
     const MassProperties shape = combine(body_.shapes, 1.0);
     double size = 0.0;
     for (const PlacedShape& placed : body_.shapes) {
       size = std::max(size, placed.shape->half_extent().norm());
     }
     if (shape.center_of_mass.cross(axle).norm() > 1e-9 * size) {
-      fail("/shape", "the centre of mass of a rotor must lie on its axle; use mobility planar and a "
-                     "hinge joint for an unbalanced one");
+      fail("/shape",
+           "the centre of mass of a rotor must lie on its axle; use mobility planar and a "
+           "hinge joint for an unbalanced one");
     }
     if (!body_.mount) return;
     const Matrix3 inertia = body_.inertia ? Matrix3(body_.inertia->asDiagonal()) : shape.inertia;
@@ -174,8 +179,9 @@ class BodyCheck {
         axle.dot(inertia * axle) * axle * axle.transpose() +
         across.dot(inertia * across) * (Matrix3::Identity() - axle * axle.transpose());
     if ((inertia - symmetric).norm() > 1e-6 * inertia.norm()) {
-      fail("/inertia", "a mounted rotor must be symmetric about its axle; mount the body with a "
-                       "hinge joint instead");
+      fail("/inertia",
+           "a mounted rotor must be symmetric about its axle; mount the body with a "
+           "hinge joint instead");
     }
   }
 

@@ -6,8 +6,9 @@
 
 #include "engine/body_set.h"
 
-#include <Eigen/LU>
 #include <algorithm>
+
+#include <Eigen/LU>
 
 #include "engine/body_check.h"
 #include "engine/model.h"
@@ -15,7 +16,9 @@
 namespace sheave {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
 
 /// Mass properties in the body frame as the definition gives them.
 MassProperties defined_mass_properties(const BodyDef& body) {
@@ -88,7 +91,8 @@ void finish_body(BodyProperties& body, const BodyDef& def) {
   if (body.mobility == Mobility::free) {
     body.inverse_inertia = body.inertia.inverse();
     const double mean = body.inertia.trace() / 3.0;
-    body.isotropic = (body.inertia - mean * Matrix3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * mean;
+    body.isotropic =
+        (body.inertia - mean * Matrix3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * mean;
   }
   if (body.mobility == Mobility::planar || (body.mobility == Mobility::rotor && body.mount < 0)) {
     body.axis_inertia = own_axis.dot(body.inertia * own_axis);
@@ -121,7 +125,8 @@ Result<BodySet> BodySet::create(const Model& model) {
   BodySet set;
   set.definitions_ = model.bodies;
   set.gravity_ = model.gravity;
-  for (const BodyDef& body : model.bodies) set.properties_.push_back(compile_body(body));
+  for (const BodyDef& body : model.bodies)
+    set.properties_.push_back(compile_body(body));
   for (int i = 0; i < set.count(); ++i) {
     if (model.bodies[at(i)].mount) lump_mounted_rotor(set.properties_, model.bodies, i);
   }

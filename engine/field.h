@@ -32,7 +32,9 @@ struct Range {
   /// Whether `value` is finite and inside.
   [[nodiscard]] bool contains(double value) const;
 };
-[[nodiscard]] constexpr Range any_number() { return {}; }
+[[nodiscard]] constexpr Range any_number() {
+  return {};
+}
 [[nodiscard]] constexpr Range at_least(double minimum) {
   return {.minimum = minimum};
 }
@@ -63,11 +65,11 @@ using FieldSlot =
 
 /// One setting of one type. The default is what a default-constructed object holds.
 struct Field {
-  std::string_view name;     ///< key in a scene, and the name of the member
-  std::string_view unit;     ///< "" for none
-  Range range;               ///< ignored for text, booleans, references and choices
+  std::string_view name;  ///< key in a scene, and the name of the member
+  std::string_view unit;  ///< "" for none
+  Range range;            ///< ignored for text, booleans, references and choices
   Presence presence = Presence::optional;
-  std::string_view meaning;  ///< one line for the reference documentation
+  std::string_view meaning;                   ///< one line for the reference documentation
   std::span<const std::string_view> choices;  ///< names of an enumeration's values, in order
   FieldSlot (*slot)(void* object) = nullptr;  ///< `object` points to the type the table belongs to
 };
@@ -98,12 +100,13 @@ template <auto Member>
   using Class = decltype(detail::class_of(Member));
   using Enumeration = decltype(detail::member_of(Member));
   return {name, "", {}, presence, meaning, choices, [](void* object) -> FieldSlot {
-            return ChoiceSlot{
-                object,
-                [](const void* o) { return static_cast<int>(static_cast<const Class*>(o)->*Member); },
-                [](void* o, int index) {
-                  static_cast<Class*>(o)->*Member = static_cast<Enumeration>(index);
-                }};
+            return ChoiceSlot{object,
+                              [](const void* o) {
+                                return static_cast<int>(static_cast<const Class*>(o)->*Member);
+                              },
+                              [](void* o, int index) {
+                                static_cast<Class*>(o)->*Member = static_cast<Enumeration>(index);
+                              }};
           }};
 }
 
@@ -113,7 +116,7 @@ struct TypeEntry {
   std::string_view name;     ///< value of "type" in a scene
   std::string_view meaning;  ///< one line for the reference documentation
   std::span<const Field> (*fields)();
-  std::unique_ptr<Base> (*make)();    ///< a new object with default settings
+  std::unique_ptr<Base> (*make)();  ///< a new object with default settings
 };
 
 /// The registry line of `Type`, which declares static type_name, type_meaning and field_table().

@@ -17,8 +17,10 @@ class NumberCheck {
   void operator()(Quaternion* value) const {
     const double norm = value->norm();
     if (std::abs(norm - 1.0) <= 1e-6) return;  // what six printed decimals leave
-    errors_.push_back({path_, std::string(field_.name) + " must be a unit quaternion [w, x, y, z]; "
-                                  "its length is " + number_text(norm)});
+    errors_.push_back({path_, std::string(field_.name) +
+                                  " must be a unit quaternion [w, x, y, z]; "
+                                  "its length is " +
+                                  number_text(norm)});
   }
   void operator()(std::optional<double>* value) const {
     if (*value) check(**value, path_);
@@ -27,10 +29,12 @@ class NumberCheck {
     if (*value) check_components(**value, path_);
   }
   void operator()(std::vector<double>* value) const {
-    for (std::size_t i = 0; i < value->size(); ++i) check((*value)[i], item(i));
+    for (std::size_t i = 0; i < value->size(); ++i)
+      check((*value)[i], item(i));
   }
   void operator()(std::vector<Vector3>* value) const {
-    for (std::size_t i = 0; i < value->size(); ++i) check_components((*value)[i], item(i));
+    for (std::size_t i = 0; i < value->size(); ++i)
+      check_components((*value)[i], item(i));
   }
   template <class Other>
   void operator()(const Other& /*no number*/) const {}
@@ -38,7 +42,8 @@ class NumberCheck {
  private:
   [[nodiscard]] std::string item(std::size_t i) const { return path_ + "/" + std::to_string(i); }
   void check_components(const Vector3& value, const std::string& path) const {
-    for (int i = 0; i < 3; ++i) check(value[i], path + "/" + std::to_string(i));
+    for (int i = 0; i < 3; ++i)
+      check(value[i], path + "/" + std::to_string(i));
   }
   void check(double value, const std::string& path) const {
     if (field_.range.contains(value)) return;

@@ -25,8 +25,8 @@ class JointDef {
 
   /// name, body_a and body_b.
   static std::span<const Field> common_field_table();
-  [[nodiscard]] virtual std::string_view type() const = 0;   ///< key in the registry, e.g. "hinge"
-  [[nodiscard]] virtual const void* settings() const = 0;    ///< this, as its own type
+  [[nodiscard]] virtual std::string_view type() const = 0;  ///< key in the registry, e.g. "hinge"
+  [[nodiscard]] virtual const void* settings() const = 0;   ///< this, as its own type
   /// Faults beyond the ranges of the field tables; `path` is prepended to theirs.
   [[nodiscard]] virtual Errors validate(const BodySet& bodies, const std::string& path) const;
   /// One batch for all `joints`, which are of this type.

@@ -16,9 +16,9 @@ namespace sheave {
 struct Model {
   Vector3 gravity = Vector3::Zero();  ///< [m/s2]; "up" is against it
   StepSettings step;
-  std::vector<BodyDef> bodies;        ///< BodyId indexes this list
+  std::vector<BodyDef> bodies;  ///< BodyId indexes this list
   std::vector<std::shared_ptr<const JointDef>> joints;
-  std::optional<GroundDef> ground;    ///< absent: nothing to fall on, and no stage for it
+  std::optional<GroundDef> ground;  ///< absent: nothing to fall on, and no stage for it
 
   /// Appends a body and returns its id.
   BodyId add(BodyDef body) {

@@ -24,7 +24,7 @@ namespace sheave {
 
 /// A body during a substep: the only body data that constraint solving touches.
 struct MovingBody {
-  Vector3 position = Vector3::Zero();               ///< of the centre of mass [m]
+  Vector3 position = Vector3::Zero();  ///< of the centre of mass [m]
   /// Own frame to world frame. Of a body that does not track it (a rotor on a fixed axle, which
   /// most rows never ask for its orientation) at the start of the substep; Substep::orientation()
   /// then computes the current one.
@@ -42,9 +42,9 @@ struct MovingBody {
 
 /// Gradient of a row with respect to one body.
 struct RowTerm {
-  int body = 0;                            ///< index into the bodies of the substep
-  Vector3 linear = Vector3::Zero();        ///< dC / d position
-  Vector3 angular = Vector3::Zero();       ///< dC / d rotation vector, world frame
+  int body = 0;                       ///< index into the bodies of the substep
+  Vector3 linear = Vector3::Zero();   ///< dC / d position
+  Vector3 angular = Vector3::Zero();  ///< dC / d rotation vector, world frame
 };
 
 /// One scalar constraint, linearised at the current positions.
@@ -52,9 +52,9 @@ struct Row {
   static constexpr int max_terms = 4;  ///< two ends, each on a rotor mounted on a carrier
   static constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-  double value = 0.0;       ///< C [m or rad]
-  double compliance = 0.0;  ///< a [m/N or rad/(N m)], >= 0
-  double damping = 0.0;     ///< b [N s/m or N m s/rad], >= 0; acts only with compliance > 0
+  double value = 0.0;         ///< C [m or rad]
+  double compliance = 0.0;    ///< a [m/N or rad/(N m)], >= 0
+  double damping = 0.0;       ///< b [N s/m or N m s/rad], >= 0; acts only with compliance > 0
   double lower = -unbounded;  ///< bounds of the multiplier
   double upper = unbounded;
   int term_count = 0;

@@ -14,9 +14,9 @@ namespace sheave {
 
 /// Mass distribution of a solid.
 struct MassProperties {
-  double mass = 0.0;                            ///< [kg]; of a shape at density 1, so its volume [m3]
-  Vector3 center_of_mass = Vector3::Zero();     ///< [m], in the frame of the shape or body
-  Matrix3 inertia = Matrix3::Zero();            ///< [kg m2], about the centre of mass, same axes
+  double mass = 0.0;                         ///< [kg]; of a shape at density 1, so its volume [m3]
+  Vector3 center_of_mass = Vector3::Zero();  ///< [m], in the frame of the shape or body
+  Matrix3 inertia = Matrix3::Zero();         ///< [kg m2], about the centre of mass, same axes
 };
 
 /// A solid form in its own frame. Adding one: a file in engine/shapes/ and a line in
@@ -55,7 +55,7 @@ struct PlacedShape {
   Vector3 position = Vector3::Zero();               ///< [m], body frame
   Quaternion orientation = Quaternion::Identity();  ///< shape frame to body frame
 
-  static std::span<const Field> field_table();      ///< position and orientation
+  static std::span<const Field> field_table();  ///< position and orientation
 };
 
 /// All shape types, in the order of the documentation.

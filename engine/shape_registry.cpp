@@ -13,12 +13,8 @@ namespace sheave {
 
 std::span<const TypeEntry<Shape>> shape_types() {
   static const std::array types{
-      type_entry<Shape, Box>(),
-      type_entry<Shape, Sphere>(),
-      type_entry<Shape, Cylinder>(),
-      type_entry<Shape, Capsule>(),
-      type_entry<Shape, Prism>(),
-      type_entry<Shape, Polyhedron>(),
+      type_entry<Shape, Box>(),     type_entry<Shape, Sphere>(), type_entry<Shape, Cylinder>(),
+      type_entry<Shape, Capsule>(), type_entry<Shape, Prism>(),  type_entry<Shape, Polyhedron>(),
   };
   return types;
 }

@@ -30,8 +30,8 @@ struct FeatureState {
 
 /// The state of a world between two substeps.
 struct State {
-  std::int64_t steps = 0;   ///< completed steps
-  double time = 0.0;        ///< [s]
+  std::int64_t steps = 0;              ///< completed steps
+  double time = 0.0;                   ///< [s]
   std::vector<BodyState> bodies;       ///< one per body of the model
   std::vector<FeatureState> features;  ///< one per feature of the world, in its order
 };

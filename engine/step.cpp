@@ -14,9 +14,8 @@ namespace sheave {
 namespace {
 
 bool has_kinematic_bodies(const Model& model) {
-  return std::any_of(model.bodies.begin(), model.bodies.end(), [](const BodyDef& body) {
-    return body.mobility == Mobility::kinematic;
-  });
+  return std::any_of(model.bodies.begin(), model.bodies.end(),
+                     [](const BodyDef& body) { return body.mobility == Mobility::kinematic; });
 }
 
 bool has_mounted_rotors(const Model& model) {

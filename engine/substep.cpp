@@ -11,7 +11,9 @@
 namespace sheave {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
 
 /// Inverse mass and inverse inertia in the world frame of a body with this orientation.
 void set_inverse_masses(const BodyProperties& properties, MovingBody& body) {
@@ -24,9 +26,10 @@ void set_inverse_masses(const BodyProperties& properties, MovingBody& body) {
     case Mobility::free: {
       const Matrix3 rotation = body.orientation.toRotationMatrix();
       body.inverse_mass = Matrix3::Identity() / properties.mass;
-      body.inverse_inertia = properties.isotropic ? properties.inverse_inertia
-                                                  : Matrix3(rotation * properties.inverse_inertia *
-                                                            rotation.transpose());
+      body.inverse_inertia =
+          properties.isotropic
+              ? properties.inverse_inertia
+              : Matrix3(rotation * properties.inverse_inertia * rotation.transpose());
       break;
     }
     case Mobility::planar:
@@ -53,10 +56,10 @@ Substep::Substep(const BodySet& body_set, const State& state_at_start, double le
   for (int i = 0; i < bodies.count(); ++i) {
     MovingBody& body = moving[at(i)];
     const Mobility mobility = bodies[i].mobility;
-    body.translates = mobility == Mobility::free || mobility == Mobility::planar ||
-                      mobility == Mobility::slider;
-    body.rotates = mobility == Mobility::free || mobility == Mobility::planar ||
-                   mobility == Mobility::rotor;
+    body.translates =
+        mobility == Mobility::free || mobility == Mobility::planar || mobility == Mobility::slider;
+    body.rotates =
+        mobility == Mobility::free || mobility == Mobility::planar || mobility == Mobility::rotor;
     body.tracks_orientation = mobility != Mobility::rotor;
     body.orientation = start.bodies[at(i)].orientation;
     if (bodies[i].mount < 0) set_inverse_masses(bodies[i], body);

@@ -13,8 +13,8 @@ namespace sheave {
 
 /// What a step observed; sums and maxima over its substeps.
 struct StepStatistics {
-  int rows = 0;         ///< constraint rows solved per substep
-  int row_solves = 0;   ///< rows x iterations x substeps
+  int rows = 0;        ///< constraint rows solved per substep
+  int row_solves = 0;  ///< rows x iterations x substeps
   /// Largest correction, as an error of a row, in the last sweep of a substep [m or rad]: how far
   /// the solver was from convergence.
   double last_correction = 0.0;
@@ -28,13 +28,13 @@ struct StepStatistics {
 /// last good state behind.
 struct Substep {
   const BodySet& bodies;
-  const State& start;                ///< state at the start of the substep
-  double h;                          ///< length [s]
+  const State& start;  ///< state at the start of the substep
+  double h;            ///< length [s]
   int iterations;
   std::vector<MovingBody> moving;    ///< bodies.count() + 1; the world comes last and never moves
   std::vector<BodyState> predicted;  ///< velocities, and poses, without constraints
   std::vector<Vector3> predicted_turn;  ///< [rad], without constraints
-  State next;                        ///< the state at the end, written by the last stages
+  State next;                           ///< the state at the end, written by the last stages
   StepStatistics statistics;
 
   /// A substep of `bodies` from `state_at_start`; both must outlive it. Bodies are placed at the

@@ -8,9 +8,10 @@
 // Quaternion is an unaligned Eigen type and Vector3 and Matrix3 never are aligned ones, so that the
 // layout of public structs does not depend on the instruction set a program is compiled for.
 
+#include <cmath>
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cmath>
 
 namespace sheave {
 
@@ -51,8 +52,10 @@ constexpr double pi = 3.14159265358979323846;
   double half_sinc = 0.0;  // sin(half angle) / half angle
   if (half_squared < 0.01) {
     const double t = half_squared;
-    half_cosine = 1.0 - t / 2.0 * (1.0 - t / 12.0 * (1.0 - t / 30.0 * (1.0 - t / 56.0 * (1.0 - t / 90.0))));
-    half_sinc = 1.0 - t / 6.0 * (1.0 - t / 20.0 * (1.0 - t / 42.0 * (1.0 - t / 72.0 * (1.0 - t / 110.0))));
+    half_cosine =
+        1.0 - t / 2.0 * (1.0 - t / 12.0 * (1.0 - t / 30.0 * (1.0 - t / 56.0 * (1.0 - t / 90.0))));
+    half_sinc =
+        1.0 - t / 6.0 * (1.0 - t / 20.0 * (1.0 - t / 42.0 * (1.0 - t / 72.0 * (1.0 - t / 110.0))));
   } else {
     const double half_angle = std::sqrt(half_squared);
     half_cosine = std::cos(half_angle);

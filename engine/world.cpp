@@ -6,7 +6,9 @@
 namespace sheave {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
 
 /// Beyond this many scene sizes from the origin, or per substep, a state means nothing any more:
 /// with 16 digits, positions there have lost the scene's own length scale.
@@ -18,8 +20,8 @@ void check_joints(const Model& model, const BodySet& bodies, Errors& errors) {
     const std::string path = "/joints/" + std::to_string(i);
     for (std::size_t k = 0; k < i; ++k) {
       if (model.joints[k]->name == joint.name) {
-        errors.push_back({path + "/name", "two joints are called \"" + joint.name +
-                                              "\"; names must differ"});
+        errors.push_back(
+            {path + "/name", "two joints are called \"" + joint.name + "\"; names must differ"});
         break;
       }
     }
@@ -29,7 +31,8 @@ void check_joints(const Model& model, const BodySet& bodies, Errors& errors) {
       if (entry.name == joint.type()) check_fields(entry.fields(), joint.settings(), path, errors);
     }
     if (errors.size() > before) continue;
-    for (const Error& error : joint.validate(bodies, path)) errors.push_back(error);
+    for (const Error& error : joint.validate(bodies, path))
+      errors.push_back(error);
   }
 }
 
@@ -102,9 +105,10 @@ struct World::Content {
       }
       if (what == nullptr) continue;
       const double time = substep.next.time;
-      return Divergence{{i}, time, "body \"" + bodies->name(i) + "\": " + what +
-                                       " is not finite or has run away at time " +
-                                       number_text(time) + " s"};
+      return Divergence{{i},
+                        time,
+                        "body \"" + bodies->name(i) + "\": " + what +
+                            " is not finite or has run away at time " + number_text(time) + " s"};
     }
     return std::nullopt;
   }
@@ -127,9 +131,11 @@ Result<World> World::create(Model model, std::shared_ptr<const BodySet> bodies,
   Errors errors = check_model(model, *bodies);
   if (!errors.empty()) return errors;
   std::vector<std::unique_ptr<ConstraintBatch>> all = model_features(model, *bodies);
-  for (auto& feature : features) all.push_back(std::move(feature));
+  for (auto& feature : features)
+    all.push_back(std::move(feature));
   State state = bodies->initial_state();
-  for (const auto& feature : all) state.features.push_back(feature->initial_state());
+  for (const auto& feature : all)
+    state.features.push_back(feature->initial_state());
   return World(std::make_unique<Content>(std::move(model), std::move(bodies), std::move(all),
                                          std::move(state)));
 }
@@ -144,7 +150,8 @@ StepReport World::step() {
     const double end = static_cast<double>(i + 1) / substeps;
     c.substep.restart();
     c.substep.next.time = (static_cast<double>(c.state.steps) + end) * c.model.step.dt;
-    for (const Stage& stage : c.stages) stage.run(c.substep);
+    for (const Stage& stage : c.stages)
+      stage.run(c.substep);
     report.divergence = c.find_divergence();
     if (report.divergence) break;
     // Same shape on both sides, so this copies without allocating.
@@ -157,10 +164,18 @@ StepReport World::step() {
   return report;
 }
 
-const Model& World::model() const { return content_->model; }
-const BodySet& World::bodies() const { return *content_->bodies; }
-const State& World::state() const { return content_->state; }
-const std::vector<Stage>& World::stages() const { return content_->stages; }
+const Model& World::model() const {
+  return content_->model;
+}
+const BodySet& World::bodies() const {
+  return *content_->bodies;
+}
+const State& World::state() const {
+  return content_->state;
+}
+const std::vector<Stage>& World::stages() const {
+  return content_->stages;
+}
 std::span<const std::unique_ptr<ConstraintBatch>> World::features() const {
   return content_->features;
 }
@@ -170,15 +185,16 @@ const FeatureState& World::feature_state(std::size_t index) const {
 
 Errors World::restore(const State& state) {
   const State& own = content_->state;
-  bool fits = state.bodies.size() == own.bodies.size() &&
-              state.features.size() == own.features.size();
+  bool fits =
+      state.bodies.size() == own.bodies.size() && state.features.size() == own.features.size();
   for (std::size_t i = 0; fits && i < own.features.size(); ++i) {
     fits = state.features[i].reals.size() == own.features[i].reals.size() &&
            state.features[i].integers.size() == own.features[i].integers.size();
   }
   if (!fits) {
-    return {{"", "the state does not belong to this world: it must have the same bodies, joints "
-                 "and cables"}};
+    return {{"",
+             "the state does not belong to this world: it must have the same bodies, joints "
+             "and cables"}};
   }
   content_->state = state;
   content_->substep.next = state;
@@ -204,8 +220,8 @@ Energy World::energy() const {
     const Vector3 own_w = state.orientation.conjugate() * w;
     energy.kinetic +=
         0.5 * body.mass * state.velocity.squaredNorm() + 0.5 * own_w.dot(body.inertia * own_w);
-    energy.potential -= state.position.dot(body.mass * c.model.gravity +
-                                           c.model.bodies[at(i)].force);
+    energy.potential -=
+        state.position.dot(body.mass * c.model.gravity + c.model.bodies[at(i)].force);
   }
   for (std::size_t i = 0; i < c.features.size(); ++i) {
     energy.elastic += c.features[i]->elastic_energy(*c.bodies, c.state, c.state.features[i]);
@@ -220,7 +236,9 @@ Vector3 World::point(BodyId body, const Vector3& local) const {
   return state.position + state.orientation * (local - (*content_->bodies)[i].center_of_mass);
 }
 
-Vector3 World::position(BodyId body) const { return point(body, Vector3::Zero()); }
+Vector3 World::position(BodyId body) const {
+  return point(body, Vector3::Zero());
+}
 
 Quaternion World::orientation(BodyId body) const {
   if (body.is_world()) return Quaternion::Identity();

@@ -18,8 +18,8 @@ namespace sheave {
 
 /// A state that no longer means anything: not finite, or out of all proportion to the scene.
 struct Divergence {
-  BodyId body;       ///< the first bad body
-  double time = 0.0; ///< end of the substep that produced it [s]
+  BodyId body;          ///< the first bad body
+  double time = 0.0;    ///< end of the substep that produced it [s]
   std::string message;  ///< one sentence: body, quantity, time
 };
 

@@ -28,9 +28,10 @@ bool plane_fits(const BodySet& bodies, int body, const PlacedShape* wheel, const
   if (body == bodies.count()) return true;
   const BodyProperties& properties = bodies[body];
   if (properties.mobility != Mobility::rotor) return true;
-  const Vector3 axle = properties.mount < 0
-                           ? properties.axis
-                           : Vector3(bodies.initial_orientation(properties.mount) * properties.axis);
+  const Vector3 axle =
+      properties.mount < 0
+          ? properties.axis
+          : Vector3(bodies.initial_orientation(properties.mount) * properties.axis);
   return (bodies.initial_orientation(body).conjugate() * axle).cross(normal).norm() <= tolerance;
 }
 

@@ -39,7 +39,8 @@ class GroundBatch final : public ConstraintBatch {
     for (const Owner& owner : owners_) {
       points_.clear();
       append_points(substep, owner);
-      for (const Vector3& point : points_) contacts_[next++].point = point;
+      for (const Vector3& point : points_)
+        contacts_[next++].point = point;
     }
   }
 
@@ -50,14 +51,14 @@ class GroundBatch final : public ConstraintBatch {
       row.clear();
       evaluate(substep, contacts_[i], row);
       if (row.value >= 0.0 && multipliers_[i] == 0.0) continue;  // apart
-      correction =
-          std::max(correction, solve_row(row, substep.h, multipliers_[i], substep.moving));
+      correction = std::max(correction, solve_row(row, substep.h, multipliers_[i], substep.moving));
     }
     return correction;
   }
 
   void linearise(Substep& substep, std::vector<Row>& rows) override {
-    for (const Contact& contact : contacts_) evaluate(substep, contact, rows.emplace_back());
+    for (const Contact& contact : contacts_)
+      evaluate(substep, contact, rows.emplace_back());
   }
 
   void finish(Substep& substep, FeatureState& next) override {
@@ -87,13 +88,13 @@ class GroundBatch final : public ConstraintBatch {
       owners_.push_back({body, &placed, bodies[body].center_of_mass});
       points_.clear();
       placed.shape->append_contact_points(Vector3::UnitX(), points_);
-      for (const Vector3& point : points_) contacts_.push_back({body, point});
+      for (const Vector3& point : points_)
+        contacts_.push_back({body, point});
     }
   }
 
   void append_points(const Substep& substep, const Owner& owner) {
-    const Quaternion shape_to_world =
-        substep.orientation(owner.body) * owner.shape->orientation;
+    const Quaternion shape_to_world = substep.orientation(owner.body) * owner.shape->orientation;
     owner.shape->shape->append_contact_points(shape_to_world.conjugate() * (-normal_), points_);
     for (Vector3& point : points_) {
       point = owner.shape->position + owner.shape->orientation * point - owner.center_of_mass;
@@ -111,8 +112,8 @@ class GroundBatch final : public ConstraintBatch {
   Vector3 normal_;
   std::vector<Owner> owners_;
   std::vector<Contact> contacts_;
-  std::vector<Vector3> points_;       // scratch
-  std::vector<double> multipliers_;   // scratch
+  std::vector<Vector3> points_;      // scratch
+  std::vector<double> multipliers_;  // scratch
 };
 
 }  // namespace

@@ -20,7 +20,9 @@
 namespace sheave {
 namespace {
 
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
+std::size_t at(int index) {
+  return static_cast<std::size_t>(index);
+}
 
 /// World inertia of a free body with this orientation.
 Matrix3 world_inertia(const BodyProperties& body, const Quaternion& orientation, bool inverse) {
@@ -64,12 +66,10 @@ void rotate_freely(Substep& substep, int i) {
         world_inertia(body, start.orientation, false) * start.angular_velocity +
         rotors(start.orientation);
     const Quaternion half = turned(start.orientation, 0.5 * h * start.angular_velocity);
-    half_velocity =
-        world_inertia(body, half, true) * (momentum + 0.5 * h * torque - rotors(half));
+    half_velocity = world_inertia(body, half, true) * (momentum + 0.5 * h * torque - rotors(half));
     moving.orientation = turned(start.orientation, h * half_velocity);
     moving.inverse_inertia = world_inertia(body, moving.orientation, true);
-    end_velocity =
-        moving.inverse_inertia * (momentum + h * torque - rotors(moving.orientation));
+    end_velocity = moving.inverse_inertia * (momentum + h * torque - rotors(moving.orientation));
   }
   moving.turn = h * half_velocity;
   substep.predicted[at(i)].angular_velocity = end_velocity;
@@ -92,8 +92,7 @@ void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
 void move_kinematic_bodies(Substep& substep) {
   for (int i = 0; i < substep.bodies.count(); ++i) {
     if (substep.bodies[i].mobility != Mobility::kinematic) continue;
-    const BodyState end =
-        substep.bodies.kinematic_state(i, substep.next.time);
+    const BodyState end = substep.bodies.kinematic_state(i, substep.next.time);
     MovingBody& moving = substep.moving[at(i)];
     moving.position = end.position;
     moving.orientation = end.orientation;
@@ -176,16 +175,15 @@ void place_mounted_rotors(Substep& substep) {
     const BodyState& carrier = substep.next.bodies[at(rotor.mount)];
     BodyState& next = substep.next.bodies[at(i)];
     // The spin lives on the axle of the start of the substep; the axle has turned with the carrier.
-    const Vector3 start_axis =
-        substep.start.bodies[at(rotor.mount)].orientation * rotor.axis;
+    const Vector3 start_axis = substep.start.bodies[at(rotor.mount)].orientation * rotor.axis;
     const Vector3 axis = carrier.orientation * rotor.axis;
     const double spin = start_axis.dot(substep.predicted[at(i)].angular_velocity +
                                        (moving.turn - substep.predicted_turn[at(i)]) / substep.h);
     const Vector3 offset = carrier.orientation * rotor.mount_position;
     next.angle = substep.start.bodies[at(i)].angle + axis.dot(moving.turn - carrier_moving.turn);
     next.position = carrier.position + offset;
-    next.orientation = carrier.orientation * rotation_by(next.angle * rotor.axis) *
-                       rotor.start_orientation;
+    next.orientation =
+        carrier.orientation * rotation_by(next.angle * rotor.axis) * rotor.start_orientation;
     next.velocity = carrier.velocity + carrier.angular_velocity.cross(offset);
     next.angular_velocity =
         carrier.angular_velocity - axis * axis.dot(carrier.angular_velocity) + spin * axis;

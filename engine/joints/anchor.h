@@ -7,16 +7,15 @@ namespace sheave {
 /// A point of a body and a frame fixed to it, in the body's own frame.
 struct Anchor {
   int body = 0;
-  Vector3 point = Vector3::Zero();                  ///< [m]
-  Quaternion frame = Quaternion::Identity();        ///< joint frame to own frame
+  Vector3 point = Vector3::Zero();            ///< [m]
+  Quaternion frame = Quaternion::Identity();  ///< joint frame to own frame
 
   /// The anchor at the world point `world_point` [m] with the joint frame `world_frame` at time 0.
   [[nodiscard]] static Anchor at_start(const BodySet& bodies, BodyId body,
                                        const Vector3& world_point,
                                        const Quaternion& world_frame = Quaternion::Identity()) {
     const int index = bodies.index(body);
-    const Vector3 own =
-        bodies.initial_local(index, world_point) - bodies[index].center_of_mass;
+    const Vector3 own = bodies.initial_local(index, world_point) - bodies[index].center_of_mass;
     return {index, own, bodies.initial_orientation(index).conjugate() * world_frame};
   }
   [[nodiscard]] Vector3 position(const Substep& substep) const {

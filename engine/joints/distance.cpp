@@ -61,11 +61,13 @@ std::span<const Field> DistanceJoint::field_table() {
 Errors DistanceJoint::validate(const BodySet& bodies, const std::string& path) const {
   Errors errors = JointDef::validate(bodies, path);
   if (!length && !((anchor_a - anchor_b).norm() > 0.0)) {
-    errors.push_back({path, "joint \"" + name + "\": the anchors coincide; give them a distance, "
+    errors.push_back({path, "joint \"" + name +
+                                "\": the anchors coincide; give them a distance, "
                                 "or \"length\", or use a ball joint"});
   }
   if (damping > 0.0 && compliance == 0.0) {
-    errors.push_back({path + "/damping", "joint \"" + name + "\": damping acts on an elastic joint "
+    errors.push_back({path + "/damping", "joint \"" + name +
+                                             "\": damping acts on an elastic joint "
                                              "only; give \"compliance\" too"});
   }
   return errors;

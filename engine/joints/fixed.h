@@ -12,8 +12,7 @@ class FixedJoint final : public JointDef {
   double angular_compliance = 0.0;   ///< of each rotation [rad/(N m)], >= 0
 
   static constexpr std::string_view type_name = "fixed";
-  static constexpr std::string_view type_meaning =
-      "welds two bodies together";
+  static constexpr std::string_view type_meaning = "welds two bodies together";
   static std::span<const Field> field_table();
 
   [[nodiscard]] std::string_view type() const override { return type_name; }

@@ -50,7 +50,8 @@ std::span<const Field> HingeJoint::field_table() {
 Errors HingeJoint::validate(const BodySet& bodies, const std::string& path) const {
   Errors errors = JointDef::validate(bodies, path);
   if (!(axis.norm() > 1e-12)) {
-    errors.push_back({path + "/axis", "joint \"" + name + "\": the axis must have a direction; its "
+    errors.push_back({path + "/axis", "joint \"" + name +
+                                          "\": the axis must have a direction; its "
                                           "length is 0"});
   }
   return errors;

@@ -43,8 +43,7 @@ class JointBatch final : public ConstraintBatch {
       for (int i = 0; i < Kernel::row_count; ++i) {
         row.clear();
         joint.evaluate(substep, i, row);
-        correction =
-            std::max(correction, solve_row(row, substep.h, *multiplier++, substep.moving));
+        correction = std::max(correction, solve_row(row, substep.h, *multiplier++, substep.moving));
       }
     }
     return correction;
@@ -78,8 +77,8 @@ class JointBatch final : public ConstraintBatch {
       for (int i = 0; i < Kernel::row_count; ++i) {
         row.clear();
         joint.evaluate(now, i, row);
-        const bool active = !(row.value > 0.0 && row.lower == 0.0) &&
-                            !(row.value < 0.0 && row.upper == 0.0);
+        const bool active =
+            !(row.value > 0.0 && row.lower == 0.0) && !(row.value < 0.0 && row.upper == 0.0);
         if (row.compliance > 0.0 && active) {
           energy += 0.5 * row.value * row.value / row.compliance;
         }

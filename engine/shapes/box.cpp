@@ -14,9 +14,9 @@ std::span<const Field> Box::field_table() {
 MassProperties Box::unit_density() const {
   const double volume = size.prod();
   const Vector3 squares = size.cwiseAbs2();
-  const Vector3 diagonal = volume / 12.0 *
-                           Vector3(squares.y() + squares.z(), squares.z() + squares.x(),
-                                   squares.x() + squares.y());
+  const Vector3 diagonal =
+      volume / 12.0 *
+      Vector3(squares.y() + squares.z(), squares.z() + squares.x(), squares.x() + squares.y());
   return {volume, Vector3::Zero(), diagonal.asDiagonal()};
 }
 

@@ -20,7 +20,6 @@
 #include <cstdint>
 #include <iterator>
 #include <numeric>
-#include <string>
 #include <unordered_map>
 #include <utility>
 

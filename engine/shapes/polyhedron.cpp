@@ -7,6 +7,8 @@
 // With S = integral of r r^T about the centre of mass, the inertia is trace(S) E - S.
 
 #include <array>
+#include <string>
+#include <utility>
 
 namespace sheave {
 namespace {

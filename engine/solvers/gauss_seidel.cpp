@@ -7,7 +7,8 @@ namespace sheave {
 void solve_gauss_seidel(Substep& substep,
                         std::span<const std::unique_ptr<ConstraintBatch>> features) {
   int rows = 0;
-  for (const auto& feature : features) rows += feature->row_count();
+  for (const auto& feature : features)
+    rows += feature->row_count();
   double correction = 0.0;
   for (int iteration = 0; iteration < substep.iterations; ++iteration) {
     correction = 0.0;
