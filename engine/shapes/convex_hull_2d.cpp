@@ -9,7 +9,10 @@ namespace sheave {
 namespace {
 
 double distance(const GridPoint& a, const GridPoint& b) {
-  return std::hypot(static_cast<double>(b[0] - a[0]), static_cast<double>(b[1] - a[1]));
+  // Not std::hypot, whose last bit is up to the library.
+  const auto x = static_cast<double>(b[0] - a[0]);
+  const auto y = static_cast<double>(b[1] - a[1]);
+  return std::sqrt(x * x + y * y);
 }
 
 /// Twice the area of the triangle a, b, c in the plane z = 0, positive if counter-clockwise.
