@@ -1,0 +1,105 @@
+# The house rules for targets: flags, include root, precompiled headers, one library per folder.
+
+set(SHEAVE_WARNINGS
+    -Wall
+    -Wextra
+    -Wpedantic
+    -Wshadow
+    -Wconversion
+    -Wnon-virtual-dtor
+    -Woverloaded-virtual
+    -Wcast-qual
+    -Wimplicit-fallthrough)
+if(SHEAVE_WARNINGS_AS_ERRORS)
+  list(APPEND SHEAVE_WARNINGS -Werror)
+endif()
+if(SHEAVE_SANITIZE)
+  # Instrumented code confuses GCC's data-flow warnings into false alarms inside Eigen; the plain builds keep them.
+  list(APPEND SHEAVE_WARNINGS -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-null-dereference)
+endif()
+
+set(SHEAVE_PCH_HEADERS
+    <Eigen/Core>
+    <Eigen/Geometry>
+    <algorithm>
+    <array>
+    <cmath>
+    <cstddef>
+    <cstdint>
+    <functional>
+    <limits>
+    <map>
+    <memory>
+    <optional>
+    <span>
+    <string>
+    <string_view>
+    <unordered_map>
+    <utility>
+    <variant>
+    <vector>)
+
+function(sheave_target_flags target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:${SHEAVE_WARNINGS}>)
+endfunction()
+
+# sheave_library(<folder> LINKS <targets...> [LINKS_PRIVATE <targets...>] [PCH <headers...>]
+#                [PCH_FROM <target>] [GENERATED <sources...>])
+# makes the static library sheave_<folder>, alias sheave::<folder>, of all sources below the folder.
+# A folder without sources yet makes no target.
+function(sheave_library folder)
+  cmake_parse_arguments(arg "" "PCH_FROM" "LINKS;LINKS_PRIVATE;PCH;GENERATED" ${ARGN})
+  set(dir "${PROJECT_SOURCE_DIR}/${folder}")
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${dir}/*.cpp" "${dir}/*.h")
+  list(FILTER sources EXCLUDE REGEX "/third_party/")
+  set(units ${sources})
+  list(FILTER units INCLUDE REGEX "\\.cpp$")
+  if(NOT units)
+    message(STATUS "${folder}: no sources yet, target skipped")
+    return()
+  endif()
+  set(target sheave_${folder})
+  add_library(${target} STATIC ${sources} ${arg_GENERATED})
+  add_library(sheave::${folder} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder} POSITION_INDEPENDENT_CODE ON)
+  sheave_target_flags(${target})
+  target_include_directories(
+    ${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sheave>)
+  target_include_directories(${target} PRIVATE "${SHEAVE_GENERATED_DIR}")
+  foreach(link IN LISTS arg_LINKS)
+    if(TARGET ${link})
+      target_link_libraries(${target} PUBLIC ${link})
+    endif()
+  endforeach()
+  if(arg_LINKS_PRIVATE)
+    target_link_libraries(${target} PRIVATE ${arg_LINKS_PRIVATE})
+  endif()
+  if(SHEAVE_PCH AND TARGET "${arg_PCH_FROM}")
+    target_precompile_headers(${target} REUSE_FROM ${arg_PCH_FROM})
+  elseif(SHEAVE_PCH)
+    target_precompile_headers(${target} PRIVATE ${SHEAVE_PCH_HEADERS} ${arg_PCH})
+  endif()
+endfunction()
+
+# Links those of the targets that exist, so that a folder without sources yet breaks nothing.
+function(sheave_link_available target)
+  foreach(link IN LISTS ARGN)
+    if(TARGET ${link})
+      target_link_libraries(${target} PRIVATE ${link})
+    endif()
+  endforeach()
+endfunction()
+
+# Flags, include root and sanitizer defaults of an executable.
+function(sheave_executable_settings target)
+  sheave_target_flags(${target})
+  target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}" "${SHEAVE_GENERATED_DIR}")
+  if(SHEAVE_SANITIZE)
+    target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/cmake/sanitizer_defaults.cpp")
+    set_source_files_properties(
+      "${PROJECT_SOURCE_DIR}/cmake/sanitizer_defaults.cpp" TARGET_DIRECTORY ${target}
+      PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+  endif()
+endfunction()

@@ -1,0 +1,29 @@
+# Speeds up building; nothing here changes what is built.
+
+find_program(SHEAVE_CCACHE ccache)
+if(SHEAVE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  # Without this sloppiness ccache never reuses a result that depends on a precompiled header.
+  set(CMAKE_CXX_COMPILER_LAUNCHER
+      "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${SHEAVE_CCACHE}")
+  set(CMAKE_C_COMPILER_LAUNCHER "${SHEAVE_CCACHE}")
+endif()
+
+include(CheckLinkerFlag)
+find_program(SHEAVE_MOLD mold)
+find_program(SHEAVE_LLD ld.lld)
+foreach(linker IN ITEMS mold lld)
+  string(TOUPPER ${linker} upper)
+  if(SHEAVE_${upper})
+    check_linker_flag(CXX "-fuse-ld=${linker}" SHEAVE_LINKS_WITH_${upper})
+    if(SHEAVE_LINKS_WITH_${upper})
+      add_link_options("-fuse-ld=${linker}")
+      break()
+    endif()
+  endif()
+endforeach()
+
+if(SHEAVE_SANITIZE)
+  # Set for the whole tree, third-party C included: a mixture of instrumented and plain objects misses errors.
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()

@@ -1,0 +1,53 @@
+#pragma once
+// How the bodies of a model look: their shapes as drawable ones, which cylinders are sheaves, and
+// colours.
+
+#include <span>
+#include <vector>
+
+#include "cable/cable_report.h"
+#include "engine/world.h"
+#include "render/draw_list.h"
+
+namespace sheave::render {
+
+/// The drawable form of a shape, in its own frame. A type that is not known is shown as its box.
+[[nodiscard]] Shape drawable(const sheave::Shape& shape);
+
+/// Something fixed to a body.
+struct BodyPart {
+  BodyId body;  ///< the world: does not move
+  Shape shape;
+  Vector3 position = Vector3::Zero();               ///< of the shape's origin [m], body frame
+  Quaternion orientation = Quaternion::Identity();  ///< shape's frame to body frame
+  Color color;
+};
+
+/// A straight bar fixed to a body, such as a cheek of a block.
+struct BodyBar {
+  BodyId body;
+  Vector3 start = Vector3::Zero();  ///< [m], body frame
+  Vector3 end = Vector3::Zero();    ///< [m], body frame
+  double radius = 0.01;             ///< [m]
+  Color color;
+};
+
+/// What is drawn for the bodies of one world, whatever they do.
+struct BodyView {
+  std::vector<BodyPart> parts;
+  std::vector<BodyBar> bars;
+  /// Room for windings [m] of every link of every cable, in order.
+  std::vector<std::vector<double>> winding_room;
+};
+
+/// Decides how the bodies of a world look, from its state at time 0 and its cables then (world and
+/// reports must be of the same state). A cylinder that a cable rolls on becomes a sheave whose groove
+/// fits a cable of the given radius [m]; a wheel that no shape belongs to gets one.
+[[nodiscard]] BodyView make_body_view(const World& world, std::span<const CableReport> cables,
+                                      double cable_radius);
+
+/// A radius for the cables [m] that shows well in a picture of a box of this diagonal [m], > 0, and
+/// does not dwarf the smallest wheel.
+[[nodiscard]] double suitable_cable_radius(double diagonal, std::span<const CableReport> cables);
+
+}  // namespace sheave::render

@@ -1,0 +1,186 @@
+#include "render/cable_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "render/catenary.h"
+
+namespace sheave::render {
+namespace {
+
+constexpr double turn = 2.0 * pi;
+constexpr double step_angle = 0.1;    ///< of the polyline round a wheel [rad]
+constexpr double most_turns = 60.0;   ///< drawn; more would not be told apart
+constexpr int catenary_points = 41;
+
+/// The cable on a wheel as drawn: a shallow helix if it makes more than one turn.
+struct Winding {
+  double angle = 0.0;   ///< from entry to exit, in the direction of winding [rad]
+  double shift = 0.0;   ///< along the normal, from entry to exit [m]
+  Vector3 first;        ///< unit vector from the axis towards the entry
+  Vector3 second;       ///< a quarter turn further along the cable
+};
+
+bool is_end(const CableReport& cable, std::size_t link) {
+  return !cable.closed && (link == 0 || link + 1 == cable.links.size());
+}
+
+Winding winding_of(const CableReport& cable, std::size_t index, const CableStyle& style) {
+  const LinkReport& link = cable.links[index];
+  Winding w;
+  const bool end = is_end(cable, index);
+  w.angle = wound_angle(link, end);
+  // Whole turns are left out, so that the ends stay where they are.
+  if (w.angle > most_turns * turn) w.angle = std::remainder(w.angle, turn) + most_turns * turn;
+  // At the start of a cable only the exit exists; the entry is that many turns before it.
+  const bool from_exit = end && index == 0;
+  Vector3 out = (from_exit ? link.exit : link.entry) - link.center;
+  out -= link.normal * link.normal.dot(out);
+  out = out.norm() > 0.0 ? Vector3(out.normalized()) : any_perpendicular(link.normal);
+  const Vector3 ahead = link.normal.cross(out) * static_cast<double>(link.winding);
+  const double back = from_exit ? -w.angle : 0.0;
+  w.first = out * std::cos(back) + ahead * std::sin(back);
+  w.second = link.normal.cross(w.first) * static_cast<double>(link.winding);
+  const double more_than_one = w.angle / turn - 1.0;
+  if (more_than_one > 0.0) {
+    // Grows from nothing, so that nothing jumps in the frame in which the second turn begins.
+    const double grown = std::min(1.0, 8.0 * more_than_one);
+    const double room = index < style.winding_room.size() ? style.winding_room[index] : 0.0;
+    const double wanted = 2.15 * style.radius * w.angle / turn * grown;
+    w.shift = std::min(wanted, std::max(0.0, room - 2.0 * style.radius));
+  }
+  return w;
+}
+
+/// Half the shift towards one end of the winding: where the neighbouring span is drawn to.
+Vector3 offset_at(const LinkReport& link, const Winding& w, bool at_exit) {
+  return link.normal * (at_exit ? 0.5 * w.shift : -0.5 * w.shift);
+}
+
+std::vector<Vector3> hang(const SpanReport& span, const Vector3& start, const Vector3& end,
+                          const CableStyle& style) {
+  if (!is_slack(span)) return {start, end};
+  const Catenary catenary(start, end, span.rest_length, style.gravity);
+  std::vector<Vector3> points = catenary.points(catenary_points);
+  if (style.floor) {
+    const Plane& floor = *style.floor;
+    for (Vector3& p : points) {
+      const double height = floor.normal.dot(p - floor.point) - style.radius;
+      if (height < 0.0) p -= floor.normal * height;
+    }
+    points.front() = start;
+    points.back() = end;
+  }
+  return points;
+}
+
+/// Builds the tubes link by link.
+class Drawing {
+ public:
+  Drawing(const CableReport& cable, const CableStyle& style) : cable_(cable), style_(style) {
+    for (std::size_t i = 0; i < cable.links.size(); ++i) {
+      windings_.push_back(cable.links[i].radius > 0.0 ? winding_of(cable, i, style) : Winding{});
+    }
+  }
+
+  [[nodiscard]] std::vector<Vector3> span_line(std::size_t k) const {
+    const std::size_t next = (k + 1) % cable_.links.size();
+    const SpanReport& span = cable_.spans[k];
+    return hang(span, span.start + offset_at(cable_.links[k], windings_[k], true),
+                span.end + offset_at(cable_.links[next], windings_[next], false), style_);
+  }
+
+  std::vector<Tube> run() {
+    for (std::size_t i = 0; i < cable_.links.size(); ++i) {
+      add_link(i);
+      if (i < cable_.spans.size()) {
+        const Color color = tension_color(cable_.spans[i].tension, style_);
+        for (const Vector3& p : span_line(i)) add(p, color);
+      }
+    }
+    // A belt ends where it began: at the entry of its first link, or at that link's point.
+    const bool joined = cable_.closed && !cut_at_start_ && tubes_.empty();
+    cut();
+    if (joined && !tubes_.empty()) tubes_.front().closed = true;
+    return std::move(tubes_);
+  }
+
+ private:
+  void add(const Vector3& position, const Color& color) {
+    current_.points.push_back({position, color});
+  }
+  void cut() {
+    current_.radius = style_.radius;
+    if (current_.points.size() > 1) tubes_.push_back(std::move(current_));
+    current_ = Tube{};
+  }
+
+  void add_link(std::size_t i) {
+    const LinkReport& link = cable_.links[i];
+    const Winding& w = windings_[i];
+    // Where there is no length to blend colours over, the tube is cut.
+    if (!(link.radius > 0.0) || std::abs(w.angle) * link.radius < 2.0 * style_.radius) {
+      if (i == 0) cut_at_start_ = true;
+      cut();
+      return;
+    }
+    const std::size_t n = cable_.spans.size();
+    const bool has_incoming = cable_.closed || i > 0;
+    const bool has_outgoing = i < n;
+    const std::size_t outgoing = has_outgoing ? i : i - 1;
+    const std::size_t incoming = has_incoming ? (i + n - 1) % n : outgoing;
+    const Color from = tension_color(cable_.spans[incoming].tension, style_);
+    const Color to = tension_color(cable_.spans[outgoing].tension, style_);
+    const int steps = std::max(2, static_cast<int>(std::ceil(std::abs(w.angle) / step_angle)));
+    for (int k = 0; k <= steps; ++k) {
+      const double share = static_cast<double>(k) / steps;
+      const double angle = w.angle * share;
+      const Vector3 out = w.first * std::cos(angle) + w.second * std::sin(angle);
+      add(link.center + out * link.radius + link.normal * (w.shift * (share - 0.5)),
+          mix(from, to, static_cast<float>(share)));
+    }
+  }
+
+  const CableReport& cable_;
+  const CableStyle& style_;
+  std::vector<Winding> windings_;
+  std::vector<Tube> tubes_;
+  Tube current_;
+  bool cut_at_start_ = false;
+};
+
+}  // namespace
+
+bool is_slack(const SpanReport& span) {
+  return !(span.tension > 0.0) && span.rest_length > span.length;
+}
+
+Color tension_color(double tension, const CableStyle& style) {
+  // Less than a millionth of the scale is what rounding leaves of zero.
+  if (!(tension > 1e-6 * style.tension_max)) return slack_color;
+  return sample(style.map, tension / style.tension_max);
+}
+
+double wound_angle(const LinkReport& link, bool is_end) {
+  if (is_end) return std::max(link.wrap_angle, 0.0);
+  const Vector3 from = link.entry - link.center;
+  const Vector3 to = link.exit - link.center;
+  const double direct = static_cast<double>(link.winding) *
+                        std::atan2(link.normal.dot(from.cross(to)), from.dot(to));
+  // `direct` is known up to whole turns; the stored length says how many.
+  return direct + turn * std::round((link.wrap_angle - direct) / turn);
+}
+
+std::vector<std::vector<Vector3>> span_lines(const CableReport& cable, const CableStyle& style) {
+  const Drawing drawing(cable, style);
+  std::vector<std::vector<Vector3>> lines;
+  for (std::size_t k = 0; k < cable.spans.size(); ++k) lines.push_back(drawing.span_line(k));
+  return lines;
+}
+
+std::vector<Tube> cable_tubes(const CableReport& cable, const CableStyle& style) {
+  return Drawing(cable, style).run();
+}
+
+}  // namespace sheave::render

@@ -1,0 +1,47 @@
+#pragma once
+// A program fed through its standard input, started without a shell.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/result.h"
+
+namespace sheave::render {
+
+/// A running child. Destroying it ends the child.
+class ChildProcess {
+ public:
+  /// Starts `arguments[0]`, looked up in PATH, with the rest as its arguments. Its standard output goes
+  /// nowhere, its standard error into a buffer. It gets its own process group, so that Ctrl-C in a
+  /// terminal reaches only the caller, who may still want to finish the output.
+  static Result<ChildProcess> start(const std::vector<std::string>& arguments);
+  ~ChildProcess();
+  ChildProcess(ChildProcess&& other) noexcept;
+  ChildProcess& operator=(ChildProcess&& other) noexcept;
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  /// Feeds bytes to standard input; waits while the child is busy. No signal if the child has ended,
+  /// but an error.
+  Errors write(std::span<const std::uint8_t> bytes);
+  /// Closes standard input, waits for the end and reports a status other than 0 with the last of
+  /// what the child said.
+  Errors finish();
+  /// Ends the child at once.
+  void kill();
+
+ private:
+  ChildProcess(std::string name, int process, int input, int messages);
+  void close_files();
+  /// The last few hundred bytes of the child's standard error.
+  [[nodiscard]] std::string last_words() const;
+
+  std::string name_;
+  int process_ = -1;   ///< -1: ended and waited for
+  int input_ = -1;     ///< our end of its standard input
+  int messages_ = -1;  ///< file that holds its standard error
+};
+
+}  // namespace sheave::render

@@ -1,0 +1,22 @@
+#pragma once
+// Colour maps for quantities along a cable.
+
+#include "render/color.h"
+
+namespace sheave::render {
+
+enum class ColorMap {
+  /// Perceptually uniform, from dark blue over magenta to orange. Its lightness rises evenly but stops
+  /// where a line on a light background would become hard to see.
+  tension,
+  /// From dark to middle grey.
+  gray,
+};
+
+/// The colour at t in [0, 1]; t outside is clamped, NaN counts as 0.
+Color sample(ColorMap map, double t);
+
+/// A cable that carries no tension: outside every map, so that "slack" cannot be read as "little".
+inline constexpr Color slack_color = rgb(0x8d98a5);
+
+}  // namespace sheave::render

@@ -1,0 +1,34 @@
+#pragma once
+// Numbers as people read them in a figure. Independent of the process's locale.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sheave::render {
+
+/// `value` with so many digits after the point (0 to 15); never "-0.0". "nan" and "inf" as such.
+[[nodiscard]] std::string fixed_text(double value, int decimals);
+
+/// Unit prefix that keeps numbers up to a reference short.
+struct UnitScale {
+  double factor = 1.0;      ///< divide by this
+  std::string_view prefix;  ///< "k", "M", "m", ...; empty from 0.1 to 10 000
+};
+[[nodiscard]] UnitScale unit_scale(double reference);
+
+/// "20.0 N": three significant digits of `reference` (a typical largest value), with its unit prefix,
+/// so that the numbers of one picture have the same form.
+[[nodiscard]] std::string quantity_text(double value, double reference, std::string_view unit);
+
+/// Round numbers in [low, high], about `count` of them; low < high, both finite.
+struct Ticks {
+  std::vector<double> values;
+  int decimals = 0;  ///< needed to write them exactly
+};
+[[nodiscard]] Ticks round_ticks(double low, double high, int count);
+
+/// The largest of 1, 2, 5 times a power of ten that is at most `value` > 0.
+[[nodiscard]] double round_down(double value);
+
+}  // namespace sheave::render

@@ -1,0 +1,121 @@
+#include "render/output_file.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace sheave::render {
+namespace {
+
+Error fault(const std::string& path, const char* action) {
+  return {"", "'" + path + "': cannot " + action + ": " + std::strerror(errno)};
+}
+
+/// Folder and a hidden name with six places for mkostemp, before the extension so that programs which
+/// judge a file by its name see the right one.
+std::string temporary_pattern(const std::string& path, std::size_t& suffix_length) {
+  const std::size_t slash = path.find_last_of('/');
+  const std::size_t start = slash == std::string::npos ? 0 : slash + 1;
+  const std::string name = path.substr(start);
+  const std::size_t dot = name.find_last_of('.');
+  const std::string extension = dot == std::string::npos || dot == 0 ? "" : name.substr(dot);
+  suffix_length = extension.size();
+  // Names have a limit (255 bytes nearly everywhere) that a long one must not exceed by the addition.
+  const std::string stem = name.substr(0, std::min<std::size_t>(name.size() - suffix_length, 100));
+  return path.substr(0, start) + "." + stem + ".XXXXXX" + extension;
+}
+
+/// mkostemp makes files private; output should be as readable as the user's umask says.
+mode_t default_mode() {
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  return static_cast<mode_t>(0666U & ~mask);
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::string path, std::string temporary, int descriptor)
+    : path_(std::move(path)), temporary_(std::move(temporary)), descriptor_(descriptor) {}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
+  if (this != &other) {
+    discard();
+    path_ = std::move(other.path_);
+    temporary_ = std::exchange(other.temporary_, {});
+    descriptor_ = std::exchange(other.descriptor_, -1);
+  }
+  return *this;
+}
+
+OutputFile::~OutputFile() { discard(); }
+
+Result<OutputFile> OutputFile::create(const std::string& path) {
+  if (path.empty() || path.back() == '/') return Error{"", "'" + path + "' names no file"};
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) {
+    return Error{"", "'" + path + "' is a folder; a file name is needed"};
+  }
+  std::size_t suffix_length = 0;
+  std::string name = temporary_pattern(path, suffix_length);
+  const int descriptor = ::mkostemps(name.data(), static_cast<int>(suffix_length), O_CLOEXEC);
+  if (descriptor < 0) return fault(path, "create a file there");
+  ::fchmod(descriptor, default_mode());
+  return OutputFile(path, std::move(name), descriptor);
+}
+
+Errors OutputFile::write(std::span<const std::uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+    if (count < 0) {
+      if (errno == EINTR) continue;
+      return {fault(path_, "write")};
+    }
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+  }
+  return {};
+}
+
+Errors OutputFile::close() {
+  if (descriptor_ < 0) return {};
+  // Some file systems report a full disk only here.
+  if (::close(std::exchange(descriptor_, -1)) != 0) return {fault(path_, "write")};
+  return {};
+}
+
+Errors OutputFile::commit() {
+  Errors errors = close();
+  if (errors.empty() && std::rename(temporary_.c_str(), path_.c_str()) != 0) {
+    errors.push_back(fault(path_, "put the finished file in place"));
+  }
+  if (!errors.empty()) {
+    discard();
+    return errors;
+  }
+  temporary_.clear();
+  return {};
+}
+
+void OutputFile::discard() {
+  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+  if (!temporary_.empty()) ::unlink(std::exchange(temporary_, {}).c_str());
+}
+
+Errors write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
+  Result<OutputFile> file = OutputFile::create(path);
+  if (!file) return file.errors();
+  if (Errors errors = file->write(bytes); !errors.empty()) return errors;
+  return file->commit();
+}
+
+}  // namespace sheave::render

@@ -1,0 +1,156 @@
+#include "render/video_writer.h"
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "render/child_process.h"
+#include "render/number_text.h"
+#include "render/output_file.h"
+
+namespace sheave::render {
+namespace {
+
+/// File name extensions and what ffmpeg calls their containers.
+struct Container {
+  std::string_view extension;
+  const char* name;
+  bool fast_start;  ///< has an index that can be moved to the front
+};
+constexpr std::array<Container, 3> containers{{
+    {".mp4", "mp4", true}, {".mov", "mov", true}, {".mkv", "matroska", false}}};
+
+const Container* container_of(std::string_view path) {
+  for (const Container& container : containers) {
+    if (path.ends_with(container.extension)) return &container;
+  }
+  return nullptr;
+}
+
+Errors check(const std::string& path, int width, int height, const VideoOptions& options) {
+  Errors errors;
+  if (container_of(path) == nullptr) {
+    errors.push_back({"", "video '" + path + "': the name must end in .mp4, .mov or .mkv"});
+  }
+  if (width < 2 || height < 2 || width > 16384 || height > 16384) {
+    errors.push_back({"", "video '" + path + "': size is " + std::to_string(width) + " x " +
+                              std::to_string(height) + "; each side must be 2 to 16384 pixels"});
+  }
+  if (!(options.frames_per_second > 0.0 && options.frames_per_second <= 1000.0)) {
+    errors.push_back({"/frames_per_second",
+                      "video '" + path + "': frames_per_second is " +
+                          std::to_string(options.frames_per_second) +
+                          "; it must be above 0 and at most 1000"});
+  }
+  if (options.quality < 0 || options.quality > 51) {
+    errors.push_back({"/quality", "video '" + path + "': quality is " +
+                                      std::to_string(options.quality) +
+                                      "; it must be from 0 to 51"});
+  }
+  return errors;
+}
+
+std::vector<std::string> command_line(const Container& container, const std::string& file,
+                                      int width, int height, const VideoOptions& options) {
+  std::vector<std::string> line{options.program, "-nostdin", "-loglevel", "error", "-y"};
+  const auto add = [&](std::initializer_list<std::string> words) {
+    line.insert(line.end(), words);
+  };
+  add({"-f", "rawvideo", "-pixel_format", "rgb24", "-video_size",
+       std::to_string(width) + "x" + std::to_string(height), "-framerate",
+       fixed_text(options.frames_per_second, 6), "-i", "pipe:0"});
+  // Without naming the matrix, players guess one by the size and colours shift.
+  add({"-vf", "scale=out_color_matrix=bt709:out_range=tv", "-colorspace", "bt709",
+       "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"});
+  // A fixed number of threads, because x264's output depends on it.
+  add({"-c:v", "libx264", "-preset", "veryfast", "-crf", std::to_string(options.quality),
+       "-pix_fmt", "yuv420p", "-threads", "2", "-flags:v", "+bitexact", "-fflags", "+bitexact",
+       "-map_metadata", "-1"});
+  if (container.fast_start) add({"-movflags", "+faststart"});
+  add({"-f", container.name, "file:" + file});
+  return line;
+}
+
+}  // namespace
+
+struct VideoWriter::Content {
+  int width = 0;
+  int height = 0;
+  std::int64_t frames = 0;
+  OutputFile file;
+  ChildProcess encoder;
+  std::vector<std::uint8_t> even;  ///< a frame extended to even sizes, kept for reuse
+
+  /// Bytes of the frame with both sides even, as 4:2:0 needs.
+  std::span<const std::uint8_t> extended(const Image& frame) {
+    if (width % 2 == 0 && height % 2 == 0) return frame.rgb;
+    const auto row = static_cast<std::size_t>(width) * 3U;
+    even.clear();
+    for (int y = 0; y < height + height % 2; ++y) {
+      const std::uint8_t* from = frame.pixel(0, std::min(y, height - 1));
+      even.insert(even.end(), from, from + row);
+      if (width % 2 != 0) even.insert(even.end(), from + row - 3, from + row);
+    }
+    return even;
+  }
+};
+
+VideoWriter::VideoWriter(std::unique_ptr<Content> content) : content_(std::move(content)) {}
+VideoWriter::~VideoWriter() { discard(); }
+VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
+VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
+
+Result<VideoWriter> VideoWriter::create(const std::string& path, int width, int height,
+                                        const VideoOptions& options) {
+  if (Errors errors = check(path, width, height, options); !errors.empty()) return errors;
+  Result<OutputFile> file = OutputFile::create(path);
+  if (!file) return file.errors();
+  // Only the name was wanted: the encoder opens the file itself.
+  if (Errors errors = file->close(); !errors.empty()) return errors;
+  Result<ChildProcess> encoder =
+      ChildProcess::start(command_line(*container_of(path), file->temporary_path(),
+                                       width + width % 2, height + height % 2, options));
+  if (!encoder) {
+    Errors errors = encoder.errors();
+    errors.front().message += "; videos need ffmpeg (Debian: apt install ffmpeg)";
+    return errors;
+  }
+  return VideoWriter(std::unique_ptr<Content>(
+      new Content{width, height, 0, std::move(file).value(), std::move(encoder).value(), {}}));
+}
+
+Errors VideoWriter::add(const Image& frame) {
+  if (!content_) return {Error{"", "the video is already finished or discarded"}};
+  if (frame.width != content_->width || frame.height != content_->height ||
+      frame.rgb.size() != std::size_t{3} * static_cast<std::size_t>(frame.width) *
+                              static_cast<std::size_t>(frame.height)) {
+    return {Error{"", "video '" + content_->file.path() + "': the frame is " +
+                          std::to_string(frame.width) + " x " + std::to_string(frame.height) +
+                          " pixels; it must be " + std::to_string(content_->width) + " x " +
+                          std::to_string(content_->height)}};
+  }
+  Errors errors = content_->encoder.write(content_->extended(frame));
+  for (Error& error : errors) error.message = "video '" + content_->file.path() + "': " + error.message;
+  if (errors.empty()) ++content_->frames;
+  return errors;
+}
+
+Errors VideoWriter::finish() {
+  if (!content_) return {Error{"", "the video is already finished or discarded"}};
+  const std::unique_ptr<Content> content = std::move(content_);
+  const std::string name = "video '" + content->file.path() + "': ";
+  if (content->frames == 0) return {Error{"", name + "it has no frames"}};
+  Errors errors = content->encoder.finish();
+  for (Error& error : errors) error.message = name + error.message;
+  if (!errors.empty()) return errors;
+  return content->file.commit();
+}
+
+void VideoWriter::discard() { content_.reset(); }
+
+std::int64_t VideoWriter::frame_count() const { return content_ ? content_->frames : 0; }
+
+}  // namespace sheave::render

@@ -1,0 +1,220 @@
+#include "render/view_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "render/number_text.h"
+
+namespace sheave::render {
+namespace {
+
+constexpr Color knot_color = rgb(0x3b4656);
+
+/// The world does not move; every other body has a pose.
+Vector3 place_in_world(const World& world, BodyId body, const Vector3& local) {
+  return body.is_world() ? local : world.point(body, local);
+}
+
+Quaternion turn_in_world(const World& world, BodyId body, const Quaternion& local) {
+  return body.is_world() ? local : Quaternion(world.orientation(body) * local);
+}
+
+/// A plane under the box, a little below so that nothing touches it by accident.
+Plane floor_under(const Eigen::AlignedBox3d& box, const Vector3& up) {
+  double lowest = up.dot(Vector3(box.center()));
+  for (int i = 0; i < 8; ++i) {
+    const Vector3 corner = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+    lowest = std::min(lowest, up.dot(corner));
+  }
+  Plane plane;
+  plane.normal = up;
+  plane.point = up * (lowest - 0.03 * box.diagonal().norm());
+  return plane;
+}
+
+/// Two lines of the same direction, whichever way they point.
+bool parallel(const Vector3& a, const Vector3& b) { return a.cross(b).norm() < 1e-3; }
+
+/// The direction that all have in common; nothing if there is none.
+std::optional<Vector3> common_direction(const std::vector<Vector3>& directions) {
+  if (directions.empty()) return std::nullopt;
+  for (const Vector3& d : directions) {
+    if (!parallel(d, directions.front())) return std::nullopt;
+  }
+  Vector3 normal = directions.front();
+  Eigen::Index largest = 0;
+  normal.cwiseAbs().maxCoeff(&largest);
+  // Scenes are usually seen from the positive side of an axis.
+  return normal[largest] < 0.0 ? Vector3(-normal) : normal;
+}
+
+/// The place half-way along a line.
+Vector3 middle_of(const std::vector<Vector3>& line) {
+  double total = 0.0;
+  for (std::size_t i = 1; i < line.size(); ++i) total += (line[i] - line[i - 1]).norm();
+  double left = 0.5 * total;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const double piece = (line[i] - line[i - 1]).norm();
+    if (piece >= left && piece > 0.0) return line[i - 1] + (line[i] - line[i - 1]) * (left / piece);
+    left -= piece;
+  }
+  return line.back();
+}
+
+}  // namespace
+
+double total_weight(const Model& model) {
+  double mass = 0.0;
+  for (const BodyDef& body : model.bodies) {
+    mass += body.mass ? *body.mass : combine(body.shapes, body.density.value_or(0.0)).mass;
+  }
+  return mass * model.gravity.norm();
+}
+
+Vector3 up_direction(const Model& model) {
+  const double strength = model.gravity.norm();
+  return strength > 0.0 ? Vector3(-model.gravity / strength) : Vector3(Vector3::UnitY());
+}
+
+std::optional<Vector3> motion_plane(const Model& model, std::span<const CableReport> cables) {
+  std::vector<Vector3> normals;
+  for (const CableReport& cable : cables) {
+    for (const LinkReport& link : cable.links) {
+      if (link.radius > 0.0) normals.push_back(link.normal);
+    }
+  }
+  if (normals.empty()) {
+    for (const BodyDef& body : model.bodies) {
+      if (body.mobility != Mobility::planar) continue;
+      normals.push_back(body.axis ? Vector3(body.axis->normalized()) : Vector3(Vector3::UnitZ()));
+    }
+  }
+  return common_direction(normals);
+}
+
+ViewBuilder::ViewBuilder(const World& world, std::span<const CableReport> cables,
+                         ViewOptions options)
+    : options_(std::move(options)),
+      gravity_(world.model().gravity),
+      weight_(total_weight(world.model())) {
+  // Twice: the size of the scene decides the cables' radius, and that the shape of the wheels.
+  bodies_ = make_body_view(world, cables, 1e-9 * world.bodies().scale());
+  DrawList draft;
+  add_bodies(world, draft);
+  Eigen::AlignedBox3d box = bounds(draft);
+  for (const CableReport& cable : cables) {
+    for (const LinkReport& link : cable.links) box.extend(link.center);
+  }
+  if (box.isEmpty()) box.extend(Eigen::Vector3d::Zero());
+  const double diagonal = std::max(box.diagonal().norm(), 1e-9);
+  cable_radius_ = options_.cable_radius.value_or(suitable_cable_radius(diagonal, cables));
+  bodies_ = make_body_view(world, cables, cable_radius_);
+
+  const Eigen::AlignedBox3d shown = options_.run_bounds.isEmpty() ? box : options_.run_bounds;
+  if (world.model().ground) {
+    Plane plane;
+    plane.point = world.model().ground->point;
+    plane.normal = world.model().ground->normal.normalized();
+    floor_ = plane;
+  } else if (options_.floor && gravity_.norm() > 0.0) {
+    floor_ = floor_under(shown, up_direction(world.model()));
+  }
+  if (floor_) floor_->grid_spacing = round_down(std::max(0.15 * shown.diagonal().norm(), 1e-9));
+}
+
+DrawList ViewBuilder::build(const World& world, std::span<const CableReport> cables) const {
+  DrawList list;
+  list.title = options_.title;
+  list.caption = options_.caption;
+  if (options_.time) list.time = world.state().time;
+  if (floor_) list.planes.push_back(*floor_);
+  add_bodies(world, list);
+  add_cables(cables, list);
+  return list;
+}
+
+void ViewBuilder::add_bodies(const World& world, DrawList& list) const {
+  for (const BodyPart& part : bodies_.parts) {
+    Solid solid;
+    solid.shape = part.shape;
+    solid.position = place_in_world(world, part.body, part.position);
+    solid.orientation = turn_in_world(world, part.body, part.orientation);
+    solid.color = part.color;
+    list.solids.push_back(std::move(solid));
+  }
+  for (const BodyBar& bar : bodies_.bars) {
+    Tube tube;
+    tube.radius = bar.radius;
+    tube.points = {{place_in_world(world, bar.body, bar.start), bar.color},
+                   {place_in_world(world, bar.body, bar.end), bar.color}};
+    list.tubes.push_back(std::move(tube));
+  }
+}
+
+double ViewBuilder::tension_scale(std::span<const CableReport> cables) const {
+  if (options_.tension_max) return *options_.tension_max;
+  double largest = 0.0;
+  for (const CableReport& cable : cables) {
+    for (const SpanReport& span : cable.spans) largest = std::max(largest, span.tension);
+  }
+  if (largest > 1e-6 * weight_) return largest;
+  return weight_ > 0.0 ? weight_ : 1.0;
+}
+
+void ViewBuilder::add_cables(std::span<const CableReport> cables, DrawList& list) const {
+  if (cables.empty()) return;
+  CableStyle style;
+  style.radius = cable_radius_;
+  style.tension_max = tension_scale(cables);
+  style.gravity = gravity_;
+  style.floor = floor_;
+  for (std::size_t c = 0; c < cables.size(); ++c) {
+    const CableReport& cable = cables[c];
+    style.winding_room.clear();
+    if (c < bodies_.winding_room.size()) style.winding_room = bodies_.winding_room[c];
+    for (Tube& tube : cable_tubes(cable, style)) list.tubes.push_back(std::move(tube));
+    for (const LinkReport& link : cable.links) {
+      if (link.radius > 0.0) continue;
+      Solid knot;
+      knot.shape = SphereShape{1.7 * cable_radius_};
+      knot.position = link.center;
+      knot.color = knot_color;
+      list.solids.push_back(std::move(knot));
+    }
+    if (options_.force_labels) add_labels(cable, style, list);
+  }
+  if (!options_.legend) return;
+  Legend legend;
+  legend.max = style.tension_max;
+  legend.map = style.map;
+  list.legend = legend;
+}
+
+void ViewBuilder::add_labels(const CableReport& cable, const CableStyle& style,
+                             DrawList& list) const {
+  const std::vector<std::vector<Vector3>> lines = span_lines(cable, style);
+  for (std::size_t k = 0; k < cable.spans.size(); ++k) {
+    const SpanReport& span = cable.spans[k];
+    const LinkReport& first = cable.links[k];
+    const LinkReport& second = cable.links[(k + 1) % cable.links.size()];
+    const Vector3 normal = first.radius > 0.0 ? first.normal : second.normal;
+    const Vector3 along = span.end - span.start;
+    Label label;
+    label.text = quantity_text(span.tension, style.tension_max, "N");
+    label.anchor = middle_of(lines[k]);
+    // Off to the right of an upright span, above a level one.
+    label.direction = along.cross(normal);
+    const Vector3 up = gravity_.norm() > 0.0 ? Vector3(-gravity_.normalized()) : Vector3(Vector3::UnitY());
+    const Vector3 right = up.cross(normal);
+    if (label.direction.dot(right) + 0.3 * label.direction.dot(up) < 0.0) label.direction *= -1.0;
+    if (is_slack(span)) {
+      label.direction = -up;
+    } else {
+      label.slide = 0.35 * along;
+    }
+    list.labels.push_back(std::move(label));
+  }
+}
+
+}  // namespace sheave::render

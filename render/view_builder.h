@@ -1,0 +1,81 @@
+#pragma once
+// From a simulated world to a draw list.
+//
+//   ViewBuilder builder(simulation.world, simulation.cable_reports(), options);
+//   DrawList list = builder.build(simulation.world, simulation.cable_reports());
+//
+// Building reads the world and changes nothing in it.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "cable/cable_report.h"
+#include "engine/world.h"
+#include "render/body_view.h"
+#include "render/cable_path.h"
+#include "render/draw_list.h"
+
+namespace sheave::render {
+
+struct ViewOptions {
+  /// Radius that cables are drawn with [m], > 0; default: suits the size of the scene.
+  std::optional<double> cable_radius;
+  /// Tension at the top of the colour map [N], > 0. Default: the largest tension of each frame by
+  /// itself (the weight of all bodies if no cable carries anything). For a video pass one value, for example from ViewSurvey, or colours mean different forces
+  /// in different frames.
+  std::optional<double> tension_max;
+  /// Box round everything that the picture will show over the whole run [m], for the place of the
+  /// floor; default: what is there at the beginning.
+  Eigen::AlignedBox3d run_bounds;
+  bool force_labels = false;  ///< the tension beside every span
+  bool legend = true;         ///< left out anyway if there are no cables
+  bool time = true;
+  /// A floor for shadows to fall on below a scene that has no ground of its own; never shown without
+  /// gravity.
+  bool floor = true;
+  std::string title;
+  std::string caption;
+};
+
+class ViewBuilder {
+ public:
+  /// Decides once how bodies and cables look. `world` and `cables` must be of the same state, usually
+  /// that at time 0; later calls of build() must be for the same model.
+  ViewBuilder(const World& world, std::span<const CableReport> cables, ViewOptions options = {});
+
+  /// What the world looks like now.
+  [[nodiscard]] DrawList build(const World& world, std::span<const CableReport> cables) const;
+
+  [[nodiscard]] double cable_radius() const { return cable_radius_; }
+
+ private:
+  void add_bodies(const World& world, DrawList& list) const;
+  void add_cables(std::span<const CableReport> cables, DrawList& list) const;
+  [[nodiscard]] double tension_scale(std::span<const CableReport> cables) const;
+  void add_labels(const CableReport& cable, const CableStyle& style, DrawList& list) const;
+
+  ViewOptions options_;
+  Vector3 gravity_;
+  double weight_ = 0.0;  ///< of all bodies [N]
+  double cable_radius_ = 0.0;
+  BodyView bodies_;
+  std::optional<Plane> floor_;
+};
+
+/// Weight of all bodies [N]; 0 without gravity. Tensions below a millionth of it are rounding errors of
+/// the solver, not forces worth a colour.
+[[nodiscard]] double total_weight(const Model& model);
+
+/// Against gravity; +y without any.
+[[nodiscard]] Vector3 up_direction(const Model& model);
+
+/// The normal of the plane in which the scene moves: the common axis of its wheels, or of its planar
+/// bodies if it has no wheels. Nothing if they have none in common.
+[[nodiscard]] std::optional<Vector3> motion_plane(const Model& model,
+                                                  std::span<const CableReport> cables);
+
+}  // namespace sheave::render

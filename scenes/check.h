@@ -1,0 +1,60 @@
+#pragma once
+// Whether a run showed what its scene promises.
+
+#include <string>
+#include <vector>
+
+#include "scenes/observables.h"
+#include "scenes/scene.h"
+
+namespace sheave {
+
+/// Outcome of one check.
+struct CheckResult {
+  CheckDef check;
+  double measured = 0.0;   ///< NaN if nothing could be measured
+  double error = 0.0;      ///< measured - equals
+  double tolerance = 0.0;  ///< largest |error| that passes
+  bool passed = false;
+  std::string message;     ///< one line: what was measured, what was wanted, or why it failed
+};
+
+/// Follows a simulation and evaluates the checks of its scene as it goes: no history is kept.
+class CheckRecorder {
+ public:
+  /// Checks whose quantity does not exist, which no loaded scene has, fail.
+  CheckRecorder(const Scene& scene, const Simulation& simulation);
+
+  /// To be called at time 0 and after every step.
+  void record(const Simulation& simulation);
+  [[nodiscard]] std::vector<CheckResult> results() const;
+
+ private:
+  /// What a check needs of the samples in its window.
+  struct Course {
+    CheckDef check;
+    int value = -1;     ///< index into values_; -1: the quantity does not exist
+    double from = 0.0;  ///< the window [s]; of the statistic `at`, the time twice
+    double to = 0.0;
+    long count = 0;     ///< of samples in the window
+    double first = 0.0, last = 0.0, first_time = 0.0, last_time = 0.0;
+    double minimum = 0.0, maximum = 0.0, sum = 0.0;
+    bool finite = true;
+    double nearest = 0.0;        ///< value at the sample nearest to `from`
+    double nearest_time = -1.0;  ///< its time; < 0: none yet
+
+    void add(double time, double value, double margin);
+    [[nodiscard]] double measured() const;
+  };
+
+  [[nodiscard]] CheckResult result(const Course& course) const;
+
+  ObservableSet observables_;
+  double dt_;
+  double last_time_ = -1.0;  // of the last sample; < 0: none yet
+  std::vector<int> indices_;     // of the observables that checks need
+  std::vector<double> values_;   // of those
+  std::vector<Course> courses_;  // one per check
+};
+
+}  // namespace sheave

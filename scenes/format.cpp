@@ -1,0 +1,258 @@
+#include "scenes/format.h"
+
+#include <algorithm>
+#include <bit>
+
+#include <fmt/format.h>
+
+#include "engine/field_check.h"
+#include "scenes/scene.h"
+
+namespace sheave {
+namespace {
+
+/// The table of a plain struct.
+template <class Type>
+TableFormat table_of() {
+  return {Type::field_table(), std::make_shared<const Type>()};
+}
+
+/// The types of a registry.
+template <class Base>
+std::vector<Variant> variants_of(std::span<const TypeEntry<Base>> types) {
+  std::vector<Variant> variants;
+  for (const TypeEntry<Base>& type : types) {
+    const std::shared_ptr<const Base> made = type.make();
+    // Shares ownership of the object but points to it as its own type.
+    const std::shared_ptr<const void> settings(made, made->settings());
+    variants.push_back({type.name, type.meaning, {type.fields(), settings}});
+  }
+  return variants;
+}
+
+/// The table that all types of a registry have in common, with one of them as the default object.
+template <class Base>
+TableFormat common_table(std::span<const TypeEntry<Base>> types) {
+  if (types.empty()) return {Base::common_field_table(), nullptr};
+  const std::shared_ptr<const Base> made = types.front().make();
+  return {Base::common_field_table(), made};
+}
+
+template <class Type>
+ObjectFormat plain_format(std::string_view name, std::string_view meaning) {
+  return {name, meaning, false, {table_of<Type>()}, {}, {}, {}};
+}
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+template <class Derived>
+bool same_bits(const Eigen::MatrixBase<Derived>& a, const Eigen::MatrixBase<Derived>& b) {
+  for (Eigen::Index i = 0; i < a.size(); ++i) {
+    if (!same_bits(a(i), b(i))) return false;
+  }
+  return true;
+}
+bool same_bits(const Quaternion& a, const Quaternion& b) {
+  return same_bits(a.coeffs(), b.coeffs());
+}
+bool same_bits(int a, int b) { return a == b; }
+bool same_bits(bool a, bool b) { return a == b; }
+bool same_bits(const std::string& a, const std::string& b) { return a == b; }
+bool same_bits(BodyId a, BodyId b) { return a == b; }
+template <class T>
+bool same_bits(const std::optional<T>& a, const std::optional<T>& b) {
+  return a.has_value() == b.has_value() && (!a || same_bits(*a, *b));
+}
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const T& x, const T& y) { return same_bits(x, y); });
+}
+
+/// Words for what each type of slot accepts.
+struct Description {
+  const Field& field;
+
+  [[nodiscard]] std::string numeric(std::string_view what) const {
+    const std::string range = range_text(field.range);
+    std::string text(what);
+    if (!range.empty()) text += " " + range;
+    if (!field.unit.empty()) text += fmt::format(" [{}]", field.unit);
+    return text;
+  }
+  std::string operator()(const double*) const { return numeric("a number"); }
+  std::string operator()(const std::optional<double>*) const { return numeric("a number"); }
+  std::string operator()(const int*) const { return numeric("an integer"); }
+  std::string operator()(const bool*) const { return "true or false"; }
+  std::string operator()(const std::string*) const { return "a string"; }
+  std::string operator()(const Vector3*) const { return numeric("[x, y, z], numbers"); }
+  std::string operator()(const std::optional<Vector3>*) const {
+    return numeric("[x, y, z], numbers");
+  }
+  std::string operator()(const Quaternion*) const {
+    return "a unit quaternion [w, x, y, z]";
+  }
+  std::string operator()(const BodyId*) const { return "the name of a body, or \"world\""; }
+  std::string operator()(const std::optional<BodyId>*) const {
+    return "the name of a body, or \"world\"";
+  }
+  std::string operator()(const std::vector<double>*) const {
+    return numeric("a list of numbers");
+  }
+  std::string operator()(const std::vector<Vector3>*) const {
+    return numeric("a list of [x, y, z], numbers");
+  }
+  std::string operator()(const ChoiceSlot&) const {
+    std::string text;
+    for (const std::string_view choice : field.choices) {
+      text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", choice);
+    }
+    return text;
+  }
+};
+
+}  // namespace
+
+const Variant* ObjectFormat::variant(std::string_view type) const {
+  const auto found = std::find_if(variants.begin(), variants.end(),
+                                  [&](const Variant& v) { return v.name == type; });
+  return found == variants.end() ? nullptr : &*found;
+}
+
+const Member* ObjectFormat::member(std::string_view key) const {
+  const auto found = std::find_if(members.begin(), members.end(),
+                                  [&](const Member& m) { return m.name == key; });
+  return found == members.end() ? nullptr : &*found;
+}
+
+const ObjectFormat& scene_format() {
+  static const ObjectFormat format{
+      "scene", "a model, its cables, and what is told beside it", false, {table_of<Scene>()}, {},
+      {{"step", "accuracy against cost", false, &step_format()},
+       {"bodies", "rigid bodies", true, &body_format()},
+       {"joints", "joints between two bodies", true, &joint_format()},
+       {"cables", "cables", true, &cable_format()},
+       {"ground", "a floor; absent: none", false, &ground_format()},
+       {"camera", "where pictures are taken from; absent: chosen automatically", false,
+        &camera_format()},
+       {"checks", "what the scene should show", true, &check_format()}}, {}};
+  return format;
+}
+
+const ObjectFormat& step_format() {
+  static const ObjectFormat format =
+      plain_format<StepSettings>("step", "how the scene is stepped through time");
+  return format;
+}
+
+const ObjectFormat& body_format() {
+  static const ObjectFormat format{
+      "body", "a rigid body", true, {table_of<BodyDef>()}, {},
+      {{"shape", "the body's form, if it is one shape; excludes shapes", false, &shape_format()},
+       {"shapes", "the body's form, if it is several shapes", true, &shape_format()}},
+      {{"shape", "shapes"}}};
+  return format;
+}
+
+const ObjectFormat& shape_format() {
+  static const ObjectFormat format{
+      "shape", "a solid form", false, {table_of<PlacedShape>()}, variants_of(shape_types()), {}, {}};
+  return format;
+}
+
+const ObjectFormat& joint_format() {
+  static const ObjectFormat format{"joint", "a joint between two bodies", true,
+                                   {common_table(joint_types())}, variants_of(joint_types()), {}, {}};
+  return format;
+}
+
+const ObjectFormat& ground_format() {
+  static const ObjectFormat format = plain_format<GroundDef>("ground", "a flat immovable floor");
+  return format;
+}
+
+const ObjectFormat& cable_format() {
+  static const ObjectFormat format{
+      "cable", "a cable: an ordered list of links", true, {table_of<CableDef>()}, {},
+      {{"links", "what the cable touches, in order; at least 2", true, &link_format()}}, {}};
+  return format;
+}
+
+const ObjectFormat& link_format() {
+  static const ObjectFormat format{"link", "one contact of a cable with a body", false,
+                                   {common_table(link_types())}, variants_of(link_types()), {}, {}};
+  return format;
+}
+
+const ObjectFormat& camera_format() {
+  static const ObjectFormat format =
+      plain_format<CameraDef>("camera", "where pictures are taken from");
+  return format;
+}
+
+const ObjectFormat& check_format() {
+  static const ObjectFormat format =
+      plain_format<CheckDef>("check", "a value that the scene should show, with a tolerance");
+  return format;
+}
+
+bool is_name(std::string_view text) {
+  if (text.empty() || text.size() > 128 || text.front() == ' ' || text.back() == ' ') return false;
+  return std::all_of(text.begin(), text.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+           c == '_' || c == '-' || c == ' ';
+  });
+}
+
+FieldSlot slot_of(const Field& field, const void* object) {
+  // A slot gives write access because the loader needs it; readers go through here and only read.
+  return field.slot(const_cast<void*>(object));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+}
+
+bool same_value(const Field& field, const void* a, const void* b) {
+  const FieldSlot slot_b = slot_of(field, b);
+  return std::visit(
+      [&]<class Slot>(const Slot& slot_a) {
+        const Slot& other = std::get<Slot>(slot_b);
+        if constexpr (std::is_same_v<Slot, ChoiceSlot>) {
+          return slot_a.get(slot_a.object) == other.get(other.object);
+        } else {
+          return same_bits(*slot_a, *other);
+        }
+      },
+      slot_of(field, a));
+}
+
+bool is_absent(const FieldSlot& slot) {
+  return std::visit(
+      []<class Slot>(const Slot& s) {
+        if constexpr (requires { s->has_value(); }) {
+          return !s->has_value();
+        } else {
+          return false;
+        }
+      },
+      slot);
+}
+
+std::string describe(const Field& field, const FieldSlot& slot) {
+  return std::visit(Description{field}, slot);
+}
+
+std::string range_text(const Range& range) {
+  const bool low = std::isfinite(range.minimum);
+  const bool high = std::isfinite(range.maximum);
+  const std::string minimum = number_text(range.minimum);
+  const std::string maximum = number_text(range.maximum);
+  if (low && high && range.minimum_allowed && range.maximum_allowed) {
+    return minimum + " ... " + maximum;
+  }
+  std::string text;
+  if (low) text += (range.minimum_allowed ? ">= " : "> ") + minimum;
+  if (low && high) text += " and ";
+  if (high) text += (range.maximum_allowed ? "<= " : "< ") + maximum;
+  return text;
+}
+
+}  // namespace sheave

@@ -1,0 +1,89 @@
+#pragma once
+// The tree of objects that a scene file is made of. The loader, the writer, the JSON Schema and the
+// reference documentation all walk this tree; what stands in it comes from the field tables and the
+// registries of types, so a new field or type needs no line here.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/field.h"
+
+namespace sheave {
+
+/// A field table with a default-constructed object of the type it belongs to.
+struct TableFormat {
+  std::span<const Field> fields;
+  std::shared_ptr<const void> defaults;
+};
+
+struct ObjectFormat;
+
+/// A key whose value is an object or a list of objects.
+struct Member {
+  std::string_view name;
+  std::string_view meaning;
+  bool list = false;
+  const ObjectFormat* format = nullptr;
+};
+
+/// One of several types of an object, chosen by its key "type".
+struct Variant {
+  std::string_view name;
+  std::string_view meaning;
+  TableFormat table;
+};
+
+/// What may stand in an object of a scene file.
+struct ObjectFormat {
+  std::string_view name;     ///< "body", "shape", ...
+  std::string_view meaning;
+  bool named = false;        ///< its "name" is one that others refer to, or a column's
+  std::vector<TableFormat> tables;
+  std::vector<Variant> variants;  ///< not empty: the key "type" is required and chooses one
+  std::vector<Member> members;
+  std::vector<std::pair<std::string_view, std::string_view>> exclusive;  ///< keys not to be given both
+
+  [[nodiscard]] const Variant* variant(std::string_view type) const;
+  [[nodiscard]] const Member* member(std::string_view key) const;
+};
+
+/// The format of a whole scene; all others hang on it.
+[[nodiscard]] const ObjectFormat& scene_format();
+[[nodiscard]] const ObjectFormat& step_format();
+[[nodiscard]] const ObjectFormat& body_format();
+[[nodiscard]] const ObjectFormat& shape_format();
+[[nodiscard]] const ObjectFormat& joint_format();
+[[nodiscard]] const ObjectFormat& ground_format();
+[[nodiscard]] const ObjectFormat& cable_format();
+[[nodiscard]] const ObjectFormat& link_format();
+[[nodiscard]] const ObjectFormat& camera_format();
+[[nodiscard]] const ObjectFormat& check_format();
+
+/// Most elements that a list of objects may have.
+inline constexpr std::size_t max_list_length = 1'000'000;
+/// What names of bodies, joints and cables look like (a regular expression, and in words). A dot
+/// would make column names ambiguous, a comma or quote would break CSV files.
+inline constexpr std::string_view name_pattern = "^[A-Za-z0-9_-]([A-Za-z0-9_ -]{0,126}[A-Za-z0-9_-])?$";
+inline constexpr std::string_view name_rule =
+    "1 to 128 letters, digits, \"_\", \"-\" and inner spaces";
+[[nodiscard]] bool is_name(std::string_view text);
+
+/// Largest deviation of a quaternion's length from 1.
+inline constexpr double quaternion_tolerance = 1e-6;
+
+/// The field's place in `object`, which is of the type the table belongs to.
+[[nodiscard]] FieldSlot slot_of(const Field& field, const void* object);
+/// Whether two objects of a table's type have bit for bit the same value in a field.
+[[nodiscard]] bool same_value(const Field& field, const void* a, const void* b);
+/// Whether an optional slot holds no value; false for slots that always do.
+[[nodiscard]] bool is_absent(const FieldSlot& slot);
+
+/// What a field accepts, for messages and documentation: "a number > 0 [kg]".
+[[nodiscard]] std::string describe(const Field& field, const FieldSlot& slot);
+/// "> 0", "1 ... 1000" or, without bounds, nothing.
+[[nodiscard]] std::string range_text(const Range& range);
+
+}  // namespace sheave

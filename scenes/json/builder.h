@@ -1,0 +1,73 @@
+#pragma once
+// Receives nlohmann-json's parse events and builds a Document from them.
+//
+// The parser tells what it read but not where. Every event comes right after the last token of what
+// it tells was read, and between two tokens there are only blanks, comments, commas and colons. So
+// one cursor that skips those and then the token stays in step with the parser; since the parser
+// has checked the token, finding its end needs no grammar.
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "scenes/json/document.h"
+
+namespace sheave::json {
+
+/// A SAX handler (the interface is nlohmann's).
+class Builder {
+ public:
+  /// Builds into `document`, whose text from `begin` on is what is being parsed.
+  Builder(Document& document, std::uint32_t begin, const Limits& limits, Faults& faults);
+
+  bool null();
+  bool boolean(bool value);
+  bool number_integer(std::int64_t value);
+  bool number_unsigned(std::uint64_t value);
+  bool number_float(double value, const std::string& text);
+  bool string(std::string& value);
+  static bool binary(nlohmann::json::binary_t& value);
+  bool key(std::string& value);
+  bool start_object(std::size_t size);
+  bool end_object();
+  bool start_array(std::size_t size);
+  bool end_array();
+  bool parse_error(std::size_t position, const std::string& token,
+                   const nlohmann::detail::exception& error);
+
+  /// The outermost value; no_node if nothing was read.
+  [[nodiscard]] NodeId root() const { return root_; }
+
+ private:
+  struct Open {
+    NodeId node;
+    std::size_t first_child;  // in pending_
+  };
+
+  [[nodiscard]] std::uint32_t next_token() const;
+  [[nodiscard]] std::uint32_t token_end(std::uint32_t begin) const;
+  /// Adds a node for the token that was just read; no_node if there are too many.
+  NodeId add(Kind kind);
+  bool open(Kind kind);
+  bool close();
+  bool number(double value);
+  void report_duplicates(NodeId object);
+  /// Pointer of the value that is being read.
+  [[nodiscard]] std::string current_pointer() const;
+  bool fail(std::uint32_t offset, std::string message, std::string value = {});
+
+  Document& document_;
+  const Limits& limits_;
+  Faults& faults_;
+  std::uint32_t begin_;
+  std::uint32_t cursor_;  // end of the last token
+  NodeId root_ = no_node;
+  std::vector<Open> open_;        // containers that are not complete, outermost first
+  std::vector<NodeId> pending_;   // their children so far
+  std::vector<NodeId> by_key_;    // scratch of report_duplicates
+  std::uint32_t key_ = Document::no_key;  // of the value to come
+  std::uint32_t key_begin_ = 0;
+};
+
+}  // namespace sheave::json

@@ -1,0 +1,292 @@
+#include "scenes/json/document.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+
+#include <fmt/format.h>
+
+#include "scenes/json/builder.h"
+
+namespace sheave::json {
+namespace {
+
+bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+/// Whether a value of an override is meant as a string although it has no quotes. Words that begin
+/// like a number, such as 1e3, are none.
+bool is_bare_word(std::string_view text) {
+  if (text.empty() || text == "true" || text == "false" || text == "null") return false;
+  const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  const auto inside = [&](char c) {
+    return letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == ' ' || c == '.';
+  };
+  return letter(text.front()) && std::all_of(text.begin(), text.end(), inside);
+}
+
+}  // namespace
+
+std::string_view name_of(Kind kind) {
+  switch (kind) {
+    case Kind::null: return "null";
+    case Kind::boolean: return "a boolean";
+    case Kind::number: return "a number";
+    case Kind::string: return "a string";
+    case Kind::array: return "an array";
+    case Kind::object: return "an object";
+  }
+  return "";
+}
+
+void Faults::add(Fault fault) {
+  if (full()) {
+    ++omitted_;
+  } else {
+    list_.push_back(std::move(fault));
+  }
+}
+
+std::vector<Fault> Faults::in_order() const {
+  std::vector<Fault> result = list_;
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Fault& a, const Fault& b) { return a.offset < b.offset; });
+  return result;
+}
+
+Document Document::parse(std::string_view text, std::string name, const Limits& limits,
+                         Faults& faults) {
+  Document document;
+  document.root_ = document.parse_source(text, std::move(name), limits, faults);
+  return document;
+}
+
+NodeId Document::parse_source(std::string_view text, std::string name, const Limits& limits,
+                              Faults& faults) {
+  const auto begin = static_cast<std::uint32_t>(text_.size());
+  sources_.push_back({begin, std::move(name)});
+  lines_.push_back(begin);
+  if (text.size() > limits.bytes || text_.size() + text.size() > 0xf0000000U) {
+    faults.add({begin, "", fmt::format("{} bytes are too many: at most {} are allowed", text.size(),
+                                       limits.bytes), {}, {}});
+    return no_node;
+  }
+  text_ += text;
+  for (std::size_t at = begin; at < text_.size(); ++at) {
+    if (text_[at] == '\n') lines_.push_back(static_cast<std::uint32_t>(at + 1));
+  }
+  // nlohmann takes a null character for the end of the text and would ignore what follows.
+  const std::size_t null_character = text_.find('\0', begin);
+  if (null_character != std::string::npos) {
+    faults.add({static_cast<std::uint32_t>(null_character), "", "null character in the text", {},
+                {}});
+    return no_node;
+  }
+  Builder builder(*this, begin, limits, faults);
+  const bool complete = nlohmann::json::sax_parse(text_.data() + begin, text_.data() + text_.size(),
+                                                  &builder, nlohmann::json::input_format_t::json,
+                                                  true, true);
+  return complete ? builder.root() : no_node;
+}
+
+std::span<const NodeId> Document::children(NodeId id) const {
+  const Node& n = node(id);
+  if (n.kind != Kind::array && n.kind != Kind::object) return {};
+  return {children_.data() + n.first, n.count};
+}
+
+NodeId Document::member(NodeId object, std::string_view key) const {
+  if (kind(object) != Kind::object) return no_node;
+  for (const NodeId child : children(object)) {
+    if (this->key(child) == key) return child;
+  }
+  return no_node;
+}
+
+void Document::add_child(NodeId parent, std::string key, NodeId child) {
+  // The ranges of children cannot grow in place: the parent's moves to the end.
+  Node& container = node(parent);
+  const std::size_t first = children_.size();
+  for (std::uint32_t i = 0; i < container.count; ++i) {
+    children_.push_back(children_[container.first + i]);
+  }
+  children_.push_back(child);
+  container.first = static_cast<std::uint32_t>(first);
+  node(child).parent = parent;
+  node(child).index = container.count++;
+  node(child).key = static_cast<std::uint32_t>(strings_.size());
+  strings_.push_back(std::move(key));
+}
+
+void Document::replace_child(NodeId old_child, NodeId child) {
+  const NodeId parent = node(old_child).parent;
+  node(child).parent = parent;
+  node(child).index = node(old_child).index;
+  node(child).key = node(old_child).key;
+  if (parent == no_node) {
+    root_ = child;
+  } else {
+    children_[node(parent).first + node(child).index] = child;
+  }
+}
+
+void Document::set(std::string_view pointer, std::string_view value, std::string origin,
+                   std::span<const std::string_view> implied, const Limits& limits,
+                   Faults& faults) {
+  const std::string text = is_bare_word(value) ? fmt::format("\"{}\"", value) : std::string(value);
+  const NodeId child = parse_source(text, std::move(origin), limits, faults);
+  if (child == no_node) return;
+  const std::uint32_t at = node(child).begin;
+  const auto fail = [&](std::string message) {
+    faults.add({at, std::string(pointer), std::move(message), {}, {}});
+  };
+  const auto steps = split(pointer);
+  if (!steps) return fail("not a JSON pointer: it must begin with \"/\", as in /step/dt");
+  Target target = find(pointer);
+  if (target.exact) return replace_child(target.node, child);
+  const std::string_view parent = pointer.substr(0, pointer.rfind('/'));
+  target = find(parent);
+  if (!target.exact && std::find(implied.begin(), implied.end(), parent) != implied.end()) {
+    Node object;
+    object.kind = Kind::object;
+    object.begin = object.end = object.key_begin = at;
+    nodes_.push_back(object);
+    const auto id = static_cast<NodeId>(nodes_.size() - 1);
+    add_child(target.node, unescape(parent.substr(1)), id);
+    target = {id, true};
+  }
+  if (!target.exact) return fail(fmt::format("there is no {} in the scene", parent));
+  if (kind(target.node) == Kind::array) {
+    return fail(fmt::format("{} has {} elements, counted from 0", parent,
+                            children(target.node).size()));
+  }
+  if (kind(target.node) != Kind::object) {
+    return fail(fmt::format("{} is {} and has no members", parent, name_of(kind(target.node))));
+  }
+  add_child(target.node, steps->back(), child);
+}
+
+std::string Document::pointer(NodeId id) const {
+  std::vector<NodeId> path;
+  for (; node(id).parent != no_node; id = node(id).parent) path.push_back(id);
+  std::string result;
+  for (auto step = path.rbegin(); step != path.rend(); ++step) {
+    const Node& n = node(*step);
+    result += '/';
+    result += n.key != no_key ? escape(strings_[n.key]) : std::to_string(n.index);
+  }
+  return result;
+}
+
+Document::Target Document::find(std::string_view pointer) const {
+  Target target{root_, true};
+  const auto steps = split(pointer);
+  if (!steps) return {root_, false};
+  for (const std::string& step : *steps) {
+    NodeId next = no_node;
+    if (kind(target.node) == Kind::array) {
+      const auto elements = children(target.node);
+      const auto index = array_index(step);
+      if (index && *index < elements.size()) next = elements[*index];
+    } else {
+      next = member(target.node, step);
+    }
+    if (next == no_node) return {target.node, false};
+    target.node = next;
+  }
+  return target;
+}
+
+Location Document::location(std::uint32_t offset) const {
+  const auto line = std::upper_bound(lines_.begin(), lines_.end(), offset) - 1;
+  const auto source =
+      std::upper_bound(sources_.begin(), sources_.end(), offset,
+                       [](std::uint32_t at, const Source& s) { return at < s.begin; }) - 1;
+  const auto first_line = std::lower_bound(lines_.begin(), lines_.end(), source->begin);
+  const std::size_t end = std::min<std::size_t>(offset, text_.size());
+  // Texts that are one huge line are not read by eye: there the column counts bytes, at no cost.
+  std::size_t characters = end - *line;
+  if (characters < 0x10000) {
+    const std::string_view before = std::string_view(text_).substr(*line, characters);
+    characters = static_cast<std::size_t>(std::count_if(
+        before.begin(), before.end(), [](char c) { return !continues_character(c); }));
+  }
+  return {source->name, static_cast<int>(line - first_line) + 1, static_cast<int>(characters) + 1};
+}
+
+std::string Document::excerpt(NodeId id) const {
+  const Node& n = node(id);
+  const std::string_view text = std::string_view(text_).substr(n.begin, n.end - n.begin);
+  const bool container = n.kind == Kind::array || n.kind == Kind::object;
+  if (container && (text.size() > 60 || text.find('\n') != std::string_view::npos)) return {};
+  return shortened(text, 60);
+}
+
+std::string unescape(std::string_view token) {
+  std::string result;
+  for (std::size_t i = 0; i < token.size(); ++i) {
+    const bool escaped = token[i] == '~' && i + 1 < token.size();
+    if (escaped && token[i + 1] == '1') {
+      result += '/';
+      ++i;
+    } else if (escaped && token[i + 1] == '0') {
+      result += '~';
+      ++i;
+    } else {
+      result += token[i];
+    }
+  }
+  return result;
+}
+
+std::string escape(std::string_view key) {
+  std::string result;
+  for (const char c : key) {
+    if (c == '~') {
+      result += "~0";
+    } else if (c == '/') {
+      result += "~1";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+std::optional<std::vector<std::string>> split(std::string_view pointer) {
+  std::vector<std::string> steps;
+  if (pointer.empty()) return steps;
+  if (pointer.front() != '/') return std::nullopt;
+  while (!pointer.empty()) {
+    pointer.remove_prefix(1);
+    const std::size_t end = std::min(pointer.find('/'), pointer.size());
+    steps.push_back(unescape(pointer.substr(0, end)));
+    pointer.remove_prefix(end);
+  }
+  return steps;
+}
+
+std::optional<std::size_t> array_index(std::string_view token) {
+  std::size_t index = 0;
+  const char* const end = token.data() + token.size();
+  const auto [stop, error] = std::from_chars(token.data(), end, index);
+  const bool leading_zero = token.size() > 1 && token.front() == '0';
+  if (error != std::errc() || stop != end || leading_zero) return std::nullopt;
+  return index;
+}
+
+std::string shortened(std::string_view text, std::size_t length) {
+  const bool cut = text.size() > length;
+  if (cut) {
+    std::size_t end = length > 3 ? length - 3 : 0;
+    while (end > 0 && continues_character(text[end])) --end;
+    text = text.substr(0, end);
+  }
+  std::string result;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    result += byte < 0x20 || byte == 0x7f ? ' ' : c;
+  }
+  return cut ? result + "..." : result;
+}
+
+}  // namespace sheave::json

@@ -1,0 +1,173 @@
+#include "scenes/observables.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "scenes/suggestion.h"
+
+namespace sheave {
+namespace {
+
+constexpr std::array<std::string_view, 14> body_quantities{
+    "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz", "angle"};
+constexpr std::array<std::string_view, 3> span_quantities{"tension", "length", "rest_length"};
+constexpr std::array<std::string_view, 4> energy_quantities{"kinetic", "potential", "elastic",
+                                                            "total"};
+constexpr int tension = 0;  // in span_quantities
+
+// Comparing a word with more names than this takes longer than a user waits for a hint.
+constexpr std::size_t max_suggestions = 100'000;
+
+}  // namespace
+
+/// Evaluates observables of one moment. What several of them share is computed once, when first
+/// asked for; asking in the order of the set therefore visits each body once.
+class ObservableSet::Sampler {
+ public:
+  explicit Sampler(const Simulation& simulation) : simulation_(simulation) {}
+
+  double value(const Source& source) {
+    const auto item = static_cast<std::size_t>(source.item);
+    switch (source.group) {
+      case Group::time: return simulation_.world.state().time;
+      case Group::body: return body(source.entity)[static_cast<std::size_t>(source.quantity)];
+      case Group::span: return of_span(cable(source.entity).spans[item], source.quantity);
+      case Group::link: return cable(source.entity).links[item].stored_length;
+      case Group::cable: return cable(source.entity).length_error;
+      case Group::energy: return energy(source.quantity);
+    }
+    return 0.0;
+  }
+
+ private:
+  static double of_span(const SpanReport& span, int quantity) {
+    if (quantity == tension) return span.tension;
+    return quantity == 1 ? span.length : span.rest_length;
+  }
+  const std::array<double, 14>& body(int index) {
+    if (index == body_) return body_values_;
+    body_ = index;
+    const World& world = simulation_.world;
+    const BodyId id{index};
+    const Vector3 x = world.position(id);
+    const Quaternion q = world.orientation(id);
+    const Vector3 v = world.velocity(id);
+    const Vector3 w = world.angular_velocity(id);
+    body_values_ = {x.x(), x.y(), x.z(), q.w(), q.x(), q.y(), q.z(),
+                    v.x(), v.y(), v.z(), w.x(), w.y(), w.z(),
+                    world.state().bodies[static_cast<std::size_t>(index)].angle};
+    return body_values_;
+  }
+  const CableReport& cable(int index) {
+    if (reports_.empty()) reports_ = simulation_.cable_reports();
+    return reports_[static_cast<std::size_t>(index)];
+  }
+  double energy(int quantity) {
+    if (!energy_) energy_ = simulation_.world.energy();
+    const std::array values{energy_->kinetic, energy_->potential, energy_->elastic,
+                            energy_->total()};
+    return values[static_cast<std::size_t>(quantity)];
+  }
+
+  const Simulation& simulation_;
+  int body_ = -1;  // whose values are in body_values_
+  std::array<double, 14> body_values_{};
+  std::vector<CableReport> reports_;
+  std::optional<Energy> energy_;
+};
+
+ObservableSet::ObservableSet(const Simulation& simulation) {
+  add_time();
+  add_bodies(simulation.world.model());
+  const std::vector<CableReport> reports = simulation.cable_reports();
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    add_cable(reports[i].name, static_cast<int>(i), static_cast<int>(reports[i].spans.size()),
+              static_cast<int>(reports[i].links.size()));
+  }
+  add_energies();
+}
+
+ObservableSet::ObservableSet(const Model& model, const std::vector<CableDef>& cables) {
+  add_time();
+  add_bodies(model);
+  for (std::size_t i = 0; i < cables.size(); ++i) {
+    add_cable(cables[i].name, static_cast<int>(i), cables[i].span_count(),
+              static_cast<int>(cables[i].links.size()));
+  }
+  add_energies();
+}
+
+void ObservableSet::add(std::string name, Source source) {
+  names_.push_back(std::move(name));
+  sources_.push_back(source);
+}
+
+void ObservableSet::add_time() { add("t", {Group::time}); }
+
+void ObservableSet::add_bodies(const Model& model) {
+  for (int i = 0; i < static_cast<int>(model.bodies.size()); ++i) {
+    const std::string& name = model.bodies[static_cast<std::size_t>(i)].name;
+    for (int q = 0; q < static_cast<int>(body_quantities.size()); ++q) {
+      add(fmt::format("{}.{}", name, body_quantities[static_cast<std::size_t>(q)]),
+          {Group::body, i, 0, q});
+    }
+  }
+}
+
+void ObservableSet::add_cable(std::string_view name, int entity, int spans, int links) {
+  for (int span = 0; span < spans; ++span) {
+    for (int q = 0; q < static_cast<int>(span_quantities.size()); ++q) {
+      add(fmt::format("{}.{}.{}", name, span, span_quantities[static_cast<std::size_t>(q)]),
+          {Group::span, entity, span, q});
+    }
+  }
+  for (int link = 0; link < links; ++link) {
+    add(fmt::format("{}.link{}.stored_length", name, link), {Group::link, entity, link, 0});
+  }
+  add(fmt::format("{}.length_error", name), {Group::cable, entity, 0, 0});
+}
+
+void ObservableSet::add_energies() {
+  for (int q = 0; q < static_cast<int>(energy_quantities.size()); ++q) {
+    add(fmt::format("energy.{}", energy_quantities[static_cast<std::size_t>(q)]),
+        {Group::energy, 0, 0, q});
+  }
+}
+
+Result<int> ObservableSet::index_of(std::string_view name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  if (found != names_.end()) return static_cast<int>(found - names_.begin());
+  Suggestion suggestion(name);
+  if (names_.size() <= max_suggestions) {
+    for (const std::string& candidate : names_) suggestion.consider(candidate);
+  }
+  const std::string hint =
+      suggestion.best().empty()
+          ? std::string("; allowed are t, <body>.x, <cable>.<span>.tension, energy.total and alike")
+          : suggestion.question();
+  return Error{"", fmt::format("there is no quantity \"{}\"{}", name, hint)};
+}
+
+bool ObservableSet::known_at_start(int index) const {
+  const Source& source = sources_[static_cast<std::size_t>(index)];
+  return source.group != Group::span || source.quantity != tension;
+}
+
+void ObservableSet::sample(const Simulation& simulation, std::vector<double>& values) const {
+  values.resize(sources_.size());
+  Sampler sampler(simulation);
+  for (std::size_t i = 0; i < sources_.size(); ++i) values[i] = sampler.value(sources_[i]);
+}
+
+void ObservableSet::sample(const Simulation& simulation, std::span<const int> indices,
+                           std::span<double> values) const {
+  Sampler sampler(simulation);
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    values[i] = sampler.value(sources_[static_cast<std::size_t>(indices[i])]);
+  }
+}
+
+}  // namespace sheave

@@ -1,0 +1,66 @@
+#pragma once
+// Every number of a running simulation that has a name: the columns of a CSV file, and what the
+// checks of a scene refer to.
+//
+//   t                                             time [s]
+//   <body>.x .y .z                                position of the body frame's origin [m]
+//   <body>.qw .qx .qy .qz                         orientation
+//   <body>.vx .vy .vz                             velocity of the body frame's origin [m/s]
+//   <body>.wx .wy .wz                             angular velocity [rad/s]
+//   <body>.angle                                  angle turned about the axis [rad] (State)
+//   <cable>.<span>.tension .length .rest_length   spans count from 0 [N, m, m]
+//   <cable>.link<k>.stored_length                 cable on link k [m]
+//   <cable>.length_error                          relative error of the length invariant
+//   energy.kinetic .potential .elastic .total     [J]
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cable/simulation.h"
+#include "engine/result.h"
+
+namespace sheave {
+
+/// The observables of one model, in a fixed order: time, bodies, cables, energies.
+class ObservableSet {
+ public:
+  explicit ObservableSet(const Simulation& simulation);
+  /// The same for what a simulation would be made from.
+  ObservableSet(const Model& model, const std::vector<CableDef>& cables);
+
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  /// Position of a name in names(); an error suggests a name that is nearly the same.
+  [[nodiscard]] Result<int> index_of(std::string_view name) const;
+  /// Whether the observable means something before the first step. Tensions do not.
+  [[nodiscard]] bool known_at_start(int index) const;
+
+  /// All values, in the order of names(). `simulation` must be of the model this set was made for.
+  void sample(const Simulation& simulation, std::vector<double>& values) const;
+  /// The values at `indices` only: costs nothing for bodies that are not asked for, and cables and
+  /// energies only if one of them is.
+  void sample(const Simulation& simulation, std::span<const int> indices,
+              std::span<double> values) const;
+
+ private:
+  enum class Group { time, body, span, link, cable, energy };
+  struct Source {
+    Group group = Group::time;
+    int entity = 0;    ///< index of the body or cable
+    int item = 0;      ///< index of the span or link
+    int quantity = 0;  ///< which of the group's names
+  };
+  class Sampler;
+
+  void add_bodies(const Model& model);
+  void add_cable(std::string_view name, int entity, int spans, int links);
+  void add(std::string name, Source source);
+  void add_time();
+  void add_energies();
+
+  std::vector<std::string> names_;
+  std::vector<Source> sources_;
+};
+
+}  // namespace sheave

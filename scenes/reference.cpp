@@ -1,0 +1,113 @@
+// Reference documentation of the format, from the tables.
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "scenes/field_json.h"
+#include "scenes/format.h"
+#include "scenes/json/pretty.h"
+#include "scenes/scene.h"
+
+namespace sheave {
+namespace {
+
+constexpr std::string_view introduction = R"(# The scene format
+
+<!-- Made from the field tables of the sources; do not edit. -->
+
+A scene is a JSON file with `//` and `/* */` comments. Units are SI. Vectors are `[x, y, z]`;
+quaternions are `[w, x, y, z]` and unit. Bodies refer to each other by name; `"world"` is the
+immovable world. A key that is not listed here is an error, and so is a key given twice.
+Names of bodies, joints and cables consist of )";
+
+constexpr std::string_view quantities = R"(
+## Quantities
+
+What a check may name, and the columns of a CSV file:
+
+| quantity | unit | meaning |
+|---|---|---|
+| `t` | s | time |
+| `<body>.x`, `.y`, `.z` | m | position of the body frame's origin |
+| `<body>.qw`, `.qx`, `.qy`, `.qz` | | orientation |
+| `<body>.vx`, `.vy`, `.vz` | m/s | velocity of the body frame's origin |
+| `<body>.wx`, `.wy`, `.wz` | rad/s | angular velocity |
+| `<body>.angle` | rad | angle turned about the axis: planar bodies and rotors |
+| `<cable>.<span>.tension`, `.length`, `.rest_length` | N, m, m | of a free span, counted from 0 |
+| `<cable>.link<k>.stored_length` | m | cable on link k, counted from 0 |
+| `<cable>.length_error` | | relative error of the length invariant |
+| `energy.kinetic`, `.potential`, `.elastic`, `.total` | J | of the whole scene |
+)";
+
+/// Text inside a cell of a table.
+std::string cell(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '|') result += '\\';
+    result += c;
+  }
+  return result;
+}
+
+std::string default_text(const Field& field, const FieldSlot& slot) {
+  if (field.presence == Presence::required) return "required";
+  if (is_absent(slot)) return "";
+  const auto value = field_json(field, slot, [](BodyId) { return std::string("world"); });
+  if (value.is_array() && value.empty()) return "";
+  std::string text = json::pretty(value);
+  text.pop_back();  // the line break
+  return "`" + text + "`";
+}
+
+void add_table_head(std::string& text) {
+  text += "\n| key | value | default | meaning |\n|---|---|---|---|\n";
+}
+
+void add_fields(const TableFormat& table, std::string& text) {
+  for (const Field& field : table.fields) {
+    const FieldSlot slot = slot_of(field, table.defaults.get());
+    text += fmt::format("| `{}` | {} | {} | {} |\n", field.name, cell(describe(field, slot)),
+                        cell(default_text(field, slot)), cell(field.meaning));
+  }
+}
+
+void add_format(const ObjectFormat& format, std::string& text) {
+  text += fmt::format("\n## {}\n\n{}.\n", format.name, format.meaning);
+  add_table_head(text);
+  if (!format.variants.empty()) text += "| `type` | one of the types below | required | |\n";
+  for (const TableFormat& table : format.tables) add_fields(table, text);
+  for (const Member& member : format.members) {
+    text += fmt::format("| `{}` | {} [{}](#{}) | | {} |\n", member.name,
+                        member.list ? "a list of" : "a", member.format->name, member.format->name,
+                        cell(member.meaning));
+  }
+  for (const Variant& variant : format.variants) {
+    text += fmt::format("\n### {} `\"{}\"`\n\n{}.\n", format.name, variant.name, variant.meaning);
+    if (variant.table.fields.empty()) continue;
+    add_table_head(text);
+    add_fields(variant.table, text);
+  }
+}
+
+/// The formats in the order in which they are first mentioned.
+void collect(const ObjectFormat& format, std::vector<const ObjectFormat*>& formats) {
+  if (std::find(formats.begin(), formats.end(), &format) != formats.end()) return;
+  formats.push_back(&format);
+  for (const Member& member : format.members) collect(*member.format, formats);
+}
+
+}  // namespace
+
+std::string scene_reference() {
+  std::string text(introduction);
+  text += name_rule;
+  text += ".\n";
+  std::vector<const ObjectFormat*> formats;
+  collect(scene_format(), formats);
+  for (const ObjectFormat* format : formats) add_format(*format, text);
+  text += quantities;
+  return text;
+}
+
+}  // namespace sheave

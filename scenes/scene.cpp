@@ -1,0 +1,95 @@
+#include "scenes/scene.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace sheave {
+
+std::span<const Field> CameraDef::field_table() {
+  static const std::array table{
+      choice_field<&CameraDef::projection>("projection", projection_names, optional,
+                                           "how the world is mapped to the picture"),
+      field<&CameraDef::position>("position", "m", any_number(), optional,
+                                  "of the eye; needs target; default: so that all is in view"),
+      field<&CameraDef::target>("target", "m", any_number(), optional,
+                                "point in the middle of the picture; needs position"),
+      field<&CameraDef::direction>("direction", "", any_number(), optional,
+                                   "to look along, with the distance chosen automatically; "
+                                   "excludes position and target"),
+      field<&CameraDef::up>("up", "", any_number(), optional,
+                            "up in the picture; default: against gravity"),
+      field<&CameraDef::vertical_fov>("vertical_fov", "rad",
+                                      Range{0.0, pi, false, false}, optional,
+                                      "perspective: full vertical opening angle"),
+      field<&CameraDef::height>("height", "m", above(0.0), optional,
+                                "orthographic: height of the picture; needs position; default: so "
+                                "that all is in view"),
+      field<&CameraDef::labels>("labels", "", {}, optional,
+                                "write the tensions [N] beside the cables"),
+  };
+  return table;
+}
+
+std::span<const Field> CheckDef::field_table() {
+  static const std::array table{
+      field<&CheckDef::quantity>("quantity", "", {}, required,
+                                 "name of an observable, as in the columns of a CSV file"),
+      choice_field<&CheckDef::statistic>(
+          "statistic", statistic_names, optional,
+          "at: value at the step nearest to the time at; mean, minimum, maximum: of the values in "
+          "the window; rate: (last - first value) / time between them; range: maximum - minimum; "
+          "drift: last - first value"),
+      field<&CheckDef::at>("at", "s", at_least(0.0), optional,
+                           "time for the statistic at; default: the end"),
+      field<&CheckDef::from>("from", "s", at_least(0.0), optional,
+                             "begin of the window of all other statistics; default: 0"),
+      field<&CheckDef::to>("to", "s", at_least(0.0), optional,
+                           "end of that window; default: the end"),
+      field<&CheckDef::equals>("equals", "", any_number(), required,
+                               "the right value, in the observable's unit (per second for a rate)"),
+      field<&CheckDef::tolerance>("tolerance", "", at_least(0.0), optional,
+                                  "largest error that passes, in the same unit"),
+      field<&CheckDef::relative_tolerance>(
+          "relative_tolerance", "", at_least(0.0), optional,
+          "the same as a fraction of |equals|; of the two tolerances the larger counts, and one "
+          "must be given"),
+      field<&CheckDef::because>("because", "", {}, optional, "the closed form, for people"),
+  };
+  return table;
+}
+
+double CheckDef::allowed_error() const {
+  double allowed = std::nan("");
+  if (tolerance) allowed = *tolerance;
+  if (relative_tolerance) allowed = std::fmax(allowed, *relative_tolerance * std::abs(equals));
+  return allowed;
+}
+
+std::span<const Field> Scene::field_table() {
+  static const std::array table{
+      choice_field<&Scene::format>("format", scene_format_names, required,
+                                   "version of the format"),
+      field<&Scene::name>("name", "", {}, optional, "title of the scene"),
+      field<&Scene::description>("description", "", {}, optional, "what the scene shows"),
+      Field{"gravity", "m/s2", any_number(), required, "acceleration of free fall; \"up\" is "
+            "against it", {},
+            [](void* scene) -> FieldSlot { return &static_cast<Scene*>(scene)->model.gravity; }},
+      field<&Scene::duration>("duration", "s", above(0.0), required, "time to simulate"),
+  };
+  return table;
+}
+
+std::string to_string(const SceneError& error) {
+  std::string text = error.file;
+  if (error.line > 0) text += fmt::format(":{}:{}", error.line, error.column);
+  if (!error.pointer.empty()) text += ": " + error.pointer;
+  if (!error.value.empty()) text += ": value " + error.value;
+  text += ": " + error.message;
+  if (!error.allowed.empty() && error.message.find(error.allowed) == std::string::npos) {
+    text += "; allowed: " + error.allowed;
+  }
+  return text;
+}
+
+}  // namespace sheave

@@ -1,0 +1,142 @@
+// JSON Schema (draft-07) of the format, from the tables.
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scenes/field_json.h"
+#include "scenes/format.h"
+#include "scenes/json/pretty.h"
+#include "scenes/scene.h"
+
+namespace sheave {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number_schema(const Range& range, const char* type) {
+  Json schema{{"type", type}};
+  if (std::isfinite(range.minimum)) {
+    schema[range.minimum_allowed ? "minimum" : "exclusiveMinimum"] = range.minimum;
+  }
+  if (std::isfinite(range.maximum)) {
+    schema[range.maximum_allowed ? "maximum" : "exclusiveMaximum"] = range.maximum;
+  }
+  return schema;
+}
+
+Json tuple_schema(Json items, int count) {
+  return {{"type", "array"}, {"items", std::move(items)}, {"minItems", count}, {"maxItems", count}};
+}
+
+Json list_schema(Json items) {
+  return {{"type", "array"}, {"items", std::move(items)}, {"maxItems", max_list_length}};
+}
+
+/// One overload per type of slot.
+struct SlotSchema {
+  const Field& field;
+
+  [[nodiscard]] Json number() const { return number_schema(field.range, "number"); }
+  [[nodiscard]] Json vector() const { return tuple_schema(number(), 3); }
+  Json operator()(const double*) const { return number(); }
+  Json operator()(const std::optional<double>*) const { return number(); }
+  Json operator()(const int*) const { return number_schema(field.range, "integer"); }
+  Json operator()(const bool*) const { return {{"type", "boolean"}}; }
+  Json operator()(const std::string*) const { return {{"type", "string"}}; }
+  Json operator()(const Vector3*) const { return vector(); }
+  Json operator()(const std::optional<Vector3>*) const { return vector(); }
+  Json operator()(const Quaternion*) const {
+    return tuple_schema({{"type", "number"}, {"minimum", -1.000001}, {"maximum", 1.000001}}, 4);
+  }
+  Json operator()(const BodyId*) const { return {{"type", "string"}}; }
+  Json operator()(const std::optional<BodyId>*) const { return {{"type", "string"}}; }
+  Json operator()(const std::vector<double>*) const { return list_schema(number()); }
+  Json operator()(const std::vector<Vector3>*) const { return list_schema(vector()); }
+  Json operator()(const ChoiceSlot&) const {
+    Json names = Json::array();
+    for (const std::string_view choice : field.choices) names.push_back(choice);
+    return {{"enum", std::move(names)}};
+  }
+};
+
+Json field_schema(const Field& field, const TableFormat& table, bool is_entity_name) {
+  const FieldSlot slot = slot_of(field, table.defaults.get());
+  Json schema = std::visit([&](const auto& s) { return SlotSchema{field}(s); }, slot);
+  std::string description(field.meaning);
+  if (!field.unit.empty()) description += fmt::format(" [{}]", field.unit);
+  schema["description"] = description;
+  if (is_entity_name) {
+    schema["pattern"] = name_pattern;
+    schema["not"] = {{"const", "world"}};
+  }
+  if (field.presence == Presence::optional && !is_absent(slot)) {
+    schema["default"] = field_json(field, slot, [](BodyId) { return std::string("world"); });
+  }
+  return schema;
+}
+
+/// The schema of an object of `format`, of the given type if it has several.
+Json object_schema(const ObjectFormat& format, const Variant* variant) {
+  Json properties = Json::object();
+  Json required = Json::array();
+  if (variant != nullptr) {
+    properties["type"] = {{"const", variant->name}, {"description", variant->meaning}};
+    required.push_back("type");
+  }
+  const auto add_table = [&](const TableFormat& table) {
+    for (const Field& field : table.fields) {
+      const bool is_entity_name = format.named && field.name == "name";
+      properties[std::string(field.name)] = field_schema(field, table, is_entity_name);
+      if (field.presence == Presence::required) required.push_back(field.name);
+    }
+  };
+  for (const TableFormat& table : format.tables) add_table(table);
+  if (variant != nullptr) add_table(variant->table);
+  for (const Member& member : format.members) {
+    Json reference{{"$ref", fmt::format("#/definitions/{}", member.format->name)}};
+    // Draft-07 ignores what stands beside a $ref, so the description needs a level of its own.
+    properties[std::string(member.name)] =
+        member.list ? list_schema(std::move(reference))
+                    : Json{{"allOf", Json::array({std::move(reference)})}};
+    properties[std::string(member.name)]["description"] = member.meaning;
+  }
+  Json schema{{"type", "object"},
+              {"description", variant != nullptr ? variant->meaning : format.meaning},
+              {"properties", std::move(properties)},
+              {"additionalProperties", false}};
+  if (!required.empty()) schema["required"] = std::move(required);
+  for (const auto& [one, other] : format.exclusive) {
+    schema["not"] = {{"required", {one, other}}};
+  }
+  return schema;
+}
+
+Json format_schema(const ObjectFormat& format) {
+  if (format.variants.empty()) return object_schema(format, nullptr);
+  Json types = Json::array();
+  for (const Variant& variant : format.variants) types.push_back(object_schema(format, &variant));
+  return {{"description", format.meaning}, {"oneOf", std::move(types)}};
+}
+
+void add_definitions(const ObjectFormat& format, Json& definitions) {
+  for (const Member& member : format.members) {
+    const std::string name(member.format->name);
+    if (definitions.contains(name)) continue;
+    definitions[name] = format_schema(*member.format);
+    add_definitions(*member.format, definitions);
+  }
+}
+
+}  // namespace
+
+std::string scene_schema() {
+  Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "Sheave scene"}};
+  schema.update(format_schema(scene_format()));
+  Json definitions = Json::object();
+  add_definitions(scene_format(), definitions);
+  schema["definitions"] = std::move(definitions);
+  return json::pretty(schema);
+}
+
+}  // namespace sheave

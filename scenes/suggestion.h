@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sheave {
+
+/// Finds the candidate that a user probably meant by a word that means nothing: the nearest by the
+/// number of inserted, deleted, replaced and swapped letters, ignoring case.
+class Suggestion {
+ public:
+  explicit Suggestion(std::string_view text);
+  /// Of candidates that are equally near the first one wins. Must outlive the suggestion.
+  void consider(std::string_view candidate);
+  /// The best candidate so far; empty if none is near enough to be worth naming.
+  [[nodiscard]] std::string_view best() const { return best_; }
+  /// ", did you mean \"...\"?", or nothing.
+  [[nodiscard]] std::string question() const;
+
+ private:
+  [[nodiscard]] std::size_t distance(std::string_view candidate);
+
+  std::string text_;  // lower case
+  std::string_view best_;
+  std::size_t best_distance_;  // candidates must be nearer than this
+  std::vector<std::size_t> before_previous_, previous_, current_;  // rows of the distance table
+};
+
+}  // namespace sheave

@@ -1,0 +1,138 @@
+#include "scenes/validate.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cable/simulation.h"
+#include "engine/field_check.h"
+#include "scenes/format.h"
+#include "scenes/observables.h"
+
+namespace sheave {
+namespace {
+
+/// Sine of the smallest angle between directions that count as not parallel.
+constexpr double least_sine = 1e-6;
+
+bool parallel(const Vector3& a, const Vector3& b) {
+  return !(a.normalized().cross(b.normalized()).norm() > least_sine);
+}
+
+void check_camera(const CameraDef& camera, Errors& errors) {
+  check_fields(CameraDef::field_table(), &camera, "/camera", errors);
+  const auto fail = [&](std::string_view field, std::string message) {
+    errors.push_back({fmt::format("/camera{}", field), "camera: " + std::move(message)});
+  };
+  const bool orthographic = camera.projection == Projection::orthographic;
+  if (camera.position.has_value() != camera.target.has_value()) {
+    fail(camera.position ? "/position" : "/target", "position and target need each other");
+  }
+  if (camera.direction && camera.position) {
+    fail("/direction", "direction excludes position and target; leave one out");
+  }
+  if (camera.vertical_fov && orthographic) {
+    fail("/vertical_fov", "only a perspective picture has an opening angle; give height instead");
+  }
+  if (camera.height && !orthographic) {
+    fail("/height", "only an orthographic picture has a height in metres; give vertical_fov or "
+                    "projection \"orthographic\"");
+  } else if (camera.height && !camera.position) {
+    fail("/height", "height needs position and target; without them all is brought into view");
+  }
+  if (camera.direction && !(camera.direction->norm() > 0.0)) {
+    fail("/direction", "direction must not be zero");
+    return;
+  }
+  if (camera.up && !(camera.up->norm() > 0.0)) {
+    fail("/up", "up must not be zero");
+    return;
+  }
+  std::optional<Vector3> view = camera.direction;
+  if (camera.position && camera.target) {
+    view = *camera.target - *camera.position;
+    if (!(view->norm() > 0.0)) {
+      fail("/target", "target must not be the position of the eye");
+      return;
+    }
+  }
+  // Without an explicit `up` a view along gravity is fine: then another direction is chosen.
+  if (view && camera.up && parallel(*view, *camera.up)) {
+    fail("/up", "up must not be parallel to the direction of view");
+  }
+}
+
+/// Checks one check, except for the name of its quantity.
+void check_check(const CheckDef& check, const std::string& path, double duration, bool may_end_late,
+                 Errors& errors) {
+  check_fields(CheckDef::field_table(), &check, path, errors);
+  const auto fail = [&](std::string_view field, std::string message) {
+    errors.push_back({fmt::format("{}{}", path, field),
+                      fmt::format("check of \"{}\": {}", check.quantity, message)});
+  };
+  if (!check.tolerance && !check.relative_tolerance) {
+    fail("", "needs tolerance or relative_tolerance");
+  } else if (!check.tolerance && check.equals == 0.0) {
+    fail("/relative_tolerance", "nothing passes a relative tolerance of 0; give tolerance");
+  }
+  const bool window = check.from || check.to;
+  if (check.statistic == Statistic::at && window) {
+    fail(check.from ? "/from" : "/to", "the statistic at has no window; give at");
+  }
+  if (check.statistic != Statistic::at && check.at) {
+    fail("/at", fmt::format("the statistic {} has a window; give from and to",
+                            statistic_names[static_cast<std::size_t>(check.statistic)]));
+  }
+  if (check.from && !(*check.from < check.to.value_or(duration))) {
+    fail("/from", fmt::format("the window must not be empty; it ends at {} s",
+                              number_text(check.to.value_or(duration))));
+  }
+  if (may_end_late) return;
+  if (check.at && *check.at > duration) {
+    fail("/at", fmt::format("must be at most the duration, {} s", number_text(duration)));
+  }
+  if (check.to && *check.to > duration) {
+    fail("/to", fmt::format("must be at most the duration, {} s", number_text(duration)));
+  }
+}
+
+void check_names(const Scene& scene, Errors& errors) {
+  const auto check = [&](const std::string& name, std::string_view list, std::size_t i) {
+    if (is_name(name)) return;
+    errors.push_back({fmt::format("/{}/{}/name", list, i),
+                      fmt::format("a name must consist of {}; this is \"{}\"", name_rule, name)});
+  };
+  for (std::size_t i = 0; i < scene.model.bodies.size(); ++i) {
+    check(scene.model.bodies[i].name, "bodies", i);
+  }
+  for (std::size_t i = 0; i < scene.model.joints.size(); ++i) {
+    check(scene.model.joints[i]->name, "joints", i);
+  }
+  for (std::size_t i = 0; i < scene.cables.size(); ++i) check(scene.cables[i].name, "cables", i);
+}
+
+}  // namespace
+
+Errors validate_scene(const Scene& scene) { return validate_scene(scene, false); }
+
+Errors validate_scene(const Scene& scene, bool checks_may_end_late) {
+  Errors errors;
+  check_fields(Scene::field_table(), &scene, "", errors);
+  check_names(scene, errors);
+  if (scene.camera) check_camera(*scene.camera, errors);
+  std::optional<ObservableSet> observables;
+  if (!scene.checks.empty()) observables.emplace(scene.model, scene.cables);
+  for (std::size_t i = 0; i < scene.checks.size(); ++i) {
+    const std::string path = fmt::format("/checks/{}", i);
+    check_check(scene.checks[i], path, scene.duration, checks_may_end_late, errors);
+    const Result<int> index = observables->index_of(scene.checks[i].quantity);
+    if (!index) errors.push_back({path + "/quantity", index.errors().front().message});
+  }
+  const Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
+  if (!simulation) {
+    errors.insert(errors.end(), simulation.errors().begin(), simulation.errors().end());
+  }
+  return errors;
+}
+
+}  // namespace sheave

@@ -1,0 +1,106 @@
+// From a scene to text, by the same tables the loader reads with.
+
+#include "scenes/field_json.h"
+#include "scenes/format.h"
+#include "scenes/json/pretty.h"
+#include "scenes/scene.h"
+
+namespace sheave {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+class SceneWriter {
+ public:
+  explicit SceneWriter(const Scene& scene)
+      : scene_(scene), name_of_([this](BodyId body) { return body_name(body); }) {}
+
+  [[nodiscard]] Json write() const {
+    const Model& model = scene_.model;
+    Json root = Json::object();
+    add_fields(root, scene_format().tables[0], &scene_);
+    Json step = plain(step_format(), &model.step);
+    if (!step.empty()) root["step"] = std::move(step);
+    add_list(root, "bodies", model.bodies, [&](const BodyDef& body) { return write_body(body); });
+    add_list(root, "joints", model.joints, [&](const std::shared_ptr<const JointDef>& joint) {
+      return typed(joint_format(), joint->type(), joint.get(), joint->settings());
+    });
+    add_list(root, "cables", scene_.cables, [&](const CableDef& cable) {
+      return write_cable(cable);
+    });
+    if (model.ground) root["ground"] = plain(ground_format(), &*model.ground);
+    if (scene_.camera) root["camera"] = plain(camera_format(), &*scene_.camera);
+    add_list(root, "checks", scene_.checks,
+             [&](const CheckDef& check) { return plain(check_format(), &check); });
+    return root;
+  }
+
+ private:
+  [[nodiscard]] std::string body_name(BodyId body) const {
+    const auto index = static_cast<std::size_t>(body.index);
+    return body.is_world() || index >= scene_.model.bodies.size() ? "world"
+                                                                  : scene_.model.bodies[index].name;
+  }
+
+  /// The fields that are required or not what they are by default.
+  void add_fields(Json& object, const TableFormat& table, const void* values) const {
+    for (const Field& field : table.fields) {
+      const FieldSlot slot = slot_of(field, values);
+      if (field.presence == Presence::optional) {
+        if (is_absent(slot) || same_value(field, values, table.defaults.get())) continue;
+      }
+      object[std::string(field.name)] = field_json(field, slot, name_of_);
+    }
+  }
+  [[nodiscard]] Json plain(const ObjectFormat& format, const void* values) const {
+    Json object = Json::object();
+    add_fields(object, format.tables[0], values);
+    return object;
+  }
+  /// An object of one of several types: `common` is of the format's table, `settings` of the type's.
+  [[nodiscard]] Json typed(const ObjectFormat& format, std::string_view type, const void* common,
+                           const void* settings) const {
+    Json object = Json::object();
+    object["type"] = type;
+    add_fields(object, format.tables[0], common);
+    const Variant* variant = format.variant(type);
+    if (variant != nullptr) add_fields(object, variant->table, settings);
+    return object;
+  }
+  template <class Element, class Write>
+  static void add_list(Json& object, const char* key, const std::vector<Element>& elements,
+                       const Write& write) {
+    if (elements.empty()) return;
+    Json& list = object[key] = Json::array();
+    for (const Element& element : elements) list.push_back(write(element));
+  }
+
+  [[nodiscard]] Json write_body(const BodyDef& body) const {
+    Json object = plain(body_format(), &body);
+    const auto write_shape = [&](const PlacedShape& placed) {
+      return typed(shape_format(), placed.shape->type(), &placed, placed.shape->settings());
+    };
+    if (body.shapes.size() == 1) {
+      object["shape"] = write_shape(body.shapes.front());
+    } else {
+      add_list(object, "shapes", body.shapes, write_shape);
+    }
+    return object;
+  }
+  [[nodiscard]] Json write_cable(const CableDef& cable) const {
+    Json object = plain(cable_format(), &cable);
+    add_list(object, "links", cable.links, [&](const std::shared_ptr<const LinkDef>& link) {
+      return typed(link_format(), link->type(), link.get(), link->settings());
+    });
+    return object;
+  }
+
+  const Scene& scene_;
+  BodyNamer name_of_;
+};
+
+}  // namespace
+
+std::string write_scene(const Scene& scene) { return json::pretty(SceneWriter(scene).write()); }
+
+}  // namespace sheave

@@ -1,0 +1,74 @@
+#pragma once
+// Runs the sheave command as a child process and looks at what it did.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sheave::test {
+
+/// How a process ended and what it said.
+struct ProcessResult {
+  int exit_code = -1;  ///< -1 if a signal ended it
+  int signal = 0;      ///< that ended it, or 0
+  std::string out;
+  std::string err;
+};
+
+/// How to start a process.
+struct ProcessOptions {
+  std::string input;                     ///< its standard input
+  std::vector<std::string> environment;  ///< added: "NAME=value"
+  bool closed_stdout = false;            ///< its standard output is a pipe that nobody reads
+  std::string stdout_path;               ///< its standard output goes to this file instead
+  bool terminal_stderr = false;          ///< its standard error is a terminal
+};
+
+/// The command, running.
+class Process {
+ public:
+  /// Starts `sheave` with these arguments.
+  explicit Process(const std::vector<std::string>& arguments, const ProcessOptions& options = {});
+  ~Process();
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void send(int signal) const;
+  /// Waits for its end.
+  ProcessResult wait();
+
+ private:
+  [[nodiscard]] std::string drain_terminal();
+
+  int process_ = -1;
+  int out_ = -1;
+  int err_ = -1;
+  int terminal_ = -1;
+};
+
+/// Runs `sheave` to its end.
+[[nodiscard]] ProcessResult run_sheave(const std::vector<std::string>& arguments,
+                                       const ProcessOptions& options = {});
+
+/// A new folder that is removed at the end of the test.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (path_ / name).string(); }
+  /// Writes a file and returns its path.
+  std::string write(const std::string& name, const std::string& content) const;
+  /// Names of all entries, hidden ones too, in order.
+  [[nodiscard]] std::vector<std::string> entries() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+[[nodiscard]] std::string read_file(const std::string& path);
+[[nodiscard]] std::vector<std::string> split(const std::string& text, char separator);
+
+}  // namespace sheave::test

@@ -1,0 +1,31 @@
+#pragma once
+// What every subcommand provides. Adding one: a file here and a line in tools/main.cpp.
+
+#include <functional>
+
+#include "tools/failure.h"
+
+namespace CLI {
+class App;
+}
+
+namespace sheave::tools {
+
+/// What a subcommand does once the command line is read.
+using Action = std::function<ExitCode()>;
+
+/// One subcommand.
+struct Command {
+  const char* name;
+  const char* meaning;              ///< one line of help
+  Action (*declare)(CLI::App& app); ///< adds options and examples to `app`
+};
+
+Action declare_run(CLI::App& app);
+Action declare_render(CLI::App& app);
+Action declare_validate(CLI::App& app);
+Action declare_schema(CLI::App& app);
+Action declare_reference(CLI::App& app);
+Action declare_generate(CLI::App& app);
+
+}  // namespace sheave::tools

@@ -1,0 +1,99 @@
+#include "tools/player.h"
+
+#include <cmath>
+#include <optional>
+
+#include "tools/failure.h"
+#include "tools/scene_options.h"
+
+namespace sheave::tools {
+namespace {
+
+/// The state at the fraction `f` of the way from `a` to `b`, two states of one world. For pictures
+/// only: it is no solution of anything.
+State between(const State& a, const State& b, double f) {
+  State state = a;
+  const auto mix = [f](const auto& from, const auto& to) { return from + f * (to - from); };
+  state.time = mix(a.time, b.time);
+  for (std::size_t i = 0; i < a.bodies.size(); ++i) {
+    const BodyState& from = a.bodies[i];
+    const BodyState& to = b.bodies[i];
+    BodyState& body = state.bodies[i];
+    body.position = mix(from.position, to.position);
+    body.orientation = from.orientation.slerp(f, to.orientation);
+    body.velocity = mix(from.velocity, to.velocity);
+    body.angular_velocity = mix(from.angular_velocity, to.angular_velocity);
+    body.angle = mix(from.angle, to.angle);
+  }
+  for (std::size_t i = 0; i < a.features.size(); ++i) {
+    for (std::size_t k = 0; k < a.features[i].reals.size(); ++k) {
+      state.features[i].reals[k] = mix(a.features[i].reals[k], b.features[i].reals[k]);
+    }
+  }
+  return state;
+}
+
+/// Shows the moments that a simulation passes.
+class Shutter {
+ public:
+  Shutter(const Scene& scene, std::span<const double> times,
+          const std::function<void(std::size_t, const Simulation&)>& show)
+      : scene_(scene), times_(times), show_(show), tolerance_(1e-6 * scene.model.step.dt) {}
+
+  /// To be called at the start and after every step; false once all moments have been shown.
+  bool observe(const Simulation& simulation) {
+    const State& now = simulation.world.state();
+    for (; next_ < times_.size() && times_[next_] <= now.time + tolerance_; ++next_) {
+      if (times_[next_] >= now.time - tolerance_ || !before_) {
+        show_(next_, simulation);
+      } else {
+        show_between(now);
+      }
+    }
+    if (next_ == times_.size()) return false;
+    // The next step need be remembered only if a moment lies within it.
+    const double step_end = now.time + scene_.model.step.dt - tolerance_;
+    if (times_[next_] < step_end) {
+      before_ = now;
+    } else {
+      before_.reset();
+    }
+    return true;
+  }
+
+ private:
+  void show_between(const State& now) {
+    // A simulation of its own: the one that runs must not be disturbed.
+    if (!shown_) shown_.emplace(make_simulation(scene_));
+    const double f = (times_[next_] - before_->time) / (now.time - before_->time);
+    const Errors errors = shown_->world.restore(between(*before_, now, f));
+    if (!errors.empty()) throw Failure(ExitCode::internal, to_text(errors));
+    show_(next_, *shown_);
+  }
+
+  const Scene& scene_;
+  std::span<const double> times_;
+  const std::function<void(std::size_t, const Simulation&)>& show_;
+  double tolerance_;
+  std::size_t next_ = 0;
+  std::optional<State> before_;       // at the start of the step, if a moment lies within it
+  std::optional<Simulation> shown_;   // made when first needed
+};
+
+}  // namespace
+
+Simulation make_simulation(const Scene& scene) {
+  Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
+  if (!simulation) throw Failure(ExitCode::internal, to_text(simulation.errors()));
+  return std::move(simulation).value();
+}
+
+RunOutcome play(const Scene& scene, std::span<const double> times, Progress& progress,
+                const std::function<void(std::size_t, const Simulation&)>& show) {
+  Simulation simulation = make_simulation(scene);
+  Shutter shutter(scene, times, show);
+  return simulate(simulation, step_count(scene), progress,
+                  [&] { return shutter.observe(simulation); });
+}
+
+}  // namespace sheave::tools

@@ -1,0 +1,62 @@
+#include "tools/recorder.h"
+
+#include <limits>
+
+#include <fnmatch.h>
+
+#include <fmt/format.h>
+
+#include "tools/failure.h"
+
+namespace sheave::tools {
+
+Recorder::Recorder(const RecordOptions& options, const Simulation& simulation)
+    : observables_(simulation), every_(options.every) {
+  if (options.paths.empty()) return;
+  choose_columns(options.patterns);
+  values_.resize(columns_.size());
+  std::vector<std::string> names;
+  for (const int column : columns_) {
+    names.push_back(observables_.names()[static_cast<std::size_t>(column)]);
+  }
+  for (const std::string& path : options.paths) tables_.push_back(open_table(path, names));
+}
+
+void Recorder::choose_columns(const std::vector<std::string>& patterns) {
+  const std::vector<std::string>& names = observables_.names();
+  std::vector<bool> chosen(names.size(), patterns.empty());
+  chosen.front() = true;  // without the time a table says little
+  for (const std::string& pattern : patterns) {
+    bool found = false;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (::fnmatch(pattern.c_str(), names[i].c_str(), 0) != 0) continue;
+      chosen[i] = true;
+      found = true;
+    }
+    if (found) continue;
+    const Result<int> index = observables_.index_of(pattern);
+    throw Failure(ExitCode::usage, fmt::format("--columns: {}", to_text(index.errors())));
+  }
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (chosen[i]) columns_.push_back(static_cast<int>(i));
+  }
+}
+
+void Recorder::observe(const Simulation& simulation) {
+  const std::int64_t steps = simulation.world.state().steps;
+  if (tables_.empty() || steps % every_ != 0) return;
+  observables_.sample(simulation, columns_, values_);
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (steps == 0 && !observables_.known_at_start(columns_[i])) {
+      values_[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  for (const auto& table : tables_) table->write_row(values_);
+  ++rows_;
+}
+
+void Recorder::finish() {
+  for (const auto& table : tables_) table->finish();
+}
+
+}  // namespace sheave::tools

@@ -1,0 +1,236 @@
+// sheave render: simulate a scene and write a video, pictures or a still.
+
+#include "tools/command.h"
+
+#include <CLI/CLI.hpp>
+
+#if SHEAVE_HAS_RENDER
+
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "engine/field_check.h"
+#include "render/view_builder.h"
+#include "render/view_survey.h"
+#include "tools/camera_choice.h"
+#include "tools/interrupt.h"
+#include "tools/player.h"
+#include "tools/render_outputs.h"
+#include "tools/scene_options.h"
+#include "tools/terminal.h"
+
+namespace sheave::tools {
+namespace {
+
+struct RenderOptions {
+  SceneOptions scene;
+  PictureOptions pictures;
+  bool quiet = false;
+};
+
+/// The moments to show, in order, and what each is for.
+struct Moments {
+  std::vector<double> times;  // [s]
+  std::size_t still = none;   // index of the still
+  bool frames = false;        // all others, and this too if still_is_frame, are frames
+  bool still_is_frame = false;
+
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  [[nodiscard]] bool is_frame(std::size_t k) const {
+    return frames && (k != still || still_is_frame);
+  }
+};
+
+void insert_still(Moments& moments, double at, double tolerance) {
+  const auto place =
+      std::lower_bound(moments.times.begin(), moments.times.end(), at - tolerance);
+  moments.still = static_cast<std::size_t>(place - moments.times.begin());
+  moments.still_is_frame = place != moments.times.end() && *place <= at + tolerance;
+  if (!moments.still_is_frame) moments.times.insert(place, at);
+}
+
+Moments choose_moments(const Scene& scene, const PictureOptions& options) {
+  constexpr double most_frames = 1e7;
+  const double dt = scene.model.step.dt;
+  const double end = static_cast<double>(step_count(scene)) * dt;
+  const double tolerance = 1e-6 * dt;
+  Moments moments;
+  moments.frames = options.has_frames();
+  if (moments.frames) {
+    const double interval = options.speed / options.fps;
+    const double last = std::floor((end + tolerance) / interval);
+    if (!(last < most_frames)) {
+      throw Failure(ExitCode::usage, fmt::format("{} s at this speed and rate make {:.3g} frames; "
+                                                 "at most {:.0f} are possible",
+                                                 number_text(end), last, most_frames));
+    }
+    for (double k = 0.0; k <= last; ++k) moments.times.push_back(k * interval);
+  }
+  if (options.still.empty()) return moments;
+  const double at = options.at.value_or(end);
+  if (at > end + tolerance) {
+    throw Failure(ExitCode::usage, fmt::format("--at {}: the run ends at {} s; see --duration",
+                                               number_text(at), number_text(end)));
+  }
+  insert_still(moments, std::min(at, end), tolerance);
+  return moments;
+}
+
+/// What is known about the whole run before anything is drawn.
+struct Look {
+  render::ViewBuilder builder;
+  render::Camera camera;
+};
+
+/// Plays the scene once, to frame it and to give every tension the same colour in every frame.
+Look survey(const Scene& scene, const PictureOptions& options, std::span<const double> times,
+            Progress& progress) {
+  render::ViewSurvey survey;
+  const RunOutcome outcome =
+      play(scene, times, progress, [&](std::size_t /*k*/, const Simulation& simulation) {
+        survey.add(simulation.world, simulation.cable_reports());
+      });
+  if (outcome.status == RunStatus::interrupted) {
+    throw Failure(ExitCode::interrupted, "interrupted before anything was drawn");
+  }
+  const Simulation start = make_simulation(scene);
+  const std::vector<CableReport> cables = start.cable_reports();
+  render::ViewOptions view;
+  view.tension_max = survey.tension_max();
+  view.run_bounds = survey.bounds();
+  view.force_labels = options.labels || (scene.camera && scene.camera->labels);
+  view.title = scene.name;
+  render::ViewBuilder builder(start.world, cables, view);
+  const render::DrawList typical = builder.build(start.world, cables);
+  const render::Camera camera = choose_camera(scene, cables, survey.bounds(), typical,
+                                              options.width, options.height);
+  return {std::move(builder), camera};
+}
+
+ExitCode report(const RunOutcome& outcome, const PictureOutputs& outputs,
+                const PictureOptions& options) {
+  if (outcome.status == RunStatus::done) return ExitCode::done;
+  const bool diverged = outcome.status == RunStatus::diverged;
+  std::string text = diverged ? "diverged: " + outcome.divergence->message
+                              : std::string("interrupted");
+  for (const std::string& path : {options.video, options.png}) {
+    if (!path.empty()) text += fmt::format("\n{}: partial, {} frames", path, outputs.frames());
+  }
+  if (!options.still.empty() && !outputs.has_still()) {
+    text += "\n" + options.still + ": not written, its time was not reached";
+  }
+  if (diverged) {
+    print_error(text);
+  } else {
+    print_warning(text);
+  }
+  return diverged ? ExitCode::diverged : ExitCode::interrupted;
+}
+
+ExitCode render_scene(const RenderOptions& options) {
+  const PictureOptions& pictures = options.pictures;
+  const Scene scene = load(options.scene);
+  const Moments moments = choose_moments(scene, pictures);
+  catch_interrupts();
+  PictureOutputs outputs(pictures);
+  const auto steps = static_cast<double>(step_count(scene));
+  Progress survey_progress("survey", steps, options.quiet);
+  const Look look = survey(scene, pictures, moments.times, survey_progress);
+  survey_progress.clear();
+  Progress progress("draw", steps, options.quiet);
+  const RunOutcome outcome =
+      play(scene, moments.times, progress, [&](std::size_t k, const Simulation& simulation) {
+        const render::DrawList list =
+            look.builder.build(simulation.world, simulation.cable_reports());
+        if (moments.is_frame(k)) outputs.add_frame(list, look.camera);
+        if (k == moments.still) outputs.add_still(list, look.camera);
+      });
+  progress.clear();
+  outputs.finish();
+  return report(outcome, outputs, pictures);
+}
+
+void check_usage(const PictureOptions& options) {
+  const auto ends_with_any = [](const std::string& path, std::initializer_list<const char*> ends) {
+    return std::any_of(ends.begin(), ends.end(),
+                       [&](const char* end) { return path.ends_with(end); });
+  };
+  if (!options.has_frames() && options.still.empty()) {
+    throw Failure(ExitCode::usage, "nothing to write: give --video, --png or --still");
+  }
+  if (!options.video.empty() && !ends_with_any(options.video, {".mp4", ".mov", ".mkv"})) {
+    throw Failure(ExitCode::usage,
+                  "--video " + options.video + ": the name must end in .mp4, .mov or .mkv");
+  }
+  if (!options.still.empty() && !ends_with_any(options.still, {".png"})) {
+    throw Failure(ExitCode::usage, "--still " + options.still + ": the name must end in .png");
+  }
+}
+
+void add_picture_options(CLI::App& app, PictureOptions& options) {
+  app.add_option("--video", options.video, "write a video (.mp4, .mov or .mkv; needs ffmpeg)")
+      ->type_name("FILE");
+  app.add_option("--png", options.png, "write every frame into a folder, frame_000000.png ...")
+      ->type_name("DIR");
+  CLI::Option* still = app.add_option("--still", options.still, "write one picture (.png)");
+  still->type_name("FILE");
+  app.add_option("--at", options.at, "time of the still [s]; default: the end")
+      ->check(CLI::NonNegativeNumber)
+      ->type_name("T")
+      ->needs(still);
+  app.add_option("--width", options.width, "pixels; default 1280")
+      ->check(CLI::Range(render::Renderer::min_side, render::Renderer::max_side / 2))
+      ->type_name("N");
+  app.add_option("--height", options.height, "pixels; default 720")
+      ->check(CLI::Range(render::Renderer::min_side, render::Renderer::max_side / 2))
+      ->type_name("N");
+  app.add_option("--fps", options.fps, "frames per second of the video; default 60")
+      ->check(CLI::Range(0.001, 1000.0))
+      ->type_name("X");
+  app.add_option("--speed", options.speed,
+                 "simulated seconds per second of the video; default 1, 0.1 is slow motion")
+      ->check(CLI::Range(1e-9, 1e9))
+      ->type_name("X");
+  app.add_flag("--labels", options.labels, "write the tensions [N] beside the cables");
+}
+
+}  // namespace
+
+Action declare_render(CLI::App& app) {
+  auto options = std::make_shared<RenderOptions>();
+  add_scene_options(app, options->scene);
+  add_picture_options(app, options->pictures);
+  app.add_flag("-q,--quiet", options->quiet, "print nothing but warnings and errors");
+  app.footer(R"(Examples:
+  sheave render crane.json --video crane.mp4
+  sheave render crane.json --still crane.png --at 1.5 --labels --width 1920 --height 1080
+  sheave render crane.json --video slow.mp4 --speed 0.1 --dt 0.001 --png frames
+
+The camera is that of the scene. What the scene leaves open is chosen so that the whole run is in the
+picture. Outputs appear when they are complete; after a divergence or Ctrl-C they hold the frames so
+far. Exit codes as for sheave run.)");
+  return [options] {
+    check_usage(options->pictures);
+    return render_scene(*options);
+  };
+}
+
+}  // namespace sheave::tools
+
+#else
+
+namespace sheave::tools {
+
+Action declare_render(CLI::App& app) {
+  app.allow_extras();
+  return []() -> ExitCode {
+    throw Failure(ExitCode::internal,
+                  "this build has no renderer: configure with -DSHEAVE_RENDER=ON");
+  };
+}
+
+}  // namespace sheave::tools
+
+#endif  // SHEAVE_HAS_RENDER

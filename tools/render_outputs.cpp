@@ -1,0 +1,103 @@
+// Only in builds with the renderer.
+#if SHEAVE_HAS_RENDER
+
+#include "tools/render_outputs.h"
+
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "render/output_file.h"
+#include "render/png_writer.h"
+#include "tools/failure.h"
+#include "tools/terminal.h"
+
+namespace sheave::tools {
+namespace {
+
+// Edges of a still are averaged over this many pixels in each direction.
+constexpr int still_supersample = 2;
+
+template <class T>
+T value_or_fail(Result<T> result, ExitCode code) {
+  if (!result) throw Failure(code, to_text(result.errors()));
+  return std::move(result).value();
+}
+
+void check(const Errors& errors, ExitCode code) {
+  if (!errors.empty()) throw Failure(code, to_text(errors));
+}
+
+/// A file can be made there; nothing is left behind.
+void check_writable(const std::string& path) {
+  value_or_fail(render::OutputFile::create(path), ExitCode::io);
+}
+
+void make_folder(const std::string& path) {
+  std::error_code code;
+  std::filesystem::create_directories(path, code);
+  if (code) throw Failure(ExitCode::io, path + ": cannot make this folder: " + code.message());
+}
+
+}  // namespace
+
+PictureOutputs::PictureOutputs(const PictureOptions& options) : options_(options) {
+  if (!options.png.empty()) {
+    make_folder(options.png);
+    check_writable(frame_path(0));
+  }
+  if (!options.still.empty()) check_writable(options.still);
+  if (!options.video.empty()) {
+    video_ = value_or_fail(
+        render::VideoWriter::create(options.video, options.width, options.height,
+                                    {.frames_per_second = options.fps}),
+        ExitCode::io);
+  }
+  if (options.has_frames()) {
+    frame_renderer_ =
+        value_or_fail(render::Renderer::create(options.width, options.height), ExitCode::internal);
+  }
+}
+
+std::string PictureOutputs::frame_path(long frame) const {
+  return fmt::format("{}/frame_{:06}.png", options_.png, frame);
+}
+
+void PictureOutputs::add_frame(const render::DrawList& list, const render::Camera& camera) {
+  const render::Image image =
+      value_or_fail(frame_renderer_->draw(list, camera), ExitCode::internal);
+  if (video_) check(video_->add(image), ExitCode::io);
+  if (!options_.png.empty()) {
+    check(render::write_png(frame_path(frames_), image, render::PngEffort::sequence),
+          ExitCode::io);
+  }
+  ++frames_;
+}
+
+void PictureOutputs::add_still(const render::DrawList& list, const render::Camera& camera) {
+  // Only now: until then its memory is not needed.
+  render::Renderer renderer = value_or_fail(
+      render::Renderer::create(options_.width, options_.height,
+                               {.supersample = still_supersample}),
+      ExitCode::internal);
+  const render::Image image = value_or_fail(renderer.draw(list, camera), ExitCode::internal);
+  check(render::write_png(options_.still, image, render::PngEffort::still), ExitCode::io);
+  has_still_ = true;
+}
+
+void PictureOutputs::finish() {
+  if (video_ && frames_ > 0) check(video_->finish(), ExitCode::io);
+  if (!options_.png.empty() && frames_ > 0) warn_of_old_frames();
+}
+
+void PictureOutputs::warn_of_old_frames() const {
+  std::error_code code;
+  if (std::filesystem::exists(frame_path(frames_), code)) {
+    print_warning(fmt::format("{} holds more frames, from an earlier run: {} and on", options_.png,
+                              frame_path(frames_)));
+  }
+}
+
+}  // namespace sheave::tools
+
+#endif  // SHEAVE_HAS_RENDER

@@ -1,0 +1,56 @@
+#pragma once
+// Where the pictures of a run go: a video, a folder of PNG files, a still. All from one simulation.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/renderer.h"
+#include "render/video_writer.h"
+
+namespace sheave::tools {
+
+/// Options of `sheave render` as the user wrote them.
+struct PictureOptions {
+  std::string video;            ///< file; empty: none
+  std::string png;              ///< folder; empty: none
+  std::string still;            ///< file; empty: none
+  std::optional<double> at;     ///< time of the still [s]; default: the end
+  int width = 1280;             ///< [pixels]
+  int height = 720;             ///< [pixels]
+  double fps = 60.0;            ///< frames per second of the video
+  double speed = 1.0;           ///< simulated seconds per second of the video
+  bool labels = false;          ///< write the tensions beside the cables
+
+  [[nodiscard]] bool has_frames() const { return !video.empty() || !png.empty(); }
+};
+
+/// Opens what the options name, draws into it, and puts it in place. Throws a Failure (74) that names
+/// the path, or (70) if nothing can be drawn.
+class PictureOutputs {
+ public:
+  /// Fails at once if a folder cannot be written to, ffmpeg is missing or there is no GL.
+  explicit PictureOutputs(const PictureOptions& options);
+
+  /// Draws one frame of the video and the folder.
+  void add_frame(const render::DrawList& list, const render::Camera& camera);
+  /// Draws the still, in higher quality.
+  void add_still(const render::DrawList& list, const render::Camera& camera);
+  /// Completes the video; without any frame there is none.
+  void finish();
+
+  [[nodiscard]] long frames() const { return frames_; }
+  [[nodiscard]] bool has_still() const { return has_still_; }
+
+ private:
+  [[nodiscard]] std::string frame_path(long frame) const;
+  void warn_of_old_frames() const;
+
+  PictureOptions options_;
+  std::optional<render::Renderer> frame_renderer_;
+  std::optional<render::VideoWriter> video_;
+  long frames_ = 0;
+  bool has_still_ = false;
+};
+
+}  // namespace sheave::tools

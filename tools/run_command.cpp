@@ -1,0 +1,212 @@
+// sheave run: simulate a scene, write tables, print a summary.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "engine/field_check.h"
+#include "tools/command.h"
+#include "tools/interrupt.h"
+#include "tools/output_file.h"
+#include "tools/player.h"
+#include "tools/recorder.h"
+#include "tools/run_summary.h"
+#include "tools/scene_options.h"
+#include "tools/state_file.h"
+#include "tools/terminal.h"
+
+namespace sheave::tools {
+namespace {
+
+struct RunOptions {
+  SceneOptions scene;
+  RecordOptions record;
+  std::optional<std::int64_t> steps;
+  std::string save_state, load_state;
+  bool json = false;
+  bool check = false;
+  bool quiet = false;
+};
+
+std::vector<Warning> early_warnings(const RunOptions& options, const Scene& scene,
+                                    const Simulation& simulation, std::int64_t last_step) {
+  std::vector<Warning> warnings;
+  const double end = static_cast<double>(last_step) * scene.model.step.dt;
+  if (!options.steps && std::abs(end - scene.duration) > 1e-9 * scene.duration) {
+    warnings.push_back({"duration", "duration",
+                        fmt::format("the duration {} s is no multiple of dt; the run is to end at "
+                                    "{} s",
+                                    number_text(scene.duration), number_text(end))});
+  }
+  if (simulation.world.state().steps >= last_step) {
+    warnings.push_back({"nothing_to_do", "duration",
+                        fmt::format("the loaded state is at {} s already, at or after the end",
+                                    number_text(simulation.world.state().time))});
+  }
+  if (options.check && scene.checks.empty()) {
+    warnings.push_back({"no_checks", "checks", "the scene has no checks, so none can fail"});
+  }
+  return warnings;
+}
+
+ExitCode exit_code(const RunSummary& summary) {
+  switch (summary.outcome.status) {
+    case RunStatus::diverged: return ExitCode::diverged;
+    case RunStatus::interrupted: return ExitCode::interrupted;
+    case RunStatus::done: break;
+  }
+  return summary.checks_passed() ? ExitCode::done : ExitCode::check_failed;
+}
+
+/// Says on standard error why a run ended early, and what is left of its output.
+void explain_early_end(const RunOptions& options, const RunSummary& summary,
+                       std::int64_t rows) {
+  if (summary.outcome.status == RunStatus::done) return;
+  std::string text = summary.outcome.divergence
+                         ? "diverged: " + summary.outcome.divergence->message
+                         : fmt::format("interrupted at {} s",
+                                       number_text(summary.simulation.world.state().time));
+  for (const std::string& path : options.record.paths) {
+    text += fmt::format("\n{}: partial, {} rows", path == "-" ? "standard output" : path, rows);
+  }
+  if (!options.save_state.empty()) {
+    text += "\n" + options.save_state +
+            (summary.outcome.divergence ? ": not written, the run diverged"
+                                        : ": the state where the run stopped");
+  }
+  if (summary.outcome.status == RunStatus::diverged) {
+    print_error(text);
+  } else {
+    print_warning(text);
+  }
+}
+
+bool writes_to_stdout(const RunOptions& options) {
+  return std::count(options.record.paths.begin(), options.record.paths.end(), "-") > 0;
+}
+
+void report(const RunOptions& options, const RunSummary& summary, std::int64_t rows) {
+  for (const Warning& warning : summary.warnings) print_warning(warning.message);
+  explain_early_end(options, summary, rows);
+  const bool summarised = !options.json && !options.quiet && !writes_to_stdout(options);
+  if (!summary.checks_passed() && !summarised) print_error(checks_text(summary.checks));
+  if (options.json) print(to_json(summary));
+  if (summarised) print(to_text(summary));
+}
+
+ExitCode run(const RunOptions& options) {
+  const Scene scene = load(options.scene);
+  Simulation simulation = make_simulation(scene);
+  if (!options.load_state.empty()) load_state(simulation.world, options.load_state);
+  const std::int64_t last_step =
+      options.steps ? simulation.world.state().steps + *options.steps : step_count(scene);
+  std::vector<Warning> warnings = early_warnings(options, scene, simulation, last_step);
+
+  catch_interrupts();
+  Recorder recorder(options.record, simulation);
+  std::optional<OutputFile> state_file;
+  if (!options.save_state.empty()) state_file.emplace(options.save_state);
+  RunMonitor monitor;
+  std::optional<CheckRecorder> checks;
+  if (options.check) checks.emplace(scene, simulation);
+
+  Progress progress("run", static_cast<double>(std::max<std::int64_t>(last_step, 1)),
+                    options.quiet);
+  const RunOutcome outcome = simulate(simulation, last_step, progress, [&] {
+    recorder.observe(simulation);
+    monitor.observe(simulation);
+    if (checks) checks->record(simulation);
+    return true;
+  });
+  progress.clear();
+
+  recorder.finish();
+  if (state_file && outcome.status != RunStatus::diverged) {
+    state_file->write(to_bytes(simulation.world.state()));
+    state_file->commit();
+  }
+  for (Warning& warning : collect_warnings(simulation)) warnings.push_back(std::move(warning));
+  const RunSummary summary{options.scene.path, scene,
+                           simulation,         monitor,
+                           outcome,            std::move(warnings),
+                           options.check,      checks ? checks->results()
+                                                      : std::vector<CheckResult>{}};
+  report(options, summary, recorder.rows());
+  return exit_code(summary);
+}
+
+void add_output_options(CLI::App& app, RunOptions& options) {
+  CLI::Option* out = app.add_option("-o,--out", options.record.paths,
+                                    "write all quantities over time to a .csv or .npy file, or as "
+                                    "CSV to standard output (-); may be repeated");
+  out->type_name("FILE")->expected(1)->take_all();
+  app.add_option("--every", options.record.every, "steps per row of these files")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53))
+      ->type_name("N")
+      ->needs(out);
+  app.add_option("--columns", options.record.patterns,
+                 "only these columns of them: names or patterns with * and ?")
+      ->delimiter(',')
+      ->type_name("NAME,...")
+      ->expected(1)
+      ->take_all()
+      ->needs(out);
+  app.add_flag("--json", options.json, "print the summary as one JSON object");
+  app.add_flag("--check", options.check,
+               "evaluate the checks that the scene states; exit code 1 if one fails");
+  app.add_flag("-q,--quiet", options.quiet, "print nothing but data asked for, warnings and errors");
+}
+
+void add_state_options(CLI::App& app, RunOptions& options) {
+  app.add_option("--steps", options.steps, "stop after so many steps instead of at the duration")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53))
+      ->type_name("N")
+      ->excludes(app.get_option("--duration"));
+  app.add_option("--save-state", options.save_state, "write the final state to a file")
+      ->type_name("FILE");
+  app.add_option("--load-state", options.load_state, "start from a saved state")
+      ->type_name("FILE")
+      ->excludes(app.get_option("--check"));
+}
+
+}  // namespace
+
+Action declare_run(CLI::App& app) {
+  auto options = std::make_shared<RunOptions>();
+  add_scene_options(app, options->scene);
+  add_output_options(app, *options);
+  add_state_options(app, *options);
+  app.footer(R"(Examples:
+  sheave run scenes/paper/simple.json
+  sheave run crane.json --dt 0.001 --set /bodies/0/mass=2.5 --out crane.csv --every 10
+  sheave run crane.json --json | jq .cables[0].spans[0].tension
+  sheave run crane.json --columns 't,*.tension' --out crane.npy
+  sheave run crane.json --steps 1000 --save-state half.state
+  sheave run crane.json --load-state half.state
+
+The columns of the files, and the names that checks use, are
+  t                                               time [s]
+  <body>.x .y .z .qw .qx .qy .qz                  pose of the body frame [m]
+  <body>.vx .vy .vz .wx .wy .wz .angle            its velocity [m/s, rad/s], angle turned [rad]
+  <cable>.<span>.tension .length .rest_length     [N, m, m]; spans count from 0
+  <cable>.link<k>.stored_length                   cable on a link [m]
+  <cable>.length_error                            relative error of the length invariant
+  energy.kinetic .potential .elastic .total       [J]
+Tensions at time 0 are not known yet and left empty.
+
+Exit codes: 0 done, 1 a check failed, 2 wrong usage, 65 bad scene, 66 no such file, 70 internal
+error, 74 input or output failed, 75 diverged, 130 interrupted. After 75 and 130 the output so far
+is kept, whole rows only.)");
+  return [options] {
+    if (options->json && writes_to_stdout(*options)) {
+      throw Failure(ExitCode::usage, "--json and --out - would both write to standard output");
+    }
+    return run(*options);
+  };
+}
+
+}  // namespace sheave::tools

@@ -1,0 +1,37 @@
+#include "tools/run_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "engine/field_check.h"
+
+namespace sheave::tools {
+
+bool RunSummary::checks_passed() const {
+  return std::all_of(checks.begin(), checks.end(),
+                     [](const CheckResult& check) { return check.passed; });
+}
+
+std::vector<Warning> collect_warnings(const Simulation& simulation) {
+  std::vector<Warning> warnings;
+  if (simulation.cables == nullptr) return warnings;
+  for (const CableSystem::TangentWarning& warning : simulation.cables->tangent_warnings()) {
+    std::string span = fmt::format("{}.{}", warning.cable, warning.span);
+    std::string message = fmt::format(
+        "span {} had no tangent in {} substeps, first at {} s: its wheels overlap too far, and its "
+        "numbers mean little there",
+        span, warning.substeps, number_text(warning.first_time));
+    warnings.push_back({"no_tangent", std::move(span), std::move(message)});
+  }
+  return warnings;
+}
+
+double time_per_step(const RunOutcome& outcome) {
+  if (outcome.steps == 0) return std::numeric_limits<double>::quiet_NaN();
+  return outcome.step_time / static_cast<double>(outcome.steps);
+}
+
+}  // namespace sheave::tools

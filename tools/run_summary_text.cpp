@@ -1,0 +1,108 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "tools/run_summary.h"
+#include "tools/text_table.h"
+
+namespace sheave::tools {
+namespace {
+
+// Longer lists are for programs.
+constexpr std::size_t max_rows = 24;
+
+std::string omitted(std::size_t count, const char* what) {
+  if (count <= max_rows) return "";
+  return fmt::format("  ... and {} more {}; --json tells all\n", count - max_rows, what);
+}
+
+std::string head(const RunSummary& summary) {
+  const RunOutcome& outcome = summary.outcome;
+  const StepSettings& step = summary.scene.model.step;
+  std::string text = summary.scene.name.empty() ? std::string(summary.scene_path)
+                                                : fmt::format("{} ({})", summary.scene.name,
+                                                              summary.scene_path);
+  text += fmt::format("\n{}: {} steps to t = {} s", name_of(outcome.status), outcome.steps,
+                      short_number(summary.simulation.world.state().time));
+  if (outcome.steps > 0) {
+    text += fmt::format(", {} us per step", short_number(1e6 * time_per_step(outcome)));
+  }
+  text += fmt::format("\ndt {} s, {} substeps, {} iterations, {}, {}\n", short_number(step.dt),
+                      step.substeps, step.iterations,
+                      solver_names[static_cast<std::size_t>(step.solver)],
+                      integrator_names[static_cast<std::size_t>(step.integrator)]);
+  if (outcome.divergence) text += outcome.divergence->message + "\n";
+  return text;
+}
+
+std::string bodies(const World& world) {
+  TextTable table({"body", "x [m]", "y [m]", "z [m]", "speed [m/s]", "turning [rad/s]"}, 1);
+  const auto count = static_cast<std::size_t>(world.bodies().count());
+  for (std::size_t i = 0; i < std::min(count, max_rows); ++i) {
+    const BodyId id{static_cast<int>(i)};
+    const Vector3 x = world.position(id);
+    table.add({world.bodies().name(id.index), short_number(x.x()), short_number(x.y()),
+               short_number(x.z()), short_number(world.velocity(id).norm()),
+               short_number(world.angular_velocity(id).norm())});
+  }
+  if (count == 0) return "";
+  return "\n" + table.text() + omitted(count, "bodies");
+}
+
+std::string cables(const RunSummary& summary) {
+  TextTable table({"span", "tension [N]", "length [m]", "rest length [m]"}, 1);
+  const bool known = summary.simulation.world.state().steps > 0;
+  const std::vector<CableReport> reports = summary.simulation.cable_reports();
+  std::size_t count = 0;
+  for (const CableReport& report : reports) {
+    for (std::size_t k = 0; k < report.spans.size(); ++k) {
+      if (++count > max_rows) continue;
+      const SpanReport& span = report.spans[k];
+      table.add({fmt::format("{}.{}", report.name, k),
+                 known ? short_number(span.tension) : "unknown", short_number(span.length),
+                 short_number(span.rest_length)});
+    }
+  }
+  if (count == 0) return "";
+  return "\n" + table.text() + omitted(count, "spans");
+}
+
+std::string invariants(const RunSummary& summary) {
+  const RunMonitor& monitor = summary.monitor;
+  TextTable energy({"energy [J]", "start", "end", "largest drift"}, 1);
+  energy.add({"total", short_number(monitor.initial_energy().total()),
+              short_number(monitor.final_energy().total()),
+              short_number(monitor.max_energy_drift())});
+  std::string text = "\n" + energy.text();
+  const std::vector<CableReport> reports = summary.simulation.cable_reports();
+  if (reports.empty()) return text;
+  TextTable lengths({"cable", "length [m]", "relative error", "largest stretch"}, 1);
+  for (std::size_t i = 0; i < std::min(reports.size(), max_rows); ++i) {
+    lengths.add({std::string(reports[i].name), short_number(reports[i].total_length),
+                 short_number(monitor.cables()[i].length_error),
+                 short_number(monitor.cables()[i].max_stretch)});
+  }
+  return text + "\n" + lengths.text() + omitted(reports.size(), "cables");
+}
+
+}  // namespace
+
+std::string checks_text(const std::vector<CheckResult>& checks) {
+  std::string text;
+  for (const CheckResult& check : checks) {
+    text += fmt::format("  {}  {}{}{}\n", check.passed ? "ok  " : "FAIL", check.message,
+                        check.check.because.empty() ? "" : "; ", check.check.because);
+  }
+  const auto passed = std::count_if(checks.begin(), checks.end(),
+                                    [](const CheckResult& check) { return check.passed; });
+  return text + fmt::format("  {} of {} checks passed\n", passed, checks.size());
+}
+
+std::string to_text(const RunSummary& summary) {
+  std::string text = head(summary) + bodies(summary.simulation.world) + cables(summary) +
+                     invariants(summary);
+  if (summary.checked) text += "\n" + checks_text(summary.checks);
+  return text;
+}
+
+}  // namespace sheave::tools

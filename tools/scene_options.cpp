@@ -1,0 +1,140 @@
+#include "tools/scene_options.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <iostream>
+#include <iterator>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "engine/field_check.h"
+
+namespace sheave::tools {
+namespace {
+
+/// An option of its own for a setting that is changed often.
+struct Shortcut {
+  const char* option;
+  const char* pointer;
+  const char* meaning;
+  bool number;
+  std::string SceneOptions::*value;
+};
+
+constexpr std::array<Shortcut, 6> shortcuts{{
+    {"--dt", "/step/dt", "time per step [s]", true, &SceneOptions::dt},
+    {"--substeps", "/step/substeps", "substeps per step", true, &SceneOptions::substeps},
+    {"--iterations", "/step/iterations", "solver iterations per substep", true,
+     &SceneOptions::iterations},
+    {"--solver", "/step/solver", "how constraint rows are solved", false, &SceneOptions::solver},
+    {"--integrator", "/step/integrator", "how states are carried forward in time", false,
+     &SceneOptions::integrator},
+    {"--duration", "/duration", "time to simulate [s]", true, &SceneOptions::duration},
+}};
+
+std::string choices(const Shortcut& shortcut) {
+  std::string text;
+  for (const Field& field : StepSettings::field_table()) {
+    if (!std::string_view(shortcut.pointer).ends_with("/" + std::string(field.name))) continue;
+    for (const std::string_view choice : field.choices) {
+      text += (text.empty() ? ": " : ", ") + std::string(choice);
+    }
+  }
+  return text;
+}
+
+/// A number as JSON has it: ".5" and "+5" are numbers on a command line, but not there.
+std::string json_number(const std::string& text) {
+  return number_text(std::strtod(text.c_str(), nullptr));
+}
+
+/// The override that "/json/pointer=value" means.
+Override parse_setting(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || text.front() != '/') {
+    throw Failure(ExitCode::usage,
+                  fmt::format("--set {}: must be /json/pointer=value, for example "
+                              "--set /bodies/0/mass=2",
+                              text));
+  }
+  const std::string pointer = text.substr(0, equals);
+  return {pointer, text.substr(equals + 1), "--set " + pointer};
+}
+
+std::vector<Override> overrides(const SceneOptions& options) {
+  std::vector<Override> list;
+  for (const std::string& setting : options.settings) list.push_back(parse_setting(setting));
+  for (const Shortcut& shortcut : shortcuts) {
+    const std::string& value = options.*shortcut.value;
+    if (value.empty()) continue;
+    list.push_back({shortcut.pointer, shortcut.number ? json_number(value) : value,
+                    shortcut.option});
+  }
+  return list;
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& app, SceneOptions& options) {
+  app.add_option("scene", options.path, "Scene file (JSON); - reads standard input")
+      ->required()
+      ->type_name("SCENE");
+  for (const Shortcut& shortcut : shortcuts) {
+    const char* group = "Instead of what the scene says";
+    CLI::Option* option = app.add_option(shortcut.option, options.*shortcut.value,
+                                         shortcut.meaning + choices(shortcut));
+    option->group(group)->type_name(shortcut.number ? "X" : "NAME");
+    if (shortcut.number) option->check(CLI::Number);
+  }
+  app.add_option("--set", options.settings,
+                 "any setting, by its JSON pointer; may be repeated")
+      ->group("Instead of what the scene says")
+      ->type_name("/POINTER=VALUE")
+      ->expected(1)
+      ->take_all();
+}
+
+SceneResult load_file_or_stdin(const std::string& path, const std::vector<Override>& overrides) {
+  if (path != "-") return load_scene(path, overrides);
+  const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
+  return load_scene_text(text, "standard input", overrides);
+}
+
+Scene load(const SceneOptions& options) {
+  SceneResult result = load_file_or_stdin(options.path, overrides(options));
+  if (!result) throw Failure(exit_code(result), to_text(result));
+  return std::move(*result.scene);
+}
+
+ExitCode exit_code(const SceneResult& result) {
+  switch (result.status) {
+    case SceneStatus::ok: return ExitCode::done;
+    case SceneStatus::not_found: return ExitCode::no_input;
+    case SceneStatus::unreadable: return ExitCode::io;
+    case SceneStatus::invalid: break;
+  }
+  const bool all_from_options =
+      std::all_of(result.errors.begin(), result.errors.end(),
+                  [](const SceneError& error) { return error.file.starts_with("--"); });
+  return all_from_options ? ExitCode::usage : ExitCode::bad_scene;
+}
+
+std::string to_text(const SceneResult& result) {
+  std::string text;
+  for (const SceneError& error : result.errors) {
+    if (!text.empty()) text += '\n';
+    text += to_string(error);
+  }
+  return text;
+}
+
+std::int64_t step_count(const Scene& scene) {
+  // Beyond this a double no longer counts steps one by one, and nobody waits for the end.
+  constexpr double most = 9e15;
+  const double steps = std::round(scene.duration / scene.model.step.dt);
+  return static_cast<std::int64_t>(std::clamp(steps, 1.0, most));
+}
+
+}  // namespace sheave::tools

@@ -1,0 +1,43 @@
+#pragma once
+// The options that subcommands which simulate share: which scene, and what to change in it.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scenes/scene.h"
+#include "tools/failure.h"
+
+namespace CLI {
+class App;
+}
+
+namespace sheave::tools {
+
+/// Options as the user wrote them; empty means not given.
+struct SceneOptions {
+  std::string path;  ///< "-" is standard input
+  std::string dt, substeps, iterations, solver, integrator, duration;
+  std::vector<std::string> settings;  ///< of --set: "/json/pointer=value"
+};
+
+/// Adds the scene and its overrides to a subcommand. `options` must live as long as `app`.
+void add_scene_options(CLI::App& app, SceneOptions& options);
+
+/// Loads and checks the scene. A Failure lists all its errors: 2 if they lie in the command line
+/// alone, 65 if in the scene, 66 if there is no such file, 74 if it cannot be read.
+[[nodiscard]] Scene load(const SceneOptions& options);
+
+/// The result of loading without overrides; "-" is standard input.
+[[nodiscard]] SceneResult load_file_or_stdin(const std::string& path,
+                                             const std::vector<Override>& overrides = {});
+
+/// The exit code for a scene that did not load.
+[[nodiscard]] ExitCode exit_code(const SceneResult& result);
+/// All errors of a scene that did not load, one per line.
+[[nodiscard]] std::string to_text(const SceneResult& result);
+
+/// The number of steps that come nearest to the duration, at least 1.
+[[nodiscard]] std::int64_t step_count(const Scene& scene);
+
+}  // namespace sheave::tools

@@ -1,0 +1,65 @@
+#include "tools/simulate.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "tools/interrupt.h"
+
+namespace sheave::tools {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void accumulate(const StepStatistics& step, RunStatistics& total) {
+  total.rows = std::max(total.rows, step.rows);
+  total.last_correction = std::max(total.last_correction, step.last_correction);
+  total.geometry_fallbacks += step.geometry_fallbacks;
+  total.row_solves += step.row_solves;
+}
+
+}  // namespace
+
+std::string_view name_of(RunStatus status) {
+  constexpr std::array<std::string_view, 3> names{"done", "diverged", "interrupted"};
+  return names[static_cast<std::size_t>(status)];
+}
+
+RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& progress,
+                    const std::function<bool()>& observe) {
+  RunOutcome outcome;
+  World& world = simulation.world;
+  const Clock::time_point start = Clock::now();
+  bool wanted = observe();
+  while (wanted && world.state().steps < last_step) {
+    if (interrupted()) {
+      outcome.status = RunStatus::interrupted;
+      break;
+    }
+    const Clock::time_point step_start = Clock::now();
+    StepReport report = world.step();
+    outcome.step_time += seconds_since(step_start);
+    accumulate(report.statistics, outcome.statistics);
+    if (!report.ok()) {
+      outcome.status = RunStatus::diverged;
+      outcome.divergence = std::move(report.divergence);
+      break;
+    }
+    ++outcome.steps;
+    wanted = observe();
+    if (progress.due()) {
+      progress.update(static_cast<double>(world.state().steps),
+                      fmt::format("t = {:.4g} s", world.state().time));
+    }
+  }
+  outcome.wall_time = seconds_since(start);
+  return outcome;
+}
+
+}  // namespace sheave::tools

@@ -1,0 +1,42 @@
+#pragma once
+// Steps a simulation to its end, or to where it has to stop.
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string_view>
+
+#include "cable/simulation.h"
+#include "tools/progress.h"
+
+namespace sheave::tools {
+
+/// How a simulation ended.
+enum class RunStatus { done, diverged, interrupted };
+/// "done", "diverged", "interrupted".
+[[nodiscard]] std::string_view name_of(RunStatus status);
+
+/// StepStatistics of a whole run.
+struct RunStatistics {
+  int rows = 0;                        ///< constraint rows per substep
+  std::int64_t row_solves = 0;
+  double last_correction = 0.0;        ///< the largest of all steps [m or rad]
+  std::int64_t geometry_fallbacks = 0;
+};
+
+/// What a run came to.
+struct RunOutcome {
+  RunStatus status = RunStatus::done;
+  std::optional<Divergence> divergence;  ///< set if diverged
+  std::int64_t steps = 0;  ///< complete steps of this run
+  double step_time = 0.0;  ///< wall time spent in steps alone [s]
+  double wall_time = 0.0;  ///< including observers [s]
+  RunStatistics statistics;
+};
+
+/// Steps until `last_step` steps are complete, the state diverges or a signal comes. Calls `observe`
+/// at the start and after every step; it may return false to stop early, which counts as done.
+RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& progress,
+                    const std::function<bool()>& observe);
+
+}  // namespace sheave::tools

@@ -1,0 +1,42 @@
+#pragma once
+// Files of numbers: a row per recorded moment, a column per observable.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sheave::tools {
+
+/// One file of one table; it appears when finish() is called, whole. Throws a Failure (74) if the
+/// disk is full and alike.
+class TableWriter {
+ public:
+  virtual ~TableWriter() = default;
+  TableWriter(const TableWriter&) = delete;
+  TableWriter& operator=(const TableWriter&) = delete;
+
+  /// One value per column; NaN is a missing value.
+  virtual void write_row(std::span<const double> values) = 0;
+  virtual void finish() = 0;
+
+ protected:
+  TableWriter() = default;
+};
+
+/// A writer for a path that ends in .csv or .npy, or for CSV on standard output ("-"); a Failure (2)
+/// for any other.
+[[nodiscard]] std::unique_ptr<TableWriter> open_table(const std::string& path,
+                                                      const std::vector<std::string>& columns);
+
+/// Comma-separated values: a line of column names, then a line per row with the shortest decimals
+/// that read back as the same doubles. Missing values are empty.
+[[nodiscard]] std::unique_ptr<TableWriter> open_csv(const std::string& path,
+                                                    const std::vector<std::string>& columns);
+
+/// NumPy's format, a structured array with a field of float64 per column:
+/// numpy.load(path)["rope.0.tension"].
+[[nodiscard]] std::unique_ptr<TableWriter> open_npy(const std::string& path,
+                                                    const std::vector<std::string>& columns);
+
+}  // namespace sheave::tools

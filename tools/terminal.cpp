@@ -1,0 +1,66 @@
+#include "tools/terminal.h"
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include <unistd.h>
+
+#include "tools/failure.h"
+
+namespace sheave::tools {
+namespace {
+
+/// False if the text could not be written; errno says why.
+bool write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = ::write(descriptor, text.data(), text.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return false;
+    text.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
+}
+
+void say(std::string_view kind, const char* color, std::string_view text) {
+  std::string head = "sheave: ";
+  if (!kind.empty()) {
+    const bool colored = stderr_has_color();
+    head += (colored ? color : "") + std::string(kind) + (colored ? "\033[0m" : "") + ": ";
+  }
+  std::string message;
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    message += head + std::string(text.substr(0, end)) + "\n";
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  }
+  // If nobody can hear it there is nobody to tell.
+  static_cast<void>(write_all(STDERR_FILENO, message));
+}
+
+}  // namespace
+
+void print(std::string_view text) {
+  if (!write_all(STDOUT_FILENO, text)) {
+    throw Failure(ExitCode::io, std::string("standard output: ") + std::strerror(errno));
+  }
+}
+
+void print_error(std::string_view text) { say("error", "\033[1;31m", text); }
+void print_warning(std::string_view text) { say("warning", "\033[1;33m", text); }
+void print_note(std::string_view text) { say("", "", text); }
+
+bool stderr_is_terminal() { return ::isatty(STDERR_FILENO) == 1; }
+
+bool stderr_has_color() {
+  const char* no_color = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  const bool dumb = terminal == nullptr || std::strcmp(terminal, "dumb") == 0;
+  return stderr_is_terminal() && !dumb && (no_color == nullptr || *no_color == '\0');
+}
+
+void ignore_broken_pipes() { std::signal(SIGPIPE, SIG_IGN); }
+
+}  // namespace sheave::tools
