@@ -153,7 +153,10 @@ StepReport World::step() {
     for (const Stage& stage : c.stages)
       stage.run(c.substep);
     report.divergence = c.find_divergence();
-    if (report.divergence) break;
+    if (report.divergence) {
+      c.substep.next = c.state;  // stages build on what `next` held at the start
+      break;
+    }
     // Same shape on both sides, so this copies without allocating.
     c.state.bodies = c.substep.next.bodies;
     c.state.features = c.substep.next.features;

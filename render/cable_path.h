@@ -15,9 +15,9 @@ struct CableStyle {
   ColorMap map = ColorMap::tension;
   Vector3 gravity{0.0, -1.0, 0.0};  ///< direction in which slack spans sag; any length
   /// A floor on which slack spans come to rest instead of sagging through it.
-  std::optional<Plane> floor;
+  std::optional<Plane> floor{};
   /// Room along the axis for windings side by side [m], one per link; missing ones count as 0.
-  std::vector<double> winding_room;
+  std::vector<double> winding_room{};
 };
 
 /// Colour of a span with this tension [N]; slack_color if it carries none.

@@ -46,7 +46,8 @@ double solve_shape(double target) {
 
 /// asinh(b) - asinh(c) without cancellation.
 double asinh_difference(double b, double c) {
-  if (b + c < 0.0) return asinh_difference(-c, -b);
+  if (b > 0.0 && c < 0.0) return std::asinh(b) - std::asinh(c);
+  if (c < 0.0) return asinh_difference(-c, -b);
   const double rb = std::sqrt(1.0 + b * b);
   const double rc = std::sqrt(1.0 + c * c);
   return std::log1p((b - c) * (1.0 + (b + c) / (rb + rc)) / (c + rc));

@@ -23,22 +23,22 @@ namespace sheave::render {
 
 struct ViewOptions {
   /// Radius that cables are drawn with [m], > 0; default: suits the size of the scene.
-  std::optional<double> cable_radius;
+  std::optional<double> cable_radius{};
   /// Tension at the top of the colour map [N], > 0. Default: the largest tension of each frame by
   /// itself (the weight of all bodies if no cable carries anything). For a video pass one value, for example from ViewSurvey, or colours mean different forces
   /// in different frames.
-  std::optional<double> tension_max;
+  std::optional<double> tension_max{};
   /// Box round everything that the picture will show over the whole run [m], for the place of the
   /// floor; default: what is there at the beginning.
-  Eigen::AlignedBox3d run_bounds;
+  Eigen::AlignedBox3d run_bounds{};
   bool force_labels = false;  ///< the tension beside every span
   bool legend = true;         ///< left out anyway if there are no cables
   bool time = true;
   /// A floor for shadows to fall on below a scene that has no ground of its own; never shown without
   /// gravity.
   bool floor = true;
-  std::string title;
-  std::string caption;
+  std::string title{};
+  std::string caption{};
 };
 
 class ViewBuilder {

@@ -43,7 +43,7 @@ struct FieldReader::Value {
     if (document().kind(at) != Kind::number) {
       reader.fail(at, "must be " + wanted, wanted);
     } else if (!field.range.contains(document().number(at))) {
-      reader.fail(at, "must be " + range + unit, wanted);
+      reader.fail(at, "must be " + range + unit, range + unit);
     } else {
       target = document().number(at);
     }
@@ -165,7 +165,7 @@ bool FieldReader::read_object(NodeId node, const ObjectFormat& format,
                               std::span<void* const> objects, const Variant* variant,
                               void* settings) {
   if (document_.kind(node) != Kind::object) {
-    fail(node, fmt::format("must be an object, {}", format.meaning), "an object");
+    fail(node, fmt::format("must be an object ({})", format.meaning), "an object");
     return false;
   }
   check_keys(node, format, variant);
@@ -228,7 +228,7 @@ void FieldReader::check_name(NodeId node) {
 
 const Variant* FieldReader::read_type(NodeId node, const ObjectFormat& format) {
   if (document_.kind(node) != Kind::object) {
-    fail(node, fmt::format("must be an object, {}", format.meaning), "an object");
+    fail(node, fmt::format("must be an object ({})", format.meaning), "an object");
     return nullptr;
   }
   std::string allowed;
@@ -257,7 +257,7 @@ const Variant* FieldReader::read_type(NodeId node, const ObjectFormat& format) {
 std::span<const NodeId> FieldReader::list(NodeId object, const Member& member) {
   const NodeId node = document_.member(object, member.name);
   if (node == no_node) return {};
-  const std::string wanted = fmt::format("a list of objects, {}", member.meaning);
+  const std::string wanted = fmt::format("a list of objects ({})", member.meaning);
   if (document_.kind(node) != Kind::array) {
     fail(node, "must be " + wanted, wanted);
     return {};

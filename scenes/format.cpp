@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -243,8 +244,12 @@ std::string describe(const Field& field, const FieldSlot& slot) {
 std::string range_text(const Range& range) {
   const bool low = std::isfinite(range.minimum);
   const bool high = std::isfinite(range.maximum);
-  const std::string minimum = number_text(range.minimum);
-  const std::string maximum = number_text(range.maximum);
+  const auto text_of = [](double bound) {  // 100000 rather than 1e+05
+    const bool plain = bound == std::floor(bound) && std::abs(bound) < 1e9;
+    return plain ? fmt::format("{:.0f}", bound) : number_text(bound);
+  };
+  const std::string minimum = text_of(range.minimum);
+  const std::string maximum = text_of(range.maximum);
   if (low && high && range.minimum_allowed && range.maximum_allowed) {
     return minimum + " ... " + maximum;
   }

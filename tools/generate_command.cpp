@@ -80,10 +80,10 @@ std::shared_ptr<KindOptions> declare_kind(CLI::App& app, const GeneratorKind& ki
   for (std::size_t i = 0; i < kind.fields().size(); ++i) {
     const Field& field = kind.fields()[i];
     sub->add_option(option_name(field.name), options->values[i], meaning(field, defaults.get()))
-        ->type_name("X");
+        ->option_text("X");
   }
   sub->add_option("-o,--out", options->out, "file to write; default: standard output")
-      ->type_name("FILE");
+      ->option_text("FILE");
   return options;
 }
 

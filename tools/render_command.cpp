@@ -171,28 +171,28 @@ void check_usage(const PictureOptions& options) {
 
 void add_picture_options(CLI::App& app, PictureOptions& options) {
   app.add_option("--video", options.video, "write a video (.mp4, .mov or .mkv; needs ffmpeg)")
-      ->type_name("FILE");
+      ->option_text("FILE");
   app.add_option("--png", options.png, "write every frame into a folder, frame_000000.png ...")
-      ->type_name("DIR");
+      ->option_text("DIR");
   CLI::Option* still = app.add_option("--still", options.still, "write one picture (.png)");
-  still->type_name("FILE");
+  still->option_text("FILE");
   app.add_option("--at", options.at, "time of the still [s]; default: the end")
       ->check(CLI::NonNegativeNumber)
-      ->type_name("T")
+      ->option_text("T")
       ->needs(still);
   app.add_option("--width", options.width, "pixels; default 1280")
       ->check(CLI::Range(render::Renderer::min_side, render::Renderer::max_side / 2))
-      ->type_name("N");
+      ->option_text("N");
   app.add_option("--height", options.height, "pixels; default 720")
       ->check(CLI::Range(render::Renderer::min_side, render::Renderer::max_side / 2))
-      ->type_name("N");
+      ->option_text("N");
   app.add_option("--fps", options.fps, "frames per second of the video; default 60")
       ->check(CLI::Range(0.001, 1000.0))
-      ->type_name("X");
+      ->option_text("X");
   app.add_option("--speed", options.speed,
                  "simulated seconds per second of the video; default 1, 0.1 is slow motion")
       ->check(CLI::Range(1e-9, 1e9))
-      ->type_name("X");
+      ->option_text("X");
   app.add_flag("--labels", options.labels, "write the tensions [N] beside the cables");
 }
 

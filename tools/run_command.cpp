@@ -143,15 +143,15 @@ void add_output_options(CLI::App& app, RunOptions& options) {
   CLI::Option* out = app.add_option("-o,--out", options.record.paths,
                                     "write all quantities over time to a .csv or .npy file, or as "
                                     "CSV to standard output (-); may be repeated");
-  out->type_name("FILE")->expected(1)->take_all();
+  out->option_text("FILE")->expected(1)->take_all();
   app.add_option("--every", options.record.every, "steps per row of these files")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 53))
-      ->type_name("N")
+      ->option_text("N")
       ->needs(out);
   app.add_option("--columns", options.record.patterns,
                  "only these columns of them: names or patterns with * and ?")
       ->delimiter(',')
-      ->type_name("NAME,...")
+      ->option_text("NAME,...")
       ->expected(1)
       ->take_all()
       ->needs(out);
@@ -164,12 +164,12 @@ void add_output_options(CLI::App& app, RunOptions& options) {
 void add_state_options(CLI::App& app, RunOptions& options) {
   app.add_option("--steps", options.steps, "stop after so many steps instead of at the duration")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53))
-      ->type_name("N")
+      ->option_text("N")
       ->excludes(app.get_option("--duration"));
   app.add_option("--save-state", options.save_state, "write the final state to a file")
-      ->type_name("FILE");
+      ->option_text("FILE");
   app.add_option("--load-state", options.load_state, "start from a saved state")
-      ->type_name("FILE")
+      ->option_text("FILE")
       ->excludes(app.get_option("--check"));
 }
 

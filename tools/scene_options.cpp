@@ -80,18 +80,18 @@ std::vector<Override> overrides(const SceneOptions& options) {
 void add_scene_options(CLI::App& app, SceneOptions& options) {
   app.add_option("scene", options.path, "Scene file (JSON); - reads standard input")
       ->required()
-      ->type_name("SCENE");
+      ->option_text("SCENE");
   for (const Shortcut& shortcut : shortcuts) {
     const char* group = "Instead of what the scene says";
     CLI::Option* option = app.add_option(shortcut.option, options.*shortcut.value,
                                          shortcut.meaning + choices(shortcut));
-    option->group(group)->type_name(shortcut.number ? "X" : "NAME");
+    option->group(group)->option_text(shortcut.number ? "X" : "NAME");
     if (shortcut.number) option->check(CLI::Number);
   }
   app.add_option("--set", options.settings,
                  "any setting, by its JSON pointer; may be repeated")
       ->group("Instead of what the scene says")
-      ->type_name("/POINTER=VALUE")
+      ->option_text("/POINTER=VALUE")
       ->expected(1)
       ->take_all();
 }
@@ -104,8 +104,12 @@ SceneResult load_file_or_stdin(const std::string& path, const std::vector<Overri
 
 Scene load(const SceneOptions& options) {
   SceneResult result = load_file_or_stdin(options.path, overrides(options));
-  if (!result) throw Failure(exit_code(result), to_text(result));
-  return std::move(*result.scene);
+  if (result) return std::move(*result.scene);
+  const ExitCode code = exit_code(result);
+  // One fault speaks for itself; a list begins in a line of its own.
+  std::string text = to_text(result);
+  if (result.errors.size() > 1) text = fmt::format("{} faults\n{}", result.errors.size(), text);
+  throw Failure(code, text);
 }
 
 ExitCode exit_code(const SceneResult& result) {
@@ -123,7 +127,14 @@ ExitCode exit_code(const SceneResult& result) {
 
 std::string to_text(const SceneResult& result) {
   std::string text;
-  for (const SceneError& error : result.errors) {
+  for (SceneError error : result.errors) {
+    // An option is its own place.
+    if (error.file.starts_with("--")) {
+      error.line = 0;
+      if (error.file.ends_with(error.pointer) || !error.file.starts_with("--set")) {
+        error.pointer.clear();
+      }
+    }
     if (!text.empty()) text += '\n';
     text += to_string(error);
   }

@@ -25,17 +25,13 @@ bool write_all(int descriptor, std::string_view text) {
 }
 
 void say(std::string_view kind, const char* color, std::string_view text) {
-  std::string head = "sheave: ";
+  std::string message = "sheave: ";
   if (!kind.empty()) {
     const bool colored = stderr_has_color();
-    head += (colored ? color : "") + std::string(kind) + (colored ? "\033[0m" : "") + ": ";
+    message += (colored ? color : "") + std::string(kind) + (colored ? "\033[0m" : "") + ": ";
   }
-  std::string message;
-  while (!text.empty()) {
-    const std::size_t end = text.find('\n');
-    message += head + std::string(text.substr(0, end)) + "\n";
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  }
+  message += text;
+  if (!message.ends_with('\n')) message += '\n';
   // If nobody can hear it there is nobody to tell.
   static_cast<void>(write_all(STDERR_FILENO, message));
 }

@@ -9,7 +9,8 @@ namespace sheave::tools {
 /// Writes to standard output at once; throws a Failure (74) if that is closed or full.
 void print(std::string_view text);
 
-/// Writes "sheave: <text>" to standard error, one line per line of text.
+/// Writes "sheave: error: <text>" and alike to standard error. Only the first line gets that head:
+/// further ones may be of a form that editors understand ("file:line:column: ...").
 void print_error(std::string_view text);
 void print_warning(std::string_view text);
 void print_note(std::string_view text);

@@ -32,7 +32,7 @@ Action declare_validate(CLI::App& app) {
   auto paths = std::make_shared<std::vector<std::string>>();
   app.add_option("scenes", *paths, "Scene files; - reads standard input")
       ->required()
-      ->type_name("SCENE");
+      ->option_text("SCENE...");
   app.footer(R"(Examples:
   sheave validate crane.json
   sheave validate scenes/*/*.json

@@ -16,12 +16,29 @@ bool is_word(char c) {
          c == '-' || c == '.';
 }
 
-/// "[json.exception.parse_error.101] parse error at line 1, column 2: what is wrong; expected ..."
-/// without what stands in front: positions are told in our own way.
-std::string without_prefix(std::string message) {
+/// What nlohmann says is wrong, without its own account of where: of
+/// "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while parsing
+/// object - invalid literal; last read: '{x'; expected '}'" the part behind the colon, without the
+/// text that was last read, which our value shows better.
+std::string complaint(std::string message) {
   const std::size_t column = message.find(", column ");
   const std::size_t start = message.find(": ", column == std::string::npos ? 0 : column);
-  return start == std::string::npos ? message : message.substr(start + 2);
+  if (start != std::string::npos) message = message.substr(start + 2);
+  const std::size_t last_read = message.find("; last read: '");
+  if (last_read != std::string::npos) {
+    const std::size_t expected = message.rfind("; expected ");
+    const bool behind = expected != std::string::npos && expected > last_read;
+    message = message.substr(0, last_read) + (behind ? message.substr(expected) : "");
+  }
+  // Between two members a comma is as welcome as the closing bracket, and more often forgotten.
+  for (const std::string_view close : {"'}'", "']'"}) {
+    const std::string ending = fmt::format("; expected {}", close);
+    if (message.ends_with(ending)) {
+      message.replace(message.size() - ending.size(), std::string::npos,
+                      fmt::format("; expected ',' or {}", close));
+    }
+  }
+  return message;
 }
 
 }  // namespace
@@ -120,12 +137,17 @@ bool Builder::parse_error(std::size_t position, const std::string& /*token*/,
   const std::size_t last_read = begin_ + (position > 0 ? position - 1 : 0);
   const std::size_t start = std::min<std::size_t>(next_token(), last_read);
   const std::size_t offset = std::min(start, document_.text_.size());
+  const std::size_t end =
+      std::max<std::size_t>(token_end(static_cast<std::uint32_t>(offset)), last_read + 1);
+  std::string value = shortened(document_.text_.substr(offset, end - offset), 40);
   if (error.id == 406) {
-    const std::size_t end = token_end(static_cast<std::uint32_t>(offset));
     return fail(static_cast<std::uint32_t>(offset), "number too large for a double",
-                shortened(document_.text_.substr(offset, end - offset), 40));
+                std::move(value));
   }
-  return fail(static_cast<std::uint32_t>(offset), shortened(without_prefix(error.what()), 300));
+  const std::string what = error.what();
+  // "unexpected ..." already names the token.
+  if (what.find(" - unexpected ") != std::string::npos) value.clear();
+  return fail(static_cast<std::uint32_t>(offset), complaint(what), std::move(value));
 }
 
 std::uint32_t Builder::next_token() const {

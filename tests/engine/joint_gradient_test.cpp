@@ -84,14 +84,12 @@ std::shared_ptr<Joint> make_joint(const std::string& name, BodyId a, BodyId b) {
 template <class Joint>
 void add_joints(Model& model, bool mounted) {
   const BodyId world = BodyId::world();
-  const std::vector<std::pair<BodyId, BodyId>> plain{{{0}, {1}}, {world, {0}}, {{1}, world},
-                                                     {{4}, {0}}, {{5}, {1}},   {{6}, {0}},
-                                                     {{5}, {6}}};
+  const std::vector<std::pair<BodyId, BodyId>> plain{
+      {{0}, {1}}, {world, {0}}, {{1}, world}, {{4}, {0}}, {{5}, {1}}, {{6}, {0}}, {{5}, {6}}};
   const std::vector<std::pair<BodyId, BodyId>> rotors{{{2}, {3}}, {{2}, {1}}, {world, {2}},
                                                       {{2}, {0}}, {{4}, {3}}, {{3}, {5}}};
   for (const auto& [a, b] : mounted ? rotors : plain) {
-    model.joints.push_back(
-        make_joint<Joint>("joint" + std::to_string(model.joints.size()), a, b));
+    model.joints.push_back(make_joint<Joint>("joint" + std::to_string(model.joints.size()), a, b));
   }
 }
 
@@ -145,7 +143,7 @@ TEST(GroundGradient, IsExactForEveryContactPoint) {
   for (const int i : {0, 1, 5, 6}) {
     auto box = std::make_shared<Box>();
     box->size = {0.4, 0.3, 0.5};
-    model.bodies[static_cast<std::size_t>(i)].shapes.push_back({box, {0.05, 0.02, -0.03}});
+    model.bodies[static_cast<std::size_t>(i)].shapes = {{box, {0.05, 0.02, -0.03}}};
   }
   const test::GradientCheck result = check(model, 0.2, 0.0);
   EXPECT_GT(result.compared, 200);
@@ -159,8 +157,8 @@ TEST(GroundGradient, IsExactAfterLargeMotionsOfBodiesThatAreNotMounted) {
   model.ground.emplace();
   model.ground->normal = Vector3(0.2, 1.0, -0.1);
   auto box = std::make_shared<Box>();
-  model.bodies[0].shapes.push_back({box, {0.05, 0.02, -0.03}});
-  model.bodies[1].shapes.push_back({box});
+  model.bodies[0].shapes = {{box, {0.05, 0.02, -0.03}}};
+  model.bodies[1].shapes = {{box}};
   const test::GradientCheck result = check(model, 0.3, 0.4);
   EXPECT_LT(result.error, tolerance) << result.worst;
 }

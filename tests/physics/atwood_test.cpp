@@ -28,7 +28,8 @@ Outcome simulate(const test::Machine& machine, double time) {
 
 // All forces are constant, and XPBD integrates constant forces exactly: what is left is the solver.
 // With J' = I/r^2 = 0.8 kg, Gauss-Seidel on the two spans shrinks the error by
-// q = (1/J')^2 / ((1/m1 + 1/J') (1/m2 + 1/J')) = 0.39 per iteration, so 10 give 1e-4, 30 give 1e-12.
+// q = (1/J')^2 / ((1/m1 + 1/J') (1/m2 + 1/J')) = 0.39 per iteration, so 10 give 1e-4, 30 give
+// 1e-12.
 TEST(Atwood, HeavyWheelHasClosedFormAccelerationAndTensions) {
   test::Atwood atwood;
   for (const auto& [iterations, tolerance] : {std::pair{10, 1e-3}, std::pair{40, 1e-11}}) {
@@ -71,7 +72,8 @@ TEST(ElasticCable, StretchesByForceTimesCompliance) {
     Simulation s = test::start(machine);
     test::run(s.world, 5.0);
     for (const SpanReport& span : s.cable_reports()[0].spans) {
-      EXPECT_NEAR(span.length - span.rest_length, 2.0 * g * compliance, 1e-6 * 2.0 * g * compliance);
+      EXPECT_NEAR(span.length - span.rest_length, 2.0 * g * compliance,
+                  1e-6 * 2.0 * g * compliance);
       EXPECT_NEAR(span.tension, 2.0 * g, 1e-6 * 2.0 * g);
     }
   }

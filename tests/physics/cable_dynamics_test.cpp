@@ -21,8 +21,8 @@ TEST(SlackCable, ExertsNothing) {
   Model free = machine.model;
   World reference = test::start(free);
   for (int i = 0; i < 30; ++i) {
-    s.world.step();
-    reference.step();
+    ASSERT_TRUE(s.world.step().ok());
+    ASSERT_TRUE(reference.step().ok());
     ASSERT_EQ(s.cable_reports()[0].spans[0].tension, 0.0);
     ASSERT_EQ(s.world.position({0}), reference.position({0}));
   }
@@ -36,7 +36,7 @@ TEST(SlackCable, GoesTautSlackAndTautAgain) {
   // Up and down again takes 2 v / g = 0.408 s; then it hangs.
   const double flight = 4.0 / g;
   while (s.world.state().time < 1.0) {
-    s.world.step();
+    ASSERT_TRUE(s.world.step().ok());
     const SpanReport span = s.cable_reports()[0].spans[0];
     EXPECT_LT(span.length, 1.0 + 1e-12);
     if (s.world.state().time < flight - 0.003) {
@@ -56,7 +56,8 @@ TEST(SlackCable, OneSpanSlackWhileTheOtherIsTaut) {
   const CableReport report = s.cable_reports()[0];
   EXPECT_GT(report.spans[0].tension, 0.0);
   EXPECT_EQ(report.spans[1].tension, 0.0);
-  EXPECT_NEAR(s.world.velocity({2}).y(), -0.01 * g, 1e-12);
+  // v = (x' - x) / h with x of about 2 m and h = 1 ms: 10 steps of 4e-13 of rounding.
+  EXPECT_NEAR(s.world.velocity({2}).y(), -0.01 * g, 1e-11);
 }
 
 TEST(Belt, RimSpeedsAgreeAndTheTorqueAcceleratesBothWheels) {
@@ -74,7 +75,7 @@ TEST(Belt, RimSpeedsAgreeAndTheTorqueAcceleratesBothWheels) {
   // Tight span: F r2 = J2 w2'. Round the driver counter-clockwise the cable comes in on the span
   // that leads back from the follower, so that one pulls.
   EXPECT_NEAR(report.spans[1].tension, 0.01 * rim / 0.01, 1e-9 * rim);
-  EXPECT_EQ(report.spans[0].tension, 0.0);
+  EXPECT_NEAR(report.spans[0].tension, 0.0, 1e-9 * rim);
 }
 
 // A weight swinging in a circle without gravity. Each substep predicts along the tangent and
@@ -113,7 +114,8 @@ struct SwingingAtwood {
     constexpr int steps = 20000;
     const double h = time / steps;
     const auto moved = [](std::array<double, 4> from, const std::array<double, 4>& by, double f) {
-      for (std::size_t i = 0; i < 4; ++i) from[i] += f * by[i];
+      for (std::size_t i = 0; i < 4; ++i)
+        from[i] += f * by[i];
       return from;
     };
     for (int i = 0; i < steps; ++i) {
@@ -121,7 +123,8 @@ struct SwingingAtwood {
       const auto k2 = derivative(moved(y, k1, h / 2));
       const auto k3 = derivative(moved(y, k2, h / 2));
       const auto k4 = derivative(moved(y, k3, h));
-      for (std::size_t k = 0; k < 4; ++k) y[k] += h / 6 * (k1[k] + 2 * k2[k] + 2 * k3[k] + k4[k]);
+      for (std::size_t k = 0; k < 4; ++k)
+        y[k] += h / 6 * (k1[k] + 2 * k2[k] + 2 * k3[k] + k4[k]);
     }
     return y;
   }
@@ -137,10 +140,10 @@ TEST(Xpbd, ConvergesInFirstOrderOnASwingingAtwoodMachine) {
   const Vector3 u{std::sin(y[1]), -std::cos(y[1]), 0.0};
   const Vector3 expected = SwingingAtwood::r * e + y[0] * u;
   const auto error = [&](double dt) {
-    test::Machine machine =
-        test::Atwood{.m1 = SwingingAtwood::m1, .radius = SwingingAtwood::r,
-                     .inertia = SwingingAtwood::inertia}
-            .machine();
+    test::Machine machine = test::Atwood{.m1 = SwingingAtwood::m1,
+                                         .radius = SwingingAtwood::r,
+                                         .inertia = SwingingAtwood::inertia}
+                                .machine();
     const Vector3 bob = SwingingAtwood::r * Vector3(std::cos(angle), std::sin(angle), 0.0) +
                         length * Vector3(std::sin(angle), -std::cos(angle), 0.0);
     machine.model.bodies[2] = test::lump("bob", bob, SwingingAtwood::m2);
@@ -177,7 +180,7 @@ TEST(BallJointPendulum, HasTheClosedFormPeriod) {
     double last_x = world.position({0}).x();
     double first_crossing = 0.0;
     for (int crossings = 0;;) {
-      world.step();
+      if (!world.step().ok()) return 0.0;
       const double x = world.position({0}).x();
       if (last_x * x < 0.0) {
         const double at = world.state().time - dt * x / (x - last_x);
@@ -229,7 +232,9 @@ TEST(ElasticCable, DampingRateConvergesToTheAnalyticOne) {
     EXPECT_NEAR(2.0 * c4 - c2, exact, 1e-3 * (exact + 1.0)) << damping;
     EXPECT_NEAR(std::log2((c1 - c2) / (c2 - c4)), 1.0, 0.1) << damping;
     // The integrator's own share for b = 0.
-    if (damping == 0.0) EXPECT_NEAR(c4, 0.5 * frequency_squared * 1e-4, 0.02 * c4);
+    if (damping == 0.0) {
+      EXPECT_NEAR(c4, 0.5 * frequency_squared * 1e-4, 0.02 * c4);
+    }
   }
 }
 

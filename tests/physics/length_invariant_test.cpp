@@ -33,11 +33,11 @@ double arc_error(const CableReport& report) {
   double worst = 0.0;
   for (const LinkReport& link : report.links) {
     if (link.radius == 0.0) continue;
-    const double arc = link.winding * angle_between((link.entry - link.center) / link.radius,
-                                                    (link.exit - link.center) / link.radius,
-                                                    link.normal);
-    worst = std::max(worst, link.radius *
-                                std::abs(std::remainder(link.wrap_angle - arc, 2.0 * pi)));
+    const double arc =
+        link.winding * angle_between((link.entry - link.center) / link.radius,
+                                     (link.exit - link.center) / link.radius, link.normal);
+    worst =
+        std::max(worst, link.radius * std::abs(std::remainder(link.wrap_angle - arc, 2.0 * pi)));
   }
   return worst;
 }
@@ -110,8 +110,8 @@ TEST(LengthInvariant, StoredLengthFollowsTheWrapInThreeDimensions) {
   block.angular_velocity = {0.2, 0.4, -0.3};
   machine.model.add(block);
   machine.model.step = test::settings(0.001, 1, 20);
-  auto joint_cable = cable("hanger", {attach(BodyId::world(), {0.1, 1.5, 0.2}),
-                                      attach({3}, {0.1, 0.1, 0.05})});
+  auto joint_cable =
+      cable("hanger", {attach(BodyId::world(), {0.1, 1.5, 0.2}), attach({3}, {0.1, 0.1, 0.05})});
   machine.cables.push_back(joint_cable);
   Simulation s = test::start(machine);
   for (int i = 0; i < 1000; ++i) {

@@ -6,6 +6,7 @@
 
 #include "engine/joints/ball.h"
 #include "engine/joints/hinge.h"
+#include "engine/shapes/box.h"
 #include "tests/support/builders.h"
 
 namespace sheave {
@@ -63,8 +64,8 @@ Top spin_top(int substeps) {
   for (int i = 0; i < 500; ++i) {
     EXPECT_TRUE(world.step().ok());
     top.energy_error = std::max(top.energy_error, std::abs(world.energy().kinetic / energy - 1.0));
-    top.momentum_error = std::max(
-        top.momentum_error, (angular_momentum(world, 0) - momentum).norm() / momentum.norm());
+    top.momentum_error = std::max(top.momentum_error,
+                                  (angular_momentum(world, 0) - momentum).norm() / momentum.norm());
   }
   top.orientation = world.orientation({0});
   return top;
@@ -77,7 +78,8 @@ TEST(FreeMotion, TumblingBodyConservesMomentumExactlyAndConvergesInSecondOrder) 
   const Top fine = spin_top(2);
   const Top finer = spin_top(4);
   const Top reference = spin_top(32);
-  for (const Top& top : {coarse, fine, finer}) EXPECT_LT(top.momentum_error, 1e-12);
+  for (const Top& top : {coarse, fine, finer})
+    EXPECT_LT(top.momentum_error, 1e-12);
   EXPECT_GT(fine.energy_error / finer.energy_error, 3.4);
   EXPECT_LT(finer.energy_error, 1e-3);
   const double ratio = reference.orientation.angularDistance(fine.orientation) /
@@ -219,7 +221,8 @@ TEST(MountedRotor, PassesForcesAndTransverseTorquesToItsCarrier) {
 // A pull in a general direction moves nothing along a forbidden direction. Along coordinate axes
 // nothing at all may leak; along others what v - n (n.v) leaves, eps/2 per step, adds up.
 TEST(Mobility, RestrictionsAreExact) {
-  for (const Vector3& axis : {Vector3(Vector3::UnitY()), Vector3(Vector3(0.3, 1.0, -0.6).normalized())}) {
+  for (const Vector3& axis :
+       {Vector3(Vector3::UnitY()), Vector3(Vector3(0.3, 1.0, -0.6).normalized())}) {
     test::Machine machine;
     machine.model.gravity = {1.0, -9.0, 2.0};
     machine.model.step = test::settings(0.01, 1, 10);
@@ -240,7 +243,8 @@ TEST(Mobility, RestrictionsAreExact) {
     machine.cables.push_back(
         cable("c", {attach(BodyId::world(), {0.5, -1.5, 0.4}), attach({2}, {0.1, 0.05, 0.02})}));
     Simulation s = test::start(machine);
-    for (int i = 0; i < 1000; ++i) ASSERT_TRUE(s.world.step().ok());
+    for (int i = 0; i < 1000; ++i)
+      ASSERT_TRUE(s.world.step().ok());
     const Vector3 slid = s.world.position({0}) - Vector3(0.5, 0.0, 0.0);
     const Vector3 moved = s.world.position({1}) - Vector3(-0.5, 0.0, 0.0);
     const bool aligned = axis == Vector3(Vector3::UnitY());
@@ -273,20 +277,21 @@ TEST(Mobility, KinematicBodiesFollowTheirFunctionsOfTime) {
   drive.oscillation_frequency = 1.7;
   drive.oscillation_phase = 0.4;
   drive.orientation = rotation_by({0.1, 0.2, 0.3});
+  drive.shapes.push_back({std::make_shared<Box>()});
   model.add(drive);
   World world = test::start(model);
   for (int i = 1; i <= 1000; ++i) {
     ASSERT_TRUE(world.step().ok());
     const double t = i * 0.01;
     const double phase = 2.0 * pi * 1.7 * t + 0.4;
-    const Vector3 position = drive.position + t * drive.velocity +
-                             (std::sin(phase) - std::sin(0.4)) * drive.oscillation;
+    const Vector3 position =
+        drive.position + t * drive.velocity + (std::sin(phase) - std::sin(0.4)) * drive.oscillation;
     const Vector3 velocity = drive.velocity + 2.0 * pi * 1.7 * std::cos(phase) * drive.oscillation;
     // eps of the phase, 100 rad, and of the position.
     ASSERT_LT((world.position({0}) - position).norm(), 1e-13);
     ASSERT_LT((world.velocity({0}) - velocity).norm(), 1e-12);
-    ASSERT_LT(world.orientation({0}).angularDistance(
-                  rotation_by(t * drive.angular_velocity) * drive.orientation),
+    ASSERT_LT(world.orientation({0}).angularDistance(rotation_by(t * drive.angular_velocity) *
+                                                     drive.orientation),
               1e-12);
   }
 }

@@ -21,8 +21,8 @@ class Strands : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Tackle, Strands, ::testing::Values(2, 4, 6, 8));
 
 // Gauss-Seidel builds up the tensions of n + 1 spans from zero in every substep, and light sheaves
-// (discs of 0.2 kg under a load of 8 kg) couple them strongly. Found by doubling until the limits of
-// 0.1 % and 0.5 % held; fewer strands need more, because the effort they balance is heavier.
+// (discs of 0.2 kg under a load of 8 kg) couple them strongly. Found by doubling until the limits
+// of 0.1 % and 0.5 % held; fewer strands need more, because the effort they balance is heavier.
 int iterations_for_balance(int strands) {
   return strands == 2 ? 160 : strands == 4 ? 100 : 80;
 }
@@ -103,8 +103,7 @@ TEST(Gear, OneToFourIsInEquilibrium) {
 TEST(Gear, TwiceTheWeightOnEitherSideAcceleratesInClosedForm) {
   constexpr double r = 0.1;
   for (const auto& [big, small] : {std::pair{8.0, 1.0}, std::pair{4.0, 2.0}}) {
-    const double alpha =
-        (r * big - 4 * r * small) * g / (0.02 + r * r * big + 16 * r * r * small);
+    const double alpha = (r * big - 4 * r * small) * g / (0.02 + r * r * big + 16 * r * r * small);
     Simulation s = test::start(gear(big, small, 40));
     test::run(s.world, 0.5);
     const double t = s.world.state().time;

@@ -3,13 +3,15 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/shapes/box.h"
 #include "engine/shapes/cylinder.h"
 
 namespace sheave::test {
 
 std::string text(const Errors& errors) {
   std::string all;
-  for (const Error& error : errors) all += error.path + ": " + error.message + "\n";
+  for (const Error& error : errors)
+    all += error.path + ": " + error.message + "\n";
   return all;
 }
 
@@ -79,6 +81,9 @@ BodyDef lump(std::string name, const Vector3& position, double mass) {
   body.position = position;
   body.mass = mass;
   body.inertia = mass * Vector3(0.06, 0.09, 0.12);
+  auto shape = std::make_shared<Box>();
+  shape->size = Vector3(0.3, 0.3, 0.3);
+  body.shapes.push_back({shape});
   return body;
 }
 
@@ -157,9 +162,9 @@ Machine Tackle::machine() const {
   rope.links.push_back(attach(BodyId::world(), {strand_x(0), top, 0.0}));
   for (int i = 0; i < pairs; ++i) {
     const std::string number = std::to_string(i);
-    const BodyId lower = m.model.add(sheave::test::sheave(
-        "lower" + number, block, {strand_x(2 * i) + radius, 0.0, 0.0}, radius, sheave_mass,
-        inertia));
+    const BodyId lower = m.model.add(sheave::test::sheave("lower" + number, block,
+                                                          {strand_x(2 * i) + radius, 0.0, 0.0},
+                                                          radius, sheave_mass, inertia));
     const BodyId upper = m.model.add(
         wheel("upper" + number, {strand_x(2 * i + 1) + radius, top, 0.0}, radius, inertia));
     rope.links.push_back(roll(lower, left));

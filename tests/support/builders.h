@@ -36,14 +36,13 @@ void run(World& world, double time);
 [[nodiscard]] StepSettings settings(double dt, int substeps, int iterations);
 
 /// A wheel on a fixed axle along z with the moment of inertia `inertia` about it; mass 1 kg.
-[[nodiscard]] BodyDef wheel(std::string name, const Vector3& center, double radius,
-                            double inertia);
+[[nodiscard]] BodyDef wheel(std::string name, const Vector3& center, double radius, double inertia);
 /// The same on an axle carried by `mount`, with a mass.
 [[nodiscard]] BodyDef sheave(std::string name, BodyId mount, const Vector3& center, double radius,
                              double mass, double inertia);
 /// A body that slides along y.
 [[nodiscard]] BodyDef weight(std::string name, const Vector3& position, double mass);
-/// A free body with three different moments of inertia, all about mass (0.3 m)^2.
+/// A free box of 0.3 m with three different moments of inertia, all about mass (0.3 m)^2.
 [[nodiscard]] BodyDef lump(std::string name, const Vector3& position, double mass);
 
 [[nodiscard]] std::shared_ptr<AttachmentLink> attach(BodyId body,
@@ -100,7 +99,6 @@ struct Tackle {
 [[nodiscard]] Machine cable_pendulum(double mass, double length, double angle);
 
 /// Two wheels on fixed axles joined by a closed, uncrossed cable; bodies 0 (radius r1) and 1 (r2).
-[[nodiscard]] Machine belt(double r1, double r2, double distance, double inertia1,
-                           double inertia2);
+[[nodiscard]] Machine belt(double r1, double r2, double distance, double inertia1, double inertia2);
 
 }  // namespace sheave::test

@@ -37,7 +37,8 @@ std::vector<Motion> allowed_motions(const Substep& substep) {
     };
     switch (body.mobility) {
       case Mobility::free:
-        for (int k = 0; k < 6; ++k) motions.push_back({i, Vector3::Unit(k % 3), k >= 3});
+        for (int k = 0; k < 6; ++k)
+          motions.push_back({i, Vector3::Unit(k % 3), k >= 3});
         break;
       case Mobility::planar:
         add_across(false);
@@ -48,8 +49,7 @@ std::vector<Motion> allowed_motions(const Substep& substep) {
         break;
       case Mobility::rotor: {
         const Vector3 axis =
-            body.mount < 0 ? body.axis
-                           : Vector3(substep.orientation(body.mount) * body.axis);
+            body.mount < 0 ? body.axis : Vector3(substep.orientation(body.mount) * body.axis);
         motions.push_back({i, axis, true});
         break;
       }
@@ -65,7 +65,8 @@ std::vector<double> values(Substep& substep, ConstraintBatch& batch) {
   std::vector<Row> rows;
   batch.linearise(substep, rows);
   std::vector<double> result;
-  for (const Row& row : rows) result.push_back(row.value);
+  for (const Row& row : rows)
+    result.push_back(row.value);
   return result;
 }
 
@@ -106,8 +107,8 @@ GradientCheck check_gradients(Substep& substep, ConstraintBatch& batch) {
     for (std::size_t r = 0; r < rows.size(); ++r) {
       const double difference =
           (8.0 * (at[2][r] - at[1][r]) - (at[3][r] - at[0][r])) / (12.0 * step);
-      const double error = std::abs(difference - predicted(rows[r], motion)) /
-                           std::max(scale[r], 1e-3);
+      const double error =
+          std::abs(difference - predicted(rows[r], motion)) / std::max(scale[r], 1e-3);
       ++check.compared;
       if (!(error <= check.error)) {
         check.error = error;

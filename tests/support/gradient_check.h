@@ -10,10 +10,10 @@ namespace sheave::test {
 
 /// What comparing all rows of a batch found.
 struct GradientCheck {
-  double error = 0.0;  ///< largest |term - difference| / largest gradient component of the row
-  int compared = 0;    ///< derivatives compared
+  double error = 0.0;    ///< largest |term - difference| / largest gradient component of the row
+  int compared = 0;      ///< derivatives compared
   double largest = 0.0;  ///< largest derivative seen; 0 would mean that nothing was tested
-  std::string worst;   ///< row, body and kind of motion of the largest error
+  std::string worst;     ///< row, body and kind of motion of the largest error
 };
 
 /// Compares every row of `batch` with five-point differences of its value under the translations

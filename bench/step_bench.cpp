@@ -1,0 +1,134 @@
+#include "bench/step_bench.h"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include "cable/simulation.h"
+#include "scenes/generators.h"
+#include "scenes/scene.h"
+
+namespace sheave::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Steps per sample. A sample begins at time 0, so that weights that fall never reach a wheel; before
+// it a few steps warm up caches and branch predictors.
+constexpr int steps_per_sample = 60;
+constexpr int warm_up_steps = 10;
+
+constexpr double most_length_error = 1e-12;
+
+/// Why a simulation's numbers cannot be trusted; nothing if they can.
+std::optional<std::string> physics_fault(const Simulation& simulation) {
+  for (const BodyState& body : simulation.world.state().bodies) {
+    const bool finite = body.position.allFinite() && body.velocity.allFinite() &&
+                        body.orientation.coeffs().allFinite() && body.angular_velocity.allFinite();
+    if (!finite) return "a body's state is not finite";
+  }
+  for (const CableReport& cable : simulation.cable_reports()) {
+    // Written so that NaN fails.
+    if (!(std::abs(cable.length_error) <= most_length_error)) {
+      return fmt::format("cable length is wrong by {:.3g}", cable.length_error);
+    }
+  }
+  return std::nullopt;
+}
+
+int span_count(const Scene& scene) {
+  int count = 0;
+  for (const CableDef& cable : scene.cables) count += cable.span_count();
+  return count;
+}
+
+/// Steps the simulation and returns the wall time [s]; the fault if it diverges.
+double timed_steps(Simulation& simulation, int steps, std::optional<std::string>& fault) {
+  bool ok = true;
+  const Clock::time_point start = Clock::now();
+  for (int i = 0; i < steps; ++i) ok = simulation.world.step().ok() && ok;
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  if (!ok) fault = "diverged";
+  return seconds;
+}
+
+/// One sample per iteration of the benchmark. Reports no time at all unless every sample passes the
+/// physics check.
+void measure(benchmark::State& state, const Scene& scene) {
+  Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
+  if (!simulation) {
+    state.SkipWithError(simulation.errors().front().message.c_str());
+    return;
+  }
+  const State start = simulation->world.state();
+  std::optional<std::string> fault;
+  timed_steps(*simulation, warm_up_steps, fault);
+  double total = 0.0;
+  double samples = 0.0;
+  for ([[maybe_unused]] auto _ : state) {
+    static_cast<void>(simulation->world.restore(start));
+    const double seconds = timed_steps(*simulation, steps_per_sample, fault);
+    if (!fault) fault = physics_fault(*simulation);
+    if (fault) {
+      state.SkipWithError(fault->c_str());
+      return;
+    }
+    state.SetIterationTime(seconds);
+    total += seconds;
+    ++samples;
+  }
+  const StepSettings& step = scene.model.step;
+  const double step_ns = 1e9 * total / (samples * steps_per_sample);
+  const double span_substeps = static_cast<double>(span_count(scene)) * step.substeps;
+  state.counters["spans"] = span_count(scene);
+  state.counters["us_per_step"] = 1e-3 * step_ns;
+  state.counters["ns_per_span_substep"] = step_ns / span_substeps;
+  state.counters["ns_per_span_iteration"] = step_ns / (span_substeps * step.iterations);
+}
+
+void add(const std::string& name, Scene scene, int iterations) {
+  scene.model.step.iterations = iterations;
+  // Shared, because the library keeps what it runs in a std::function.
+  const auto shared = std::make_shared<const Scene>(std::move(scene));
+  benchmark::RegisterBenchmark(fmt::format("{}/iterations:{}", name, iterations).c_str(),
+                               [shared](benchmark::State& state) { measure(state, *shared); })
+      ->UseManualTime()
+      ->Unit(benchmark::kMicrosecond);
+}
+
+/// A benchmark that only reports why there is none.
+void add_failure(const std::string& name, const std::string& reason) {
+  benchmark::RegisterBenchmark(name.c_str(), [reason](benchmark::State& state) {
+    state.SkipWithError(reason.c_str());
+  });
+}
+
+}  // namespace
+
+void register_step_benchmarks() {
+  constexpr int one = 1;
+  constexpr int ten = 10;
+  const SceneResult simple = load_scene(SHEAVE_SOURCE_DIR "/scenes/paper/simple.json");
+  if (!simple) add_failure("step/simple", to_string(simple.errors.front()));
+  for (const int iterations : {one, ten}) {
+    if (simple) add("step/simple", *simple, iterations);
+  }
+  for (const int wheels : {4, 16, 64, 256, 1024}) {
+    WheelTrainOptions options;
+    options.wheels = wheels;
+    const Result<Scene> train = generate_wheel_train(options);
+    const std::string name = fmt::format("step/wheel-train/wheels:{}", wheels);
+    if (!train) add_failure(name, train.errors().front().message);
+    for (const int iterations : {one, ten}) {
+      if (train) add(name, *train, iterations);
+    }
+  }
+}
+
+}  // namespace sheave::bench

@@ -1,0 +1,247 @@
+// Pictures and videos on disk: whole, or not there.
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <gtest/gtest.h>
+
+#include "picture.h"
+#include "render/child_process.h"
+#include "render/output_file.h"
+#include "render/png_writer.h"
+#include "render/video_writer.h"
+
+namespace sheave::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that lives as long as the test.
+class Output : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "sheave_render_XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override {
+    fs::permissions(folder_, fs::perms::owner_all);
+    fs::remove_all(folder_);
+  }
+  [[nodiscard]] std::string file(const char* name) const { return (folder_ / name).string(); }
+  [[nodiscard]] int file_count() const {
+    return static_cast<int>(std::distance(fs::directory_iterator(folder_), {}));
+  }
+  fs::path folder_;
+};
+
+std::string content(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// A gradient with a moving square, so that frames differ.
+Image test_frame(int width, int height, int time) {
+  Image image(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      std::uint8_t* p = image.pixel(x, y);
+      const bool inside = x >= 2 * time && x < 2 * time + height / 3 && y > height / 3;
+      p[0] = inside ? 220 : static_cast<std::uint8_t>(255 * x / width);
+      p[1] = inside ? 60 : static_cast<std::uint8_t>(255 * y / height);
+      p[2] = inside ? 40 : 128;
+    }
+  }
+  return image;
+}
+
+bool has_ffmpeg() {
+  auto child = ChildProcess::start({"ffmpeg", "-version"});
+  return child && child->finish().empty();
+}
+
+TEST_F(Output, PngRoundTrips) {
+  const Image image = test_frame(37, 21, 3);
+  for (const PngEffort effort : {PngEffort::sequence, PngEffort::still}) {
+    ASSERT_TRUE(write_png(file("a.png"), image, effort).empty());
+    const auto read = test::read_png(file("a.png"));
+    ASSERT_TRUE(read);
+    EXPECT_EQ(*read, image);
+  }
+  EXPECT_EQ(file_count(), 1);
+  // As readable as any file the user makes.
+  EXPECT_NE(fs::status(file("a.png")).permissions() & fs::perms::owner_read, fs::perms::none);
+}
+
+TEST_F(Output, PngOfNothingIsAnError) {
+  const Errors errors = write_png(file("a.png"), Image());
+  ASSERT_EQ(errors.size(), 1U);
+  EXPECT_NE(errors[0].message.find("0 x 0"), std::string::npos);
+  Image wrong(4, 4);
+  wrong.rgb.pop_back();
+  EXPECT_FALSE(write_png(file("a.png"), wrong).empty());
+  EXPECT_EQ(file_count(), 0);
+}
+
+TEST_F(Output, MissingFolderIsNamed) {
+  const Errors errors = write_png(file("none/a.png"), Image(2, 2));
+  ASSERT_EQ(errors.size(), 1U);
+  EXPECT_NE(errors[0].message.find("none/a.png"), std::string::npos);
+  EXPECT_NE(errors[0].message.find("No such file"), std::string::npos);
+  EXPECT_FALSE(write_png(folder_.string(), Image(2, 2)).empty());
+  EXPECT_FALSE(write_png("", Image(2, 2)).empty());
+}
+
+TEST_F(Output, FileAppearsOnlyWhenCommitted) {
+  const std::array<std::uint8_t, 3> bytes{'a', 'b', 'c'};
+  {
+    auto half = OutputFile::create(file("x.txt"));
+    ASSERT_TRUE(half);
+    ASSERT_TRUE(half->write(bytes).empty());
+    EXPECT_FALSE(fs::exists(file("x.txt")));
+  }
+  EXPECT_EQ(file_count(), 0);
+  ASSERT_TRUE(write_file(file("x.txt"), bytes).empty());
+  EXPECT_EQ(content(file("x.txt")), "abc");
+  // What was there stays until the new file is whole.
+  auto next = OutputFile::create(file("x.txt"));
+  ASSERT_TRUE(next);
+  EXPECT_EQ(content(file("x.txt")), "abc");
+  OutputFile moved = std::move(*next);
+  ASSERT_TRUE(moved.commit().empty());
+  EXPECT_EQ(content(file("x.txt")), "");
+  EXPECT_EQ(file_count(), 1);
+}
+
+TEST_F(Output, FullDiskIsReported) {
+  const Errors errors = write_file("/dev/full/x", std::array<std::uint8_t, 1>{1});
+  EXPECT_FALSE(errors.empty());
+}
+
+TEST_F(Output, VideoHasItsFramesAndColours) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  constexpr int width = 96;
+  constexpr int height = 64;
+  auto video = VideoWriter::create(file("v.mp4"), width, height, {.frames_per_second = 30});
+  ASSERT_TRUE(video) << video.errors()[0].message;
+  for (int t = 0; t < 10; ++t) ASSERT_TRUE(video->add(test_frame(width, height, t)).empty());
+  EXPECT_EQ(video->frame_count(), 10);
+  EXPECT_FALSE(fs::exists(file("v.mp4")));
+  const Errors errors = video->finish();
+  ASSERT_TRUE(errors.empty()) << errors[0].message;
+  EXPECT_EQ(file_count(), 1);
+  const std::string bytes = content(file("v.mp4"));
+  // The index stands before the frames, so that playing can start while loading.
+  EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));
+  EXPECT_EQ(bytes.find("Lavf"), std::string::npos);
+
+  const std::string command = "ffmpeg -nostdin -loglevel error -i '" + file("v.mp4") +
+                              "' -f rawvideo -pix_fmt rgb24 '" + file("raw") + "'";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::string raw = content(file("raw"));
+  ASSERT_EQ(raw.size(), std::size_t{10} * width * height * 3);
+  double difference = 0.0;
+  const Image last = test_frame(width, height, 9);
+  for (std::size_t i = 0; i < last.rgb.size(); ++i) {
+    const auto shown = static_cast<unsigned char>(raw[raw.size() - last.rgb.size() + i]);
+    difference += std::abs(static_cast<double>(shown) - last.rgb[i]);
+  }
+  // Compression blurs colours at edges; a wrong matrix would shift all of them by 10 and more.
+  EXPECT_LT(difference / static_cast<double>(last.rgb.size()), 4.0);
+}
+
+TEST_F(Output, VideoIsDeterministicAndTakesOddSizes) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  for (const char* name : {"a.mp4", "b.mp4"}) {
+    auto video = VideoWriter::create(file(name), 95, 63);
+    ASSERT_TRUE(video);
+    for (int t = 0; t < 30; ++t) ASSERT_TRUE(video->add(test_frame(95, 63, t)).empty());
+    const Errors errors = video->finish();
+    ASSERT_TRUE(errors.empty()) << errors[0].message;
+  }
+  EXPECT_EQ(content(file("a.mp4")), content(file("b.mp4")));
+  EXPECT_FALSE(content(file("a.mp4")).empty());
+}
+
+TEST_F(Output, DiscardedVideoLeavesNothing) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  {
+    auto video = VideoWriter::create(file("v.mp4"), 64, 64);
+    ASSERT_TRUE(video);
+    ASSERT_TRUE(video->add(test_frame(64, 64, 0)).empty());
+  }
+  {
+    auto empty = VideoWriter::create(file("w.mp4"), 64, 64);
+    ASSERT_TRUE(empty);
+    EXPECT_NE(empty->finish().front().message.find("no frames"), std::string::npos);
+    EXPECT_FALSE(empty->add(test_frame(64, 64, 0)).empty());
+    EXPECT_FALSE(empty->finish().empty());
+  }
+  EXPECT_EQ(file_count(), 0);
+}
+
+TEST_F(Output, MissingEncoderIsNamed) {
+  const auto video =
+      VideoWriter::create(file("v.mp4"), 64, 64, {.program = "no-such-encoder-anywhere"});
+  ASSERT_FALSE(video);
+  EXPECT_NE(video.errors()[0].message.find("no-such-encoder-anywhere"), std::string::npos);
+  EXPECT_NE(video.errors()[0].message.find("apt install ffmpeg"), std::string::npos);
+  EXPECT_EQ(file_count(), 0);
+}
+
+TEST_F(Output, EncoderThatDiesIsAnErrorNotASignal) {
+  // `false` ends without reading; writing to it must not raise SIGPIPE.
+  auto video = VideoWriter::create(file("v.mp4"), 640, 480, {.program = "false"});
+  ASSERT_TRUE(video);
+  Errors errors;
+  for (int t = 0; t < 50 && errors.empty(); ++t) errors = video->add(Image(640, 480));
+  EXPECT_FALSE(errors.empty());
+  video->discard();
+  EXPECT_EQ(file_count(), 0);
+
+  auto quiet = VideoWriter::create(file("v.mp4"), 2, 2, {.program = "false"});
+  ASSERT_TRUE(quiet);
+  errors = quiet->add(Image(2, 2));
+  if (errors.empty()) errors = quiet->finish();
+  ASSERT_FALSE(errors.empty());
+  EXPECT_NE(errors[0].message.find("v.mp4"), std::string::npos);
+  quiet->discard();
+  EXPECT_EQ(file_count(), 0);
+}
+
+TEST_F(Output, ImpossibleVideosAreRefused) {
+  EXPECT_EQ(VideoWriter::create(file("v.avi"), 0, 70000,
+                                {.frames_per_second = -1.0, .quality = 99})
+                .errors()
+                .size(),
+            4U);
+  EXPECT_FALSE(VideoWriter::create(file("none/v.mp4"), 64, 64));
+  if (!has_ffmpeg()) return;
+  auto video = VideoWriter::create(file("v.mp4"), 64, 64);
+  ASSERT_TRUE(video);
+  EXPECT_NE(video->add(Image(32, 64)).front().message.find("32 x 64"), std::string::npos);
+}
+
+TEST(Child, LastWordsAreReported) {
+  auto child = ChildProcess::start({"sh", "-c", "echo went wrong >&2; exit 3"});
+  ASSERT_TRUE(child);
+  const Errors errors = child->finish();
+  ASSERT_EQ(errors.size(), 1U);
+  EXPECT_EQ(errors[0].message, "'sh' ended with status 3: went wrong");
+  auto killed = ChildProcess::start({"sh", "-c", "kill -9 $$"});
+  ASSERT_TRUE(killed);
+  EXPECT_EQ(killed->finish().front().message, "'sh' was ended by signal 9");
+}
+
+TEST(Child, TalkativeOneDoesNotBlock) {
+  auto child = ChildProcess::start({"sh", "-c", "head -c 1000000 /dev/zero >&2; cat >/dev/null"});
+  ASSERT_TRUE(child);
+  EXPECT_TRUE(child->write(std::vector<std::uint8_t>(1000000)).empty());
+  EXPECT_TRUE(child->finish().empty());
+}
+
+}  // namespace
+}  // namespace sheave::render

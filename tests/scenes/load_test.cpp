@@ -1,0 +1,218 @@
+#include "scenes/scene.h"
+
+#include <cmath>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "engine/shapes/box.h"
+#include "tests/scenes/scene_files.h"
+
+namespace sheave::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<std::string> errors_of(const SceneResult& result) {
+  std::vector<std::string> texts;
+  for (const SceneError& error : result.errors) texts.push_back(to_string(error));
+  return texts;
+}
+SceneResult load(const std::string& text, const std::vector<Override>& overrides = {}) {
+  return load_scene_text(text, "s.json", overrides);
+}
+
+TEST(load, reads_every_kind_of_setting) {
+  const SceneResult scene = load(R"({
+    // A comment.
+    "format": "sheave-scene/1", "name": "N", "description": "D",
+    "gravity": [0, -9.81, 0], "duration": 2.5,
+    "step": {"dt": 0.01, "substeps": 3, "iterations": 7},
+    "bodies": [
+      {"name": "wheel", "mobility": "rotor", "mass": 2, "mount": "cart",
+       "shape": {"type": "cylinder", "radius": 0.25, "length": 0.1}},
+      {"name": "cart", "mobility": "slider", "axis": [1, 0, 0], "mass": 3,
+       "shapes": [
+         {"type": "box", "size": [1, 2, 3], "position": [0, 1, 0], "orientation": [0, 1, 0, 0]},
+         {"type": "sphere", "radius": 0.5}]}
+    ],
+    "joints": [{"type": "distance", "name": "rod", "body_b": "cart", "anchor_a": [0, 9, 0],
+                "anchor_b": [0, 0, 0]}],
+    "cables": [{"name": "c", "closed": false, "axial_stiffness": 1000, "links": [
+      {"type": "attachment", "body": "world", "point": [5, 5, 0]},
+      {"type": "rolling", "body": "wheel", "winding": "clockwise", "stored_length": 1}]}],
+    "ground": {"point": [0, -50, 0]},
+    "camera": {"position": [0, 0, 9], "target": [0, 1, 0], "labels": true},
+    "checks": [{"quantity": "c.0.tension", "statistic": "mean", "from": 1, "to": 2,
+                "equals": 5, "tolerance": 100, "because": "why"}]
+  })");
+  ASSERT_TRUE(scene) << testing::PrintToString(errors_of(scene));
+  EXPECT_EQ(scene->name, "N");
+  EXPECT_EQ(scene->duration, 2.5);
+  EXPECT_EQ(scene->model.gravity.y(), -9.81);
+  EXPECT_EQ(scene->model.step.substeps, 3);
+  ASSERT_EQ(scene->model.bodies.size(), 2U);
+  EXPECT_EQ(scene->model.bodies[0].mount, BodyId{1});
+  const BodyDef& cart = scene->model.bodies[1];
+  EXPECT_EQ(cart.mobility, Mobility::slider);
+  ASSERT_EQ(cart.shapes.size(), 2U);
+  EXPECT_EQ(cart.shapes[0].position.y(), 1.0);
+  EXPECT_EQ(cart.shapes[0].orientation.x(), 1.0);
+  const auto* box = dynamic_cast<const Box*>(cart.shapes[0].shape.get());
+  ASSERT_NE(box, nullptr);
+  EXPECT_EQ(box->size.z(), 3.0);
+  ASSERT_EQ(scene->model.joints.size(), 1U);
+  EXPECT_EQ(scene->model.joints[0]->type(), "distance");
+  EXPECT_TRUE(scene->model.joints[0]->body_a.is_world());
+  ASSERT_EQ(scene->cables.size(), 1U);
+  EXPECT_EQ(scene->cables[0].axial_stiffness, 1000.0);
+  EXPECT_EQ(scene->cables[0].links[1]->body, BodyId{0});
+  ASSERT_TRUE(scene->model.ground);
+  EXPECT_EQ(scene->model.ground->point.y(), -50.0);
+  ASSERT_TRUE(scene->camera);
+  EXPECT_TRUE(scene->camera->labels);
+  ASSERT_EQ(scene->checks.size(), 1U);
+  EXPECT_EQ(scene->checks[0].statistic, Statistic::mean);
+  EXPECT_EQ(scene->checks[0].because, "why");
+}
+
+TEST(load, reports_all_faults_in_the_order_of_the_file) {
+  const SceneResult scene = load(R"({
+  "format": "sheave-scene/1",
+  "gravity": [0, "down", 0],
+  "duraton": 2,
+  "bodies": [
+    {"name": "a", "mass": -1, "colour": "red"},
+    {"name": "a", "mobility": "rotor", "shape": {"type": "cylinder", "radius": 0, "length": 1}}
+  ],
+  "cables": [{"name": "c", "links": [{"type": "attachment", "body": "b"}, {"type": "knot"}]}],
+  "step": {"substeps": 0, "substeps": 1}
+})");
+  EXPECT_THAT(
+      errors_of(scene),
+      ElementsAre(
+          HasSubstr("s.json:1:1: /duration: required key is missing"),
+          "s.json:3:18: /gravity/1: value \"down\": must be a number [m/s2]",
+          HasSubstr("s.json:4:3: /duraton: unknown key in a scene, did you mean \"duration\"?"),
+          "s.json:6:27: /bodies/0/mass: value -1: must be > 0 [kg]",
+          HasSubstr("s.json:6:31: /bodies/0/colour: unknown key in a body; allowed: name, "),
+          HasSubstr("s.json:7:14: /bodies/1/name: value \"a\": names of bodies must differ"),
+          HasSubstr("s.json:7:80: /bodies/1/shape/radius: value 0: must be > 0 [m]"),
+          HasSubstr("s.json:9:69: /cables/0/links/0/body: value \"b\": there is no body of this"),
+          HasSubstr("s.json:9:84: /cables/0/links/1/type: value \"knot\": unknown type of link"),
+          HasSubstr("s.json:10:24: /step/substeps: value 0: must be 1 ... 100000"),
+          HasSubstr("s.json:10:27: /step/substeps: duplicate key")));
+}
+
+TEST(load, semantic_faults_of_several_entities_come_together) {
+  const SceneResult scene = load(scene_text(R"("bodies": [
+    {"name": "a", "mass": 1},
+    {"name": "b", "mass": 1, "density": 2, "shape": {"type": "sphere", "radius": 1}}
+  ],
+  "camera": {"target": [0, 0, 0]},
+  "checks": [{"quantity": "a.z", "equals": 1}])"));
+  EXPECT_THAT(errors_of(scene),
+              ElementsAre(HasSubstr("s.json:6:5: /bodies/0: body \"a\""),
+                          HasSubstr("s.json:7:41: /bodies/1/density: value 2: body \"b\""),
+                          HasSubstr("s.json:9:24: /camera/target: value [0, 0, 0]"),
+                          HasSubstr("s.json:10:14: /checks/0: check of \"a.z\"")));
+}
+
+TEST(load, an_only_shape_is_found_however_it_is_written) {
+  const std::string flat = R"("type": "prism", "length": 1, "outline": [[0,0,0], [1,0,0], [2,0,0]])";
+  const SceneResult single =
+      load(scene_text(R"("bodies": [{"name": "a", "mass": 1, "shape": {)" + flat + "}}]"));
+  const SceneResult several =
+      load(scene_text(R"("bodies": [{"name": "a", "mass": 1, "shapes": [{)" + flat + "}]}]"));
+  ASSERT_EQ(single.errors.size(), 1U);
+  ASSERT_EQ(several.errors.size(), 1U);
+  EXPECT_EQ(single.errors[0].pointer, "/bodies/0/shape/outline");
+  EXPECT_EQ(several.errors[0].pointer, "/bodies/0/shapes/0/outline");
+  EXPECT_EQ(several.errors[0].line, 5);
+}
+
+TEST(load, huge_counts_are_refused_before_anything_is_made) {
+  std::string text = "\"bodies\": [0";
+  for (int i = 0; i < 1'000'000; ++i) text += ",0";
+  EXPECT_THAT(errors_of(load(scene_text(text + "]"))),
+              ElementsAre(HasSubstr("must not have more than 1000000 elements, has 1000001")));
+  std::string lengths = R"("cables": [{"name": "c", "rest_lengths": [1)";
+  for (int i = 0; i < 1'000'000; ++i) lengths += ",1";
+  EXPECT_THAT(errors_of(load(scene_text(lengths + "], \"links\": []}]"))),
+              ElementsAre(HasSubstr("/cables/0/rest_lengths: must not have more than 1000000")));
+}
+
+TEST(load, a_file_that_is_too_large_is_refused) {
+  std::string text = scene_text();
+  text.resize((std::size_t{64} << 20U) + 1, ' ');
+  EXPECT_THAT(errors_of(load(text)), ElementsAre(HasSubstr("bytes are too many")));
+}
+
+TEST(load, a_hundred_thousand_levels_do_not_crash) {
+  EXPECT_THAT(errors_of(load("{\"bodies\": " + std::string(100'000, '['))),
+              ElementsAre(HasSubstr("nested more than 64 deep")));
+}
+
+TEST(load, thousands_of_faults_are_listed_up_to_a_limit) {
+  std::string text = "\"bodies\": [{}";
+  for (int i = 0; i < 5000; ++i) text += ",\n{}";
+  const SceneResult scene = load(scene_text(text + "]"));
+  ASSERT_EQ(scene.errors.size(), 1001U);
+  EXPECT_EQ(to_string(scene.errors.back()), "s.json: 4001 further faults are not listed");
+}
+
+TEST(load, tells_missing_from_unreadable_files) {
+  EXPECT_EQ(load_scene("no/such/file.json").status, SceneStatus::not_found);
+  EXPECT_EQ(load_scene(SHEAVE_SOURCE_DIR).status, SceneStatus::unreadable);
+  EXPECT_THAT(errors_of(load_scene("no/such/file.json")),
+              ElementsAre("no/such/file.json: there is no such file"));
+}
+
+TEST(load, quaternions_are_normalised_once) {
+  const std::string body = R"("bodies": [{"name": "a", "mass": 1, "inertia": [1, 1, 1],
+    "orientation": [0.7071068, 0, 0, 0.7071068]}])";
+  const SceneResult scene = load(scene_text(body));
+  ASSERT_TRUE(scene);
+  EXPECT_NEAR(scene->model.bodies[0].orientation.norm(), 1.0, 1e-15);
+  EXPECT_NEAR(scene->model.bodies[0].orientation.w(), std::sqrt(0.5), 1e-15);
+}
+
+TEST(overrides, change_settings_before_they_are_checked) {
+  const std::string text = scene_text(R"("bodies": [{"name": "a", "mass": -5, "inertia": [1, 1, 1]}])");
+  const SceneResult scene = load(text, {{"/bodies/0/mass", "5", ""},
+                                        {"/step/dt", "0.001", "--dt"},
+                                        {"/step/solver", "gauss-seidel", "--solver"},
+                                        {"/name", "\"quoted\"", ""},
+                                        {"/bodies/0/velocity", "[1, 2, 3]", ""}});
+  ASSERT_TRUE(scene) << testing::PrintToString(errors_of(scene));
+  EXPECT_EQ(scene->model.bodies[0].mass, 5.0);
+  EXPECT_EQ(scene->model.step.dt, 0.001);
+  EXPECT_EQ(scene->name, "quoted");
+  EXPECT_EQ(scene->model.bodies[0].velocity.z(), 3.0);
+}
+
+TEST(overrides, are_named_in_errors) {
+  EXPECT_THAT(errors_of(load(scene_text(), {{"/step/dt", "-1", "--dt"}})),
+              ElementsAre("--dt:1:1: /step/dt: value -1: must be > 0 [s]"));
+  EXPECT_THAT(errors_of(load(scene_text(), {{"/step/dtt", "1", ""}})),
+              ElementsAre(HasSubstr("--set /step/dtt:1:1: /step/dtt: unknown key in a step, did you "
+                                    "mean \"dt\"?")));
+  EXPECT_THAT(errors_of(load(scene_text(), {{"/bodies/3/mass", "1", ""}})),
+              ElementsAre(HasSubstr("there is no /bodies/3")));
+  EXPECT_THAT(errors_of(load(scene_text(), {{"/ground/normal", "[0, 1, 0]", ""}})),
+              ElementsAre(HasSubstr("there is no /ground")));
+}
+
+TEST(overrides, may_shorten_a_run_below_its_checks) {
+  const std::string text = scene_text(R"("checks": [
+    {"quantity": "t", "equals": 1, "tolerance": 0.1, "at": 1},
+    {"quantity": "t", "statistic": "mean", "equals": 1, "tolerance": 1, "from": 0.5, "to": 1}])");
+  EXPECT_TRUE(load(text));
+  EXPECT_TRUE(load(text, {{"/duration", "0.25", "--duration"}}));
+  EXPECT_FALSE(load(text, {{"/checks/0/at", "2", ""}}));
+}
+
+}  // namespace
+}  // namespace sheave::test

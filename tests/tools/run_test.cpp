@@ -1,0 +1,256 @@
+// sheave run: summary, overrides, checks, tables.
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/process.h"
+#include "tests/tools/scenes.h"
+
+namespace sheave::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+json run_json(const std::vector<std::string>& arguments, int expected_code = 0) {
+  std::vector<std::string> all{"run", "--json"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  const ProcessResult result = run_sheave(all);
+  EXPECT_EQ(result.exit_code, expected_code) << result.err;
+  json summary = json::parse(result.out, nullptr, false);
+  EXPECT_FALSE(summary.is_discarded()) << result.out;
+  return summary;
+}
+
+TEST(run, json_summary_has_every_documented_field) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const json summary = run_json({scene});
+  EXPECT_EQ(summary["scene"], scene);
+  EXPECT_EQ(summary["name"], "Two weights");
+  EXPECT_EQ(summary["status"], "done");
+  EXPECT_EQ(summary["steps"], 100);
+  EXPECT_DOUBLE_EQ(summary["sim_time"], 1.0);
+  EXPECT_GT(summary["wall_time"], 0.0);
+  EXPECT_GT(summary["us_per_step"], 0.0);
+  EXPECT_EQ(summary["settings"]["iterations"], 20);
+  EXPECT_EQ(summary["settings"]["solver"], "gauss-seidel");
+  EXPECT_EQ(summary["settings"]["integrator"], "xpbd");
+  for (const char* key : {"initial", "final", "max_drift"}) {
+    EXPECT_TRUE(summary["energy"][key].is_number()) << key;
+  }
+  ASSERT_EQ(summary["cables"].size(), 1U);
+  const json& rope = summary["cables"][0];
+  EXPECT_EQ(rope["name"], "rope");
+  EXPECT_LT(std::abs(rope["length_error"].get<double>()), 1e-12);
+  EXPECT_TRUE(rope["max_stretch"].is_number());
+  ASSERT_EQ(rope["spans"].size(), 2U);
+  EXPECT_NEAR(rope["spans"][0]["tension"], 12.0, 0.1);
+  EXPECT_NEAR(rope["spans"][1]["tension"], 16.0, 0.1);
+  EXPECT_TRUE(rope["spans"][0]["length"].is_number());
+  EXPECT_TRUE(rope["spans"][0]["rest_length"].is_number());
+  ASSERT_EQ(summary["bodies"].size(), 3U);
+  EXPECT_EQ(summary["bodies"][1]["name"], "light");
+  EXPECT_EQ(summary["bodies"][1]["position"].size(), 3U);
+  EXPECT_EQ(summary["bodies"][1]["orientation"].size(), 4U);
+  EXPECT_NEAR(summary["bodies"][1]["velocity"][1], 2.0, 0.02);
+  EXPECT_EQ(summary["bodies"][1]["angular_velocity"].size(), 3U);
+  EXPECT_EQ(summary["statistics"]["rows"], 2);
+  EXPECT_EQ(summary["statistics"]["row_solves"], 2 * 20 * 100);
+  EXPECT_TRUE(summary["events"].is_array());
+  EXPECT_TRUE(summary["warnings"].is_array());
+  EXPECT_EQ(summary["state_hash"].get<std::string>().size(), 16U);
+  EXPECT_FALSE(summary.contains("checks"));
+}
+
+TEST(run, human_summary_goes_to_stdout_and_nothing_to_a_stderr_that_is_no_terminal) {
+  const TemporaryFolder folder;
+  const ProcessResult result = run_sheave({"run", folder.write("atwood.json", atwood_scene)});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("Two weights"));
+  EXPECT_THAT(result.out, HasSubstr("done: 100 steps"));
+  EXPECT_THAT(result.out, HasSubstr("rope.1"));
+  EXPECT_THAT(result.out, HasSubstr("energy"));
+  EXPECT_THAT(result.err, IsEmpty());
+}
+
+TEST(run, quiet_prints_nothing) {
+  const TemporaryFolder folder;
+  const ProcessResult result =
+      run_sheave({"run", "--quiet", folder.write("atwood.json", atwood_scene)});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err, IsEmpty());
+}
+
+TEST(run, options_and_set_replace_settings_of_the_scene) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const json summary = run_json({scene, "--dt", ".02", "--substeps", "2", "--iterations", "30",
+                                 "--duration", "0.5", "--solver", "gauss-seidel", "--integrator",
+                                 "xpbd", "--set", "/bodies/1/mass=2"});
+  EXPECT_DOUBLE_EQ(summary["settings"]["dt"], 0.02);
+  EXPECT_EQ(summary["settings"]["substeps"], 2);
+  EXPECT_EQ(summary["settings"]["iterations"], 30);
+  EXPECT_EQ(summary["steps"], 25);
+  EXPECT_NEAR(summary["bodies"][1]["velocity"][1], 0.0, 1e-9) << "equal weights do not move";
+}
+
+TEST(run, wrong_overrides_are_wrong_usage_and_name_the_option) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::vector<std::vector<std::string>> cases{
+      {"--dt", "-1"},
+      {"--dt", "abc"},
+      {"--iterations", "0"},
+      {"--solver", "magic"},
+      {"--set", "/bodies/1/mass"},
+      {"--set", "bodies=1"},
+      {"--set", "/bodies/7/mass=1"},
+      {"--set", "/bodies/1/mass=-1"},
+  };
+  for (const auto& options : cases) {
+    const ProcessResult result = run_sheave({"run", scene, options[0], options[1]});
+    EXPECT_EQ(result.exit_code, 2) << options[0] << " " << options[1] << "\n" << result.err;
+    EXPECT_THAT(result.err, HasSubstr(options[0]));
+    EXPECT_THAT(result.out, IsEmpty());
+  }
+}
+
+TEST(run, checks_that_hold_are_reported) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const ProcessResult result = run_sheave({"run", scene, "--check"});
+  EXPECT_EQ(result.exit_code, 0) << result.out;
+  EXPECT_THAT(result.out, HasSubstr("2 of 2 checks passed"));
+  EXPECT_THAT(result.out, HasSubstr("(m2 - m1) g"));
+  const json summary = run_json({scene, "--check"});
+  EXPECT_EQ(summary["checks_passed"], true);
+  ASSERT_EQ(summary["checks"].size(), 2U);
+  const json& check = summary["checks"][0];
+  EXPECT_NEAR(check["measured"], 2.0, 0.02);
+  EXPECT_DOUBLE_EQ(check["expected"], 2.0);
+  EXPECT_DOUBLE_EQ(check["tolerance"], 0.02);
+  EXPECT_EQ(check["passed"], true);
+}
+
+TEST(run, a_check_that_fails_gives_exit_code_1_and_says_which) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::vector<std::string> wrong{"--check", "--set", "/checks/0/equals=3"};
+  const ProcessResult result = run_sheave({"run", scene, wrong[0], wrong[1], wrong[2]});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.out, HasSubstr("FAIL  light.vy"));
+  EXPECT_THAT(result.out, HasSubstr("1 of 2 checks passed"));
+  const json summary = run_json({scene, wrong[0], wrong[1], wrong[2]}, 1);
+  EXPECT_EQ(summary["status"], "done");
+  EXPECT_EQ(summary["checks_passed"], false);
+  EXPECT_EQ(summary["checks"][0]["passed"], false);
+  EXPECT_EQ(run_sheave({"run", scene, "--set", wrong[2]}).exit_code, 0) << "not asked to check";
+  const ProcessResult quiet = run_sheave({"run", scene, wrong[0], wrong[1], wrong[2], "--quiet"});
+  EXPECT_EQ(quiet.exit_code, 1);
+  EXPECT_THAT(quiet.err, HasSubstr("FAIL  light.vy"));
+}
+
+TEST(run, checks_of_a_shortened_run_fail_rather_than_pass_by_luck) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const json summary = run_json({scene, "--check", "--steps", "50"}, 1);
+  EXPECT_TRUE(summary["checks"][0]["measured"].is_null()) << "nothing measured, so no number";
+}
+
+TEST(run, a_scene_without_checks_says_so) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("scene.json", runaway_scene);
+  const ProcessResult result = run_sheave({"run", scene, "--check", "--steps", "1"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("no checks"));
+}
+
+TEST(run, two_runs_have_the_same_hash) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  EXPECT_EQ(run_json({scene})["state_hash"], run_json({scene})["state_hash"]);
+  EXPECT_NE(run_json({scene})["state_hash"], run_json({scene, "--steps", "99"})["state_hash"]);
+}
+
+TEST(run, saved_and_loaded_state_gives_the_hash_of_an_uninterrupted_run) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::string state = folder.path("half.state");
+  const json whole = run_json({scene});
+  const json half = run_json({scene, "--steps", "37", "--save-state", state});
+  EXPECT_EQ(half["steps"], 37);
+  const json rest = run_json({scene, "--load-state", state});
+  EXPECT_EQ(rest["steps"], 63);
+  EXPECT_DOUBLE_EQ(rest["sim_time"], 1.0);
+  EXPECT_EQ(rest["state_hash"], whole["state_hash"]);
+}
+
+TEST(run, states_that_do_not_fit_are_refused) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::string other = folder.write("other.json", endless_scene);
+  const std::string state = folder.path("s.state");
+  ASSERT_EQ(run_sheave({"run", other, "--steps", "1", "--save-state", state}).exit_code, 0);
+  EXPECT_EQ(run_sheave({"run", scene, "--load-state", state}).exit_code, 65);
+  EXPECT_EQ(run_sheave({"run", scene, "--load-state", scene}).exit_code, 65) << "no state at all";
+  EXPECT_EQ(run_sheave({"run", scene, "--load-state", folder.path("none")}).exit_code, 66);
+  EXPECT_EQ(run_sheave({"run", scene, "--load-state", folder.path("")}).exit_code, 74);
+}
+
+TEST(run, steps_and_duration_exclude_each_other) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  EXPECT_EQ(run_sheave({"run", scene, "--steps", "1", "--duration", "1"}).exit_code, 2);
+}
+
+TEST(run, zero_steps_leave_tensions_unknown) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const json summary = run_json({scene, "--steps", "0"});
+  EXPECT_TRUE(summary["cables"][0]["spans"][0]["tension"].is_null());
+  EXPECT_TRUE(summary["us_per_step"].is_null());
+}
+
+TEST(run, a_duration_that_is_no_multiple_of_dt_is_said) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const json summary = run_json({scene, "--duration", "0.505"});
+  ASSERT_EQ(summary["warnings"].size(), 1U);
+  EXPECT_EQ(summary["warnings"][0]["kind"], "duration");
+}
+
+TEST(run, reads_a_scene_from_standard_input) {
+  const ProcessResult result = run_sheave({"run", "-", "--json"}, {.input = atwood_scene});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(json::parse(result.out)["steps"], 100);
+}
+
+TEST(run, progress_is_drawn_on_a_terminal_only_and_leaves_it_clean) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("endless.json", endless_scene);
+  const std::vector<std::string> arguments{"run", scene, "--steps", "3000000"};
+  ProcessOptions terminal{.environment = {"TERM=xterm"}, .terminal_stderr = true};
+  const std::string colored = run_sheave(arguments, terminal).err;
+  EXPECT_THAT(colored, HasSubstr(" % t = "));
+  EXPECT_THAT(colored, HasSubstr(" left"));
+  EXPECT_THAT(colored, HasSubstr("\033["));
+  EXPECT_THAT(colored, Not(HasSubstr("\n")));
+  EXPECT_EQ(colored.back(), '\r');
+  terminal.environment.emplace_back("NO_COLOR=1");
+  const std::string plain = run_sheave(arguments, terminal).err;
+  EXPECT_THAT(plain, HasSubstr(" % t = "));
+  EXPECT_THAT(plain, Not(HasSubstr("\033[")));
+  EXPECT_THAT(run_sheave(arguments).err, IsEmpty());
+}
+
+}  // namespace
+}  // namespace sheave::test

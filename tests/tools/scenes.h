@@ -1,0 +1,64 @@
+#pragma once
+// Small scenes for the tests of the command.
+
+#include <string>
+
+namespace sheave::test {
+
+/// Two weights on one cable over a wheel, for one second of 100 steps, with checks that hold.
+inline const std::string atwood_scene = R"({
+  "format": "sheave-scene/1",
+  "name": "Two weights",
+  "gravity": [0, -10, 0],
+  "duration": 1,
+  "step": {"dt": 0.01, "substeps": 1, "iterations": 20},
+  "bodies": [
+    {"name": "wheel", "mobility": "rotor", "mass": 4,
+     "shape": {"type": "cylinder", "radius": 0.5, "length": 0.15}},
+    {"name": "light", "mobility": "slider", "axis": [0, 1, 0], "position": [-0.5, -3.5, 0],
+     "mass": 1, "shape": {"type": "box", "size": [0.3, 0.3, 0.3]}},
+    {"name": "heavy", "mobility": "slider", "axis": [0, 1, 0], "position": [0.5, -1.5, 0],
+     "mass": 2, "shape": {"type": "box", "size": [0.3, 0.3, 0.3]}}
+  ],
+  "cables": [
+    {"name": "rope", "links": [
+      {"type": "attachment", "body": "light"},
+      {"type": "rolling", "body": "wheel", "winding": "clockwise"},
+      {"type": "attachment", "body": "heavy"}
+    ]}
+  ],
+  "checks": [
+    {"quantity": "light.vy", "statistic": "rate", "equals": 2, "relative_tolerance": 0.01,
+     "because": "(m2 - m1) g / (m1 + m2 + I/r^2)"},
+    {"quantity": "rope.0.tension", "statistic": "mean", "equals": 12, "relative_tolerance": 0.01}
+  ]
+}
+)";
+
+/// A body that such a force throws out of the world within a few steps.
+inline const std::string runaway_scene = R"({
+  "format": "sheave-scene/1",
+  "gravity": [0, 0, 0],
+  "duration": 10,
+  "step": {"dt": 0.01},
+  "bodies": [
+    {"name": "calm", "mass": 1, "shape": {"type": "sphere", "radius": 1}},
+    {"name": "rocket", "mass": 1, "force": [1e12, 0, 0], "shape": {"type": "sphere", "radius": 1}}
+  ]
+}
+)";
+
+/// Falls for longer than anybody waits.
+inline const std::string endless_scene = R"({
+  "format": "sheave-scene/1",
+  "gravity": [0, 0, 0],
+  "duration": 1e9,
+  "step": {"dt": 0.01},
+  "bodies": [
+    {"name": "stone", "mass": 1, "angular_velocity": [0, 0, 1],
+     "shape": {"type": "sphere", "radius": 1}}
+  ]
+}
+)";
+
+}  // namespace sheave::test
