@@ -1,7 +1,8 @@
 // sheave_bench: how long things take. See bench/README.md.
 
-#include <benchmark/benchmark.h>
 #include <sheave_version.h>
+
+#include <benchmark/benchmark.h>
 
 #include "bench/step_bench.h"
 

@@ -19,8 +19,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Steps per sample. A sample begins at time 0, so that weights that fall never reach a wheel; before
-// it a few steps warm up caches and branch predictors.
+// Steps per sample. A sample begins at time 0, so that falling weights never come far; before the
+// first one a few steps warm up caches and branch predictors.
 constexpr int steps_per_sample = 60;
 constexpr int warm_up_steps = 10;
 
@@ -104,9 +104,8 @@ void add(const std::string& name, Scene scene, int iterations) {
 
 /// A benchmark that only reports why there is none.
 void add_failure(const std::string& name, const std::string& reason) {
-  benchmark::RegisterBenchmark(name.c_str(), [reason](benchmark::State& state) {
-    state.SkipWithError(reason.c_str());
-  });
+  benchmark::RegisterBenchmark(
+      name.c_str(), [reason](benchmark::State& state) { state.SkipWithError(reason.c_str()); });
 }
 
 }  // namespace

@@ -75,7 +75,8 @@ class Builder {
  public:
   Builder(const World& world, std::span<const CableReport> cables, double cable_radius)
       : world_(world), cables_(cables), cable_radius_(cable_radius) {
-    for (const CableReport& cable : cables) view_.winding_room.emplace_back(cable.links.size(), 0.0);
+    for (const CableReport& cable : cables)
+      view_.winding_room.emplace_back(cable.links.size(), 0.0);
   }
 
   BodyView run() {
@@ -94,8 +95,8 @@ class Builder {
             link.radius};
   }
 
-  /// Whether the cable runs round this cylinder. Its distance from the cylinder's middle is added to
-  /// `offset` if so.
+  /// Whether the cable runs round this cylinder. Its distance from the cylinder's middle is added
+  /// to `offset` if so.
   [[nodiscard]] static bool fits(const WheelPlace& wheel, const PlacedShape& placed, double radius,
                                  double length, double& offset) {
     const Vector3 axis = placed.orientation * Vector3::UnitZ();
@@ -145,8 +146,8 @@ class Builder {
       view_.parts.push_back(std::move(part));
     }
     if (body.shapes.empty() && !carries_cable(id)) {
-      view_.parts.push_back({id, SphereShape{2.5 * cable_radius_}, Vector3::Zero(),
-                             Quaternion::Identity(), color});
+      view_.parts.push_back(
+          {id, SphereShape{2.5 * cable_radius_}, Vector3::Zero(), Quaternion::Identity(), color});
     }
     if (body.mount) add_cheeks(id, *body.mount, thickness);
   }
@@ -173,9 +174,11 @@ class Builder {
       }
     }
     if (rooms.empty() && body.mobility != Mobility::rotor) return std::nullopt;
-    // A groove for one cable is round; where several turns lie side by side it is as wide as the drum.
+    // A groove for one cable is round; where several turns lie side by side it is as wide as the
+    // drum.
     sheave.groove_width = 2.0 * offset;
-    if (most_turns > 1.0) sheave.groove_width = std::max(sheave.groove_width, 0.8 * cylinder.length);
+    if (most_turns > 1.0)
+      sheave.groove_width = std::max(sheave.groove_width, 0.8 * cylinder.length);
     for (double* room : rooms) *room = 0.84 * cylinder.length;
     return sheave;
   }
@@ -201,7 +204,8 @@ class Builder {
     }
   }
 
-  /// The point of a body's shapes (of boxes round them) nearest to a point; its origin if it has none.
+  /// The point of a body's shapes (of boxes round them) nearest to a point; its origin if it has
+  /// none.
   [[nodiscard]] Vector3 nearest_point(BodyId id, const Vector3& point) const {
     const BodyDef& body = world_.model().bodies[static_cast<std::size_t>(id.index)];
     Vector3 nearest = world_.position(id);
@@ -232,8 +236,8 @@ class Builder {
         sheave.radius = link.radius;
         sheave.cable_radius = std::min(cable_radius_, 0.5 * link.radius);
         sheave.length = 4.0 * sheave.cable_radius;
-        const Eigen::Quaterniond turn =
-            Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), Eigen::Vector3d(place.normal));
+        const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(
+            Eigen::Vector3d::UnitZ(), Eigen::Vector3d(place.normal));
         view_.parts.push_back({link.body, sheave, place.center, Quaternion(turn), wheel_color});
       }
     }
@@ -265,7 +269,8 @@ Shape drawable(const sheave::Shape& shape) {
   if (const auto* s = dynamic_cast<const Cylinder*>(&shape)) {
     return CylinderShape{s->radius, s->length};
   }
-  if (const auto* s = dynamic_cast<const Capsule*>(&shape)) return CapsuleShape{s->radius, s->length};
+  if (const auto* s = dynamic_cast<const Capsule*>(&shape))
+    return CapsuleShape{s->radius, s->length};
   if (const auto* s = dynamic_cast<const Polyhedron*>(&shape)) return drawable_hull(*s);
   if (const auto* s = dynamic_cast<const Prism*>(&shape)) return drawable_prism(*s);
   return BoxShape{2.0 * shape.half_extent()};

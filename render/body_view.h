@@ -41,8 +41,8 @@ struct BodyView {
 };
 
 /// Decides how the bodies of a world look, from its state at time 0 and its cables then (world and
-/// reports must be of the same state). A cylinder that a cable rolls on becomes a sheave whose groove
-/// fits a cable of the given radius [m]; a wheel that no shape belongs to gets one.
+/// reports must be of the same state). A cylinder that a cable rolls on becomes a sheave whose
+/// groove fits a cable of the given radius [m]; a wheel that no shape belongs to gets one.
 [[nodiscard]] BodyView make_body_view(const World& world, std::span<const CableReport> cables,
                                       double cable_radius);
 

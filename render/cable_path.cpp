@@ -10,16 +10,16 @@ namespace sheave::render {
 namespace {
 
 constexpr double turn = 2.0 * pi;
-constexpr double step_angle = 0.1;    ///< of the polyline round a wheel [rad]
-constexpr double most_turns = 60.0;   ///< drawn; more would not be told apart
+constexpr double step_angle = 0.1;   ///< of the polyline round a wheel [rad]
+constexpr double most_turns = 60.0;  ///< drawn; more would not be told apart
 constexpr int catenary_points = 41;
 
 /// The cable on a wheel as drawn: a shallow helix if it makes more than one turn.
 struct Winding {
-  double angle = 0.0;   ///< from entry to exit, in the direction of winding [rad]
-  double shift = 0.0;   ///< along the normal, from entry to exit [m]
-  Vector3 first;        ///< unit vector from the axis towards the entry
-  Vector3 second;       ///< a quarter turn further along the cable
+  double angle = 0.0;  ///< from entry to exit, in the direction of winding [rad]
+  double shift = 0.0;  ///< along the normal, from entry to exit [m]
+  Vector3 first;       ///< unit vector from the axis towards the entry
+  Vector3 second;      ///< a quarter turn further along the cable
 };
 
 bool is_end(const CableReport& cable, std::size_t link) {
@@ -166,8 +166,8 @@ double wound_angle(const LinkReport& link, bool is_end) {
   if (is_end) return std::max(link.wrap_angle, 0.0);
   const Vector3 from = link.entry - link.center;
   const Vector3 to = link.exit - link.center;
-  const double direct = static_cast<double>(link.winding) *
-                        std::atan2(link.normal.dot(from.cross(to)), from.dot(to));
+  const double direct =
+      static_cast<double>(link.winding) * std::atan2(link.normal.dot(from.cross(to)), from.dot(to));
   // `direct` is known up to whole turns; the stored length says how many.
   return direct + turn * std::round((link.wrap_angle - direct) / turn);
 }

@@ -10,8 +10,8 @@
 namespace sheave::render {
 
 struct CableStyle {
-  double radius = 0.01;        ///< of the drawn cable [m]
-  double tension_max = 1.0;    ///< tension at the top of the colour map [N], > 0
+  double radius = 0.01;      ///< of the drawn cable [m]
+  double tension_max = 1.0;  ///< tension at the top of the colour map [N], > 0
   ColorMap map = ColorMap::tension;
   Vector3 gravity{0.0, -1.0, 0.0};  ///< direction in which slack spans sag; any length
   /// A floor on which slack spans come to rest instead of sagging through it.
@@ -27,10 +27,10 @@ struct CableStyle {
 [[nodiscard]] bool is_slack(const SpanReport& span);
 
 /// The angle [rad], counted in the direction of the cable's winding, from where the cable meets the
-/// wheel to where it leaves it. The remainder of a turn comes from the two points, so that the drawn
-/// line meets the spans exactly; the number of whole turns from the length stored on the wheel. At the
-/// end of an open cable the two points coincide and the stored length counts alone. A little negative
-/// for a cable that is just leaving its wheel.
+/// wheel to where it leaves it. The remainder of a turn comes from the two points, so that the
+/// drawn line meets the spans exactly; the number of whole turns from the length stored on the
+/// wheel. At the end of an open cable the two points coincide and the stored length counts alone. A
+/// little negative for a cable that is just leaving its wheel.
 [[nodiscard]] double wound_angle(const LinkReport& link, bool is_end);
 
 /// The centre lines of spans as drawn, one per span; slack ones as catenaries.

@@ -1,8 +1,8 @@
-// Fitting a box exactly: write the camera's eye as e and a corner as c in the picture's axes (x right,
-// y up, z towards the eye), with depth w = e_z - c_z and t the tangent of half the opening angle. The
-// corner is inside the part [l, r] of the picture's width if  l t w <= c_x - e_x <= r t w.  Both bounds
-// are linear in e_x and e_z; the tightest corners on either side give the smallest e_z and the e_x
-// between them. The same holds for y, and the larger e_z of the two decides.
+// Fitting a box exactly: write the camera's eye as e and a corner as c in the picture's axes (x
+// right, y up, z towards the eye), with depth w = e_z - c_z and t the tangent of half the opening
+// angle. The corner is inside the part [l, r] of the picture's width if  l t w <= c_x - e_x <= r t
+// w.  Both bounds are linear in e_x and e_z; the tightest corners on either side give the smallest
+// e_z and the e_x between them. The same holds for y, and the larger e_z of the two decides.
 #include "render/camera.h"
 
 #include <algorithm>
@@ -27,7 +27,8 @@ CameraAxes axes_along(const Vector3& direction, const Vector3& up) {
 
 /// The eye's coordinate and the distance that one picture axis asks for.
 struct AxisFit {
-  double low_limit = -infinity;   ///< max of c - r t (-c_z): the eye must be right of it plus r t e_z
+  double low_limit =
+      -infinity;  ///< max of c - r t (-c_z): the eye must be right of it plus r t e_z
   double high_limit = infinity;
   double low = -1.0, high = 1.0;  ///< allowed part of the picture, times t
 
@@ -117,9 +118,9 @@ Errors validate(const Camera& camera) {
   }
   if (const auto* p = std::get_if<Perspective>(&camera.projection)) {
     if (!(p->vertical_fov > 0.0 && p->vertical_fov < pi)) {
-      errors.push_back({"/camera/vertical_fov",
-                        "camera: vertical_fov is " + std::to_string(p->vertical_fov) +
-                            " rad; it must lie between 0 and pi"});
+      errors.push_back({"/camera/vertical_fov", "camera: vertical_fov is " +
+                                                    std::to_string(p->vertical_fov) +
+                                                    " rad; it must lie between 0 and pi"});
     }
   } else if (const auto* o = std::get_if<Orthographic>(&camera.projection)) {
     if (!(o->height > 0.0 && o->height < infinity)) {
@@ -135,11 +136,7 @@ CameraAxes axes(const Camera& camera) {
 }
 
 Projector::Projector(const Camera& camera, int width, int height)
-    : camera_(camera),
-      axes_(axes(camera)),
-      width_(width),
-      height_(height),
-      focal_(0.0) {
+    : camera_(camera), axes_(axes(camera)), width_(width), height_(height), focal_(0.0) {
   if (const auto* p = std::get_if<Perspective>(&camera.projection)) {
     focal_ = 0.5 * height_ / std::tan(0.5 * p->vertical_fov);
   }
@@ -157,7 +154,8 @@ double Projector::scale_at(double depth) const {
 std::optional<ScreenPoint> Projector::project(const Vector3& point) const {
   const Vector3 d = point - camera_.position;
   const double depth = -axes_.back.dot(d);
-  if (std::holds_alternative<Perspective>(camera_.projection) && !(depth > 0.0)) return std::nullopt;
+  if (std::holds_alternative<Perspective>(camera_.projection) && !(depth > 0.0))
+    return std::nullopt;
   const double scale = scale_at(depth);
   return ScreenPoint{0.5 * width_ + axes_.right.dot(d) * scale,
                      0.5 * height_ - axes_.up.dot(d) * scale, depth};

@@ -23,9 +23,9 @@ struct Orthographic {
 };
 
 struct Camera {
-  Vector3 position{0.0, 0.0, 10.0};   ///< of the eye [m], world
-  Vector3 target = Vector3::Zero();   ///< point in the middle of the picture [m]; not the position
-  Vector3 up = Vector3::UnitY();      ///< points up in the picture; not parallel to the view direction
+  Vector3 position{0.0, 0.0, 10.0};  ///< of the eye [m], world
+  Vector3 target = Vector3::Zero();  ///< point in the middle of the picture [m]; not the position
+  Vector3 up = Vector3::UnitY();  ///< points up in the picture; not parallel to the view direction
   std::variant<Perspective, Orthographic> projection = Perspective{};
 };
 
@@ -66,7 +66,8 @@ class Projector {
   double focal_;  ///< [pixels]: half the height over the tangent of half the angle
 };
 
-/// Parts of the picture to keep free of the scene, as fractions of its width or height, each in [0, 0.45].
+/// Parts of the picture to keep free of the scene, as fractions of its width or height, each in [0,
+/// 0.45].
 struct Margins {
   double left = 0.06;
   double right = 0.06;
@@ -82,8 +83,8 @@ struct FrameOptions {
 };
 
 /// The camera that looks along `direction` and shows the whole box, as large as the margins allow.
-/// An empty box is treated as the point zero; a box without extent gets one of 1 m. direction and up
-/// must be finite and not parallel.
+/// An empty box is treated as the point zero; a box without extent gets one of 1 m. direction and
+/// up must be finite and not parallel.
 [[nodiscard]] Camera frame_box(const Eigen::AlignedBox3d& box, const Vector3& direction,
                                const Vector3& up, const FrameOptions& options);
 

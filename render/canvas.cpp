@@ -72,7 +72,8 @@ void Canvas::line(double x0, double y0, double x1, double y1, double width, cons
   const double margin = 0.5 * width + 1.0;
   const int left = std::max(0, static_cast<int>(std::floor(std::min(x0, x1) - margin)));
   const int top = std::max(0, static_cast<int>(std::floor(std::min(y0, y1) - margin)));
-  const int right = std::min(image_.width - 1, static_cast<int>(std::ceil(std::max(x0, x1) + margin)));
+  const int right =
+      std::min(image_.width - 1, static_cast<int>(std::ceil(std::max(x0, x1) + margin)));
   const int bottom =
       std::min(image_.height - 1, static_cast<int>(std::ceil(std::max(y0, y1) + margin)));
   const double dx = x1 - x0;

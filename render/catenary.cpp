@@ -1,4 +1,5 @@
-// With s' = s - s0 measured from the lowest point and a the radius of curvature there, a catenary is
+// With s' = s - s0 measured from the lowest point and a the radius of curvature there, a catenary
+// is
 //   x = a asinh(s'/a),   z = sqrt(a^2 + s'^2),
 // which needs no cosh and so cannot overflow however slack the cable is. For ends that are w apart
 // horizontally and v vertically, length L:
@@ -30,8 +31,8 @@ double log_sinhc_slope(double q) {
   return 1.0 / std::tanh(q) - 1.0 / q;
 }
 
-/// The q > 0 with ln(sinh(q)/q) = target > 0. The function is convex near 0 and nearly linear beyond, so
-/// Newton from the larger of the two asymptotes converges in a few rounds.
+/// The q > 0 with ln(sinh(q)/q) = target > 0. The function is convex near 0 and nearly linear
+/// beyond, so Newton from the larger of the two asymptotes converges in a few rounds.
 double solve_shape(double target) {
   double q = target < 1.0 ? std::sqrt(6.0 * target) : target + std::log(2.0 * (target + 1.0));
   for (int round = 0; round < 40; ++round) {

@@ -20,8 +20,8 @@ class Catenary {
   [[nodiscard]] double length() const { return length_; }
   [[nodiscard]] bool is_straight() const { return straight_; }
 
-  /// `count` >= 2 places from start to end: half of them even in length, half even in direction, so that
-  /// neither long arms nor tight bends come out angular.
+  /// `count` >= 2 places from start to end: half of them even in length, half even in direction, so
+  /// that neither long arms nor tight bends come out angular.
   [[nodiscard]] std::vector<Vector3> points(int count) const;
 
  private:

@@ -40,9 +40,9 @@ class SpawnSettings {
     posix_spawnattr_setsigdefault(&attributes, &all);
     posix_spawnattr_setsigmask(&attributes, &none);
     posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(&attributes, static_cast<short>(POSIX_SPAWN_SETSIGDEF |
-                                                             POSIX_SPAWN_SETSIGMASK |
-                                                             POSIX_SPAWN_SETPGROUP));
+    posix_spawnattr_setflags(
+        &attributes,
+        static_cast<short>(POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP));
   }
   ~SpawnSettings() {
     posix_spawn_file_actions_destroy(&actions);
@@ -165,7 +165,8 @@ std::string ChildProcess::last_words() const {
   if (messages_ < 0) return {};
   const off_t size = ::lseek(messages_, 0, SEEK_END);
   std::string text(static_cast<std::size_t>(std::clamp<off_t>(size, 0, most)), '\0');
-  const ssize_t count = ::pread(messages_, text.data(), text.size(), std::max<off_t>(0, size - most));
+  const ssize_t count =
+      ::pread(messages_, text.data(), text.size(), std::max<off_t>(0, size - most));
   text.resize(static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
   return text;

@@ -13,9 +13,9 @@ namespace sheave::render {
 /// A running child. Destroying it ends the child.
 class ChildProcess {
  public:
-  /// Starts `arguments[0]`, looked up in PATH, with the rest as its arguments. Its standard output goes
-  /// nowhere, its standard error into a buffer. It gets its own process group, so that Ctrl-C in a
-  /// terminal reaches only the caller, who may still want to finish the output.
+  /// Starts `arguments[0]`, looked up in PATH, with the rest as its arguments. Its standard output
+  /// goes nowhere, its standard error into a buffer. It gets its own process group, so that Ctrl-C
+  /// in a terminal reaches only the caller, who may still want to finish the output.
   static Result<ChildProcess> start(const std::vector<std::string>& arguments);
   ~ChildProcess();
   ChildProcess(ChildProcess&& other) noexcept;
@@ -23,8 +23,8 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Feeds bytes to standard input; waits while the child is busy. No signal if the child has ended,
-  /// but an error.
+  /// Feeds bytes to standard input; waits while the child is busy. No signal if the child has
+  /// ended, but an error.
   Errors write(std::span<const std::uint8_t> bytes);
   /// Closes standard input, waits for the end and reports a status other than 0 with the last of
   /// what the child said.

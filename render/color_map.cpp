@@ -21,7 +21,8 @@ template <std::size_t N>
 Color interpolate(const std::array<Color, N>& stops, double t) {
   const double position = t * static_cast<double>(N - 1);
   const auto index = std::min(static_cast<std::size_t>(position), N - 2);
-  return mix(stops[index], stops[index + 1], static_cast<float>(position - static_cast<double>(index)));
+  return mix(stops[index], stops[index + 1],
+             static_cast<float>(position - static_cast<double>(index)));
 }
 
 }  // namespace

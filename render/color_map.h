@@ -6,7 +6,8 @@
 namespace sheave::render {
 
 enum class ColorMap {
-  /// Perceptually uniform, from dark blue over magenta to orange. Its lightness rises evenly but stops
+  /// Perceptually uniform, from dark blue over magenta to orange. Its lightness rises evenly but
+  /// stops
   /// where a line on a light background would become hard to see.
   tension,
   /// From dark to middle grey.

@@ -16,7 +16,8 @@ AlignedBox3d around(const Vector3& centre, const Vector3& half) {
   return {Vector3(centre - half), Vector3(centre + half)};
 }
 
-// Half extents of a cylinder with the unit axis given: a disc reaches r * sqrt(1 - a_i^2) along axis i.
+// Half extents of a cylinder with the unit axis given: a disc reaches r * sqrt(1 - a_i^2) along
+// axis i.
 Vector3 cylinder_half_extents(const Vector3& axis, double radius, double length) {
   const Vector3 disc = (Vector3::Ones() - axis.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt() * radius;
   return disc + axis.cwiseAbs() * (0.5 * length);
@@ -38,8 +39,8 @@ AlignedBox3d bounds(const Solid& solid) {
         return around(solid.position, cylinder_half_extents(axis, c.radius, c.length));
       },
       [&](const CapsuleShape& c) {
-        return around(solid.position, Vector3(axis.cwiseAbs() * (0.5 * c.length) +
-                                               Vector3::Constant(c.radius)));
+        return around(solid.position,
+                      Vector3(axis.cwiseAbs() * (0.5 * c.length) + Vector3::Constant(c.radius)));
       },
       [&](const SheaveShape& s) {
         return around(solid.position,

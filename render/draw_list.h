@@ -34,14 +34,15 @@ struct CylinderShape {
   double length = 1.0;
 };
 
-/// A cylinder of the given length [m] >= 0 about local z with a half ball of radius [m] > 0 at each end.
+/// A cylinder of the given length [m] >= 0 about local z with a half ball of radius [m] > 0 at each
+/// end.
 struct CapsuleShape {
   double radius = 0.5;
   double length = 1.0;
 };
 
-/// A grooved wheel with hub and spokes about its local z axis, centred. The spoke on local +x is painted
-/// in the accent colour, so that turning shows.
+/// A grooved wheel with hub and spokes about its local z axis, centred. The spoke on local +x is
+/// painted in the accent colour, so that turning shows.
 struct SheaveShape {
   /// Distance from the axis to the centre line of a cable in the groove [m], > 0.
   double radius = 0.5;
@@ -96,13 +97,14 @@ struct Tube {
   bool closed = false;
 };
 
-/// Text beside a point of the world. The renderer moves labels apart where they would overlap and then
-/// draws a thin leader to the anchor.
+/// Text beside a point of the world. The renderer moves labels apart where they would overlap and
+/// then draws a thin leader to the anchor.
 struct Label {
   Vector3 anchor = Vector3::Zero();
   /// UTF-8; one line.
   std::string text;
-  /// World direction in which the text should stand off the anchor; zero leaves the choice to the layout.
+  /// World direction in which the text should stand off the anchor; zero leaves the choice to the
+  /// layout.
   Vector3 direction = Vector3::Zero();
   /// The anchor may be moved by up to plus or minus this [m], to find room: along a cable, say.
   Vector3 slide = Vector3::Zero();

@@ -92,14 +92,16 @@ Errors validate(const DrawList& list) {
   for (std::size_t i = 0; i < list.planes.size(); ++i) {
     const Plane& plane = list.planes[i];
     if (!plane.point.allFinite() || !unit(plane.normal) || !not_negative(plane.grid_spacing)) {
-      errors.push_back({place("planes", i),
-                        "plane: point must be finite, normal of unit length and grid_spacing not negative"});
+      errors.push_back(
+          {place("planes", i),
+           "plane: point must be finite, normal of unit length and grid_spacing not negative"});
     }
   }
   if (list.legend) {
     const bool good = std::isfinite(list.legend->min) && std::isfinite(list.legend->max) &&
                       list.legend->min < list.legend->max;
-    if (!good) errors.push_back({"/legend", "legend: min and max must be finite and min below max"});
+    if (!good)
+      errors.push_back({"/legend", "legend: min and max must be finite and min below max"});
   }
   return errors;
 }

@@ -73,7 +73,8 @@ const Font& Font::builtin() {
 
 TextSize Font::measure(std::string_view text, double pixels) const {
   const stbtt_fontinfo* info = &face_->info;
-  const double scale = static_cast<double>(stbtt_ScaleForPixelHeight(info, static_cast<float>(pixels)));
+  const double scale =
+      static_cast<double>(stbtt_ScaleForPixelHeight(info, static_cast<float>(pixels)));
   int ascent = 0;
   int descent = 0;
   stbtt_GetFontVMetrics(info, &ascent, &descent, nullptr);
@@ -99,7 +100,8 @@ TextMask Font::draw(std::string_view text, double pixels, int border) const {
   mask.baseline = border + static_cast<int>(std::ceil(size.ascent));
   mask.width = static_cast<int>(std::ceil(size.width)) + 2 * border + 2;
   mask.height = mask.baseline + static_cast<int>(std::ceil(size.descent)) + border;
-  mask.coverage.resize(static_cast<std::size_t>(mask.width) * static_cast<std::size_t>(mask.height));
+  mask.coverage.resize(static_cast<std::size_t>(mask.width) *
+                       static_cast<std::size_t>(mask.height));
   double pen = mask.left;
   int previous = 0;
   for (std::size_t at = 0; at < text.size();) {

@@ -10,10 +10,10 @@ namespace sheave::render {
 
 /// Coverage of a line of text: 0 outside the glyphs, 255 inside.
 struct TextMask {
-  int width = 0;   ///< [pixels]
-  int height = 0;  ///< [pixels]
-  int left = 0;    ///< column of the mask at which the pen starts
-  int baseline = 0;  ///< row of the mask on which the text stands
+  int width = 0;                       ///< [pixels]
+  int height = 0;                      ///< [pixels]
+  int left = 0;                        ///< column of the mask at which the pen starts
+  int baseline = 0;                    ///< row of the mask on which the text stands
   std::vector<std::uint8_t> coverage;  ///< width * height, rows from the top
 };
 

@@ -1,5 +1,6 @@
-// Greedy with repair: each label takes its cheapest of a fixed set of places given the ones before it;
-// then each is reconsidered once against all others. Cost: 2 rounds x labels x places x (labels + lines).
+// Greedy with repair: each label takes its cheapest of a fixed set of places given the ones before
+// it; then each is reconsidered once against all others. Cost: 2 rounds x labels x places x (labels
+// + lines).
 #include "render/label_layout.h"
 
 #include <algorithm>
@@ -16,8 +17,8 @@ constexpr std::array<double, 5> distances{1.0, 2.2, 3.8, 6.0, 9.0};
 /// Shares of the slide.
 constexpr std::array<double, 7> slides{0.0, 0.35, -0.35, 0.7, -0.7, 1.0, -1.0};
 
-/// With more labels than this, the lines they cover are not looked at: the picture is full anyway, and
-/// the cost would be felt.
+/// With more labels than this, the lines they cover are not looked at: the picture is full anyway,
+/// and the cost would be felt.
 constexpr std::size_t many_labels = 60;
 
 double covered_length(const Rectangle& r, const ScreenSegment& s) {
@@ -81,7 +82,8 @@ class Layout {
           const double own = 3.0 * static_cast<double>(d) + (any ? 0.4 : 1.0) * std::abs(turn) +
                              1.2 * std::abs(slide);
           if (own >= best) continue;
-          const LabelPlace candidate = place(label, slide, preferred + turn, distances[d] * around_.gap);
+          const LabelPlace candidate =
+              place(label, slide, preferred + turn, distances[d] * around_.gap);
           const double cost = own + conflicts(candidate.text, i);
           if (cost < best) {
             best = cost;
@@ -129,7 +131,7 @@ double overlap(const Rectangle& a, const Rectangle& b) {
 }
 
 std::vector<LabelPlace> place_labels(std::span<const LabelRequest> labels,
-                                    const LabelSurroundings& around) {
+                                     const LabelSurroundings& around) {
   return Layout(labels, around).run();
 }
 

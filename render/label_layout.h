@@ -1,6 +1,6 @@
 #pragma once
-// Finds a place for each label near its anchor, off the other labels, the cables and the edges of the
-// picture. Pure geometry in pixels; the same input gives the same places.
+// Finds a place for each label near its anchor, off the other labels, the cables and the edges of
+// the picture. Pure geometry in pixels; the same input gives the same places.
 
 #include <array>
 #include <span>
@@ -19,13 +19,13 @@ struct Rectangle {
 [[nodiscard]] double overlap(const Rectangle& a, const Rectangle& b);
 
 struct LabelRequest {
-  double x = 0.0;            ///< anchor [pixels]
+  double x = 0.0;  ///< anchor [pixels]
   double y = 0.0;
   double direction_x = 0.0;  ///< preferred direction from the anchor (y down); both zero: any
   double direction_y = 0.0;
-  double slide_x = 0.0;      ///< the anchor may move by up to plus or minus this [pixels]
+  double slide_x = 0.0;  ///< the anchor may move by up to plus or minus this [pixels]
   double slide_y = 0.0;
-  double width = 0.0;        ///< of the text [pixels]
+  double width = 0.0;  ///< of the text [pixels]
   double height = 0.0;
 };
 
@@ -33,12 +33,12 @@ struct LabelRequest {
 using ScreenSegment = std::array<double, 4>;
 
 struct LabelSurroundings {
-  double width = 0.0;   ///< of the picture [pixels]
+  double width = 0.0;  ///< of the picture [pixels]
   double height = 0.0;
-  double gap = 8.0;     ///< nearest distance from anchor to text [pixels]
-  std::span<const Rectangle> occupied;     ///< other text; must not be covered
-  std::span<const ScreenSegment> lines;    ///< should not be covered
-  std::span<const Rectangle> bodies;       ///< better not covered
+  double gap = 8.0;                      ///< nearest distance from anchor to text [pixels]
+  std::span<const Rectangle> occupied;   ///< other text; must not be covered
+  std::span<const ScreenSegment> lines;  ///< should not be covered
+  std::span<const Rectangle> bodies;     ///< better not covered
 };
 
 struct LabelPlace {
@@ -49,6 +49,6 @@ struct LabelPlace {
 
 /// The place for each request, in order.
 [[nodiscard]] std::vector<LabelPlace> place_labels(std::span<const LabelRequest> labels,
-                                                  const LabelSurroundings& around);
+                                                   const LabelSurroundings& around);
 
 }  // namespace sheave::render

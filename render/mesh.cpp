@@ -57,8 +57,8 @@ void compute_outline(Mesh& mesh, const std::vector<std::uint32_t>& places) {
   }
 }
 
-/// An edge is sharp if the shading normals of its two sides differ. (The angle between the triangles
-/// would also find the facets of a coarse cylinder.)
+/// An edge is sharp if the shading normals of its two sides differ. (The angle between the
+/// triangles would also find the facets of a coarse cylinder.)
 void find_sharp_edges(Mesh& mesh, const std::vector<std::uint32_t>& places) {
   constexpr double cos_sharp = 0.88;  // about 28 degrees
   using Edge = std::pair<std::uint32_t, std::uint32_t>;

@@ -11,7 +11,8 @@
 
 namespace sheave::render {
 
-/// One corner of a triangle, in the frame of the solid (or relative to the picture's origin for tubes).
+/// One corner of a triangle, in the frame of the solid (or relative to the picture's origin for
+/// tubes).
 struct MeshVertex {
   std::array<float, 3> position{};  ///< [m]
   std::array<float, 3> normal{};    ///< unit, for shading; differs between the sides of an edge
@@ -23,7 +24,7 @@ struct MeshVertex {
 struct Mesh {
   std::vector<MeshVertex> vertices;
   std::vector<std::uint32_t> triangles;  ///< three indices each, counter-clockwise from outside
-  std::vector<std::uint32_t> lines;      ///< two indices each: edges where the surface bends sharply
+  std::vector<std::uint32_t> lines;  ///< two indices each: edges where the surface bends sharply
 };
 
 using Paint = std::array<std::uint8_t, 4>;
@@ -48,8 +49,8 @@ class MeshBuilder {
   void add_polygon(std::span<const Vector3> corners, const Vector3& normal);
   /// Turns a smooth line of cross-section about the z axis.
   void add_revolution(std::span<const ProfilePoint> profile, int segments);
-  /// The straight line from (r0, z0) to (r1, z1) turned about z; the outside lies to the right of it
-  /// when r points right and z up.
+  /// The straight line from (r0, z0) to (r1, z1) turned about z; the outside lies to the right of
+  /// it when r points right and z up.
   void add_cone(double r0, double z0, double r1, double z1, int segments);
   /// Fills in outline directions and sharp edges.
   [[nodiscard]] Mesh finish();

@@ -17,8 +17,8 @@ struct UnitScale {
 };
 [[nodiscard]] UnitScale unit_scale(double reference);
 
-/// "20.0 N": three significant digits of `reference` (a typical largest value), with its unit prefix,
-/// so that the numbers of one picture have the same form.
+/// "20.0 N": three significant digits of `reference` (a typical largest value), with its unit
+/// prefix, so that the numbers of one picture have the same form.
 [[nodiscard]] std::string quantity_text(double value, double reference, std::string_view unit);
 
 /// Round numbers in [low, high], about `count` of them; low < high, both finite.

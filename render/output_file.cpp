@@ -17,8 +17,8 @@ Error fault(const std::string& path, const char* action) {
   return {"", "'" + path + "': cannot " + action + ": " + std::strerror(errno)};
 }
 
-/// Folder and a hidden name with six places for mkostemp, before the extension so that programs which
-/// judge a file by its name see the right one.
+/// Folder and a hidden name with six places for mkostemp, before the extension so that programs
+/// which judge a file by its name see the right one.
 std::string temporary_pattern(const std::string& path, std::size_t& suffix_length) {
   const std::size_t slash = path.find_last_of('/');
   const std::size_t start = slash == std::string::npos ? 0 : slash + 1;
@@ -26,7 +26,8 @@ std::string temporary_pattern(const std::string& path, std::size_t& suffix_lengt
   const std::size_t dot = name.find_last_of('.');
   const std::string extension = dot == std::string::npos || dot == 0 ? "" : name.substr(dot);
   suffix_length = extension.size();
-  // Names have a limit (255 bytes nearly everywhere) that a long one must not exceed by the addition.
+  // Names have a limit (255 bytes nearly everywhere) that a long one must not exceed by the
+  // addition.
   const std::string stem = name.substr(0, std::min<std::size_t>(name.size() - suffix_length, 100));
   return path.substr(0, start) + "." + stem + ".XXXXXX" + extension;
 }

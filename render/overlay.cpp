@@ -69,8 +69,8 @@ LegendBox layout_legend(const Legend& legend, const Style& style, int width, int
 void draw_legend(Canvas& canvas, const Legend& legend, const LegendBox& box, const Style& style) {
   const int rows = static_cast<int>(std::lround(box.bar_height));
   const double frame = std::max(1.0, 0.06 * style.text);
-  canvas.fill(box.bar_x - frame, box.bar_y - frame, box.bar_width + 2.0 * frame,
-              rows + 2.0 * frame, ink);
+  canvas.fill(box.bar_x - frame, box.bar_y - frame, box.bar_width + 2.0 * frame, rows + 2.0 * frame,
+              ink);
   for (int k = 0; k < rows; ++k) {
     canvas.fill(box.bar_x, box.bar_y + k, box.bar_width, 1.0,
                 sample(legend.map, 1.0 - (k + 0.5) / rows));

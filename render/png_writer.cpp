@@ -46,13 +46,14 @@ bool encode(png_structp png, png_infop info, const Image& image, PngEffort effor
 }  // namespace
 
 Result<std::vector<std::uint8_t>> encode_png(const Image& image, PngEffort effort) {
-  const std::size_t expected =
-      std::size_t{3} * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  const std::size_t expected = std::size_t{3} * static_cast<std::size_t>(image.width) *
+                               static_cast<std::size_t>(image.height);
   if (image.width <= 0 || image.height <= 0 || image.rgb.size() != expected) {
-    return Error{"", "image of " + std::to_string(image.width) + " x " +
-                         std::to_string(image.height) + " pixels with " +
-                         std::to_string(image.rgb.size()) +
-                         " bytes cannot be written as PNG; it needs at least one pixel and 3 bytes for each"};
+    return Error{
+        "",
+        "image of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+            " pixels with " + std::to_string(image.rgb.size()) +
+            " bytes cannot be written as PNG; it needs at least one pixel and 3 bytes for each"};
   }
   Sink sink;
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, on_error, on_warning);

@@ -1,5 +1,6 @@
-// A sheave: a rim with a groove for the cable, a hub, an axle pin, and spokes with openings between.
-// The flanges end a little below the centre line of the cable, so that most of it shows from the side.
+// A sheave: a rim with a groove for the cable, a hub, an axle pin, and spokes with openings
+// between. The flanges end a little below the centre line of the cable, so that most of it shows
+// from the side.
 #include <algorithm>
 #include <array>
 #include <cmath>

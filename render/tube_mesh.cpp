@@ -27,7 +27,8 @@ std::vector<TubePoint> distinct_points(const Tube& tube) {
   for (const TubePoint& p : tube.points) scale = std::max(scale, p.position.cwiseAbs().maxCoeff());
   const double nearest = std::max(1e-3 * tube.radius, 1e-12 * scale);
   for (const TubePoint& p : tube.points) {
-    if (points.empty() || (p.position - points.back().position).norm() > nearest) points.push_back(p);
+    if (points.empty() || (p.position - points.back().position).norm() > nearest)
+      points.push_back(p);
   }
   if (tube.closed && points.size() > 2) points.push_back(points.front());
   return points;
@@ -73,9 +74,8 @@ struct Sweep {
     const std::uint32_t first = second - count;
     for (std::uint32_t s = 0; s < count; ++s) {
       const std::uint32_t next = (s + 1) % count;
-      mesh.triangles.insert(mesh.triangles.end(),
-                            {first + s, first + next, second + next, first + s, second + next,
-                             second + s});
+      mesh.triangles.insert(mesh.triangles.end(), {first + s, first + next, second + next,
+                                                   first + s, second + next, second + s});
     }
   }
   /// A half ball as a few rings from (at the start) or to (at the end) a point.

@@ -20,8 +20,8 @@ struct Container {
   const char* name;
   bool fast_start;  ///< has an index that can be moved to the front
 };
-constexpr std::array<Container, 3> containers{{
-    {".mp4", "mp4", true}, {".mov", "mov", true}, {".mkv", "matroska", false}}};
+constexpr std::array<Container, 3> containers{
+    {{".mp4", "mp4", true}, {".mov", "mov", true}, {".mkv", "matroska", false}}};
 
 const Container* container_of(std::string_view path) {
   for (const Container& container : containers) {
@@ -40,10 +40,9 @@ Errors check(const std::string& path, int width, int height, const VideoOptions&
                               std::to_string(height) + "; each side must be 2 to 16384 pixels"});
   }
   if (!(options.frames_per_second > 0.0 && options.frames_per_second <= 1000.0)) {
-    errors.push_back({"/frames_per_second",
-                      "video '" + path + "': frames_per_second is " +
-                          std::to_string(options.frames_per_second) +
-                          "; it must be above 0 and at most 1000"});
+    errors.push_back({"/frames_per_second", "video '" + path + "': frames_per_second is " +
+                                                std::to_string(options.frames_per_second) +
+                                                "; it must be above 0 and at most 1000"});
   }
   if (options.quality < 0 || options.quality > 51) {
     errors.push_back({"/quality", "video '" + path + "': quality is " +
@@ -133,7 +132,8 @@ Errors VideoWriter::add(const Image& frame) {
                           std::to_string(content_->height)}};
   }
   Errors errors = content_->encoder.write(content_->extended(frame));
-  for (Error& error : errors) error.message = "video '" + content_->file.path() + "': " + error.message;
+  for (Error& error : errors)
+    error.message = "video '" + content_->file.path() + "': " + error.message;
   if (errors.empty()) ++content_->frames;
   return errors;
 }

@@ -22,9 +22,9 @@ struct VideoOptions {
   std::string program = "ffmpeg";
 };
 
-/// Writes H.264 in 4:2:0 that every player and browser shows. Frames with an odd width or height are
-/// extended by repeating the last column or row. The same frames give the same file with the same
-/// version of ffmpeg.
+/// Writes H.264 in 4:2:0 that every player and browser shows. Frames with an odd width or height
+/// are extended by repeating the last column or row. The same frames give the same file with the
+/// same version of ffmpeg.
 class VideoWriter {
  public:
   /// `path` must end in .mp4, .mov or .mkv. Fails at once if the folder cannot be written to or

@@ -205,7 +205,8 @@ void ViewBuilder::add_labels(const CableReport& cable, const CableStyle& style,
     label.anchor = middle_of(lines[k]);
     // Off to the right of an upright span, above a level one.
     label.direction = along.cross(normal);
-    const Vector3 up = gravity_.norm() > 0.0 ? Vector3(-gravity_.normalized()) : Vector3(Vector3::UnitY());
+    const Vector3 up =
+        gravity_.norm() > 0.0 ? Vector3(-gravity_.normalized()) : Vector3(Vector3::UnitY());
     const Vector3 right = up.cross(normal);
     if (label.direction.dot(right) + 0.3 * label.direction.dot(up) < 0.0) label.direction *= -1.0;
     if (is_slack(span)) {

@@ -25,8 +25,8 @@ struct ViewOptions {
   /// Radius that cables are drawn with [m], > 0; default: suits the size of the scene.
   std::optional<double> cable_radius{};
   /// Tension at the top of the colour map [N], > 0. Default: the largest tension of each frame by
-  /// itself (the weight of all bodies if no cable carries anything). For a video pass one value, for example from ViewSurvey, or colours mean different forces
-  /// in different frames.
+  /// itself (the weight of all bodies if no cable carries anything). For a video pass one value,
+  /// for example from ViewSurvey, or colours mean different forces in different frames.
   std::optional<double> tension_max{};
   /// Box round everything that the picture will show over the whole run [m], for the place of the
   /// floor; default: what is there at the beginning.
@@ -34,8 +34,8 @@ struct ViewOptions {
   bool force_labels = false;  ///< the tension beside every span
   bool legend = true;         ///< left out anyway if there are no cables
   bool time = true;
-  /// A floor for shadows to fall on below a scene that has no ground of its own; never shown without
-  /// gravity.
+  /// A floor for shadows to fall on below a scene that has no ground of its own; never shown
+  /// without gravity.
   bool floor = true;
   std::string title{};
   std::string caption{};
@@ -43,8 +43,8 @@ struct ViewOptions {
 
 class ViewBuilder {
  public:
-  /// Decides once how bodies and cables look. `world` and `cables` must be of the same state, usually
-  /// that at time 0; later calls of build() must be for the same model.
+  /// Decides once how bodies and cables look. `world` and `cables` must be of the same state,
+  /// usually that at time 0; later calls of build() must be for the same model.
   ViewBuilder(const World& world, std::span<const CableReport> cables, ViewOptions options = {});
 
   /// What the world looks like now.
@@ -66,15 +66,15 @@ class ViewBuilder {
   std::optional<Plane> floor_;
 };
 
-/// Weight of all bodies [N]; 0 without gravity. Tensions below a millionth of it are rounding errors of
-/// the solver, not forces worth a colour.
+/// Weight of all bodies [N]; 0 without gravity. Tensions below a millionth of it are rounding
+/// errors of the solver, not forces worth a colour.
 [[nodiscard]] double total_weight(const Model& model);
 
 /// Against gravity; +y without any.
 [[nodiscard]] Vector3 up_direction(const Model& model);
 
-/// The normal of the plane in which the scene moves: the common axis of its wheels, or of its planar
-/// bodies if it has no wheels. Nothing if they have none in common.
+/// The normal of the plane in which the scene moves: the common axis of its wheels, or of its
+/// planar bodies if it has no wheels. Nothing if they have none in common.
 [[nodiscard]] std::optional<Vector3> motion_plane(const Model& model,
                                                   std::span<const CableReport> cables);
 

@@ -27,12 +27,14 @@ class ViewSurvey {
   /// Box round all bodies and cables in all states added [m]; empty if there were none.
   [[nodiscard]] const Eigen::AlignedBox3d& bounds() const { return bounds_; }
 
-  /// A round number [N] that 98 % of all tensions other than zero do not exceed, so that a short peak
-  /// does not make all else look slack. The weight of all bodies, or 1, if there was none worth showing.
+  /// A round number [N] that 98 % of all tensions other than zero do not exceed, so that a short
+  /// peak does not make all else look slack. The weight of all bodies, or 1, if there was none
+  /// worth showing.
   [[nodiscard]] double tension_max() const;
 
  private:
-  /// Tensions counted by size, 16 classes to a factor of two; exact counts would need the whole run.
+  /// Tensions counted by size, 16 classes to a factor of two; exact counts would need the whole
+  /// run.
   static constexpr int classes_per_octave = 16;
   static constexpr int lowest_exponent = -64;
   static constexpr int octaves = 192;
@@ -43,11 +45,11 @@ class ViewSurvey {
   double weight_ = 0.0;   ///< of all bodies [N]
 };
 
-/// A camera that shows the box of a whole run, clear of the texts of a typical frame: along the plane's
-/// normal for scenes that move in a plane, from the side and above for others; up is against gravity.
-/// width, height: of the picture [pixels].
+/// A camera that shows the box of a whole run, clear of the texts of a typical frame: along the
+/// plane's normal for scenes that move in a plane, from the side and above for others; up is
+/// against gravity. width, height: of the picture [pixels].
 [[nodiscard]] Camera automatic_camera(const Model& model, std::span<const CableReport> cables,
-                                      const Eigen::AlignedBox3d& run_bounds, const DrawList& typical,
-                                      int width, int height);
+                                      const Eigen::AlignedBox3d& run_bounds,
+                                      const DrawList& typical, int width, int height);
 
 }  // namespace sheave::render

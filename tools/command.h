@@ -17,8 +17,8 @@ using Action = std::function<ExitCode()>;
 /// One subcommand.
 struct Command {
   const char* name;
-  const char* meaning;              ///< one line of help
-  Action (*declare)(CLI::App& app); ///< adds options and examples to `app`
+  const char* meaning;               ///< one line of help
+  Action (*declare)(CLI::App& app);  ///< adds options and examples to `app`
 };
 
 Action declare_run(CLI::App& app);

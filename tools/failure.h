@@ -1,7 +1,7 @@
 #pragma once
 // How the command ends. The libraries below return their errors as values; a subcommand that cannot
-// go on throws a Failure, and main turns it into a message and an exit code. Unfinished output files
-// vanish on the way.
+// go on throws a Failure, and main turns it into a message and an exit code. Unfinished output
+// files vanish on the way.
 
 #include <stdexcept>
 #include <string>
@@ -13,10 +13,10 @@ namespace sheave::tools {
 /// Exit codes; the numbers of BSD's sysexits.h where one fits.
 enum class ExitCode {
   done = 0,
-  check_failed = 1,   ///< a check of the scene did not hold
-  usage = 2,          ///< wrong command line
-  bad_scene = 65,     ///< the contents of an input file are wrong
-  no_input = 66,      ///< no such input file
+  check_failed = 1,  ///< a check of the scene did not hold
+  usage = 2,         ///< wrong command line
+  bad_scene = 65,    ///< the contents of an input file are wrong
+  no_input = 66,     ///< no such input file
   internal = 70,
   io = 74,            ///< an input cannot be read or an output cannot be written
   diverged = 75,      ///< the simulation stopped at a state that means nothing

@@ -55,8 +55,9 @@ ExitCode generate(const KindOptions& options, const GeneratorKind& kind) {
     std::string text;
     for (const SceneError& error : result.errors) {
       if (!text.empty()) text += '\n';
-      text += error.pointer.empty() ? "" : option_name(error.pointer.substr(
-                                               error.pointer.front() == '/' ? 1 : 0)) + ": ";
+      text += error.pointer.empty()
+                  ? ""
+                  : option_name(error.pointer.substr(error.pointer.front() == '/' ? 1 : 0)) + ": ";
       if (!error.value.empty()) text += "value " + error.value + ": ";
       text += error.message;
     }

@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <sheave_version.h>
+
+#include <CLI/CLI.hpp>
 
 #include "tools/command.h"
 #include "tools/command_line.h"

@@ -17,7 +17,7 @@ namespace sheave::tools {
 namespace {
 
 constexpr std::size_t alignment = 64;
-constexpr std::size_t max_short_header = 65535;  // of version 1.0
+constexpr std::size_t max_short_header = 65535;    // of version 1.0
 constexpr std::size_t max_default_header = 10000;  // that numpy.load accepts without being told to
 
 /// Low byte first.
@@ -58,9 +58,10 @@ class NpyWriter final : public TableWriter {
     }
     const std::string text = header(descriptor_, 0);
     if (text.size() > max_default_header) {
-      print_note(fmt::format("{0}: for its {1} columns read it with "
-                             "numpy.load(path, max_header_size={2})",
-                             path, columns.size(), text.size()));
+      print_note(
+          fmt::format("{0}: for its {1} columns read it with "
+                      "numpy.load(path, max_header_size={2})",
+                      path, columns.size(), text.size()));
     }
     file_.write(text);
   }

@@ -60,8 +60,8 @@ void OutputFile::create_temporary() {
   const std::size_t slash = destination_.find_last_of('/');
   const std::size_t start = slash == std::string::npos ? 0 : slash + 1;
   // Names have a limit (255 bytes nearly everywhere) that the addition must not exceed.
-  std::string name = destination_.substr(0, start) + "." +
-                     destination_.substr(start, 200) + ".XXXXXX";
+  std::string name =
+      destination_.substr(0, start) + "." + destination_.substr(start, 200) + ".XXXXXX";
   descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
   if (descriptor_ < 0) fail("cannot create it");
   ::fchmod(descriptor_, default_mode());

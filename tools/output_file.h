@@ -1,8 +1,8 @@
 #pragma once
 // Output files that appear whole or not at all: written under a temporary name in the same folder
-// and renamed at the end. Unlike render/output_file.h, which the command also needs where it is
-// built without the renderer, this one buffers small writes, can go back to patch what it wrote, and
-// knows destinations that cannot be replaced (pipes, devices, standard output).
+// and renamed at the end. Unlike render/output_file.h, which a build without the renderer does not
+// have, this one buffers small writes, can go back to patch what it wrote, and knows destinations
+// that cannot be replaced (pipes, devices, standard output).
 
 #include <cstddef>
 #include <string>

@@ -76,8 +76,8 @@ class Shutter {
   const std::function<void(std::size_t, const Simulation&)>& show_;
   double tolerance_;
   std::size_t next_ = 0;
-  std::optional<State> before_;       // at the start of the step, if a moment lies within it
-  std::optional<Simulation> shown_;   // made when first needed
+  std::optional<State> before_;      // at the start of the step, if a moment lies within it
+  std::optional<Simulation> shown_;  // made when first needed
 };
 
 }  // namespace

@@ -12,9 +12,9 @@ namespace sheave::tools {
 /// The simulation of a scene that has been loaded, which always builds.
 [[nodiscard]] Simulation make_simulation(const Scene& scene);
 
-/// Simulates `scene` from its start and calls `show(k, simulation)` for every time k of `times` [s],
-/// which are in order. A moment between two steps shows bodies and cables half way between them.
-/// Playing the same scene twice shows the same. Ends after the last of `times`, or early (see
+/// Simulates `scene` from its start and calls `show(k, simulation)` for every time k of `times`
+/// [s], which are in order. A moment between two steps shows bodies and cables half way between
+/// them. Playing the same scene twice shows the same. Ends after the last of `times`, or early (see
 /// RunOutcome); then moments that were not reached are not shown.
 RunOutcome play(const Scene& scene, std::span<const double> times, Progress& progress,
                 const std::function<void(std::size_t, const Simulation&)>& show);

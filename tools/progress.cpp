@@ -39,9 +39,10 @@ std::string bar(double fraction, std::size_t cells) {
 
 }  // namespace
 
-Progress::Progress(std::string label, double total, bool quiet)
+Progress::Progress(std::string label, double begin, double end, bool quiet)
     : label_(std::move(label)),
-      total_(total),
+      begin_(begin),
+      end_(end),
       shown_(!quiet && stderr_is_terminal()),
       next_(start_ + first_after) {}
 
@@ -49,10 +50,11 @@ Progress::~Progress() { clear(); }
 
 bool Progress::due() const { return shown_ && Clock::now() >= next_; }
 
-void Progress::update(double done, const std::string& text) {
+void Progress::update(double now, const std::string& text) {
   if (!due()) return;
   next_ = Clock::now() + between;
-  const double fraction = std::clamp(done / total_, 0.0, 1.0);
+  const double fraction =
+      end_ > begin_ ? std::clamp((now - begin_) / (end_ - begin_), 0.0, 1.0) : 1.0;
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
   const std::string head = label_ + " ";
   std::string tail = fmt::format(" {:3.0f} % {}", std::floor(100.0 * fraction), text);

@@ -10,15 +10,15 @@ namespace sheave::tools {
 
 class Progress {
  public:
-  /// Runs from 0 to `total` > 0; `label` stands before the bar.
-  Progress(std::string label, double total, bool quiet);
+  /// Runs from `begin` to `end`; `label` stands before the bar.
+  Progress(std::string label, double begin, double end, bool quiet);
   /// Removes the bar.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
   /// Redraws the bar if enough time has passed since the last time. `text` stands behind it.
-  void update(double done, const std::string& text);
+  void update(double now, const std::string& text);
   /// Whether updates are shown at all: if not, the caller need not make a text.
   [[nodiscard]] bool shown() const { return shown_; }
   /// Whether an update now would be drawn.
@@ -30,7 +30,8 @@ class Progress {
   using Clock = std::chrono::steady_clock;
 
   std::string label_;
-  double total_;
+  double begin_;
+  double end_;
   bool shown_;
   Clock::time_point start_ = Clock::now();
   Clock::time_point next_;

@@ -1,8 +1,8 @@
 // sheave render: simulate a scene and write a video, pictures or a still.
 
-#include "tools/command.h"
-
 #include <CLI/CLI.hpp>
+
+#include "tools/command.h"
 
 #if SHEAVE_HAS_RENDER
 
@@ -44,8 +44,7 @@ struct Moments {
 };
 
 void insert_still(Moments& moments, double at, double tolerance) {
-  const auto place =
-      std::lower_bound(moments.times.begin(), moments.times.end(), at - tolerance);
+  const auto place = std::lower_bound(moments.times.begin(), moments.times.end(), at - tolerance);
   moments.still = static_cast<std::size_t>(place - moments.times.begin());
   moments.still_is_frame = place != moments.times.end() && *place <= at + tolerance;
   if (!moments.still_is_frame) moments.times.insert(place, at);
@@ -104,8 +103,8 @@ Look survey(const Scene& scene, const PictureOptions& options, std::span<const d
   view.title = scene.name;
   render::ViewBuilder builder(start.world, cables, view);
   const render::DrawList typical = builder.build(start.world, cables);
-  const render::Camera camera = choose_camera(scene, cables, survey.bounds(), typical,
-                                              options.width, options.height);
+  const render::Camera camera =
+      choose_camera(scene, cables, survey.bounds(), typical, options.width, options.height);
   return {std::move(builder), camera};
 }
 
@@ -113,8 +112,8 @@ ExitCode report(const RunOutcome& outcome, const PictureOutputs& outputs,
                 const PictureOptions& options) {
   if (outcome.status == RunStatus::done) return ExitCode::done;
   const bool diverged = outcome.status == RunStatus::diverged;
-  std::string text = diverged ? "diverged: " + outcome.divergence->message
-                              : std::string("interrupted");
+  std::string text =
+      diverged ? "diverged: " + outcome.divergence->message : std::string("interrupted");
   for (const std::string& path : {options.video, options.png}) {
     if (!path.empty()) text += fmt::format("\n{}: partial, {} frames", path, outputs.frames());
   }
@@ -136,10 +135,10 @@ ExitCode render_scene(const RenderOptions& options) {
   catch_interrupts();
   PictureOutputs outputs(pictures);
   const auto steps = static_cast<double>(step_count(scene));
-  Progress survey_progress("survey", steps, options.quiet);
+  Progress survey_progress("survey", 0.0, steps, options.quiet);
   const Look look = survey(scene, pictures, moments.times, survey_progress);
   survey_progress.clear();
-  Progress progress("draw", steps, options.quiet);
+  Progress progress("draw", 0.0, steps, options.quiet);
   const RunOutcome outcome =
       play(scene, moments.times, progress, [&](std::size_t k, const Simulation& simulation) {
         const render::DrawList list =
@@ -208,9 +207,9 @@ Action declare_render(CLI::App& app) {
   sheave render crane.json --still crane.png --at 1.5 --labels --width 1920 --height 1080
   sheave render crane.json --video slow.mp4 --speed 0.1 --dt 0.001 --png frames
 
-The camera is that of the scene. What the scene leaves open is chosen so that the whole run is in the
-picture. Outputs appear when they are complete; after a divergence or Ctrl-C they hold the frames so
-far. Exit codes as for sheave run.)");
+The camera is that of the scene. What the scene leaves open is chosen so that the whole run is in
+the picture. Outputs appear when they are complete; after a divergence or Ctrl-C they hold the
+frames so far. Exit codes as for sheave run.)");
   return [options] {
     check_usage(options->pictures);
     return render_scene(*options);

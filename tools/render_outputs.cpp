@@ -48,10 +48,9 @@ PictureOutputs::PictureOutputs(const PictureOptions& options) : options_(options
   }
   if (!options.still.empty()) check_writable(options.still);
   if (!options.video.empty()) {
-    video_ = value_or_fail(
-        render::VideoWriter::create(options.video, options.width, options.height,
-                                    {.frames_per_second = options.fps}),
-        ExitCode::io);
+    video_ = value_or_fail(render::VideoWriter::create(options.video, options.width, options.height,
+                                                       {.frames_per_second = options.fps}),
+                           ExitCode::io);
   }
   if (options.has_frames()) {
     frame_renderer_ =
@@ -68,8 +67,7 @@ void PictureOutputs::add_frame(const render::DrawList& list, const render::Camer
       value_or_fail(frame_renderer_->draw(list, camera), ExitCode::internal);
   if (video_) check(video_->add(image), ExitCode::io);
   if (!options_.png.empty()) {
-    check(render::write_png(frame_path(frames_), image, render::PngEffort::sequence),
-          ExitCode::io);
+    check(render::write_png(frame_path(frames_), image, render::PngEffort::sequence), ExitCode::io);
   }
   ++frames_;
 }
@@ -77,8 +75,7 @@ void PictureOutputs::add_frame(const render::DrawList& list, const render::Camer
 void PictureOutputs::add_still(const render::DrawList& list, const render::Camera& camera) {
   // Only now: until then its memory is not needed.
   render::Renderer renderer = value_or_fail(
-      render::Renderer::create(options_.width, options_.height,
-                               {.supersample = still_supersample}),
+      render::Renderer::create(options_.width, options_.height, {.supersample = still_supersample}),
       ExitCode::internal);
   const render::Image image = value_or_fail(renderer.draw(list, camera), ExitCode::internal);
   check(render::write_png(options_.still, image, render::PngEffort::still), ExitCode::io);

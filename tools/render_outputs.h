@@ -12,21 +12,21 @@ namespace sheave::tools {
 
 /// Options of `sheave render` as the user wrote them.
 struct PictureOptions {
-  std::string video;            ///< file; empty: none
-  std::string png;              ///< folder; empty: none
-  std::string still;            ///< file; empty: none
-  std::optional<double> at;     ///< time of the still [s]; default: the end
-  int width = 1280;             ///< [pixels]
-  int height = 720;             ///< [pixels]
-  double fps = 60.0;            ///< frames per second of the video
-  double speed = 1.0;           ///< simulated seconds per second of the video
-  bool labels = false;          ///< write the tensions beside the cables
+  std::string video;         ///< file; empty: none
+  std::string png;           ///< folder; empty: none
+  std::string still;         ///< file; empty: none
+  std::optional<double> at;  ///< time of the still [s]; default: the end
+  int width = 1280;          ///< [pixels]
+  int height = 720;          ///< [pixels]
+  double fps = 60.0;         ///< frames per second of the video
+  double speed = 1.0;        ///< simulated seconds per second of the video
+  bool labels = false;       ///< write the tensions beside the cables
 
   [[nodiscard]] bool has_frames() const { return !video.empty() || !png.empty(); }
 };
 
-/// Opens what the options name, draws into it, and puts it in place. Throws a Failure (74) that names
-/// the path, or (70) if nothing can be drawn.
+/// Opens what the options name, draws into it, and puts it in place. Throws a Failure (74) that
+/// names the path, or (70) if nothing can be drawn.
 class PictureOutputs {
  public:
   /// Fails at once if a folder cannot be written to, ffmpeg is missing or there is no GL.

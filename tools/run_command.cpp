@@ -55,21 +55,23 @@ std::vector<Warning> early_warnings(const RunOptions& options, const Scene& scen
 
 ExitCode exit_code(const RunSummary& summary) {
   switch (summary.outcome.status) {
-    case RunStatus::diverged: return ExitCode::diverged;
-    case RunStatus::interrupted: return ExitCode::interrupted;
-    case RunStatus::done: break;
+    case RunStatus::diverged:
+      return ExitCode::diverged;
+    case RunStatus::interrupted:
+      return ExitCode::interrupted;
+    case RunStatus::done:
+      break;
   }
   return summary.checks_passed() ? ExitCode::done : ExitCode::check_failed;
 }
 
 /// Says on standard error why a run ended early, and what is left of its output.
-void explain_early_end(const RunOptions& options, const RunSummary& summary,
-                       std::int64_t rows) {
+void explain_early_end(const RunOptions& options, const RunSummary& summary, std::int64_t rows) {
   if (summary.outcome.status == RunStatus::done) return;
-  std::string text = summary.outcome.divergence
-                         ? "diverged: " + summary.outcome.divergence->message
-                         : fmt::format("interrupted at {} s",
-                                       number_text(summary.simulation.world.state().time));
+  std::string text =
+      summary.outcome.divergence
+          ? "diverged: " + summary.outcome.divergence->message
+          : fmt::format("interrupted at {} s", number_text(summary.simulation.world.state().time));
   for (const std::string& path : options.record.paths) {
     text += fmt::format("\n{}: partial, {} rows", path == "-" ? "standard output" : path, rows);
   }
@@ -114,8 +116,8 @@ ExitCode run(const RunOptions& options) {
   std::optional<CheckRecorder> checks;
   if (options.check) checks.emplace(scene, simulation);
 
-  Progress progress("run", static_cast<double>(std::max<std::int64_t>(last_step, 1)),
-                    options.quiet);
+  Progress progress("run", static_cast<double>(simulation.world.state().steps),
+                    static_cast<double>(last_step), options.quiet);
   const RunOutcome outcome = simulate(simulation, last_step, progress, [&] {
     recorder.observe(simulation);
     monitor.observe(simulation);
@@ -130,11 +132,14 @@ ExitCode run(const RunOptions& options) {
     state_file->commit();
   }
   for (Warning& warning : collect_warnings(simulation)) warnings.push_back(std::move(warning));
-  const RunSummary summary{options.scene.path, scene,
-                           simulation,         monitor,
-                           outcome,            std::move(warnings),
-                           options.check,      checks ? checks->results()
-                                                      : std::vector<CheckResult>{}};
+  const RunSummary summary{options.scene.path,
+                           scene,
+                           simulation,
+                           monitor,
+                           outcome,
+                           std::move(warnings),
+                           options.check,
+                           checks ? checks->results() : std::vector<CheckResult>{}};
   report(options, summary, recorder.rows());
   return exit_code(summary);
 }
@@ -158,7 +163,8 @@ void add_output_options(CLI::App& app, RunOptions& options) {
   app.add_flag("--json", options.json, "print the summary as one JSON object");
   app.add_flag("--check", options.check,
                "evaluate the checks that the scene states; exit code 1 if one fails");
-  app.add_flag("-q,--quiet", options.quiet, "print nothing but data asked for, warnings and errors");
+  app.add_flag("-q,--quiet", options.quiet,
+               "print nothing but data asked for, warnings and errors");
 }
 
 void add_state_options(CLI::App& app, RunOptions& options) {

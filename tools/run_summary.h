@@ -27,7 +27,7 @@ struct RunSummary {
   const RunMonitor& monitor;
   const RunOutcome& outcome;
   std::vector<Warning> warnings;
-  bool checked = false;              ///< whether checks were asked for
+  bool checked = false;  ///< whether checks were asked for
   std::vector<CheckResult> checks;
 
   [[nodiscard]] bool checks_passed() const;

@@ -1,6 +1,7 @@
+#include <sheave_version.h>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sheave_version.h>
 
 #include "tools/run_summary.h"
 
@@ -77,9 +78,8 @@ Json bodies(const World& world) {
 Json warnings(const std::vector<Warning>& warnings) {
   Json list = Json::array();
   for (const Warning& warning : warnings) {
-    list.push_back({{"kind", warning.kind},
-                    {"subject", warning.subject},
-                    {"message", warning.message}});
+    list.push_back(
+        {{"kind", warning.kind}, {"subject", warning.subject}, {"message", warning.message}});
   }
   return list;
 }

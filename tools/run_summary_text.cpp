@@ -19,9 +19,9 @@ std::string omitted(std::size_t count, const char* what) {
 std::string head(const RunSummary& summary) {
   const RunOutcome& outcome = summary.outcome;
   const StepSettings& step = summary.scene.model.step;
-  std::string text = summary.scene.name.empty() ? std::string(summary.scene_path)
-                                                : fmt::format("{} ({})", summary.scene.name,
-                                                              summary.scene_path);
+  std::string text = summary.scene.name.empty()
+                         ? std::string(summary.scene_path)
+                         : fmt::format("{} ({})", summary.scene.name, summary.scene_path);
   text += fmt::format("\n{}: {} steps to t = {} s", name_of(outcome.status), outcome.steps,
                       short_number(summary.simulation.world.state().time));
   if (outcome.steps > 0) {
@@ -99,8 +99,8 @@ std::string checks_text(const std::vector<CheckResult>& checks) {
 }
 
 std::string to_text(const RunSummary& summary) {
-  std::string text = head(summary) + bodies(summary.simulation.world) + cables(summary) +
-                     invariants(summary);
+  std::string text =
+      head(summary) + bodies(summary.simulation.world) + cables(summary) + invariants(summary);
   if (summary.checked) text += "\n" + checks_text(summary.checks);
   return text;
 }

@@ -54,10 +54,9 @@ std::string json_number(const std::string& text) {
 Override parse_setting(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || text.front() != '/') {
-    throw Failure(ExitCode::usage,
-                  fmt::format("--set {}: must be /json/pointer=value, for example "
-                              "--set /bodies/0/mass=2",
-                              text));
+    throw Failure(ExitCode::usage, fmt::format("--set {}: must be /json/pointer=value, for example "
+                                               "--set /bodies/0/mass=2",
+                                               text));
   }
   const std::string pointer = text.substr(0, equals);
   return {pointer, text.substr(equals + 1), "--set " + pointer};
@@ -69,8 +68,8 @@ std::vector<Override> overrides(const SceneOptions& options) {
   for (const Shortcut& shortcut : shortcuts) {
     const std::string& value = options.*shortcut.value;
     if (value.empty()) continue;
-    list.push_back({shortcut.pointer, shortcut.number ? json_number(value) : value,
-                    shortcut.option});
+    list.push_back(
+        {shortcut.pointer, shortcut.number ? json_number(value) : value, shortcut.option});
   }
   return list;
 }
@@ -88,8 +87,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     option->group(group)->option_text(shortcut.number ? "X" : "NAME");
     if (shortcut.number) option->check(CLI::Number);
   }
-  app.add_option("--set", options.settings,
-                 "any setting, by its JSON pointer; may be repeated")
+  app.add_option("--set", options.settings, "any setting, by its JSON pointer; may be repeated")
       ->group("Instead of what the scene says")
       ->option_text("/POINTER=VALUE")
       ->expected(1)
@@ -114,10 +112,14 @@ Scene load(const SceneOptions& options) {
 
 ExitCode exit_code(const SceneResult& result) {
   switch (result.status) {
-    case SceneStatus::ok: return ExitCode::done;
-    case SceneStatus::not_found: return ExitCode::no_input;
-    case SceneStatus::unreadable: return ExitCode::io;
-    case SceneStatus::invalid: break;
+    case SceneStatus::ok:
+      return ExitCode::done;
+    case SceneStatus::not_found:
+      return ExitCode::no_input;
+    case SceneStatus::unreadable:
+      return ExitCode::io;
+    case SceneStatus::invalid:
+      break;
   }
   const bool all_from_options =
       std::all_of(result.errors.begin(), result.errors.end(),

@@ -18,9 +18,9 @@ enum class RunStatus { done, diverged, interrupted };
 
 /// StepStatistics of a whole run.
 struct RunStatistics {
-  int rows = 0;                        ///< constraint rows per substep
+  int rows = 0;  ///< constraint rows per substep
   std::int64_t row_solves = 0;
-  double last_correction = 0.0;        ///< the largest of all steps [m or rad]
+  double last_correction = 0.0;  ///< the largest of all steps [m or rad]
   std::int64_t geometry_fallbacks = 0;
 };
 
@@ -28,14 +28,15 @@ struct RunStatistics {
 struct RunOutcome {
   RunStatus status = RunStatus::done;
   std::optional<Divergence> divergence;  ///< set if diverged
-  std::int64_t steps = 0;  ///< complete steps of this run
-  double step_time = 0.0;  ///< wall time spent in steps alone [s]
-  double wall_time = 0.0;  ///< including observers [s]
+  std::int64_t steps = 0;                ///< complete steps of this run
+  double step_time = 0.0;                ///< wall time spent in steps alone [s]
+  double wall_time = 0.0;                ///< including observers [s]
   RunStatistics statistics;
 };
 
-/// Steps until `last_step` steps are complete, the state diverges or a signal comes. Calls `observe`
-/// at the start and after every step; it may return false to stop early, which counts as done.
+/// Steps until `last_step` steps are complete, the state diverges or a signal comes. Calls
+/// `observe` at the start and after every step; it may return false to stop early, which counts as
+/// done.
 RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& progress,
                     const std::function<bool()>& observe);
 

@@ -24,8 +24,8 @@ class TableWriter {
   TableWriter() = default;
 };
 
-/// A writer for a path that ends in .csv or .npy, or for CSV on standard output ("-"); a Failure (2)
-/// for any other.
+/// A writer for a path that ends in .csv or .npy, or for CSV on standard output ("-"); a Failure
+/// (2) for any other.
 [[nodiscard]] std::unique_ptr<TableWriter> open_table(const std::string& path,
                                                       const std::vector<std::string>& columns);
 

@@ -1,5 +1,5 @@
-// One frame: depth from the light, then surfaces, silhouettes and edges, then planes and background,
-// which by then are hidden in most places and cost little.
+// One frame: depth from the light, then surfaces, silhouettes and edges, then planes and
+// background, which by then are hidden in most places and cost little.
 #include "render/gl/frame_renderer.h"
 
 #include <algorithm>

@@ -14,11 +14,11 @@
 namespace sheave::render {
 
 struct FrameSettings {
-  int width = 1280;        ///< [pixels]
-  int height = 720;        ///< [pixels]
-  int samples = 4;         ///< per pixel
-  int shadow_side = 2048;  ///< [texels]; 0: no shadows
-  double line_width = 1.0; ///< [pixels] of silhouettes
+  int width = 1280;         ///< [pixels]
+  int height = 720;         ///< [pixels]
+  int samples = 4;          ///< per pixel
+  int shadow_side = 2048;   ///< [texels]; 0: no shadows
+  double line_width = 1.0;  ///< [pixels] of silhouettes
 };
 
 class FrameRenderer {

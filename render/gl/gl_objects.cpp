@@ -152,8 +152,8 @@ Result<std::unique_ptr<RenderTarget>> RenderTarget::make(const GladGLContext& gl
     if (i == 0) target->add_storage(GL_DEPTH_COMPONENT24, here, GL_DEPTH_ATTACHMENT);
     if (!target->complete() || gl.GetError() != GL_NO_ERROR) {
       return Error{"", "the driver gives no " + std::to_string(width) + " x " +
-                           std::to_string(height) + " framebuffer with " +
-                           std::to_string(samples) + " samples"};
+                           std::to_string(height) + " framebuffer with " + std::to_string(samples) +
+                           " samples"};
     }
   }
   return target;
@@ -165,7 +165,8 @@ void RenderTarget::bind() const {
 }
 
 void RenderTarget::read(std::vector<std::uint8_t>& rgba) const {
-  rgba.resize(std::size_t{4} * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  rgba.resize(std::size_t{4} * static_cast<std::size_t>(width_) *
+              static_cast<std::size_t>(height_));
   if (framebuffers_.size() > 1) {
     gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, framebuffers_[0]);
     gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffers_[1]);

@@ -10,9 +10,8 @@
 #include <string_view>
 #include <utility>
 
-#include <glad/gl.h>
-
 #include <Eigen/Core>
+#include <glad/gl.h>
 
 #include "engine/result.h"
 #include "render/mesh.h"
@@ -34,7 +33,9 @@ class Program {
   // Setters act on the program in use. A name that the linker removed is ignored.
   void set(const char* name, int value) { gl_.Uniform1i(location(name), value); }
   void set(const char* name, float value) { gl_.Uniform1f(location(name), value); }
-  void set(const char* name, const Eigen::Vector2f& v) { gl_.Uniform2f(location(name), v[0], v[1]); }
+  void set(const char* name, const Eigen::Vector2f& v) {
+    gl_.Uniform2f(location(name), v[0], v[1]);
+  }
   void set(const char* name, const Eigen::Vector3f& v) {
     gl_.Uniform3f(location(name), v[0], v[1], v[2]);
   }

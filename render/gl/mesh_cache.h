@@ -16,15 +16,16 @@ class MeshCache {
  public:
   explicit MeshCache(const GladGLContext& gl) : gl_(gl) {}
 
-  /// The mesh of a shape with so many facets round curved surfaces; valid until the next end_frame().
+  /// The mesh of a shape with so many facets round curved surfaces; valid until the next
+  /// end_frame().
   const GpuMesh& find(const Shape& shape, int segments);
   /// Forgets meshes that the last frame did not use, once there are many.
   void end_frame();
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
 
  private:
-  /// Everything the mesh depends on: the kind of shape, its numbers, and for a mesh its identity (the
-  /// entry keeps the object alive, so that an address cannot come back as another mesh).
+  /// Everything the mesh depends on: the kind of shape, its numbers, and for a mesh its identity
+  /// (the entry keeps the object alive, so that an address cannot come back as another mesh).
   struct Key {
     std::size_t kind = 0;
     std::array<double, 5> numbers{};

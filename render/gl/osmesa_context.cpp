@@ -12,8 +12,8 @@
 namespace sheave::render {
 namespace {
 
-/// OSMesa insists on a window-like buffer of its own. Pictures are drawn into framebuffer objects, so
-/// the smallest one does.
+/// OSMesa insists on a window-like buffer of its own. Pictures are drawn into framebuffer objects,
+/// so the smallest one does.
 constexpr int buffer_side = 16;
 
 class OsmesaContext final : public GlContext {
@@ -54,7 +54,8 @@ Result<std::unique_ptr<GlContext>> make_osmesa_context() {
                                        0};
   const OSMesaContext raw = OSMesaCreateContextAttribs(attributes.data(), nullptr);
   if (raw == nullptr) {
-    return Error{"", "OSMesa cannot make an OpenGL 3.3 core context; Mesa 22.3 with llvmpipe is known to"};
+    return Error{
+        "", "OSMesa cannot make an OpenGL 3.3 core context; Mesa 22.3 with llvmpipe is known to"};
   }
   auto context = std::make_unique<OsmesaContext>(raw);
   if (!context->make_current()) return Error{"", "OSMesa cannot make its context current"};

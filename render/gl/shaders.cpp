@@ -11,8 +11,8 @@ vec3 encoded(vec3 c) {
   c = clamp(c, 0.0, 1.0);
   return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(vec3(0.0031308), c));
 }
-// Clip coordinates of a world point whose depth is moved by `towards` of the way to the eye; the place
-// in the picture stays.
+// Clip coordinates of a world point whose depth is moved by `towards` of the way to the eye; its
+// place in the picture stays.
 vec4 nudged(mat4 view_projection, vec3 world, vec3 eye, vec3 eye_direction, float towards) {
   vec4 place = view_projection * vec4(world, 1.0);
   vec3 step = eye_direction == vec3(0.0) ? eye - world : eye_direction * length(eye);
@@ -120,7 +120,8 @@ out vec3 color;
 void main() {
   color = mix(base_color * linear_from_srgb(paint.rgb), vec3(0.012, 0.016, 0.026), 0.78);
   // Behind the surface itself, so that only what reaches beyond the silhouette shows.
-  vec4 place = nudged(view_projection, rotation * position + translation, eye, eye_direction, -nudge);
+  vec3 world = rotation * position + translation;
+  vec4 place = nudged(view_projection, world, eye, eye_direction, -nudge);
   vec2 direction = (view_projection * vec4(rotation * outline, 0.0)).xy / pixel;
   float size = length(direction);
   if (size > 0.0) place.xy += direction / size * width * pixel * place.w;
@@ -148,7 +149,8 @@ out vec3 color;
 void main() {
   color = base_color * linear_from_srgb(paint.rgb) * 0.38;
   // In front of the surfaces that meet at the edge.
-  gl_Position = nudged(view_projection, rotation * position + translation, eye, eye_direction, nudge);
+  vec3 world = rotation * position + translation;
+  gl_Position = nudged(view_projection, world, eye, eye_direction, nudge);
 }
 )glsl";
 
@@ -207,7 +209,8 @@ float lit(vec3 at) {
 float grid() {
   vec2 change = max(fwidth(grid_place), vec2(1e-6));
   vec2 distance_to_line = abs(fract(grid_place - 0.5) - 0.5) / change;
-  vec2 line = (1.0 - smoothstep(0.3, 1.3, distance_to_line)) * (1.0 - smoothstep(0.12, 0.5, change));
+  vec2 line = 1.0 - smoothstep(0.3, 1.3, distance_to_line);
+  line *= 1.0 - smoothstep(0.12, 0.5, change);
   return max(line.x, line.y);
 }
 

@@ -8,11 +8,11 @@ namespace sheave::render::shaders {
 /// Stands before every source: functions shared by several shaders.
 extern const std::string_view common;
 
-extern const std::string_view shadow_vertex, shadow_fragment;      ///< depth seen from the light
-extern const std::string_view surface_vertex, surface_fragment;    ///< solids and tubes
-extern const std::string_view outline_vertex, outline_fragment;    ///< silhouettes: a grown back side
-extern const std::string_view line_vertex, line_fragment;          ///< sharp edges
-extern const std::string_view plane_vertex, plane_fragment;        ///< ground with grid
+extern const std::string_view shadow_vertex, shadow_fragment;    ///< depth seen from the light
+extern const std::string_view surface_vertex, surface_fragment;  ///< solids and tubes
+extern const std::string_view outline_vertex, outline_fragment;  ///< silhouettes: a grown back side
+extern const std::string_view line_vertex, line_fragment;        ///< sharp edges
+extern const std::string_view plane_vertex, plane_fragment;      ///< ground with grid
 extern const std::string_view background_vertex, background_fragment;
 
 }  // namespace sheave::render::shaders

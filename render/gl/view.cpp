@@ -68,8 +68,8 @@ View make_view(const Camera& camera, int width, int height, const Eigen::Aligned
     view.ground_radius = std::max(4.0 * view.radius, 6.0 * half_height * std::max(1.0, aspect));
     const double far = reach + view.radius + 1.5 * view.ground_radius;
     // Near enough for the ground at the lower edge of the picture.
-    const double near = std::max(0.02 * std::min(distance, std::max(reach - view.radius, 0.0)),
-                                 1e-4 * far);
+    const double near =
+        std::max(0.02 * std::min(distance, std::max(reach - view.radius, 0.0)), 1e-4 * far);
     projection = perspective(p->vertical_fov, aspect, near, far);
     view.eye_direction.setZero();
   } else {
@@ -95,8 +95,8 @@ Light make_light(const Camera& camera, const Vector3& up, const View& view,
   if (level_right.norm() < 1e-6) level_right = any_perpendicular(up);
   if (level_back.norm() < 1e-6) level_back = a.up - up * up.dot(a.up);
   if (level_back.norm() < 1e-6) level_back = any_perpendicular(up);
-  const Vector3 to_light = (up - 0.42 * level_right.normalized() + 0.62 * level_back.normalized())
-                               .normalized();
+  const Vector3 to_light =
+      (up - 0.42 * level_right.normalized() + 0.62 * level_back.normalized()).normalized();
   Light light;
   light.to_light = to_light.cast<float>();
   const double radius = steady_size(1.05 * view.radius);

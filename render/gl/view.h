@@ -1,6 +1,6 @@
 #pragma once
-// Matrices of a picture: from positions relative to an origin near the scene (so that single precision
-// suffices however far the scene is from the world's origin) to clip coordinates.
+// Matrices of a picture: from positions relative to an origin near the scene (so that single
+// precision suffices however far the scene is from the world's origin) to clip coordinates.
 
 #include <Eigen/Geometry>
 
@@ -12,13 +12,13 @@ namespace sheave::render {
 struct View {
   Vector3 origin = Vector3::Zero();  ///< [m], world; what all other fields are relative to
   Eigen::Matrix4f view_projection;
-  Eigen::Vector3f eye;               ///< [m]
-  Eigen::Vector3f eye_direction;     ///< unit, towards the eye; zero for perspective
+  Eigen::Vector3f eye;            ///< [m]
+  Eigen::Vector3f eye_direction;  ///< unit, towards the eye; zero for perspective
   /// Depth by which edges are lifted off surfaces, as a fraction of the distance to the eye.
   float nudge = 1e-3F;
-  Eigen::Vector3f up;                ///< unit, of the picture
-  double radius = 1.0;               ///< [m] of a ball round everything that is drawn
-  double ground_radius = 1.0;        ///< [m] at which planes have faded into the background
+  Eigen::Vector3f up;          ///< unit, of the picture
+  double radius = 1.0;         ///< [m] of a ball round everything that is drawn
+  double ground_radius = 1.0;  ///< [m] at which planes have faded into the background
 };
 
 struct Light {
@@ -31,8 +31,8 @@ struct Light {
 [[nodiscard]] View make_view(const Camera& camera, int width, int height,
                              const Eigen::AlignedBox3d& contents);
 
-/// A light from above, behind the viewer's left shoulder. `up` is the direction it should come from:
-/// the normal of the ground.
+/// A light from above, behind the viewer's left shoulder. `up` is the direction it should come
+/// from: the normal of the ground.
 [[nodiscard]] Light make_light(const Camera& camera, const Vector3& up, const View& view,
                                const Eigen::AlignedBox3d& contents, int shadow_side);
 

@@ -201,7 +201,8 @@ Location Document::location(std::uint32_t offset) const {
   const auto source =
       std::upper_bound(sources_.begin(), sources_.end(), offset,
                        [](std::uint32_t at, const Source& s) { return at < s.begin; }) - 1;
-  const auto first_line = std::lower_bound(lines_.begin(), lines_.end(), source->begin);
+  // The last line of the source before may be empty and then begins at the same offset.
+  const auto first_line = std::upper_bound(lines_.begin(), lines_.end(), source->begin) - 1;
   const std::size_t end = std::min<std::size_t>(offset, text_.size());
   // Texts that are one huge line are not read by eye: there the column counts bytes, at no cost.
   std::size_t characters = end - *line;

@@ -114,8 +114,7 @@ struct SwingingAtwood {
     constexpr int steps = 20000;
     const double h = time / steps;
     const auto moved = [](std::array<double, 4> from, const std::array<double, 4>& by, double f) {
-      for (std::size_t i = 0; i < 4; ++i)
-        from[i] += f * by[i];
+      for (std::size_t i = 0; i < 4; ++i) from[i] += f * by[i];
       return from;
     };
     for (int i = 0; i < steps; ++i) {
@@ -123,8 +122,7 @@ struct SwingingAtwood {
       const auto k2 = derivative(moved(y, k1, h / 2));
       const auto k3 = derivative(moved(y, k2, h / 2));
       const auto k4 = derivative(moved(y, k3, h));
-      for (std::size_t k = 0; k < 4; ++k)
-        y[k] += h / 6 * (k1[k] + 2 * k2[k] + 2 * k3[k] + k4[k]);
+      for (std::size_t k = 0; k < 4; ++k) y[k] += h / 6 * (k1[k] + 2 * k2[k] + 2 * k3[k] + k4[k]);
     }
     return y;
   }

@@ -78,8 +78,7 @@ TEST(FreeMotion, TumblingBodyConservesMomentumExactlyAndConvergesInSecondOrder) 
   const Top fine = spin_top(2);
   const Top finer = spin_top(4);
   const Top reference = spin_top(32);
-  for (const Top& top : {coarse, fine, finer})
-    EXPECT_LT(top.momentum_error, 1e-12);
+  for (const Top& top : {coarse, fine, finer}) EXPECT_LT(top.momentum_error, 1e-12);
   EXPECT_GT(fine.energy_error / finer.energy_error, 3.4);
   EXPECT_LT(finer.energy_error, 1e-3);
   const double ratio = reference.orientation.angularDistance(fine.orientation) /
@@ -243,8 +242,7 @@ TEST(Mobility, RestrictionsAreExact) {
     machine.cables.push_back(
         cable("c", {attach(BodyId::world(), {0.5, -1.5, 0.4}), attach({2}, {0.1, 0.05, 0.02})}));
     Simulation s = test::start(machine);
-    for (int i = 0; i < 1000; ++i)
-      ASSERT_TRUE(s.world.step().ok());
+    for (int i = 0; i < 1000; ++i) ASSERT_TRUE(s.world.step().ok());
     const Vector3 slid = s.world.position({0}) - Vector3(0.5, 0.0, 0.0);
     const Vector3 moved = s.world.position({1}) - Vector3(-0.5, 0.0, 0.0);
     const bool aligned = axis == Vector3(Vector3::UnitY());

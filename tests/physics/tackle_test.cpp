@@ -21,34 +21,50 @@ class Strands : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Tackle, Strands, ::testing::Values(2, 4, 6, 8));
 
 // Gauss-Seidel builds up the tensions of n + 1 spans from zero in every substep, and light sheaves
-// (discs of 0.2 kg under a load of 8 kg) couple them strongly. Found by doubling until the limits
-// of 0.1 % and 0.5 % held; fewer strands need more, because the effort they balance is heavier.
-int iterations_for_balance(int strands) {
-  return strands == 2 ? 160 : strands == 4 ? 100 : 80;
+// (discs of 0.2 kg under a load of 8 kg) couple them strongly. What a substep leaves unsolved stays
+// in the positions as stretch, which the next one corrects too, so that after a transient even one
+// iteration holds the balance. The drift is that transient. Measured (drift / tension error after
+// 1 s): n = 2: 20 iterations 0.16 % / 1e-10, 40 iterations 0.045 % / 1e-13, 10 substeps of one
+// iteration 0.056 % / 1e-5; larger n is easier, because the effort is lighter.
+TEST_P(Strands, BalanceDoesNotDriftInTenSeconds) {
+  for (const auto& [substeps, iterations] : {std::pair{1, 40}, std::pair{10, 1}}) {
+    test::Tackle tackle;
+    tackle.strands = GetParam();
+    tackle.effort = tackle.load / tackle.strands;
+    test::Machine machine = tackle.machine();
+    machine.model.step = test::settings(1.0 / 60.0, substeps, iterations);
+    Simulation s = test::start(machine);
+    const double start = s.world.position(test::Tackle::block).y();
+    double drift = 0.0;
+    double tension_error = 0.0;
+    const double tension = tackle.effort * g;
+    while (s.world.state().time < 10.0) {
+      ASSERT_TRUE(s.world.step().ok());
+      drift = std::max(drift, std::abs(s.world.position(test::Tackle::block).y() - start));
+      if (s.world.state().time < 1.0) continue;
+      tension_error = std::max(
+          tension_error, std::abs(s.cable_reports()[0].spans.back().tension - tension) / tension);
+    }
+    constexpr double travel = 2.0;  // between the blocks
+    EXPECT_LT(drift, 1e-3 * travel);
+    EXPECT_LT(tension_error, 1e-4);
+  }
 }
 
-TEST_P(Strands, BalanceDoesNotDriftInTenSeconds) {
+// From the first substep on, that is without a transient, the tension takes more iterations.
+TEST_P(Strands, BalanceHasTheRightTensionFromTheFirstStep) {
+  const int iterations = GetParam() == 2 ? 160 : GetParam() == 4 ? 100 : 80;
   test::Tackle tackle;
   tackle.strands = GetParam();
   tackle.effort = tackle.load / tackle.strands;
   test::Machine machine = tackle.machine();
-  machine.model.step = test::settings(1.0 / 60.0, 1, iterations_for_balance(GetParam()));
+  machine.model.step = test::settings(1.0 / 60.0, 1, iterations);
   Simulation s = test::start(machine);
-  const double start = s.world.position(test::Tackle::block).y();
-  double drift = 0.0;
-  double tension_error = 0.0;
-  const double tension = tackle.effort * g;
-  while (s.world.state().time < 10.0) {
+  for (int i = 0; i < 60; ++i) {
     ASSERT_TRUE(s.world.step().ok());
-    drift = std::max(drift, std::abs(s.world.position(test::Tackle::block).y() - start));
-    tension_error = std::max(
-        tension_error, std::abs(s.cable_reports()[0].spans.back().tension - tension) / tension);
+    EXPECT_NEAR(s.cable_reports()[0].spans.back().tension, tackle.effort * g,
+                5e-3 * tackle.effort * g);
   }
-  constexpr double travel = 2.0;  // between the blocks
-  EXPECT_LT(drift, 1e-3 * travel);
-  EXPECT_LT(tension_error, 5e-3);
-  RecordProperty("drift", std::to_string(drift / travel));
-  RecordProperty("tension_error", std::to_string(tension_error));
 }
 
 TEST_P(Strands, AcceleratesInClosedForm) {

@@ -7,8 +7,8 @@
 namespace sheave::render {
 namespace {
 
-/// A cable from a point down on the left over a wheel (radius 1 at the origin, clockwise: over the top)
-/// to a point down on the right, with `turns` whole turns more than the half turn.
+/// A cable from a point down on the left over a wheel (radius 1 at the origin, clockwise: over the
+/// top) to a point down on the right, with `turns` whole turns more than the half turn.
 CableReport over_a_wheel(int turns) {
   CableReport cable;
   cable.links.resize(3);

@@ -93,7 +93,8 @@ TEST(DefaultView, LooksDownOnAPlaneThatLiesFlat) {
 }
 
 TEST(DefaultView, ComesFromAboveForAnyUp) {
-  for (const Vector3& up : {Vector3(0, 1, 0), Vector3(0, 0, 1), Vector3(1, 0, 0), Vector3(0, -2, 0)}) {
+  for (const Vector3& up :
+       {Vector3(0, 1, 0), Vector3(0, 0, 1), Vector3(1, 0, 0), Vector3(0, -2, 0)}) {
     EXPECT_LT(default_view_direction(up, std::nullopt).dot(up), 0.0);
   }
 }

@@ -17,7 +17,7 @@ double piece_length(const Catenary& c, double a, double b, int depth) {
   const Vector3 pm = c.point(m);
   const Vector3 pb = c.point(b);
   const double fine = (pm - pa).norm() + (pb - pm).norm();
-  if (depth == 0 || std::abs(fine - (b - a)) < 1e-9 * (b - a)) return fine;
+  if (depth == 0 || std::abs(fine - (b - a)) < 1e-10 * c.length()) return fine;
   return piece_length(c, a, m, depth - 1) + piece_length(c, m, b, depth - 1);
 }
 
@@ -141,8 +141,8 @@ TEST(Catenary, ChangesContinuouslyAsItTightens) {
   Vector3 previous = Catenary({0, 0, 0}, {1, 0.2, 0}, 1.2, down).point(0.6);
   const double distance = Vector3(1, 0.2, 0).norm();
   for (double excess = 0.18; excess > 1e-16; excess *= 0.8) {
-    const Vector3 now = Catenary({0, 0, 0}, {1, 0.2, 0}, distance + excess, down)
-                            .point(0.5 * (distance + excess));
+    const Vector3 now =
+        Catenary({0, 0, 0}, {1, 0.2, 0}, distance + excess, down).point(0.5 * (distance + excess));
     EXPECT_LE((now - previous).norm(), 0.25 * std::sqrt(excess) + 0.1 * excess + 1e-7);
     previous = now;
   }

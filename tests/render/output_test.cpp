@@ -213,8 +213,7 @@ TEST_F(Output, EncoderThatDiesIsAnErrorNotASignal) {
 }
 
 TEST_F(Output, ImpossibleVideosAreRefused) {
-  EXPECT_EQ(VideoWriter::create(file("v.avi"), 0, 70000,
-                                {.frames_per_second = -1.0, .quality = 99})
+  EXPECT_EQ(VideoWriter::create(file("v.avi"), 0, 70000, {.frames_per_second = -1.0, .quality = 99})
                 .errors()
                 .size(),
             4U);

@@ -19,12 +19,14 @@ std::optional<Image> read_png(const std::string& path) {
   if (png_image_begin_read_from_file(&header, path.c_str()) == 0) return std::nullopt;
   header.format = PNG_FORMAT_RGB;
   Image image(static_cast<int>(header.width), static_cast<int>(header.height));
-  if (png_image_finish_read(&header, nullptr, image.rgb.data(), 0, nullptr) == 0) return std::nullopt;
+  if (png_image_finish_read(&header, nullptr, image.rgb.data(), 0, nullptr) == 0)
+    return std::nullopt;
   return image;
 }
 
 std::string compare_with_golden(const Image& image, const std::string& name) {
-  const std::string golden = std::string(SHEAVE_SOURCE_DIR) + "/tests/render/golden/" + name + ".png";
+  const std::string golden =
+      std::string(SHEAVE_SOURCE_DIR) + "/tests/render/golden/" + name + ".png";
   const char* update = std::getenv("SHEAVE_UPDATE_GOLDEN");
   if (update != nullptr && std::string(update) == "1") {
     const Errors errors = render::write_png(golden, image);

@@ -95,7 +95,8 @@ TEST(Font, MeasuresWhatItDraws) {
 
 TEST(Font, TakesAnyBytes) {
   const Font& font = Font::builtin();
-  for (const char* text : {"", "\xff\xfe", "\xc3", "\xe2\x82", "\xf0\x9f\x98\x80", "T\u2080 = \u00b5N"}) {
+  for (const char* text :
+       {"", "\xff\xfe", "\xc3", "\xe2\x82", "\xf0\x9f\x98\x80", "T\u2080 = \u00b5N"}) {
     EXPECT_GE(font.measure(text, 15.0).width, 0.0);
     const TextMask mask = font.draw(text, 15.0, 2);
     EXPECT_EQ(mask.coverage.size(), static_cast<std::size_t>(mask.width * mask.height));
@@ -110,7 +111,8 @@ LabelSurroundings around(double width, double height) {
 }
 
 TEST(LabelLayout, StandsOffInThePreferredDirection) {
-  const std::vector<LabelRequest> one{{.x = 200, .y = 100, .direction_x = 1, .width = 40, .height = 12}};
+  const std::vector<LabelRequest> one{
+      {.x = 200, .y = 100, .direction_x = 1, .width = 40, .height = 12}};
   const LabelPlace place = place_labels(one, around(400, 200)).front();
   EXPECT_NEAR(place.text.x, 208.0, 1e-9);
   EXPECT_NEAR(place.text.y + 6.0, 100.0, 1e-9);
@@ -137,7 +139,8 @@ TEST(LabelLayout, AvoidsTextAndLinesAndSlides) {
   LabelSurroundings s = around(400, 200);
   s.occupied = taken;
   s.lines = lines;
-  std::vector<LabelRequest> labels{{.x = 200, .y = 100, .direction_x = 1, .width = 40, .height = 12}};
+  std::vector<LabelRequest> labels{
+      {.x = 200, .y = 100, .direction_x = 1, .width = 40, .height = 12}};
   LabelPlace place = place_labels(labels, s).front();
   EXPECT_EQ(overlap(place.text, taken[0]), 0.0);
   EXPECT_FALSE(place.text.x < 180.0 && place.text.x + 40.0 > 180.0);

@@ -200,8 +200,8 @@ TEST(AutomaticCamera, ShowsTheWholeRunClearOfTheLegend) {
   survey.add(s.world, s.cable_reports());
   const ViewBuilder builder(s.world, s.cable_reports(), {.title = "atwood"});
   const DrawList list = builder.build(s.world, s.cable_reports());
-  const Camera camera = automatic_camera(s.world.model(), s.cable_reports(), survey.bounds(), list,
-                                         640, 360);
+  const Camera camera =
+      automatic_camera(s.world.model(), s.cable_reports(), survey.bounds(), list, 640, 360);
   const Projector projector(camera, 640, 360);
   for (int i = 0; i < 8; ++i) {
     const Vector3 corner = survey.bounds().corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));

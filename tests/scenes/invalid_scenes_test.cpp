@@ -69,7 +69,7 @@ TEST_P(InvalidScene, gives_the_expected_error) {
 }
 
 INSTANTIATE_TEST_SUITE_P(scenes, InvalidScene, testing::ValuesIn(scene_files("invalid")),
-                         [](const auto& info) { return test_name(info.param); });
+                         [](const auto& scene) { return test_name(scene.param); });
 
 TEST(invalid_scenes, are_many) { EXPECT_GE(scene_files("invalid").size(), 45U); }
 

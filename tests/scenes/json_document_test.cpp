@@ -39,16 +39,16 @@ TEST(json_document, knows_where_every_value_stands) {
   EXPECT_EQ(p.place("/a/0"), "2:9");
   EXPECT_EQ(p.place("/a/1"), "2:12");
   EXPECT_EQ(p.place("/a/2"), "3:5");
-  EXPECT_EQ(p.place("/b"), "5:18");
-  EXPECT_EQ(p.place("/b/c"), "5:24");
-  EXPECT_EQ(p.place("/b/d"), "5:35");
+  EXPECT_EQ(p.place("/b"), "5:19");
+  EXPECT_EQ(p.place("/b/c"), "5:25");
+  EXPECT_EQ(p.place("/b/d"), "5:36");
   EXPECT_EQ(p.document.excerpt(p.at("/a/1")), "-2.5e3");
   EXPECT_EQ(p.document.number(p.at("/a/1")), -2500.0);
   EXPECT_EQ(p.document.string(p.at("/a/2")), "x\"y");
   EXPECT_EQ(p.document.pointer(p.at("/a/2")), "/a/2");
   EXPECT_TRUE(p.document.boolean(p.at("/b/c")));
   const Location key = p.document.location(p.document.key_offset(p.at("/b/d")));
-  EXPECT_EQ(key.column, 30);
+  EXPECT_EQ(key.column, 31);
   EXPECT_EQ(key.file, "file.json");
 }
 
@@ -56,7 +56,7 @@ TEST(json_document, columns_count_characters_and_a_byte_order_mark_is_skipped) {
   const Parsed p("\xEF\xBB\xBF{\"\xC3\xA4\xE2\x82\xAC\": \"\xF0\x9F\x98\x80\", \"b\": 1}");
   ASSERT_TRUE(p.faults.empty()) << p.first_fault();
   // The mark itself counts as a character.
-  EXPECT_EQ(p.place("/b"), "1:18");
+  EXPECT_EQ(p.place("/b"), "1:19");
 }
 
 TEST(json_document, pointers_escape_slash_and_tilde) {

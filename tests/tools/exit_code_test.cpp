@@ -24,7 +24,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-TEST(exit_code, help_and_version_succeed) {
+TEST(ExitCode, HelpAndVersionSucceed) {
   EXPECT_THAT(run_sheave({"--version"}).out, StartsWith("sheave "));
   EXPECT_EQ(run_sheave({"--version"}).exit_code, 0);
   EXPECT_THAT(run_sheave({"--help"}).out, HasSubstr("validate"));
@@ -37,7 +37,7 @@ TEST(exit_code, help_and_version_succeed) {
   }
 }
 
-TEST(exit_code, wrong_usage_is_2_with_a_suggestion) {
+TEST(ExitCode, WrongUsageIs2WithASuggestion) {
   EXPECT_EQ(run_sheave({}).exit_code, 2);
   EXPECT_EQ(run_sheave({"run"}).exit_code, 2);
   EXPECT_EQ(run_sheave({"run", "a.json", "--every", "0", "--out", "a.csv"}).exit_code, 2);
@@ -49,7 +49,7 @@ TEST(exit_code, wrong_usage_is_2_with_a_suggestion) {
   EXPECT_THAT(option.err, HasSubstr("did you mean \"--iterations\"?"));
 }
 
-TEST(exit_code, bad_scene_is_65_with_all_faults) {
+TEST(ExitCode, BadSceneIs65WithAllFaults) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("bad.json", R"({
   "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": -1,
@@ -64,17 +64,15 @@ TEST(exit_code, bad_scene_is_65_with_all_faults) {
   EXPECT_THAT(result.err, HasSubstr("radius"));
 }
 
-TEST(exit_code, missing_scene_is_66) {
+TEST(ExitCode, MissingSceneIs66) {
   const ProcessResult result = run_sheave({"run", "/nowhere/scene.json"});
   EXPECT_EQ(result.exit_code, 66);
   EXPECT_THAT(result.err, HasSubstr("/nowhere/scene.json"));
 }
 
-TEST(exit_code, unreadable_scene_is_74) {
-  EXPECT_EQ(run_sheave({"run", "/"}).exit_code, 74);
-}
+TEST(ExitCode, UnreadableSceneIs74) { EXPECT_EQ(run_sheave({"run", "/"}).exit_code, 74); }
 
-TEST(exit_code, outputs_that_cannot_be_written_are_74_and_named) {
+TEST(ExitCode, OutputsThatCannotBeWrittenAre74AndNamed) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::string missing = folder.path("no/such/folder/out.csv");
@@ -90,7 +88,7 @@ TEST(exit_code, outputs_that_cannot_be_written_are_74_and_named) {
   EXPECT_THAT(folder.entries(), ElementsAre("atwood.json"));
 }
 
-TEST(exit_code, a_full_disk_is_74) {
+TEST(ExitCode, AFullDiskIs74) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   std::filesystem::create_symlink("/dev/full", folder.path("full.csv"));
@@ -103,12 +101,15 @@ TEST(exit_code, a_full_disk_is_74) {
   EXPECT_THAT(out.err, HasSubstr("standard output"));
 }
 
-TEST(exit_code, closed_stdout_is_74_and_no_signal) {
+TEST(ExitCode, ClosedStdoutIs74AndNoSignal) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"run", scene}, {"run", scene, "--json"},
-        {"run", scene, "--out", "-"}, {"validate", scene}, {"schema"}, {"--help"}}) {
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{"run", scene},
+                                                    {"run", scene, "--json"},
+                                                    {"run", scene, "--out", "-"},
+                                                    {"validate", scene},
+                                                    {"schema"},
+                                                    {"--help"}}) {
     const ProcessResult result = run_sheave(arguments, {.closed_stdout = true});
     EXPECT_EQ(result.signal, 0) << arguments.back();
     EXPECT_EQ(result.exit_code, 74) << arguments.back();
@@ -116,7 +117,7 @@ TEST(exit_code, closed_stdout_is_74_and_no_signal) {
   }
 }
 
-TEST(exit_code, divergence_is_75_names_the_body_and_keeps_the_output) {
+TEST(ExitCode, DivergenceIs75NamesTheBodyAndKeepsTheOutput) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("runaway.json", runaway_scene);
   const std::string table = folder.path("out.csv");
@@ -144,14 +145,15 @@ void wait_for_outputs(const TemporaryFolder& folder, std::size_t entries) {
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 
-TEST(exit_code, interrupt_is_130_and_leaves_valid_files) {
+TEST(ExitCode, InterruptIs130AndLeavesValidFiles) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const TemporaryFolder folder;
     const std::string scene = folder.write("endless.json", endless_scene);
     const std::string table = folder.path("out.csv");
     const std::string array = folder.path("out.npy");
     const std::string state = folder.path("out.state");
-    Process process({"run", scene, "--json", "--out", table, "--out", array, "--save-state", state});
+    Process process(
+        {"run", scene, "--json", "--out", table, "--out", array, "--save-state", state});
     wait_for_outputs(folder, 4);
     process.send(signal);
     const ProcessResult result = process.wait();
@@ -173,7 +175,7 @@ TEST(exit_code, interrupt_is_130_and_leaves_valid_files) {
   }
 }
 
-TEST(exit_code, a_killed_run_leaves_no_half_file_under_the_final_name) {
+TEST(ExitCode, AKilledRunLeavesNoHalfFileUnderTheFinalName) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("endless.json", endless_scene);
   const std::string table = folder.write("out.csv", "what was there before\n");
@@ -184,7 +186,7 @@ TEST(exit_code, a_killed_run_leaves_no_half_file_under_the_final_name) {
   EXPECT_EQ(read_file(table), "what was there before\n");
 }
 
-TEST(exit_code, a_file_protected_from_writing_is_not_replaced) {
+TEST(ExitCode, AFileProtectedFromWritingIsNotReplaced) {
   if (::geteuid() == 0) GTEST_SKIP() << "nothing is protected from root";
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);

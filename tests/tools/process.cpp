@@ -128,8 +128,7 @@ ProcessResult Process::wait() {
   return result;
 }
 
-ProcessResult run_sheave(const std::vector<std::string>& arguments,
-                         const ProcessOptions& options) {
+ProcessResult run_sheave(const std::vector<std::string>& arguments, const ProcessOptions& options) {
   return Process(arguments, options).wait();
 }
 

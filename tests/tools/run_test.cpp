@@ -1,8 +1,10 @@
 // sheave run: summary, overrides, checks, tables.
 
-#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <string>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,7 +31,7 @@ json run_json(const std::vector<std::string>& arguments, int expected_code = 0) 
   return summary;
 }
 
-TEST(run, json_summary_has_every_documented_field) {
+TEST(RunCommand, JsonSummaryHasEveryDocumentedField) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const json summary = run_json({scene});
@@ -70,7 +72,7 @@ TEST(run, json_summary_has_every_documented_field) {
   EXPECT_FALSE(summary.contains("checks"));
 }
 
-TEST(run, human_summary_goes_to_stdout_and_nothing_to_a_stderr_that_is_no_terminal) {
+TEST(RunCommand, HumanSummaryGoesToStdoutAndNothingToAStderrThatIsNoTerminal) {
   const TemporaryFolder folder;
   const ProcessResult result = run_sheave({"run", folder.write("atwood.json", atwood_scene)});
   EXPECT_EQ(result.exit_code, 0);
@@ -81,7 +83,7 @@ TEST(run, human_summary_goes_to_stdout_and_nothing_to_a_stderr_that_is_no_termin
   EXPECT_THAT(result.err, IsEmpty());
 }
 
-TEST(run, quiet_prints_nothing) {
+TEST(RunCommand, QuietPrintsNothing) {
   const TemporaryFolder folder;
   const ProcessResult result =
       run_sheave({"run", "--quiet", folder.write("atwood.json", atwood_scene)});
@@ -90,12 +92,12 @@ TEST(run, quiet_prints_nothing) {
   EXPECT_THAT(result.err, IsEmpty());
 }
 
-TEST(run, options_and_set_replace_settings_of_the_scene) {
+TEST(RunCommand, OptionsAndSetReplaceSettingsOfTheScene) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
-  const json summary = run_json({scene, "--dt", ".02", "--substeps", "2", "--iterations", "30",
-                                 "--duration", "0.5", "--solver", "gauss-seidel", "--integrator",
-                                 "xpbd", "--set", "/bodies/1/mass=2"});
+  const json summary =
+      run_json({scene, "--dt", ".02", "--substeps", "2", "--iterations", "30", "--duration", "0.5",
+                "--solver", "gauss-seidel", "--integrator", "xpbd", "--set", "/bodies/1/mass=2"});
   EXPECT_DOUBLE_EQ(summary["settings"]["dt"], 0.02);
   EXPECT_EQ(summary["settings"]["substeps"], 2);
   EXPECT_EQ(summary["settings"]["iterations"], 30);
@@ -103,7 +105,7 @@ TEST(run, options_and_set_replace_settings_of_the_scene) {
   EXPECT_NEAR(summary["bodies"][1]["velocity"][1], 0.0, 1e-9) << "equal weights do not move";
 }
 
-TEST(run, wrong_overrides_are_wrong_usage_and_name_the_option) {
+TEST(RunCommand, WrongOverridesAreWrongUsageAndNameTheOption) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::vector<std::vector<std::string>> cases{
@@ -124,7 +126,7 @@ TEST(run, wrong_overrides_are_wrong_usage_and_name_the_option) {
   }
 }
 
-TEST(run, checks_that_hold_are_reported) {
+TEST(RunCommand, ChecksThatHoldAreReported) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const ProcessResult result = run_sheave({"run", scene, "--check"});
@@ -141,7 +143,7 @@ TEST(run, checks_that_hold_are_reported) {
   EXPECT_EQ(check["passed"], true);
 }
 
-TEST(run, a_check_that_fails_gives_exit_code_1_and_says_which) {
+TEST(RunCommand, ACheckThatFailsGivesExitCode1AndSaysWhich) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::vector<std::string> wrong{"--check", "--set", "/checks/0/equals=3"};
@@ -159,14 +161,14 @@ TEST(run, a_check_that_fails_gives_exit_code_1_and_says_which) {
   EXPECT_THAT(quiet.err, HasSubstr("FAIL  light.vy"));
 }
 
-TEST(run, checks_of_a_shortened_run_fail_rather_than_pass_by_luck) {
+TEST(RunCommand, ChecksOfAShortenedRunFailRatherThanPassByLuck) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const json summary = run_json({scene, "--check", "--steps", "50"}, 1);
   EXPECT_TRUE(summary["checks"][0]["measured"].is_null()) << "nothing measured, so no number";
 }
 
-TEST(run, a_scene_without_checks_says_so) {
+TEST(RunCommand, ASceneWithoutChecksSaysSo) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("scene.json", runaway_scene);
   const ProcessResult result = run_sheave({"run", scene, "--check", "--steps", "1"});
@@ -174,14 +176,14 @@ TEST(run, a_scene_without_checks_says_so) {
   EXPECT_THAT(result.err, HasSubstr("no checks"));
 }
 
-TEST(run, two_runs_have_the_same_hash) {
+TEST(RunCommand, TwoRunsHaveTheSameHash) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   EXPECT_EQ(run_json({scene})["state_hash"], run_json({scene})["state_hash"]);
   EXPECT_NE(run_json({scene})["state_hash"], run_json({scene, "--steps", "99"})["state_hash"]);
 }
 
-TEST(run, saved_and_loaded_state_gives_the_hash_of_an_uninterrupted_run) {
+TEST(RunCommand, SavedAndLoadedStateGivesTheHashOfAnUninterruptedRun) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::string state = folder.path("half.state");
@@ -194,7 +196,7 @@ TEST(run, saved_and_loaded_state_gives_the_hash_of_an_uninterrupted_run) {
   EXPECT_EQ(rest["state_hash"], whole["state_hash"]);
 }
 
-TEST(run, states_that_do_not_fit_are_refused) {
+TEST(RunCommand, StatesThatDoNotFitAreRefused) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::string other = folder.write("other.json", endless_scene);
@@ -202,17 +204,21 @@ TEST(run, states_that_do_not_fit_are_refused) {
   ASSERT_EQ(run_sheave({"run", other, "--steps", "1", "--save-state", state}).exit_code, 0);
   EXPECT_EQ(run_sheave({"run", scene, "--load-state", state}).exit_code, 65);
   EXPECT_EQ(run_sheave({"run", scene, "--load-state", scene}).exit_code, 65) << "no state at all";
+  const ProcessResult step =
+      run_sheave({"run", other, "--steps", "1", "--dt", "0.02", "--load-state", state});
+  EXPECT_EQ(step.exit_code, 65);
+  EXPECT_THAT(step.err, HasSubstr("another dt"));
   EXPECT_EQ(run_sheave({"run", scene, "--load-state", folder.path("none")}).exit_code, 66);
   EXPECT_EQ(run_sheave({"run", scene, "--load-state", folder.path("")}).exit_code, 74);
 }
 
-TEST(run, steps_and_duration_exclude_each_other) {
+TEST(RunCommand, StepsAndDurationExcludeEachOther) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   EXPECT_EQ(run_sheave({"run", scene, "--steps", "1", "--duration", "1"}).exit_code, 2);
 }
 
-TEST(run, zero_steps_leave_tensions_unknown) {
+TEST(RunCommand, ZeroStepsLeaveTensionsUnknown) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const json summary = run_json({scene, "--steps", "0"});
@@ -220,7 +226,7 @@ TEST(run, zero_steps_leave_tensions_unknown) {
   EXPECT_TRUE(summary["us_per_step"].is_null());
 }
 
-TEST(run, a_duration_that_is_no_multiple_of_dt_is_said) {
+TEST(RunCommand, ADurationThatIsNoMultipleOfDtIsSaid) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const json summary = run_json({scene, "--duration", "0.505"});
@@ -228,28 +234,43 @@ TEST(run, a_duration_that_is_no_multiple_of_dt_is_said) {
   EXPECT_EQ(summary["warnings"][0]["kind"], "duration");
 }
 
-TEST(run, reads_a_scene_from_standard_input) {
+TEST(RunCommand, ReadsASceneFromStandardInput) {
   const ProcessResult result = run_sheave({"run", "-", "--json"}, {.input = atwood_scene});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(json::parse(result.out)["steps"], 100);
 }
 
-TEST(run, progress_is_drawn_on_a_terminal_only_and_leaves_it_clean) {
+/// What an endless run says on standard error before it is stopped after more than a second.
+std::string endless_run_stderr(const ProcessOptions& options) {
   const TemporaryFolder folder;
-  const std::string scene = folder.write("endless.json", endless_scene);
-  const std::vector<std::string> arguments{"run", scene, "--steps", "3000000"};
-  ProcessOptions terminal{.environment = {"TERM=xterm"}, .terminal_stderr = true};
-  const std::string colored = run_sheave(arguments, terminal).err;
+  Process process({"run", folder.write("endless.json", endless_scene)}, options);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  process.send(SIGINT);
+  const ProcessResult result = process.wait();
+  EXPECT_EQ(result.exit_code, 130);
+  return result.err;
+}
+
+TEST(RunCommand, ProgressIsDrawnOnATerminalAndLeavesItClean) {
+  const std::string colored =
+      endless_run_stderr({.environment = {"TERM=xterm"}, .terminal_stderr = true});
   EXPECT_THAT(colored, HasSubstr(" % t = "));
   EXPECT_THAT(colored, HasSubstr(" left"));
-  EXPECT_THAT(colored, HasSubstr("\033["));
-  EXPECT_THAT(colored, Not(HasSubstr("\n")));
-  EXPECT_EQ(colored.back(), '\r');
-  terminal.environment.emplace_back("NO_COLOR=1");
-  const std::string plain = run_sheave(arguments, terminal).err;
+  EXPECT_THAT(colored, HasSubstr("\033[32m"));
+  EXPECT_THAT(colored, HasSubstr("  \rsheave: "));
+}
+
+TEST(RunCommand, ProgressHasNoColorIfNobodyWantsIt) {
+  const std::string plain =
+      endless_run_stderr({.environment = {"TERM=xterm", "NO_COLOR=1"}, .terminal_stderr = true});
   EXPECT_THAT(plain, HasSubstr(" % t = "));
-  EXPECT_THAT(plain, Not(HasSubstr("\033[")));
-  EXPECT_THAT(run_sheave(arguments).err, IsEmpty());
+  EXPECT_THAT(plain, Not(HasSubstr("\033")));
+}
+
+TEST(RunCommand, ProgressIsNotWrittenToALog) {
+  const std::string log = endless_run_stderr({});
+  EXPECT_THAT(log, Not(HasSubstr("%")));
+  EXPECT_THAT(log, Not(HasSubstr("\r")));
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ inline const std::string atwood_scene = R"({
   ],
   "checks": [
     {"quantity": "light.vy", "statistic": "rate", "equals": 2, "relative_tolerance": 0.01,
-     "because": "(m2 - m1) g / (m1 + m2 + I/r^2)"},
+     "because": "(m2 - m1) g / (m1 + m2 + I/r^2)"
+},
     {"quantity": "rope.0.tension", "statistic": "mean", "equals": 12, "relative_tolerance": 0.01}
   ]
 }

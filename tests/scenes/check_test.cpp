@@ -1,0 +1,184 @@
+#include "scenes/check.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/builders.h"
+
+namespace sheave::test {
+namespace {
+
+constexpr double speed = 3.0;  // [m/s] of the only body, along x
+constexpr double dt = 0.125;
+
+/// A body that moves steadily for 2 s: x = 3 t, and y = -y_amplitude ... for nothing else.
+class Checks : public testing::Test {
+ protected:
+  Checks() {
+    BodyDef body = lump("body", Vector3::Zero(), 1.0);
+    body.velocity = {speed, 0.0, 0.0};
+    scene_.model.add(body);
+    scene_.model.step = settings(dt, 1, 1);
+    scene_.duration = 2.0;
+  }
+
+  CheckDef& add(std::string quantity, Statistic statistic, double equals) {
+    CheckDef& check = scene_.checks.emplace_back();
+    check.quantity = std::move(quantity);
+    check.statistic = statistic;
+    check.equals = equals;
+    check.tolerance = 1e-9;
+    return check;
+  }
+  std::vector<CheckResult> run_until(double time) {
+    Simulation simulation = start(Machine{scene_.model, scene_.cables});
+    CheckRecorder recorder(scene_, simulation);
+    recorder.record(simulation);
+    while (simulation.world.state().time < time - 0.5 * dt) {
+      EXPECT_TRUE(simulation.world.step().ok());
+      recorder.record(simulation);
+    }
+    return recorder.results();
+  }
+  CheckResult only(double time = 2.0) { return run_until(time).at(0); }
+
+  Scene scene_;
+};
+
+TEST_F(Checks, statistics_are_what_they_are_called) {
+  add("body.x", Statistic::at, speed * 1.0).at = 1.0;
+  add("body.x", Statistic::at, speed * 2.0);  // the end by default
+  add("body.x", Statistic::mean, speed * 1.0);
+  CheckDef& mean = add("body.x", Statistic::mean, speed * 0.75);
+  mean.from = 0.5;
+  mean.to = 1.0;
+  add("body.x", Statistic::rate, speed);
+  add("body.x", Statistic::minimum, 0.0);
+  add("body.x", Statistic::maximum, speed * 2.0);
+  add("body.x", Statistic::range, speed * 2.0);
+  add("body.x", Statistic::drift, speed * 2.0);
+  CheckDef& drift = add("body.x", Statistic::drift, speed * 0.5);
+  drift.from = 1.0;
+  drift.to = 1.5;
+  for (const CheckResult& result : run_until(2.0)) {
+    EXPECT_TRUE(result.passed) << result.message;
+    EXPECT_NEAR(result.error, 0.0, 1e-12);
+    EXPECT_EQ(result.error, result.measured - result.check.equals);
+  }
+}
+
+TEST_F(Checks, drift_has_a_sign_and_range_has_none) {
+  scene_.model.bodies[0].velocity = {-speed, 0.0, 0.0};
+  add("body.x", Statistic::drift, -speed * 2.0);
+  add("body.x", Statistic::range, speed * 2.0);
+  add("body.x", Statistic::rate, -speed);
+  for (const CheckResult& result : run_until(2.0)) EXPECT_TRUE(result.passed) << result.message;
+}
+
+TEST_F(Checks, at_takes_the_nearest_step) {
+  add("body.x", Statistic::at, speed * 0.25).at = 0.25 + 0.4 * dt;
+  add("body.x", Statistic::at, speed * (0.25 + dt)).at = 0.25 + 0.6 * dt;
+  add("body.x", Statistic::at, speed * 0.25).at = 0.25 + 0.5 * dt;  // a tie: the first
+  for (const CheckResult& result : run_until(2.0)) EXPECT_TRUE(result.passed) << result.message;
+}
+
+TEST_F(Checks, a_wrong_value_fails_and_says_so) {
+  add("body.x", Statistic::rate, 2.0);
+  const CheckResult result = only();
+  EXPECT_FALSE(result.passed);
+  EXPECT_NEAR(result.error, 1.0, 1e-12);
+  EXPECT_THAT(result.message, testing::HasSubstr("body.x, rate from 0 to 2 s: 3, wanted 2"));
+}
+
+TEST_F(Checks, the_larger_tolerance_counts) {
+  CheckDef& check = add("body.x", Statistic::rate, 2.0);
+  check.relative_tolerance = 0.6;
+  EXPECT_EQ(check.allowed_error(), 1.2);
+  EXPECT_TRUE(only().passed);
+  scene_.checks[0].relative_tolerance = 0.4;
+  EXPECT_FALSE(only().passed);
+  scene_.checks[0].tolerance = 1.1;
+  EXPECT_TRUE(only().passed);
+}
+
+TEST_F(Checks, without_tolerance_nothing_passes) {
+  add("body.x", Statistic::rate, speed).tolerance.reset();
+  EXPECT_FALSE(only().passed);
+}
+
+TEST_F(Checks, a_run_that_ended_early_fails) {
+  add("body.x", Statistic::rate, speed);
+  add("body.x", Statistic::at, speed);
+  add("body.x", Statistic::rate, speed).to = 0.5;  // its window is complete
+  const auto results = run_until(1.0);
+  EXPECT_FALSE(results[0].passed);
+  EXPECT_THAT(results[0].message, testing::HasSubstr("the run ended early, at 1 s"));
+  EXPECT_FALSE(results[1].passed);
+  EXPECT_TRUE(results[2].passed);
+}
+
+TEST_F(Checks, a_window_between_two_steps_holds_nothing) {
+  CheckDef& check = add("body.x", Statistic::mean, speed);
+  check.from = 0.25 + 0.2 * dt;
+  check.to = 0.25 + 0.8 * dt;
+  EXPECT_FALSE(only().passed);
+  EXPECT_THAT(only().message, testing::HasSubstr("no step falls into this time"));
+  EXPECT_TRUE(std::isnan(only().measured));
+}
+
+TEST_F(Checks, a_rate_needs_two_samples) {
+  CheckDef& check = add("body.x", Statistic::rate, speed);
+  check.from = 0.25 - 0.2 * dt;
+  check.to = 0.25 + 0.2 * dt;
+  EXPECT_THAT(only().message, testing::HasSubstr("no step but one"));
+}
+
+TEST_F(Checks, nothing_recorded_fails) {
+  add("body.x", Statistic::at, 0.0).at = 0.0;
+  const Simulation simulation = start(Machine{scene_.model, {}});
+  const CheckResult result = CheckRecorder(scene_, simulation).results().at(0);
+  EXPECT_FALSE(result.passed);
+  EXPECT_THAT(result.message, testing::HasSubstr("nothing was simulated"));
+}
+
+TEST_F(Checks, unknown_quantities_fail) {
+  add("nobody.x", Statistic::rate, speed);
+  EXPECT_THAT(only().message, testing::HasSubstr("there is no such quantity"));
+  EXPECT_FALSE(only().passed);
+}
+
+TEST_F(Checks, infinite_values_fail_every_statistic) {
+  for (int s = 0; s < static_cast<int>(statistic_names.size()); ++s) {
+    add("body.x", static_cast<Statistic>(s), 0.0).tolerance = 1e300;
+  }
+  Simulation simulation = start(Machine{scene_.model, {}});
+  CheckRecorder recorder(scene_, simulation);
+  recorder.record(simulation);
+  while (simulation.world.state().time < 1.8) {
+    ASSERT_TRUE(simulation.world.step().ok());
+    recorder.record(simulation);
+  }
+  State state = simulation.world.state();
+  state.bodies[0].position.x() = std::nan("");
+  state.time = 2.0;
+  ASSERT_TRUE(simulation.world.restore(state).empty());
+  recorder.record(simulation);
+  for (const CheckResult& result : recorder.results()) {
+    EXPECT_FALSE(result.passed) << result.message;
+    EXPECT_THAT(result.message, testing::HasSubstr("not finite"));
+  }
+}
+
+TEST_F(Checks, tensions_before_the_first_step_do_not_count) {
+  scene_.model.gravity = down;
+  scene_.model.bodies[0].velocity.setZero();
+  scene_.cables.push_back(
+      cable("rope", {attach(BodyId::world(), {0.0, 5.0, 0.0}), attach(BodyId{0})}));
+  add("rope.0.tension", Statistic::minimum, g).tolerance = 0.01 * g;
+  EXPECT_TRUE(only().passed) << only().message;
+}
+
+}  // namespace
+}  // namespace sheave::test

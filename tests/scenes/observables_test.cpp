@@ -1,0 +1,132 @@
+#include "scenes/observables.h"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes/generators.h"
+#include "tests/support/builders.h"
+
+namespace sheave::test {
+namespace {
+
+/// A free lump that turns and falls, and a wheel with a cable.
+Machine machine() {
+  Machine m;
+  m.model.gravity = down;
+  BodyDef body = lump("lump", {1.0, 2.0, 3.0}, 2.0);
+  body.velocity = {0.5, 1.0, -1.0};
+  body.angular_velocity = {0.0, 0.0, 2.0};
+  m.model.add(body);
+  const BodyId turning = m.model.add(wheel("drum", Vector3::Zero(), 0.5, 0.3));
+  const BodyId load = m.model.add(weight("load", {0.5, -2.0, 0.0}, 1.0));
+  auto end = roll(turning, right);
+  end->stored_length = 3.0;
+  m.cables.push_back(cable("rope", {end, attach(load)}));
+  return m;
+}
+
+double value(const ObservableSet& set, const Simulation& simulation, std::string_view name) {
+  const Result<int> index = set.index_of(name);
+  EXPECT_TRUE(index) << name;
+  std::vector<double> values;
+  set.sample(simulation, values);
+  return values.at(static_cast<std::size_t>(*index));
+}
+
+TEST(observables, have_the_values_of_the_simulation) {
+  Simulation simulation = start(machine());
+  const ObservableSet set(simulation);
+  run(simulation.world, 0.5);
+  const World& world = simulation.world;
+  const BodyId lump{0};
+  EXPECT_EQ(value(set, simulation, "t"), world.state().time);
+  EXPECT_EQ(value(set, simulation, "lump.x"), world.position(lump).x());
+  EXPECT_EQ(value(set, simulation, "lump.z"), world.position(lump).z());
+  EXPECT_EQ(value(set, simulation, "lump.qw"), world.orientation(lump).w());
+  EXPECT_EQ(value(set, simulation, "lump.qz"), world.orientation(lump).z());
+  EXPECT_EQ(value(set, simulation, "lump.vy"), world.velocity(lump).y());
+  EXPECT_EQ(value(set, simulation, "lump.wz"), world.angular_velocity(lump).z());
+  EXPECT_EQ(value(set, simulation, "drum.angle"), world.state().bodies[1].angle);
+  const CableReport rope = simulation.cable_reports()[0];
+  EXPECT_EQ(value(set, simulation, "rope.0.tension"), rope.spans[0].tension);
+  EXPECT_EQ(value(set, simulation, "rope.0.length"), rope.spans[0].length);
+  EXPECT_EQ(value(set, simulation, "rope.0.rest_length"), rope.spans[0].rest_length);
+  EXPECT_EQ(value(set, simulation, "rope.link0.stored_length"), rope.links[0].stored_length);
+  EXPECT_EQ(value(set, simulation, "rope.length_error"), rope.length_error);
+  EXPECT_EQ(value(set, simulation, "energy.total"), world.energy().total());
+  EXPECT_EQ(value(set, simulation, "energy.kinetic"), world.energy().kinetic);
+  EXPECT_GT(value(set, simulation, "rope.0.tension"), 1.0);
+}
+
+TEST(observables, of_a_definition_and_of_its_simulation_are_the_same) {
+  const Machine m = machine();
+  EXPECT_EQ(ObservableSet(m.model, m.cables).names(), ObservableSet(start(m)).names());
+}
+
+TEST(observables, names_are_unique_and_the_number_is_as_documented) {
+  const Machine m = machine();
+  const std::vector<std::string> names = ObservableSet(m.model, m.cables).names();
+  // time, 3 bodies, 1 span, 2 links, length error, energies
+  EXPECT_EQ(names.size(), 1U + 3U * 14U + 3U + 2U + 1U + 4U);
+  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
+}
+
+TEST(observables, some_are_sampled_as_all_are) {
+  Simulation simulation = start(machine());
+  run(simulation.world, 0.1);
+  const ObservableSet set(simulation);
+  std::vector<double> all;
+  set.sample(simulation, all);
+  std::vector<int> indices;
+  for (int i = static_cast<int>(all.size()) - 1; i >= 0; i -= 2) indices.push_back(i);
+  std::vector<double> some(indices.size());
+  set.sample(simulation, indices, some);
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    EXPECT_EQ(some[i], all[static_cast<std::size_t>(indices[i])]) << set.names()[static_cast<std::size_t>(indices[i])];
+  }
+}
+
+TEST(observables, unknown_names_get_a_suggestion) {
+  const Machine m = machine();
+  const ObservableSet set(m.model, m.cables);
+  EXPECT_THAT(set.index_of("rope.0.tensoin").errors()[0].message,
+              testing::HasSubstr("did you mean \"rope.0.tension\"?"));
+  EXPECT_THAT(set.index_of("what").errors()[0].message, testing::HasSubstr("allowed are t,"));
+  EXPECT_FALSE(set.index_of("rope.1.tension"));
+  EXPECT_FALSE(set.index_of(""));
+}
+
+TEST(observables, only_tensions_are_unknown_at_the_start) {
+  const Machine m = machine();
+  const ObservableSet set(m.model, m.cables);
+  for (std::size_t i = 0; i < set.names().size(); ++i) {
+    const bool is_tension = set.names()[i].ends_with(".tension");
+    EXPECT_EQ(set.known_at_start(static_cast<int>(i)), !is_tension) << set.names()[i];
+  }
+}
+
+TEST(observables, lengths_of_a_cable_add_up_in_motion) {
+  const SceneResult scene = generate_scene("wheel-train", {{"wheels", "5"}});
+  ASSERT_TRUE(scene);
+  auto simulation = Simulation::create(scene->model, scene->cables);
+  ASSERT_TRUE(simulation);
+  const ObservableSet set(*simulation);
+  const auto total = [&] {
+    std::vector<double> values;
+    set.sample(*simulation, values);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::string& name = set.names()[i];
+      if (name.ends_with(".rest_length") || name.ends_with(".stored_length")) sum += values[i];
+    }
+    return sum;
+  };
+  const double before = total();
+  run(simulation->world, 1.0);
+  EXPECT_NEAR(total(), before, 1e-12 * before);
+}
+
+}  // namespace
+}  // namespace sheave::test

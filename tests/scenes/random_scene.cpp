@@ -1,0 +1,181 @@
+#include "tests/scenes/random_scene.h"
+
+#include <cmath>
+#include <string>
+
+#include "cable/simulation.h"
+
+namespace sheave::test {
+namespace {
+
+/// Fills the fields of any type with random values inside their ranges.
+class RandomFields {
+ public:
+  explicit RandomFields(unsigned seed) : random_(seed) {}
+
+  int pick(int n) { return static_cast<int>(random_() % static_cast<unsigned>(n)); }
+  double number(double low, double high) {
+    return low + (high - low) * static_cast<double>(random_()) / 4294967296.0;
+  }
+  double number(const Range& range) {
+    // Mostly ordinary magnitudes, sometimes numbers with all their digits far from 1.
+    double value = pick(4) == 0 ? std::ldexp(number(-1.0, 1.0), pick(30) - 15) : number(-2.0, 2.0);
+    if (pick(8) == 0) value = std::round(value);
+    if (range.contains(value)) return value;
+    const double low = std::isfinite(range.minimum) ? range.minimum : range.maximum - 1.0;
+    const double high = std::isfinite(range.maximum) ? range.maximum : low + 1.0;
+    return number(low + 1e-3 * (high - low), low + 0.5 * (high - low));
+  }
+  Vector3 vector(const Range& range) { return {number(range), number(range), number(range)}; }
+  Quaternion orientation() {
+    Quaternion q(number(-1, 1), number(-1, 1), number(-1, 1), number(-1, 1) + 1.5);
+    return q.normalized();
+  }
+
+  /// Fills a random half of the optional fields and all required ones.
+  void fill(std::span<const Field> fields, void* object, int bodies) {
+    for (const Field& field : fields) {
+      if (field.name == "name") continue;
+      if (field.presence == Presence::optional && pick(2) == 0) continue;
+      std::visit(Fill{*this, field, bodies}, field.slot(object));
+    }
+  }
+
+ private:
+  struct Fill {
+    RandomFields& random;
+    const Field& field;
+    int bodies;
+
+    void operator()(double* x) const { *x = random.number(field.range); }
+    void operator()(std::optional<double>* x) const { *x = random.number(field.range); }
+    void operator()(int* x) const {
+      *x = static_cast<int>(field.range.minimum) + random.pick(10);
+    }
+    void operator()(bool* x) const { *x = random.pick(2) == 0; }
+    void operator()(std::string* x) const { *x = "text \"\\\n\xC3\xA4" + std::to_string(random.pick(99)); }
+    void operator()(Vector3* x) const { *x = random.vector(field.range); }
+    void operator()(std::optional<Vector3>* x) const { *x = random.vector(field.range); }
+    void operator()(Quaternion* x) const { *x = random.orientation(); }
+    void operator()(BodyId* x) const { *x = {random.pick(bodies + 1) - 1}; }
+    void operator()(std::optional<BodyId>* x) const { *x = BodyId{random.pick(bodies + 1) - 1}; }
+    void operator()(std::vector<double>* x) const { x->assign(1, random.number(field.range)); }
+    void operator()(std::vector<Vector3>* x) const {
+      for (int i = 0; i < 12; ++i) x->push_back(random.vector(field.range));
+    }
+    void operator()(const ChoiceSlot& x) const {
+      x.set(x.object, random.pick(static_cast<int>(field.choices.size())));
+    }
+  };
+
+  std::mt19937 random_;
+};
+
+/// Adds entities one by one and keeps those with which the scene is still valid.
+class RandomScene {
+ public:
+  explicit RandomScene(unsigned seed) : random_(seed) {}
+
+  Scene make() {
+    random_.fill(Scene::field_table(), &scene_, 0);
+    random_.fill(StepSettings::field_table(), &scene_.model.step, 0);
+    for (int i = 0; i < 12; ++i) attempt([&] { add_body(); });
+    for (int i = 0; i < 12; ++i) attempt([&] { add_joint(); });
+    for (int i = 0; i < 12; ++i) attempt([&] { add_cable(); });
+    attempt([&] { fill(GroundDef::field_table(), &scene_.model.ground.emplace()); });
+    for (int i = 0; i < 4 && !scene_.camera; ++i) {
+      attempt([&] { fill(CameraDef::field_table(), &scene_.camera.emplace()); });
+    }
+    for (int i = 0; i < 12; ++i) attempt([&] { add_check(); });
+    return std::move(scene_);
+  }
+
+ private:
+  template <class Change>
+  void attempt(const Change& change) {
+    Scene before = scene_;
+    change();
+    if (!validate_scene(scene_).empty()) scene_ = std::move(before);
+  }
+  [[nodiscard]] int bodies() const { return static_cast<int>(scene_.model.bodies.size()); }
+  void fill(std::span<const Field> fields, void* object) { random_.fill(fields, object, bodies()); }
+  std::string name(const char* kind) { return kind + std::to_string(next_name_++); }
+
+  /// A new object of a random type of a registry.
+  template <class Base>
+  std::shared_ptr<Base> make(std::span<const TypeEntry<Base>> types) {
+    const auto& type = types[static_cast<std::size_t>(random_.pick(static_cast<int>(types.size())))];
+    std::shared_ptr<Base> object = type.make();
+    fill(type.fields(), const_cast<void*>(object->settings()));
+    return object;
+  }
+
+  void add_body() {
+    BodyDef body;
+    fill(BodyDef::field_table(), &body);
+    body.name = name("body");
+    // Most random combinations of these make no sense; drop what excludes the rest.
+    if (body.mass) body.density.reset();
+    if (random_.pick(2) == 0) body.inertia.reset();
+    if (body.mobility != Mobility::kinematic) {
+      body.oscillation.setZero();
+      body.oscillation_frequency = 0.0;
+    }
+    if (body.mobility != Mobility::free && body.mobility != Mobility::kinematic) {
+      body.velocity.setZero();
+      body.angular_velocity.setZero();
+    }
+    if (body.mobility != Mobility::rotor) body.mount.reset();
+    if (body.mobility == Mobility::free || body.mobility == Mobility::fixed) body.axis.reset();
+    const int shapes = random_.pick(3) + 1;
+    for (int i = 0; i < shapes; ++i) {
+      PlacedShape placed;
+      placed.shape = make(shape_types());
+      if (body.mobility != Mobility::rotor) fill(PlacedShape::field_table(), &placed);
+      body.shapes.push_back(std::move(placed));
+    }
+    scene_.model.bodies.push_back(std::move(body));
+  }
+  void add_joint() {
+    auto joint = make(joint_types());
+    fill(JointDef::common_field_table(), joint.get());
+    joint->name = name("joint");
+    scene_.model.joints.push_back(std::move(joint));
+  }
+  void add_cable() {
+    CableDef cable;
+    fill(CableDef::field_table(), &cable);
+    cable.name = name("cable");
+    if (cable.compliance) cable.axial_stiffness.reset();
+    if (!cable.compliance && !cable.axial_stiffness) cable.damping = 0.0;
+    cable.closed = false;
+    for (int i = 0; i < 2; ++i) {
+      auto link = make(link_types());
+      fill(LinkDef::common_field_table(), link.get());
+      cable.links.push_back(std::move(link));
+    }
+    scene_.cables.push_back(std::move(cable));
+  }
+  void add_check() {
+    CheckDef check;
+    fill(CheckDef::field_table(), &check);
+    check.quantity = "energy.total";
+    if (check.statistic == Statistic::at) {
+      check.from.reset();
+      check.to.reset();
+    } else {
+      check.at.reset();
+    }
+    scene_.checks.push_back(std::move(check));
+  }
+
+  RandomFields random_;
+  Scene scene_;
+  int next_name_ = 0;
+};
+
+}  // namespace
+
+Scene random_scene(unsigned seed) { return RandomScene(seed).make(); }
+
+}  // namespace sheave::test

@@ -1,0 +1,98 @@
+#include <set>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes/generators.h"
+#include "scenes/scene.h"
+#include "tests/scenes/random_scene.h"
+#include "tests/scenes/scene_compare.h"
+#include "tests/scenes/scene_files.h"
+
+namespace sheave::test {
+namespace {
+
+/// Writing and loading gives exactly the scene, and writing that gives exactly the text.
+void expect_exact(const Scene& scene) {
+  const std::string text = write_scene(scene);
+  const SceneResult again = load_scene_text(text, "written");
+  ASSERT_TRUE(again) << to_string(again.errors.front()) << "\n" << text;
+  EXPECT_EQ(difference(scene, *again), "") << text;
+  EXPECT_EQ(write_scene(*again), text);
+}
+
+class ShippedScene : public testing::TestWithParam<std::filesystem::path> {};
+
+TEST_P(ShippedScene, survives_writing_and_loading_exactly) {
+  const SceneResult scene = load_scene(GetParam());
+  ASSERT_TRUE(scene) << to_string(scene.errors.front());
+  expect_exact(*scene);
+}
+
+INSTANTIATE_TEST_SUITE_P(round_trip, ShippedScene, testing::ValuesIn(valid_scene_files()),
+                         [](const auto& scene) { return test_name(scene.param); });
+
+TEST(round_trip, random_scenes_survive_exactly) {
+  std::set<std::string_view> types;
+  std::size_t entities = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = random_scene(seed);
+    expect_exact(scene);
+    for (const BodyDef& body : scene.model.bodies) {
+      for (const PlacedShape& placed : body.shapes) types.insert(placed.shape->type());
+    }
+    for (const auto& joint : scene.model.joints) types.insert(joint->type());
+    for (const CableDef& cable : scene.cables) {
+      for (const auto& link : cable.links) types.insert(link->type());
+    }
+    entities += scene.model.bodies.size() + scene.model.joints.size() + scene.cables.size() +
+                scene.checks.size() + (scene.camera ? 1 : 0) + (scene.model.ground ? 1 : 0);
+  }
+  // The random scenes are worth something: all types occur, and there is much of everything.
+  const auto expect_types = [&](auto registry) {
+    for (const auto& type : registry) EXPECT_TRUE(types.contains(type.name)) << type.name;
+  };
+  expect_types(shape_types());
+  expect_types(joint_types());
+  expect_types(link_types());
+  EXPECT_GT(entities, 600U);
+}
+
+TEST(round_trip, generated_scenes_survive_exactly) {
+  for (const GeneratorKind& kind : generator_kinds()) {
+    const SceneResult scene = generate_scene(kind.name, {});
+    ASSERT_TRUE(scene);
+    expect_exact(*scene);
+  }
+}
+
+TEST(round_trip, negative_zero_and_extreme_numbers_survive) {
+  Scene scene = random_scene(1);
+  scene.model.gravity = {-0.0, 5e-324, -1.7976931348623157e308};
+  scene.model.bodies.clear();
+  scene.model.joints.clear();
+  scene.cables.clear();
+  scene.checks.clear();
+  scene.duration = 1.0 / 3.0;
+  expect_exact(scene);
+}
+
+TEST(write_scene, leaves_defaults_out) {
+  Scene scene;
+  scene.duration = 1.0;
+  scene.model.gravity = {0.0, -10.0, 0.0};
+  EXPECT_EQ(write_scene(scene),
+            "{\n  \"format\": \"sheave-scene/1\",\n  \"gravity\": [0, -10, 0],\n  \"duration\": 1\n}\n");
+}
+
+TEST(write_scene, numbers_that_are_not_finite_do_not_load) {
+  Scene scene;
+  scene.duration = std::numeric_limits<double>::infinity();
+  const SceneResult again = load_scene_text(write_scene(scene), "written");
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.errors.front().pointer, "/duration");
+}
+
+}  // namespace
+}  // namespace sheave::test

@@ -1,0 +1,177 @@
+// sheave render: which files appear, and what happens when they cannot.
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/tools/process.h"
+#include "tests/tools/scenes.h"
+
+#if SHEAVE_HAS_RENDER
+
+namespace sheave::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+// Small pictures: this is not about how they look.
+const std::vector<std::string> small{"--width", "96", "--height", "64"};
+
+bool have_ffmpeg() {
+  static const bool found = std::system("ffmpeg -version > /dev/null 2>&1") == 0;
+  return found;
+}
+
+ProcessResult render(const std::string& scene, std::vector<std::string> options,
+                     const ProcessOptions& process = {}) {
+  options.insert(options.begin(), {"render", scene});
+  options.insert(options.end(), small.begin(), small.end());
+  return run_sheave(options, process);
+}
+
+/// Width and height in the header of a PNG file.
+std::vector<int> png_size(const std::string& bytes) {
+  EXPECT_EQ(bytes.substr(1, 3), "PNG");
+  const auto number = [&](std::size_t at) {
+    int value = 0;
+    for (std::size_t i = at; i < at + 4; ++i) {
+      value = value * 256 + static_cast<unsigned char>(bytes.at(i));
+    }
+    return value;
+  };
+  return {number(16), number(20)};
+}
+
+TEST(RenderCommand, WritesEveryOutputInOneGo) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  std::vector<std::string> options{
+      "--png", folder.path("frames"), "--still", folder.path("still.png"), "--at", "0.5", "--fps",
+      "10"};
+  if (have_ffmpeg()) options.insert(options.end(), {"--video", folder.path("film.mp4")});
+  const ProcessResult result = render(scene, options);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, IsEmpty());
+  EXPECT_THAT(result.err, IsEmpty());
+  EXPECT_THAT(png_size(read_file(folder.path("still.png"))), ElementsAre(96, 64));
+  EXPECT_THAT(png_size(read_file(folder.path("frames/frame_000000.png"))), ElementsAre(96, 64));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("frames/frame_000010.png")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("frames/frame_000011.png")));
+  EXPECT_NE(read_file(folder.path("frames/frame_000000.png")),
+            read_file(folder.path("frames/frame_000010.png")));
+  if (have_ffmpeg()) {
+    EXPECT_THAT(folder.entries(), ElementsAre("atwood.json", "film.mp4", "frames", "still.png"));
+    EXPECT_EQ(read_file(folder.path("film.mp4")).substr(4, 4), "ftyp");
+  }
+}
+
+TEST(RenderCommand, TheSameTwice) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  EXPECT_EQ(render(scene, {"--still", folder.path("a.png"), "--at", "0.505"}).exit_code, 0);
+  EXPECT_EQ(render(scene, {"--still", folder.path("b.png"), "--at", "0.505"}).exit_code, 0);
+  EXPECT_EQ(render(scene, {"--still", folder.path("c.png"), "--at", "0.8"}).exit_code, 0);
+  EXPECT_EQ(read_file(folder.path("a.png")), read_file(folder.path("b.png")));
+  EXPECT_NE(read_file(folder.path("a.png")), read_file(folder.path("c.png")));
+}
+
+TEST(RenderCommand, SpeedAndRateDecideTheNumberOfFrames) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  // Neither frame interval is a multiple of dt = 0.01 s.
+  EXPECT_EQ(render(scene, {"--png", folder.path("slow"), "--fps", "30", "--speed", "0.5",
+                           "--duration", "0.2"})
+                .exit_code,
+            0);
+  EXPECT_TRUE(std::filesystem::exists(folder.path("slow/frame_000012.png")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("slow/frame_000013.png")));
+}
+
+TEST(RenderCommand, OlderFramesInTheFolderAreMentioned) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::string frames = folder.path("frames");
+  EXPECT_EQ(render(scene, {"--png", frames, "--fps", "4"}).exit_code, 0);
+  const ProcessResult result = render(scene, {"--png", frames, "--fps", "2"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("frame_000003.png"));
+}
+
+TEST(RenderCommand, WrongUsage) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  EXPECT_EQ(render(scene, {}).exit_code, 2);
+  EXPECT_EQ(render(scene, {"--video", folder.path("film.txt")}).exit_code, 2);
+  EXPECT_EQ(render(scene, {"--still", folder.path("still.jpg")}).exit_code, 2);
+  EXPECT_EQ(render(scene, {"--at", "1"}).exit_code, 2) << "of what?";
+  const ProcessResult late = render(scene, {"--still", folder.path("s.png"), "--at", "5"});
+  EXPECT_EQ(late.exit_code, 2);
+  EXPECT_THAT(late.err, HasSubstr("ends at 1 s"));
+  EXPECT_THAT(folder.entries(), ElementsAre("atwood.json"));
+}
+
+TEST(RenderCommand, UnwritableOutputsAre74) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  EXPECT_EQ(render(scene, {"--still", "/no/such/folder/a.png"}).exit_code, 74);
+  EXPECT_EQ(render(scene, {"--video", "/no/such/folder/a.mp4"}).exit_code, 74);
+  EXPECT_EQ(render(scene, {"--png", "/proc/frames"}).exit_code, 74);
+}
+
+TEST(RenderCommand, MissingFfmpegIsExplained) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const ProcessResult result =
+      render(scene, {"--video", folder.path("film.mp4")}, {.environment = {"PATH=/nowhere"}});
+  EXPECT_EQ(result.exit_code, 74);
+  EXPECT_THAT(result.err, HasSubstr("ffmpeg"));
+  EXPECT_THAT(folder.entries(), ElementsAre("atwood.json"));
+}
+
+TEST(RenderCommand, ADivergingRunLeavesTheFramesSoFar) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("runaway.json", runaway_scene);
+  const ProcessResult result = render(scene, {"--png", folder.path("frames"), "--fps", "100",
+                                              "--still", folder.path("late.png"), "--at", "9"});
+  EXPECT_EQ(result.exit_code, 75) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("\"rocket\""));
+  EXPECT_THAT(result.err, HasSubstr("partial"));
+  EXPECT_THAT(result.err, HasSubstr("late.png: not written"));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("frames/frame_000000.png")));
+  EXPECT_THAT(folder.entries(), ElementsAre("frames", "runaway.json"));
+}
+
+TEST(RenderCommand, AnInterruptLeavesAVideoThatPlays) {
+  if (!have_ffmpeg()) GTEST_SKIP() << "no ffmpeg here";
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::string film = folder.path("film.mp4");
+  std::vector<std::string> arguments{
+      "render", scene, "--video", film, "--png", folder.path("frames"), "--speed", "0.001"};
+  arguments.insert(arguments.end(), small.begin(), small.end());
+  Process process(arguments);
+  const std::string frame = folder.path("frames/frame_000003.png");
+  for (int i = 0; i < 3000 && !std::filesystem::exists(frame); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  process.send(SIGINT);
+  const ProcessResult result = process.wait();
+  EXPECT_EQ(result.exit_code, 130);
+  EXPECT_THAT(result.err, HasSubstr("partial"));
+  EXPECT_THAT(folder.entries(), ElementsAre("atwood.json", "film.mp4", "frames"));
+  EXPECT_EQ(std::system(("ffprobe -v error " + film).c_str()), 0);
+}
+
+}  // namespace
+}  // namespace sheave::test
+
+#endif  // SHEAVE_HAS_RENDER
