@@ -9,9 +9,7 @@
 namespace sheave {
 namespace {
 
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// A length to be printed for people.
 std::string metres(double length) {
@@ -87,6 +85,11 @@ class CableCompiler {
       const std::string path = path_ + "/links/" + std::to_string(i);
       const LinkDef& link = *def.links[i];
       const std::size_t before = errors_.size();
+      if (!bodies_.contains(link.body)) {
+        fail("/links/" + std::to_string(i) + "/body",
+             "there is no body number " + std::to_string(link.body.index));
+        continue;
+      }
       for (const auto& entry : link_types()) {
         if (entry.name == link.type()) check_fields(entry.fields(), link.settings(), path, errors_);
       }
@@ -249,16 +252,13 @@ class CableCompiler {
                             : link.given_stored_length);
     }
     double total = 0.0;
-    for (const double length : lengths)
-      total += length;
+    for (const double length : lengths) total += length;
     // 50 bits for the cable's length leave 3 of a double's 53 for stretches beyond it.
     int exponent = 0;
     static_cast<void>(std::frexp(total, &exponent));
     cable.quantum = std::ldexp(1.0, exponent - 50);
-    for (double& length : lengths)
-      length = std::round(length / cable.quantum) * cable.quantum;
-    for (const double length : lengths)
-      cable.start_length += length;
+    for (double& length : lengths) length = std::round(length / cable.quantum) * cable.quantum;
+    for (const double length : lengths) cable.start_length += length;
     const auto spans_end = lengths.begin() + cable.span_count;
     rest_lengths_.insert(rest_lengths_.end(), lengths.begin(), spans_end);
     stored_lengths_.insert(stored_lengths_.end(), spans_end, lengths.end());
@@ -287,8 +287,7 @@ class CableCompiler {
 Result<std::unique_ptr<CableSystem>> CableSystem::create(const std::vector<CableDef>& cables,
                                                          const BodySet& bodies) {
   CableCompiler compiler(bodies);
-  for (const CableDef& cable : cables)
-    compiler.add(cable);
+  for (const CableDef& cable : cables) compiler.add(cable);
   return compiler.finish();
 }
 

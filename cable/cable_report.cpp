@@ -7,9 +7,7 @@
 namespace sheave {
 namespace {
 
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 }  // namespace
 
@@ -66,8 +64,7 @@ std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State&
       report.spans.push_back(span);
     }
     append_links(cable, now, own, report);
-    for (const LinkReport& link : report.links)
-      report.total_length += link.stored_length;
+    for (const LinkReport& link : report.links) report.total_length += link.stored_length;
     report.length_error = (report.total_length - cable.start_length) / cable.start_length;
     reports.push_back(std::move(report));
   }

@@ -7,14 +7,10 @@
 namespace sheave {
 namespace {
 
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// The multiple of `quantum`, a power of two, nearest to `length`.
-double quantised(double length, double quantum) {
-  return std::round(length / quantum) * quantum;
-}
+double quantised(double length, double quantum) { return std::round(length / quantum) * quantum; }
 
 }  // namespace
 
@@ -70,8 +66,7 @@ double CableSystem::sweep(Substep& substep) {
 }
 
 void CableSystem::linearise(Substep& substep, std::vector<Row>& rows) {
-  for (int k = 0; k < row_count(); ++k)
-    evaluate(substep, k, rows.emplace_back());
+  for (int k = 0; k < row_count(); ++k) evaluate(substep, k, rows.emplace_back());
 }
 
 void CableSystem::finish(Substep& substep, FeatureState& next) {

@@ -16,9 +16,7 @@
 namespace sheave {
 namespace {
 
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Mass properties in the body frame as the definition gives them.
 MassProperties defined_mass_properties(const BodyDef& body) {
@@ -114,7 +112,8 @@ double scene_scale(const std::vector<BodyDef>& bodies) {
     }
   }
   const double diagonal = box.isEmpty() ? 0.0 : box.diagonal().norm();
-  return std::max({diagonal, largest, std::numeric_limits<double>::min()});
+  const double scale = std::max(diagonal, largest);
+  return scale > 0.0 ? scale : 1.0;
 }
 
 }  // namespace
@@ -125,8 +124,7 @@ Result<BodySet> BodySet::create(const Model& model) {
   BodySet set;
   set.definitions_ = model.bodies;
   set.gravity_ = model.gravity;
-  for (const BodyDef& body : model.bodies)
-    set.properties_.push_back(compile_body(body));
+  for (const BodyDef& body : model.bodies) set.properties_.push_back(compile_body(body));
   for (int i = 0; i < set.count(); ++i) {
     if (model.bodies[at(i)].mount) lump_mounted_rotor(set.properties_, model.bodies, i);
   }

@@ -43,6 +43,10 @@ class BodySet {
   [[nodiscard]] int count() const { return static_cast<int>(definitions_.size()); }
   /// Index of `id` among count() + 1 bodies; the world comes last.
   [[nodiscard]] int index(BodyId id) const { return id.is_world() ? count() : id.index; }
+  /// Whether `id` is the world or one of these bodies.
+  [[nodiscard]] bool contains(BodyId id) const {
+    return id.index >= BodyId::world_index && id.index < count();
+  }
   [[nodiscard]] const BodyProperties& operator[](int index) const {
     return properties_[static_cast<std::size_t>(index)];
   }
@@ -52,7 +56,7 @@ class BodySet {
   [[nodiscard]] const std::string& name(int index) const;
   [[nodiscard]] const Vector3& gravity() const { return gravity_; }
   /// Length [m] that "large" and "small" are measured by: the diagonal of the box round all bodies
-  /// at time 0, at least the largest body; > 0.
+  /// at time 0, at least the largest body; 1 m if all that is a single point.
   [[nodiscard]] double scale() const { return scale_; }
 
   /// The state at time 0, without features.

@@ -32,12 +32,8 @@ struct Range {
   /// Whether `value` is finite and inside.
   [[nodiscard]] bool contains(double value) const;
 };
-[[nodiscard]] constexpr Range any_number() {
-  return {};
-}
-[[nodiscard]] constexpr Range at_least(double minimum) {
-  return {.minimum = minimum};
-}
+[[nodiscard]] constexpr Range any_number() { return {}; }
+[[nodiscard]] constexpr Range at_least(double minimum) { return {.minimum = minimum}; }
 [[nodiscard]] constexpr Range above(double minimum) {
   return {.minimum = minimum, .minimum_allowed = false};
 }
@@ -115,8 +111,8 @@ template <class Base>
 struct TypeEntry {
   std::string_view name;     ///< value of "type" in a scene
   std::string_view meaning;  ///< one line for the reference documentation
-  std::span<const Field> (*fields)();
-  std::unique_ptr<Base> (*make)();  ///< a new object with default settings
+  std::span<const Field> (*fields)() = nullptr;
+  std::unique_ptr<Base> (*make)() = nullptr;  ///< a new object with default settings
 };
 
 /// The registry line of `Type`, which declares static type_name, type_meaning and field_table().

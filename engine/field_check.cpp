@@ -11,10 +11,10 @@ class NumberCheck {
   NumberCheck(const Field& field, const std::string& path, Errors& errors)
       : field_(field), path_(path + "/" + std::string(field.name)), errors_(errors) {}
 
-  void operator()(double* value) const { check(*value, path_); }
-  void operator()(int* value) const { check(*value, path_); }
-  void operator()(Vector3* value) const { check_components(*value, path_); }
-  void operator()(Quaternion* value) const {
+  void operator()(const double* value) const { check(*value, path_); }
+  void operator()(const int* value) const { check(*value, path_); }
+  void operator()(const Vector3* value) const { check_components(*value, path_); }
+  void operator()(const Quaternion* value) const {
     const double norm = value->norm();
     if (std::abs(norm - 1.0) <= 1e-6) return;  // what six printed decimals leave
     errors_.push_back({path_, std::string(field_.name) +
@@ -22,19 +22,17 @@ class NumberCheck {
                                   "its length is " +
                                   number_text(norm)});
   }
-  void operator()(std::optional<double>* value) const {
+  void operator()(const std::optional<double>* value) const {
     if (*value) check(**value, path_);
   }
-  void operator()(std::optional<Vector3>* value) const {
+  void operator()(const std::optional<Vector3>* value) const {
     if (*value) check_components(**value, path_);
   }
-  void operator()(std::vector<double>* value) const {
-    for (std::size_t i = 0; i < value->size(); ++i)
-      check((*value)[i], item(i));
+  void operator()(const std::vector<double>* value) const {
+    for (std::size_t i = 0; i < value->size(); ++i) check((*value)[i], item(i));
   }
-  void operator()(std::vector<Vector3>* value) const {
-    for (std::size_t i = 0; i < value->size(); ++i)
-      check_components((*value)[i], item(i));
+  void operator()(const std::vector<Vector3>* value) const {
+    for (std::size_t i = 0; i < value->size(); ++i) check_components((*value)[i], item(i));
   }
   template <class Other>
   void operator()(const Other& /*no number*/) const {}
@@ -42,8 +40,7 @@ class NumberCheck {
  private:
   [[nodiscard]] std::string item(std::size_t i) const { return path_ + "/" + std::to_string(i); }
   void check_components(const Vector3& value, const std::string& path) const {
-    for (int i = 0; i < 3; ++i)
-      check(value[i], path + "/" + std::to_string(i));
+    for (int i = 0; i < 3; ++i) check(value[i], path + "/" + std::to_string(i));
   }
   void check(double value, const std::string& path) const {
     if (field_.range.contains(value)) return;
@@ -82,6 +79,7 @@ void check_fields(std::span<const Field> fields, const void* object, const std::
                   Errors& errors) {
   for (const Field& field : fields) {
     // Slots are shared by reading and writing; nothing is written here.
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
     std::visit(NumberCheck(field, path, errors), field.slot(const_cast<void*>(object)));
   }
 }

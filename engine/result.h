@@ -25,10 +25,12 @@ using Errors = std::vector<Error>;
 template <class T>
 class Result {
  public:
-  Result(T value) : content_(std::move(value)) {}  // NOLINT(google-explicit-constructor)
-  Result(Error error)
-      : content_(Errors{std::move(error)}) {}             // NOLINT(google-explicit-constructor)
-  Result(Errors errors) : content_(std::move(errors)) {}  // NOLINT(google-explicit-constructor)
+  // Implicit, so that functions return a value or an error as it is.
+  // NOLINTBEGIN(google-explicit-constructor)
+  Result(T value) : content_(std::move(value)) {}
+  Result(Error error) : content_(Errors{std::move(error)}) {}
+  Result(Errors errors) : content_(std::move(errors)) {}
+  // NOLINTEND(google-explicit-constructor)
 
   [[nodiscard]] bool ok() const { return std::holds_alternative<T>(content_); }
   explicit operator bool() const { return ok(); }

@@ -1,14 +1,14 @@
 #include "engine/world.h"
 
+#include <algorithm>
+
 #include "engine/contacts/ground_batch.h"
 #include "engine/field_check.h"
 
 namespace sheave {
 namespace {
 
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Beyond this many scene sizes from the origin, or per substep, a state means nothing any more:
 /// with 16 digits, positions there have lost the scene's own length scale.
@@ -26,13 +26,21 @@ void check_joints(const Model& model, const BodySet& bodies, Errors& errors) {
       }
     }
     const std::size_t before = errors.size();
+    if (joint.name.empty()) {
+      errors.push_back({path + "/name", "a joint needs a name that is not empty"});
+    }
+    for (const auto& [key, body] :
+         {std::pair{"/body_a", joint.body_a}, {"/body_b", joint.body_b}}) {
+      if (bodies.contains(body)) continue;
+      errors.push_back({path + key, "joint \"" + joint.name + "\": there is no body number " +
+                                        std::to_string(body.index)});
+    }
     check_fields(JointDef::common_field_table(), &joint, path, errors);
     for (const auto& entry : joint_types()) {
       if (entry.name == joint.type()) check_fields(entry.fields(), joint.settings(), path, errors);
     }
     if (errors.size() > before) continue;
-    for (const Error& error : joint.validate(bodies, path))
-      errors.push_back(error);
+    for (const Error& error : joint.validate(bodies, path)) errors.push_back(error);
   }
 }
 
@@ -90,25 +98,39 @@ struct World::Content {
     substep.next = state;
   }
 
-  /// The first body whose new state is not finite or has run away.
-  [[nodiscard]] std::optional<Divergence> find_divergence() const {
+  /// What is wrong with one body's new state; null if nothing is.
+  [[nodiscard]] const char* fault_of(const BodyState& body) const {
     const double farthest = runaway_sizes * bodies->scale();
+    // allFinite() first: a maximum may or may not see a NaN.
+    const auto beyond = [](const Vector3& v, double limit) {
+      return !v.allFinite() || v.cwiseAbs().maxCoeff() > limit;
+    };
+    if (beyond(body.position, farthest)) return "position";
+    if (beyond(substep.h * body.velocity, farthest)) return "velocity";
+    if (!body.orientation.coeffs().allFinite()) return "orientation";
+    if (beyond(substep.h * body.angular_velocity, runaway_sizes)) return "angular velocity";
+    return nullptr;
+  }
+
+  /// The first body whose new state is not finite or has run away, or else the first feature.
+  [[nodiscard]] std::optional<Divergence> find_divergence() const {
+    const double time = substep.next.time;
+    const std::string when = " at time " + number_text(time) + " s";
     for (int i = 0; i < bodies->count(); ++i) {
-      const BodyState& body = substep.next.bodies[at(i)];
-      const char* what = nullptr;
-      // Comparisons are written so that NaN fails them.
-      if (!(body.position.cwiseAbs().maxCoeff() <= farthest)) what = "position";
-      if (!(body.velocity.cwiseAbs().maxCoeff() * substep.h <= farthest)) what = "velocity";
-      if (!body.orientation.coeffs().allFinite()) what = "orientation";
-      if (!(body.angular_velocity.cwiseAbs().maxCoeff() * substep.h <= runaway_sizes)) {
-        what = "angular velocity";
-      }
+      const char* what = fault_of(substep.next.bodies[at(i)]);
       if (what == nullptr) continue;
-      const double time = substep.next.time;
-      return Divergence{{i},
-                        time,
-                        "body \"" + bodies->name(i) + "\": " + what +
-                            " is not finite or has run away at time " + number_text(time) + " s"};
+      return Divergence{
+          {i},
+          time,
+          "body \"" + bodies->name(i) + "\": " + what + " is not finite or has run away" + when};
+    }
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      const std::vector<double>& reals = substep.next.features[i].reals;
+      if (std::all_of(reals.begin(), reals.end(), [](double x) { return std::isfinite(x); })) {
+        continue;
+      }
+      return Divergence{BodyId::world(), time,
+                        std::string(features[i]->name()) + ": the state is not finite" + when};
     }
     return std::nullopt;
   }
@@ -131,11 +153,9 @@ Result<World> World::create(Model model, std::shared_ptr<const BodySet> bodies,
   Errors errors = check_model(model, *bodies);
   if (!errors.empty()) return errors;
   std::vector<std::unique_ptr<ConstraintBatch>> all = model_features(model, *bodies);
-  for (auto& feature : features)
-    all.push_back(std::move(feature));
+  for (auto& feature : features) all.push_back(std::move(feature));
   State state = bodies->initial_state();
-  for (const auto& feature : all)
-    state.features.push_back(feature->initial_state());
+  for (const auto& feature : all) state.features.push_back(feature->initial_state());
   return World(std::make_unique<Content>(std::move(model), std::move(bodies), std::move(all),
                                          std::move(state)));
 }
@@ -150,8 +170,7 @@ StepReport World::step() {
     const double end = static_cast<double>(i + 1) / substeps;
     c.substep.restart();
     c.substep.next.time = (static_cast<double>(c.state.steps) + end) * c.model.step.dt;
-    for (const Stage& stage : c.stages)
-      stage.run(c.substep);
+    for (const Stage& stage : c.stages) stage.run(c.substep);
     report.divergence = c.find_divergence();
     if (report.divergence) {
       c.substep.next = c.state;  // stages build on what `next` held at the start
@@ -167,18 +186,10 @@ StepReport World::step() {
   return report;
 }
 
-const Model& World::model() const {
-  return content_->model;
-}
-const BodySet& World::bodies() const {
-  return *content_->bodies;
-}
-const State& World::state() const {
-  return content_->state;
-}
-const std::vector<Stage>& World::stages() const {
-  return content_->stages;
-}
+const Model& World::model() const { return content_->model; }
+const BodySet& World::bodies() const { return *content_->bodies; }
+const State& World::state() const { return content_->state; }
+const std::vector<Stage>& World::stages() const { return content_->stages; }
 std::span<const std::unique_ptr<ConstraintBatch>> World::features() const {
   return content_->features;
 }
@@ -239,9 +250,7 @@ Vector3 World::point(BodyId body, const Vector3& local) const {
   return state.position + state.orientation * (local - (*content_->bodies)[i].center_of_mass);
 }
 
-Vector3 World::position(BodyId body) const {
-  return point(body, Vector3::Zero());
-}
+Vector3 World::position(BodyId body) const { return point(body, Vector3::Zero()); }
 
 Quaternion World::orientation(BodyId body) const {
   if (body.is_world()) return Quaternion::Identity();

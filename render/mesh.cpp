@@ -118,6 +118,7 @@ void MeshBuilder::add_revolution(std::span<const ProfilePoint> profile, int segm
   std::vector<std::uint32_t> previous;
   for (const ProfilePoint& point : profile) {
     std::vector<std::uint32_t> ring;
+    ring.reserve(around.size());
     for (const Vector3& out : around) {
       ring.push_back(add_vertex(out * point.radius + Vector3::UnitZ() * point.z,
                                 out * point.normal_radius + Vector3::UnitZ() * point.normal_z));

@@ -54,13 +54,20 @@ void CheckRecorder::Course::add(double time, double sample, double margin) {
 
 double CheckRecorder::Course::measured() const {
   switch (check.statistic) {
-    case Statistic::at: return nearest;
-    case Statistic::mean: return sum / static_cast<double>(count);
-    case Statistic::rate: return (last - first) / (last_time - first_time);
-    case Statistic::minimum: return minimum;
-    case Statistic::maximum: return maximum;
-    case Statistic::range: return maximum - minimum;
-    case Statistic::drift: return last - first;
+    case Statistic::at:
+      return nearest;
+    case Statistic::mean:
+      return sum / static_cast<double>(count);
+    case Statistic::rate:
+      return (last - first) / (last_time - first_time);
+    case Statistic::minimum:
+      return minimum;
+    case Statistic::maximum:
+      return maximum;
+    case Statistic::range:
+      return maximum - minimum;
+    case Statistic::drift:
+      return last - first;
   }
   return nan;
 }
@@ -110,10 +117,9 @@ CheckResult CheckRecorder::result(const Course& course) const {
   if (course.value < 0) {
     result.message = fmt::format("{}: there is no such quantity", what);
   } else if (last_time_ < course.to - 0.5 * dt_ * (1.0 + 1e-6)) {
-    result.message =
-        last_time_ < 0.0
-            ? fmt::format("{}: nothing was simulated", what)
-            : fmt::format("{}: the run ended early, at {} s", what, number_text(last_time_));
+    result.message = last_time_ < 0.0 ? fmt::format("{}: nothing was simulated", what)
+                                      : fmt::format("{}: the run ended early, at {} s", what,
+                                                    number_text(last_time_));
   } else if (course.count < (needs_two ? 2 : 1)) {
     result.message = fmt::format("{}: no step {}falls into this time", what,
                                  needs_two && course.count > 0 ? "but one " : "");

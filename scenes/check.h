@@ -16,7 +16,7 @@ struct CheckResult {
   double error = 0.0;      ///< measured - equals
   double tolerance = 0.0;  ///< largest |error| that passes
   bool passed = false;
-  std::string message;     ///< one line: what was measured, what was wanted, or why it failed
+  std::string message;  ///< one line: what was measured, what was wanted, or why it failed
 };
 
 /// Follows a simulation and evaluates the checks of its scene as it goes: no history is kept.
@@ -36,14 +36,14 @@ class CheckRecorder {
     int value = -1;     ///< index into values_; -1: the quantity does not exist
     double from = 0.0;  ///< the window [s]; of the statistic `at`, the time twice
     double to = 0.0;
-    long count = 0;     ///< of samples in the window
+    long count = 0;  ///< of samples in the window
     double first = 0.0, last = 0.0, first_time = 0.0, last_time = 0.0;
     double minimum = 0.0, maximum = 0.0, sum = 0.0;
     bool finite = true;
     double nearest = 0.0;        ///< value at the sample nearest to `from`
     double nearest_time = -1.0;  ///< its time; < 0: none yet
 
-    void add(double time, double value, double margin);
+    void add(double time, double sample, double margin);
     [[nodiscard]] double measured() const;
   };
 
@@ -51,7 +51,7 @@ class CheckRecorder {
 
   ObservableSet observables_;
   double dt_;
-  double last_time_ = -1.0;  // of the last sample; < 0: none yet
+  double last_time_ = -1.0;      // of the last sample; < 0: none yet
   std::vector<int> indices_;     // of the observables that checks need
   std::vector<double> values_;   // of those
   std::vector<Course> courses_;  // one per check

@@ -6,10 +6,10 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
-#include <vector>
 
 #include "scenes/format.h"
 #include "scenes/json/document.h"
+#include "scenes/value_reader.h"
 
 namespace sheave {
 
@@ -41,16 +41,13 @@ class FieldReader {
   void fail(json::NodeId node, std::string message, std::string allowed = {});
 
  private:
-  struct Value;
-
   void check_keys(json::NodeId node, const ObjectFormat& format, const Variant* variant);
   void read_table(json::NodeId node, std::span<const Field> fields, void* object);
   void check_name(json::NodeId node);
 
   const json::Document& document_;
   json::Faults& faults_;
-  std::unordered_map<std::string_view, int> bodies_;
-  std::vector<std::string_view> body_names_;  // in the order of the file
+  BodyNames bodies_;
 };
 
 }  // namespace sheave

@@ -91,16 +91,12 @@ struct Description {
   std::string operator()(const std::optional<Vector3>*) const {
     return numeric("[x, y, z], numbers");
   }
-  std::string operator()(const Quaternion*) const {
-    return "a unit quaternion [w, x, y, z]";
-  }
+  std::string operator()(const Quaternion*) const { return "a unit quaternion [w, x, y, z]"; }
   std::string operator()(const BodyId*) const { return "the name of a body, or \"world\""; }
   std::string operator()(const std::optional<BodyId>*) const {
     return "the name of a body, or \"world\"";
   }
-  std::string operator()(const std::vector<double>*) const {
-    return numeric("a list of numbers");
-  }
+  std::string operator()(const std::vector<double>*) const { return numeric("a list of numbers"); }
   std::string operator()(const std::vector<Vector3>*) const {
     return numeric("a list of [x, y, z], numbers");
   }
@@ -122,14 +118,18 @@ const Variant* ObjectFormat::variant(std::string_view type) const {
 }
 
 const Member* ObjectFormat::member(std::string_view key) const {
-  const auto found = std::find_if(members.begin(), members.end(),
-                                  [&](const Member& m) { return m.name == key; });
+  const auto found =
+      std::find_if(members.begin(), members.end(), [&](const Member& m) { return m.name == key; });
   return found == members.end() ? nullptr : &*found;
 }
 
 const ObjectFormat& scene_format() {
   static const ObjectFormat format{
-      "scene", "a model, its cables, and what is told beside it", false, {table_of<Scene>()}, {},
+      "scene",
+      "a model, its cables, and what is told beside it",
+      false,
+      {table_of<Scene>()},
+      {},
       {{"step", "accuracy against cost", false, &step_format()},
        {"bodies", "rigid bodies", true, &body_format()},
        {"joints", "joints between two bodies", true, &joint_format()},
@@ -137,7 +137,8 @@ const ObjectFormat& scene_format() {
        {"ground", "a floor; absent: none", false, &ground_format()},
        {"camera", "where pictures are taken from; absent: chosen automatically", false,
         &camera_format()},
-       {"checks", "what the scene should show", true, &check_format()}}, {}};
+       {"checks", "what the scene should show", true, &check_format()}},
+      {}};
   return format;
 }
 
@@ -149,7 +150,11 @@ const ObjectFormat& step_format() {
 
 const ObjectFormat& body_format() {
   static const ObjectFormat format{
-      "body", "a rigid body", true, {table_of<BodyDef>()}, {},
+      "body",
+      "a rigid body",
+      true,
+      {table_of<BodyDef>()},
+      {},
       {{"shape", "the body's form, if it is one shape; excludes shapes", false, &shape_format()},
        {"shapes", "the body's form, if it is several shapes", true, &shape_format()}},
       {{"shape", "shapes"}}};
@@ -158,13 +163,19 @@ const ObjectFormat& body_format() {
 
 const ObjectFormat& shape_format() {
   static const ObjectFormat format{
-      "shape", "a solid form", false, {table_of<PlacedShape>()}, variants_of(shape_types()), {}, {}};
+      "shape", "a solid form", false, {table_of<PlacedShape>()}, variants_of(shape_types()), {},
+      {}};
   return format;
 }
 
 const ObjectFormat& joint_format() {
-  static const ObjectFormat format{"joint", "a joint between two bodies", true,
-                                   {common_table(joint_types())}, variants_of(joint_types()), {}, {}};
+  static const ObjectFormat format{"joint",
+                                   "a joint between two bodies",
+                                   true,
+                                   {common_table(joint_types())},
+                                   variants_of(joint_types()),
+                                   {},
+                                   {}};
   return format;
 }
 
@@ -175,14 +186,21 @@ const ObjectFormat& ground_format() {
 
 const ObjectFormat& cable_format() {
   static const ObjectFormat format{
-      "cable", "a cable: an ordered list of links", true, {table_of<CableDef>()}, {},
-      {{"links", "what the cable touches, in order; at least 2", true, &link_format()}}, {}};
+      "cable", "a cable: an ordered list of links",
+      true,    {table_of<CableDef>()},
+      {},      {{"links", "what the cable touches, in order; at least 2", true, &link_format()}},
+      {}};
   return format;
 }
 
 const ObjectFormat& link_format() {
-  static const ObjectFormat format{"link", "one contact of a cable with a body", false,
-                                   {common_table(link_types())}, variants_of(link_types()), {}, {}};
+  static const ObjectFormat format{"link",
+                                   "one contact of a cable with a body",
+                                   false,
+                                   {common_table(link_types())},
+                                   variants_of(link_types()),
+                                   {},
+                                   {}};
   return format;
 }
 
@@ -201,8 +219,8 @@ const ObjectFormat& check_format() {
 bool is_name(std::string_view text) {
   if (text.empty() || text.size() > 128 || text.front() == ' ' || text.back() == ' ') return false;
   return std::all_of(text.begin(), text.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           c == '_' || c == '-' || c == ' ';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == ' ';
   });
 }
 

@@ -38,13 +38,14 @@ struct Variant {
 
 /// What may stand in an object of a scene file.
 struct ObjectFormat {
-  std::string_view name;     ///< "body", "shape", ...
+  std::string_view name;  ///< "body", "shape", ...
   std::string_view meaning;
-  bool named = false;        ///< its "name" is one that others refer to, or a column's
+  bool named = false;  ///< its "name" is one that others refer to, or a column's
   std::vector<TableFormat> tables;
   std::vector<Variant> variants;  ///< not empty: the key "type" is required and chooses one
   std::vector<Member> members;
-  std::vector<std::pair<std::string_view, std::string_view>> exclusive;  ///< keys not to be given both
+  std::vector<std::pair<std::string_view, std::string_view>>
+      exclusive;  ///< keys not to be given both
 
   [[nodiscard]] const Variant* variant(std::string_view type) const;
   [[nodiscard]] const Member* member(std::string_view key) const;
@@ -66,7 +67,8 @@ struct ObjectFormat {
 inline constexpr std::size_t max_list_length = 1'000'000;
 /// What names of bodies, joints and cables look like (a regular expression, and in words). A dot
 /// would make column names ambiguous, a comma or quote would break CSV files.
-inline constexpr std::string_view name_pattern = "^[A-Za-z0-9_-]([A-Za-z0-9_ -]{0,126}[A-Za-z0-9_-])?$";
+inline constexpr std::string_view name_pattern =
+    "^[A-Za-z0-9_-]([A-Za-z0-9_ -]{0,126}[A-Za-z0-9_-])?$";
 inline constexpr std::string_view name_rule =
     "1 to 128 letters, digits, \"_\", \"-\" and inner spaces";
 [[nodiscard]] bool is_name(std::string_view text);

@@ -14,16 +14,16 @@ namespace sheave {
 
 /// One cable over a row of wheels on fixed axles, with a weight at each end.
 struct WheelTrainOptions {
-  int wheels = 16;            ///< 1 ... 10 000
-  double radius = 0.5;        ///< of each wheel [m], > 0
-  double wheel_mass = 1.0;    ///< of each, a solid disc [kg], > 0
-  double first_mass = 1.0;    ///< weight before the first wheel [kg], > 0
-  double last_mass = 2.0;     ///< weight behind the last wheel [kg], > 0
-  double gravity = 9.81;      ///< downwards [m/s2], > 0
-  double duration = 1.0;      ///< [s], > 0
-  double dt = 1.0 / 60.0;     ///< [s], > 0
-  int substeps = 1;           ///< 1 ... 100 000
-  int iterations = 0;         ///< 0: as many as bring the acceleration within 0.1 %
+  int wheels = 16;          ///< 1 ... 10 000
+  double radius = 0.5;      ///< of each wheel [m], > 0
+  double wheel_mass = 1.0;  ///< of each, a solid disc [kg], > 0
+  double first_mass = 1.0;  ///< weight before the first wheel [kg], > 0
+  double last_mass = 2.0;   ///< weight behind the last wheel [kg], > 0
+  double gravity = 9.81;    ///< downwards [m/s2], > 0
+  double duration = 1.0;    ///< [s], > 0
+  double dt = 1.0 / 60.0;   ///< [s], > 0
+  int substeps = 1;         ///< 1 ... 100 000
+  int iterations = 0;       ///< 0: as many as bring the acceleration within 0.1 %
 
   static std::span<const Field> field_table();
   /// Closed form of the acceleration of the last weight, downwards [m/s2].
@@ -34,17 +34,17 @@ struct WheelTrainOptions {
 
 /// A block and tackle: a load on several parts of one rope, and the effort weight at its free end.
 struct BlockAndTackleOptions {
-  int parts = 4;              ///< of the rope that carry the lower block, 2 ... 64
-  double diameter = 0.4;      ///< of each sheave [m], > 0
-  double sheave_mass = 0.1;   ///< of each, a solid disc [kg], > 0
-  double load = 12.0;         ///< mass of the lower block with its sheaves [kg]
-  double unbalance = 1.0;     ///< effort mass as a multiple of load / parts, > 0
-  double drop = 3.0;          ///< height of the upper sheaves above the lower ones [m]
-  double gravity = 9.81;      ///< downwards [m/s2], > 0
-  double duration = 10.0;     ///< [s], > 0
-  double dt = 1.0 / 60.0;     ///< [s], > 0
-  int substeps = 1;           ///< 1 ... 100 000
-  int iterations = 0;         ///< 0: as many as bring the tensions within 0.1 %
+  int parts = 4;             ///< of the rope that carry the lower block, 2 ... 64
+  double diameter = 0.4;     ///< of each sheave [m], > 0
+  double sheave_mass = 0.1;  ///< of each, a solid disc [kg], > 0
+  double load = 12.0;        ///< mass of the lower block with its sheaves [kg]
+  double unbalance = 1.0;    ///< effort mass as a multiple of load / parts, > 0
+  double drop = 3.0;         ///< height of the upper sheaves above the lower ones [m]
+  double gravity = 9.81;     ///< downwards [m/s2], > 0
+  double duration = 10.0;    ///< [s], > 0
+  double dt = 1.0 / 60.0;    ///< [s], > 0
+  int substeps = 1;          ///< 1 ... 100 000
+  int iterations = 0;        ///< 0: as many as bring the tensions within 0.1 %
 
   static std::span<const Field> field_table();
   [[nodiscard]] double effort_mass() const { return unbalance * load / parts; }
@@ -56,10 +56,10 @@ struct BlockAndTackleOptions {
 
 /// One kind of generated scene, for programs that choose it by name.
 struct GeneratorKind {
-  std::string_view name;     ///< "wheel-train", ...
-  std::string_view meaning;  ///< one line
-  std::span<const Field> (*fields)();            ///< the options
-  std::shared_ptr<void> (*make_options)();       ///< with their defaults
+  std::string_view name;                    ///< "wheel-train", ...
+  std::string_view meaning;                 ///< one line
+  std::span<const Field> (*fields)();       ///< the options
+  std::shared_ptr<void> (*make_options)();  ///< with their defaults
   Result<Scene> (*generate)(const void* options);
 };
 [[nodiscard]] std::span<const GeneratorKind> generator_kinds();

@@ -13,8 +13,8 @@
 namespace sheave {
 namespace {
 
-using json::NodeId;
 using json::no_node;
+using json::NodeId;
 
 /// Objects that a scene has even if it does not mention them, so that overrides may set a member.
 constexpr std::array<std::string_view, 1> implied_objects{"/step"};
@@ -135,8 +135,11 @@ void add_errors(const Errors& errors, const json::Document& document, json::Faul
     const std::string pointer = pointer_in_file(document, error.path);
     const json::Document::Target target = document.find(pointer);
     const bool scalar = target.exact && document.kind(target.node) != json::Kind::object;
-    faults.add({document.offset(target.node), pointer, error.message,
-                scalar ? document.excerpt(target.node) : std::string(), {}});
+    faults.add({document.offset(target.node),
+                pointer,
+                error.message,
+                scalar ? document.excerpt(target.node) : std::string(),
+                {}});
   }
 }
 
@@ -157,8 +160,12 @@ SceneResult failure(const json::Faults& faults, const json::Document* document,
                              std::move(fault.value), std::move(fault.allowed)});
   }
   if (faults.omitted() > 0) {
-    result.errors.push_back({file_name, 0, 0, "",
-                             fmt::format("{} further faults are not listed", faults.omitted()), {},
+    result.errors.push_back({file_name,
+                             0,
+                             0,
+                             "",
+                             fmt::format("{} further faults are not listed", faults.omitted()),
+                             {},
                              {}});
   }
   return result;
@@ -170,7 +177,7 @@ SceneResult file_error(const std::string& path, SceneStatus status, std::string 
 
 }  // namespace
 
-SceneResult load_scene_text(std::string_view text, std::string file_name,
+SceneResult load_scene_text(std::string_view text, const std::string& file_name,
                             const std::vector<Override>& overrides) {
   const json::Limits limits;
   json::Faults faults(limits.faults);

@@ -32,12 +32,18 @@ class ObservableSet::Sampler {
   double value(const Source& source) {
     const auto item = static_cast<std::size_t>(source.item);
     switch (source.group) {
-      case Group::time: return simulation_.world.state().time;
-      case Group::body: return body(source.entity)[static_cast<std::size_t>(source.quantity)];
-      case Group::span: return of_span(cable(source.entity).spans[item], source.quantity);
-      case Group::link: return cable(source.entity).links[item].stored_length;
-      case Group::cable: return cable(source.entity).length_error;
-      case Group::energy: return energy(source.quantity);
+      case Group::time:
+        return simulation_.world.state().time;
+      case Group::body:
+        return body(source.entity)[static_cast<std::size_t>(source.quantity)];
+      case Group::span:
+        return of_span(cable(source.entity).spans[item], source.quantity);
+      case Group::link:
+        return cable(source.entity).links[item].stored_length;
+      case Group::cable:
+        return cable(source.entity).length_error;
+      case Group::energy:
+        return energy(source.quantity);
     }
     return 0.0;
   }
@@ -56,9 +62,13 @@ class ObservableSet::Sampler {
     const Quaternion q = world.orientation(id);
     const Vector3 v = world.velocity(id);
     const Vector3 w = world.angular_velocity(id);
-    body_values_ = {x.x(), x.y(), x.z(), q.w(), q.x(), q.y(), q.z(),
-                    v.x(), v.y(), v.z(), w.x(), w.y(), w.z(),
-                    world.state().bodies[static_cast<std::size_t>(index)].angle};
+    body_values_ = {x.x(), x.y(),
+                    x.z(), q.w(),
+                    q.x(), q.y(),
+                    q.z(), v.x(),
+                    v.y(), v.z(),
+                    w.x(), w.y(),
+                    w.z(), world.state().bodies[static_cast<std::size_t>(index)].angle};
     return body_values_;
   }
   const CableReport& cable(int index) {

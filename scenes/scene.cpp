@@ -19,8 +19,7 @@ std::span<const Field> CameraDef::field_table() {
                                    "excludes position and target"),
       field<&CameraDef::up>("up", "", any_number(), optional,
                             "up in the picture; default: against gravity"),
-      field<&CameraDef::vertical_fov>("vertical_fov", "rad",
-                                      Range{0.0, pi, false, false}, optional,
+      field<&CameraDef::vertical_fov>("vertical_fov", "rad", Range{0.0, pi, false, false}, optional,
                                       "perspective: full vertical opening angle"),
       field<&CameraDef::height>("height", "m", above(0.0), optional,
                                 "orthographic: height of the picture; needs position; default: so "
@@ -68,12 +67,16 @@ double CheckDef::allowed_error() const {
 
 std::span<const Field> Scene::field_table() {
   static const std::array table{
-      choice_field<&Scene::format>("format", scene_format_names, required,
-                                   "version of the format"),
+      choice_field<&Scene::format>("format", scene_format_names, required, "version of the format"),
       field<&Scene::name>("name", "", {}, optional, "title of the scene"),
       field<&Scene::description>("description", "", {}, optional, "what the scene shows"),
-      Field{"gravity", "m/s2", any_number(), required, "acceleration of free fall; \"up\" is "
-            "against it", {},
+      Field{"gravity",
+            "m/s2",
+            any_number(),
+            required,
+            "acceleration of free fall; \"up\" is "
+            "against it",
+            {},
             [](void* scene) -> FieldSlot { return &static_cast<Scene*>(scene)->model.gravity; }},
       field<&Scene::duration>("duration", "s", above(0.0), required, "time to simulate"),
   };

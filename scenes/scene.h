@@ -28,26 +28,26 @@ inline constexpr std::array<std::string_view, 2> projection_names{"perspective",
 /// that the whole scene is in the picture.
 struct CameraDef {
   Projection projection = Projection::perspective;
-  std::optional<Vector3> position;   ///< of the eye [m]; needs target, excludes direction
-  std::optional<Vector3> target;     ///< in the middle of the picture [m]; needs position
-  std::optional<Vector3> direction;  ///< to look along; the distance is chosen automatically
-  std::optional<Vector3> up;         ///< up in the picture; default: against gravity
+  std::optional<Vector3> position;     ///< of the eye [m]; needs target, excludes direction
+  std::optional<Vector3> target;       ///< in the middle of the picture [m]; needs position
+  std::optional<Vector3> direction;    ///< to look along; the distance is chosen automatically
+  std::optional<Vector3> up;           ///< up in the picture; default: against gravity
   std::optional<double> vertical_fov;  ///< perspective: full vertical angle [rad], in (0, pi)
-  std::optional<double> height;  ///< orthographic: height of the picture [m]; needs position
-  bool labels = false;           ///< write the tensions [N] beside the cables
+  std::optional<double> height;        ///< orthographic: height of the picture [m]; needs position
+  bool labels = false;                 ///< write the tensions [N] beside the cables
 
   static std::span<const Field> field_table();
 };
 
 /// A number that is made from the course of an observable.
 enum class Statistic {
-  at,       ///< value at the step nearest to the time `at`
-  mean,     ///< mean of the values in the window
-  rate,     ///< (last - first value) / (their times' difference)
+  at,    ///< value at the step nearest to the time `at`
+  mean,  ///< mean of the values in the window
+  rate,  ///< (last - first value) / (their times' difference)
   minimum,
   maximum,
-  range,    ///< maximum - minimum
-  drift,    ///< last - first value
+  range,  ///< maximum - minimum
+  drift,  ///< last - first value
 };
 inline constexpr std::array<std::string_view, 7> statistic_names{
     "at", "mean", "rate", "minimum", "maximum", "range", "drift"};
@@ -56,13 +56,13 @@ inline constexpr std::array<std::string_view, 7> statistic_names{
 struct CheckDef {
   std::string quantity;  ///< name of an observable (scenes/observables.h)
   Statistic statistic = Statistic::at;
-  std::optional<double> at;    ///< [s]; default: the end. Only with the statistic `at`
-  std::optional<double> from;  ///< begin of the window [s]; default: 0. Not with `at`
-  std::optional<double> to;    ///< end of the window [s]; default: the end. Not with `at`
-  double equals = 0.0;         ///< in the observable's unit; per second for a rate
-  std::optional<double> tolerance;           ///< absolute, same unit
+  std::optional<double> at;         ///< [s]; default: the end. Only with the statistic `at`
+  std::optional<double> from;       ///< begin of the window [s]; default: 0. Not with `at`
+  std::optional<double> to;         ///< end of the window [s]; default: the end. Not with `at`
+  double equals = 0.0;              ///< in the observable's unit; per second for a rate
+  std::optional<double> tolerance;  ///< absolute, same unit
   std::optional<double> relative_tolerance;  ///< of |equals|; the larger of the two counts
-  std::string because;         ///< the closed form, for people
+  std::string because;                       ///< the closed form, for people
 
   static std::span<const Field> field_table();
   /// Largest error that passes; NaN without any tolerance.
@@ -86,9 +86,9 @@ struct Scene {
 
 /// One fault of a scene.
 struct SceneError {
-  std::string file;  ///< or the origin of an override
-  int line = 0;      ///< from 1; 0 if the fault has no place in a text
-  int column = 0;    ///< from 1, in characters
+  std::string file;     ///< or the origin of an override
+  int line = 0;         ///< from 1; 0 if the fault has no place in a text
+  int column = 0;       ///< from 1, in characters
   std::string pointer;  ///< JSON pointer of the setting, which may be missing
   std::string message;
   std::string value;    ///< as it stands in the text, shortened; empty if there is none
@@ -125,7 +125,7 @@ struct Override {
 /// Reads and checks a scene. A scene that loads also builds: Simulation::create accepts it.
 [[nodiscard]] SceneResult load_scene(const std::string& path,
                                      const std::vector<Override>& overrides = {});
-[[nodiscard]] SceneResult load_scene_text(std::string_view text, std::string file_name,
+[[nodiscard]] SceneResult load_scene_text(std::string_view text, const std::string& file_name,
                                           const std::vector<Override>& overrides = {});
 
 /// Faults of a scene that was made in C++: camera, checks and all that Simulation::create checks.

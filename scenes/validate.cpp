@@ -35,8 +35,9 @@ void check_camera(const CameraDef& camera, Errors& errors) {
     fail("/vertical_fov", "only a perspective picture has an opening angle; give height instead");
   }
   if (camera.height && !orthographic) {
-    fail("/height", "only an orthographic picture has a height in metres; give vertical_fov or "
-                    "projection \"orthographic\"");
+    fail("/height",
+         "only an orthographic picture has a height in metres; give vertical_fov or "
+         "projection \"orthographic\"");
   } else if (camera.height && !camera.position) {
     fail("/height", "height needs position and target; without them all is brought into view");
   }

@@ -25,9 +25,8 @@ class SceneWriter {
     add_list(root, "joints", model.joints, [&](const std::shared_ptr<const JointDef>& joint) {
       return typed(joint_format(), joint->type(), joint.get(), joint->settings());
     });
-    add_list(root, "cables", scene_.cables, [&](const CableDef& cable) {
-      return write_cable(cable);
-    });
+    add_list(root, "cables", scene_.cables,
+             [&](const CableDef& cable) { return write_cable(cable); });
     if (model.ground) root["ground"] = plain(ground_format(), &*model.ground);
     if (scene_.camera) root["camera"] = plain(camera_format(), &*scene_.camera);
     add_list(root, "checks", scene_.checks,
@@ -57,7 +56,8 @@ class SceneWriter {
     add_fields(object, format.tables[0], values);
     return object;
   }
-  /// An object of one of several types: `common` is of the format's table, `settings` of the type's.
+  /// An object of one of several types: `common` is of the format's table, `settings` of the
+  /// type's.
   [[nodiscard]] Json typed(const ObjectFormat& format, std::string_view type, const void* common,
                            const void* settings) const {
     Json object = Json::object();

@@ -108,7 +108,9 @@ bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
     app.parse(argc, argv);
     return true;
   } catch (const CLI::CallForHelp&) {
-    print(app.help());
+    std::string help = app.help();
+    if (!help.ends_with('\n')) help += '\n';
+    print(help);
   } catch (const CLI::CallForVersion& version) {
     print(std::string(version.what()) + "\n");
   } catch (const CLI::ExtrasError&) {

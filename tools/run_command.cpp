@@ -95,7 +95,8 @@ void report(const RunOptions& options, const RunSummary& summary, std::int64_t r
   for (const Warning& warning : summary.warnings) print_warning(warning.message);
   explain_early_end(options, summary, rows);
   const bool summarised = !options.json && !options.quiet && !writes_to_stdout(options);
-  if (!summary.checks_passed() && !summarised) print_error(checks_text(summary.checks));
+  if (!summary.checks_passed() && !summarised)
+    print_error("checks failed\n" + checks_text(summary.checks));
   if (options.json) print(to_json(summary));
   if (summarised) print(to_text(summary));
 }
@@ -112,7 +113,7 @@ ExitCode run(const RunOptions& options) {
   Recorder recorder(options.record, simulation);
   std::optional<OutputFile> state_file;
   if (!options.save_state.empty()) state_file.emplace(options.save_state);
-  RunMonitor monitor;
+  RunMonitor monitor(last_step - simulation.world.state().steps);
   std::optional<CheckRecorder> checks;
   if (options.check) checks.emplace(scene, simulation);
 
@@ -125,6 +126,7 @@ ExitCode run(const RunOptions& options) {
     return true;
   });
   progress.clear();
+  monitor.finish(simulation);
 
   recorder.finish();
   if (state_file && outcome.status != RunStatus::diverged) {
@@ -162,7 +164,8 @@ void add_output_options(CLI::App& app, RunOptions& options) {
       ->needs(out);
   app.add_flag("--json", options.json, "print the summary as one JSON object");
   app.add_flag("--check", options.check,
-               "evaluate the checks that the scene states; exit code 1 if one fails");
+               "evaluate the checks that the scene states; exit code 1 if one fails")
+      ->option_text(" ");
   app.add_flag("-q,--quiet", options.quiet,
                "print nothing but data asked for, warnings and errors");
 }

@@ -1,6 +1,7 @@
 #pragma once
 // What the summary of a run tells about its course, and not only about its end.
 
+#include <cstdint>
 #include <vector>
 
 #include "cable/simulation.h"
@@ -9,15 +10,20 @@ namespace sheave::tools {
 
 /// Extremes of one cable over a run.
 struct CableCourse {
-  double length_error = 0.0;  ///< relative error of the length invariant that was largest in size
+  double length_error = 0.0;  ///< relative error of the length invariant, the largest in size
   double max_stretch = 0.0;   ///< the largest CableReport::max_stretch
 };
 
-/// Follows a simulation.
+/// Follows a simulation: energy in every step; cables, whose reports cost as much as a solver
+/// iteration, in every step of short runs and at about 2000 moments of long ones.
 class RunMonitor {
  public:
+  /// For a run of so many steps.
+  explicit RunMonitor(std::int64_t steps);
   /// To be called at the start and after every step.
   void observe(const Simulation& simulation);
+  /// To be called at the end.
+  void finish(const Simulation& simulation);
 
   [[nodiscard]] const Energy& initial_energy() const { return initial_; }
   [[nodiscard]] const Energy& final_energy() const { return final_; }
@@ -27,7 +33,10 @@ class RunMonitor {
   [[nodiscard]] const std::vector<CableCourse>& cables() const { return cables_; }
 
  private:
-  bool started_ = false;
+  void observe_cables(const Simulation& simulation);
+
+  std::int64_t stride_;        // steps between looks at the cables
+  std::int64_t observed_ = 0;  // calls of observe()
   Energy initial_;
   Energy final_;
   double max_drift_ = 0.0;

@@ -1,15 +1,16 @@
 #include "tools/scene_options.h"
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <cmath>
-#include <iostream>
-#include <iterator>
+#include <cstdio>
+#include <cstdlib>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "engine/field_check.h"
+#include "scenes/json/document.h"
 
 namespace sheave::tools {
 namespace {
@@ -48,6 +49,20 @@ std::string choices(const Shortcut& shortcut) {
 /// A number as JSON has it: ".5" and "+5" are numbers on a command line, but not there.
 std::string json_number(const std::string& text) {
   return number_text(std::strtod(text.c_str(), nullptr));
+}
+
+std::string standard_input() {
+  // What is longer is no scene; one byte more is enough for the loader to see it.
+  const std::size_t most = json::Limits{}.bytes + 1;
+  std::string text;
+  std::array<char, 65536> block;
+  while (text.size() < most) {
+    const std::size_t count = std::fread(block.data(), 1, block.size(), stdin);
+    text.append(block.data(), count);
+    if (count == 0) break;
+  }
+  if (std::ferror(stdin) != 0) throw Failure(ExitCode::io, "standard input: cannot be read");
+  return text;
 }
 
 /// The override that "/json/pointer=value" means.
@@ -96,8 +111,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
 
 SceneResult load_file_or_stdin(const std::string& path, const std::vector<Override>& overrides) {
   if (path != "-") return load_scene(path, overrides);
-  const std::string text{std::istreambuf_iterator<char>(std::cin), {}};
-  return load_scene_text(text, "standard input", overrides);
+  return load_scene_text(standard_input(), "standard input", overrides);
 }
 
 Scene load(const SceneOptions& options) {

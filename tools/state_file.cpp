@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -20,12 +20,13 @@ std::string read_file(const std::string& path) {
     throw Failure(ExitCode::no_input, path + ": there is no such file");
   }
   std::ifstream file(path, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  // A folder opens, but does not read.
+  std::ostringstream bytes;
+  // A folder opens, but does not read. An empty file sets a failure too, but is none.
   if (!file || std::filesystem::is_directory(path, code)) {
     throw Failure(ExitCode::io, path + ": cannot be read");
   }
-  return bytes;
+  bytes << file.rdbuf();
+  return bytes.str();
 }
 
 }  // namespace

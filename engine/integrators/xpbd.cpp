@@ -20,9 +20,7 @@
 namespace sheave {
 namespace {
 
-std::size_t at(int index) {
-  return static_cast<std::size_t>(index);
-}
+std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// World inertia of a free body with this orientation.
 Matrix3 world_inertia(const BodyProperties& body, const Quaternion& orientation, bool inverse) {
@@ -45,13 +43,44 @@ Vector3 rotor_momentum(const Substep& substep, const BodyProperties& carrier,
   return sum;
 }
 
+/// Constant forces and torques on a body, about its centre of mass.
+struct Load {
+  Vector3 force;
+  Vector3 torque;
+};
+
+/// What acts on body `i` itself and what its mounted rotors pass on to it: their forces, which act
+/// at their centres, and their torques but for the part about the axle, which spins the rotor.
+Load load_on(const Substep& substep, int i) {
+  const BodyDef& own = substep.bodies.definition(i);
+  Load load{own.force, own.torque};
+  const Quaternion& orientation = substep.start.bodies[at(i)].orientation;
+  for (const int rotor : substep.bodies[i].mounted_rotors) {
+    const BodyDef& mounted = substep.bodies.definition(rotor);
+    const Vector3 axis = orientation * substep.bodies[rotor].axis;
+    load.force += mounted.force;
+    load.torque += (orientation * substep.bodies[rotor].mount_position).cross(mounted.force) +
+                   mounted.torque - axis * axis.dot(mounted.torque);
+  }
+  return load;
+}
+
+/// `velocity` without what rounding on tilted axes leaks into directions the mobility excludes; the
+/// leak would add up over the substeps.
+Vector3 allowed_velocity(const BodyProperties& body, const Vector3& velocity) {
+  const Vector3 along = body.axis * body.axis.dot(velocity);
+  if (body.mobility == Mobility::slider) return along;
+  if (body.mobility == Mobility::planar) return velocity - along;
+  return velocity;
+}
+
 /// Free rotation of a free body over the substep.
 void rotate_freely(Substep& substep, int i) {
   const BodyProperties& body = substep.bodies[i];
   const BodyState& start = substep.start.bodies[at(i)];
   MovingBody& moving = substep.moving[at(i)];
   const double h = substep.h;
-  const Vector3& torque = substep.bodies.definition(i).torque;
+  const Vector3 torque = load_on(substep, i).torque;
   Vector3 half_velocity;
   Vector3 end_velocity;
   if (body.isotropic && body.mounted_rotors.empty()) {
@@ -79,7 +108,7 @@ void rotate_freely(Substep& substep, int i) {
 void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
   const BodyProperties& body = substep.bodies[i];
   MovingBody& moving = substep.moving[at(i)];
-  const double torque = axis.dot(substep.bodies.definition(i).torque);
+  const double torque = axis.dot(load_on(substep, i).torque);
   const double spin = axis.dot(substep.start.bodies[at(i)].angular_velocity) +
                       substep.h * torque / body.axis_inertia;
   moving.turn = (substep.h * spin) * axis;
@@ -109,8 +138,7 @@ void predict(Substep& substep) {
     MovingBody& moving = substep.moving[at(i)];
     if (moving.translates) {
       // W M (v + h g + h f / m): the inverse mass matrix keeps what the mobility allows.
-      const Vector3 force =
-          body.mass * substep.bodies.gravity() + substep.bodies.definition(i).force;
+      const Vector3 force = body.mass * substep.bodies.gravity() + load_on(substep, i).force;
       const Vector3 velocity = start.velocity + h * times(moving.inverse_mass, force);
       moving.position = start.position + h * velocity;
     }
@@ -153,7 +181,9 @@ void derive_velocities(Substep& substep) {
       next.angular_velocity = substep.predicted[at(i)].angular_velocity;
       continue;
     }
-    if (moving.translates) next.velocity = (moving.position - start.position) / h;
+    if (moving.translates) {
+      next.velocity = allowed_velocity(body, (moving.position - start.position) / h);
+    }
     if (moving.rotates) {
       next.angular_velocity = substep.predicted[at(i)].angular_velocity +
                               (moving.turn - substep.predicted_turn[at(i)]) / h;

@@ -17,7 +17,8 @@ Result<PointGrid> PointGrid::make(std::span<const Vector3> points, int dimension
     high = high.cwiseMax(point);
   }
   PointGrid grid;
-  const double extent = (high - low).head(dimensions).maxCoeff();
+  double extent = 0.0;
+  for (int k = 0; k < dimensions; ++k) extent = std::max(extent, high[k] - low[k]);
   if (!std::isfinite(extent)) return not_finite;
   std::vector<GridPoint> all(points.size(), GridPoint{0, 0, 0});
   for (std::size_t i = 0; i < points.size() && extent > 0.0; ++i) {

@@ -97,19 +97,17 @@ class BlockAndTackle {
     const double right = diameter_ * (options_.parts - 1) + (even() ? 0.0 : 0.25 * diameter_);
     block_center_ = {0.5 * (left + right), lower_ - 1.1 * diameter_, 0.0};
     block_height_ = 0.8 * diameter_;
-    const double mass =
-        options_.load - lower_sheaves(options_.parts) * options_.sheave_mass;
-    block_ = scene_.model.add(generators::weight("block", block_center_,
-                                                 {right - left, block_height_, 0.6 * diameter_},
-                                                 mass));
+    const double mass = options_.load - lower_sheaves(options_.parts) * options_.sheave_mass;
+    block_ = scene_.model.add(generators::weight(
+        "block", block_center_, {right - left, block_height_, 0.6 * diameter_}, mass));
   }
 
   void add_rope() {
     CableDef rope;
     rope.name = "rope";
     rope.links.push_back(
-        even() ? generators::attach(beam_, Vector3(0.0, 1.4 * diameter_, 0.0) -
-                                               scene_.model.bodies[0].position)
+        even() ? generators::attach(
+                     beam_, Vector3(0.0, 1.4 * diameter_, 0.0) - scene_.model.bodies[0].position)
                : generators::attach(block_, {-block_center_.x(), 0.5 * block_height_, 0.0}));
     for (int k = 1; k <= options_.parts; ++k) {
       const Vector3 center(wheel_x(k), is_lower(k) ? lower_ : 0.0, 0.0);
@@ -117,14 +115,15 @@ class BlockAndTackle {
                                          0.4 * diameter_, options_.sheave_mass);
       if (is_lower(k)) sheave.mount = block_;
       const BodyId id = scene_.model.add(std::move(sheave));
-      rope.links.push_back(generators::roll(
-          id, is_lower(k) ? Winding::counter_clockwise : Winding::clockwise));
+      rope.links.push_back(
+          generators::roll(id, is_lower(k) ? Winding::counter_clockwise : Winding::clockwise));
     }
     const double edge = 0.7 * diameter_;
-    const double down = 0.6 * options_.drop + (acceleration_ > 0.0 ? options_.parts * travel_ : 0.0);
-    const BodyId effort = scene_.model.add(
-        generators::weight("effort", {diameter_ * options_.parts, -down, 0.0},
-                           Vector3::Constant(edge), options_.effort_mass()));
+    const double down =
+        0.6 * options_.drop + (acceleration_ > 0.0 ? options_.parts * travel_ : 0.0);
+    const BodyId effort =
+        scene_.model.add(generators::weight("effort", {diameter_ * options_.parts, -down, 0.0},
+                                            Vector3::Constant(edge), options_.effort_mass()));
     rope.links.push_back(generators::attach(effort, {0.0, 0.5 * edge, 0.0}));
     scene_.cables.push_back(std::move(rope));
   }
@@ -203,8 +202,7 @@ Result<Scene> generate_block_and_tackle(const BlockAndTackleOptions& options) {
   Errors errors;
   check_fields(BlockAndTackleOptions::field_table(), &options, "", errors);
   if (!errors.empty()) return errors;
-  const double sheaves =
-      BlockAndTackle::lower_sheaves(options.parts) * options.sheave_mass;
+  const double sheaves = BlockAndTackle::lower_sheaves(options.parts) * options.sheave_mass;
   if (!(options.load > sheaves)) {
     return Error{"/load", fmt::format("load includes the lower sheaves, so it must be more than "
                                       "their {} kg; it is {} kg",

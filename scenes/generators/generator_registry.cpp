@@ -4,6 +4,7 @@
 
 #include "scenes/field_reader.h"
 #include "scenes/generators.h"
+#include "scenes/json/pointer.h"
 #include "scenes/suggestion.h"
 
 namespace sheave {
@@ -60,8 +61,8 @@ SceneResult generate_scene(std::string_view kind, const std::vector<GeneratorSet
     document.set("/" + json::escape(setting.option), setting.value, origin, {}, limits, faults);
   }
   const std::shared_ptr<void> options = chosen->make_options();
-  const ObjectFormat format{chosen->name, chosen->meaning, false, {{chosen->fields(), nullptr}},
-                            {}, {}, {}};
+  const ObjectFormat format{
+      chosen->name, chosen->meaning, false, {{chosen->fields(), nullptr}}, {}, {}, {}};
   FieldReader(document, faults).read_object(document.root(), format, std::array{options.get()});
   Errors errors;
   for (const json::Fault& fault : faults.in_order()) {

@@ -85,29 +85,29 @@ Result<Scene> generate_wheel_train(const WheelTrainOptions& options) {
   const double low = high - travel;
   const double last_x = 3.0 * r * (options.wheels - 1);
   Model& model = scene.model;
-  const BodyId first = model.add(generators::weight(
-      "first weight", {-r, a > 0.0 ? low : high, 0.0}, Vector3::Constant(edge), options.first_mass));
+  const BodyId first = model.add(generators::weight("first weight", {-r, a > 0.0 ? low : high, 0.0},
+                                                    Vector3::Constant(edge), options.first_mass));
   CableDef& cable = scene.cables.emplace_back();
   cable.name = "cable";
   cable.links.push_back(generators::attach(first, {0.0, 0.5 * edge, 0.0}));
   for (int k = 0; k < options.wheels; ++k) {
-    const BodyId wheel = model.add(generators::wheel(fmt::format("wheel {}", k),
-                                                     {3.0 * r * k, 0.0, 0.0}, r, 0.3 * r,
-                                                     options.wheel_mass));
+    const BodyId wheel = model.add(generators::wheel(
+        fmt::format("wheel {}", k), {3.0 * r * k, 0.0, 0.0}, r, 0.3 * r, options.wheel_mass));
     const bool over = k % 2 == 0 || k == options.wheels - 1;
     cable.links.push_back(
         generators::roll(wheel, over ? Winding::clockwise : Winding::counter_clockwise));
   }
-  const BodyId last = model.add(generators::weight("last weight",
-                                                   {last_x + r, a > 0.0 ? high : low, 0.0},
-                                                   Vector3::Constant(edge), options.last_mass));
+  const BodyId last =
+      model.add(generators::weight("last weight", {last_x + r, a > 0.0 ? high : low, 0.0},
+                                   Vector3::Constant(edge), options.last_mass));
   cable.links.push_back(generators::attach(last, {0.0, 0.5 * edge, 0.0}));
 
   const double g = options.gravity;
   scene.checks = {
       generators::check("first weight.vy", Statistic::rate, a, 1e-6 * g,
                         "a = (m2 - m1) g / (m1 + m2 + N I / r^2)"),
-      generators::check("last weight.vy", Statistic::rate, -a, 1e-6 * g, "the cable does not stretch"),
+      generators::check("last weight.vy", Statistic::rate, -a, 1e-6 * g,
+                        "the cable does not stretch"),
       generators::check("cable.0.tension", Statistic::mean, options.first_mass * (g + a), 0.0,
                         "m1 (g + a)"),
       generators::check(fmt::format("cable.{}.tension", options.wheels), Statistic::mean,

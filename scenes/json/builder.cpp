@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "scenes/json/pointer.h"
+
 namespace sheave::json {
 namespace {
 

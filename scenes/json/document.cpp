@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 
 #include <fmt/format.h>
 
 #include "scenes/json/builder.h"
+#include "scenes/json/pointer.h"
 
 namespace sheave::json {
 namespace {
@@ -28,12 +28,18 @@ bool is_bare_word(std::string_view text) {
 
 std::string_view name_of(Kind kind) {
   switch (kind) {
-    case Kind::null: return "null";
-    case Kind::boolean: return "a boolean";
-    case Kind::number: return "a number";
-    case Kind::string: return "a string";
-    case Kind::array: return "an array";
-    case Kind::object: return "an object";
+    case Kind::null:
+      return "null";
+    case Kind::boolean:
+      return "a boolean";
+    case Kind::number:
+      return "a number";
+    case Kind::string:
+      return "a string";
+    case Kind::array:
+      return "an array";
+    case Kind::object:
+      return "an object";
   }
   return "";
 }
@@ -66,8 +72,12 @@ NodeId Document::parse_source(std::string_view text, std::string name, const Lim
   sources_.push_back({begin, std::move(name)});
   lines_.push_back(begin);
   if (text.size() > limits.bytes || text_.size() + text.size() > 0xf0000000U) {
-    faults.add({begin, "", fmt::format("{} bytes are too many: at most {} are allowed", text.size(),
-                                       limits.bytes), {}, {}});
+    faults.add(
+        {begin,
+         "",
+         fmt::format("{} bytes are too many: at most {} are allowed", text.size(), limits.bytes),
+         {},
+         {}});
     return no_node;
   }
   text_ += text;
@@ -77,14 +87,14 @@ NodeId Document::parse_source(std::string_view text, std::string name, const Lim
   // nlohmann takes a null character for the end of the text and would ignore what follows.
   const std::size_t null_character = text_.find('\0', begin);
   if (null_character != std::string::npos) {
-    faults.add({static_cast<std::uint32_t>(null_character), "", "null character in the text", {},
-                {}});
+    faults.add(
+        {static_cast<std::uint32_t>(null_character), "", "null character in the text", {}, {}});
     return no_node;
   }
   Builder builder(*this, begin, limits, faults);
-  const bool complete = nlohmann::json::sax_parse(text_.data() + begin, text_.data() + text_.size(),
-                                                  &builder, nlohmann::json::input_format_t::json,
-                                                  true, true);
+  const bool complete =
+      nlohmann::json::sax_parse(text_.data() + begin, text_.data() + text_.size(), &builder,
+                                nlohmann::json::input_format_t::json, true, true);
   return complete ? builder.root() : no_node;
 }
 
@@ -156,8 +166,8 @@ void Document::set(std::string_view pointer, std::string_view value, std::string
   }
   if (!target.exact) return fail(fmt::format("there is no {} in the scene", parent));
   if (kind(target.node) == Kind::array) {
-    return fail(fmt::format("{} has {} elements, counted from 0", parent,
-                            children(target.node).size()));
+    return fail(
+        fmt::format("{} has {} elements, counted from 0", parent, children(target.node).size()));
   }
   if (kind(target.node) != Kind::object) {
     return fail(fmt::format("{} is {} and has no members", parent, name_of(kind(target.node))));
@@ -200,7 +210,8 @@ Location Document::location(std::uint32_t offset) const {
   const auto line = std::upper_bound(lines_.begin(), lines_.end(), offset) - 1;
   const auto source =
       std::upper_bound(sources_.begin(), sources_.end(), offset,
-                       [](std::uint32_t at, const Source& s) { return at < s.begin; }) - 1;
+                       [](std::uint32_t at, const Source& s) { return at < s.begin; }) -
+      1;
   // The last line of the source before may be empty and then begins at the same offset.
   const auto first_line = std::upper_bound(lines_.begin(), lines_.end(), source->begin) - 1;
   const std::size_t end = std::min<std::size_t>(offset, text_.size());
@@ -220,59 +231,6 @@ std::string Document::excerpt(NodeId id) const {
   const bool container = n.kind == Kind::array || n.kind == Kind::object;
   if (container && (text.size() > 60 || text.find('\n') != std::string_view::npos)) return {};
   return shortened(text, 60);
-}
-
-std::string unescape(std::string_view token) {
-  std::string result;
-  for (std::size_t i = 0; i < token.size(); ++i) {
-    const bool escaped = token[i] == '~' && i + 1 < token.size();
-    if (escaped && token[i + 1] == '1') {
-      result += '/';
-      ++i;
-    } else if (escaped && token[i + 1] == '0') {
-      result += '~';
-      ++i;
-    } else {
-      result += token[i];
-    }
-  }
-  return result;
-}
-
-std::string escape(std::string_view key) {
-  std::string result;
-  for (const char c : key) {
-    if (c == '~') {
-      result += "~0";
-    } else if (c == '/') {
-      result += "~1";
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
-
-std::optional<std::vector<std::string>> split(std::string_view pointer) {
-  std::vector<std::string> steps;
-  if (pointer.empty()) return steps;
-  if (pointer.front() != '/') return std::nullopt;
-  while (!pointer.empty()) {
-    pointer.remove_prefix(1);
-    const std::size_t end = std::min(pointer.find('/'), pointer.size());
-    steps.push_back(unescape(pointer.substr(0, end)));
-    pointer.remove_prefix(end);
-  }
-  return steps;
-}
-
-std::optional<std::size_t> array_index(std::string_view token) {
-  std::size_t index = 0;
-  const char* const end = token.data() + token.size();
-  const auto [stop, error] = std::from_chars(token.data(), end, index);
-  const bool leading_zero = token.size() > 1 && token.front() == '0';
-  if (error != std::errc() || stop != end || leading_zero) return std::nullopt;
-  return index;
 }
 
 std::string shortened(std::string_view text, std::size_t length) {

@@ -65,8 +65,8 @@ struct Location {
 class Document {
  public:
   /// Parses JSON with // and /* */ comments. Without a root if the text is not JSON or exceeds a
-  /// limit. Duplicate keys, of which the first counts, and numbers too small for a double are faults
-  /// too, but leave the document whole.
+  /// limit. Duplicate keys, of which the first counts, and numbers too small for a double are
+  /// faults too, but leave the document whole.
   static Document parse(std::string_view text, std::string name, const Limits& limits,
                         Faults& faults);
 
@@ -101,7 +101,7 @@ class Document {
   [[nodiscard]] std::uint32_t offset(NodeId id) const { return node(id).begin; }
   [[nodiscard]] std::uint32_t key_offset(NodeId id) const { return node(id).key_begin; }
   [[nodiscard]] Location location(std::uint32_t offset) const;
-  /// The value as it stands in the text, shortened for a message; empty for long objects and arrays.
+  /// The value as it stands in the text, shortened for a message; empty for long containers.
   [[nodiscard]] std::string excerpt(NodeId id) const;
 
  private:
@@ -109,15 +109,15 @@ class Document {
   static constexpr std::uint32_t no_key = 0xffffffff;
 
   struct Node {
-    double number = 0.0;       // of a number or boolean
+    double number = 0.0;  // of a number or boolean
     NodeId parent = no_node;
-    std::uint32_t begin = 0;   // [begin, end) in text_
+    std::uint32_t begin = 0;  // [begin, end) in text_
     std::uint32_t end = 0;
     std::uint32_t key_begin = 0;
     std::uint32_t key = no_key;  // index into strings_
-    std::uint32_t first = 0;   // of a string: index into strings_; else of the first child
-    std::uint32_t count = 0;   // of children
-    std::uint32_t index = 0;   // among the parent's children
+    std::uint32_t first = 0;     // of a string: index into strings_; else of the first child
+    std::uint32_t count = 0;     // of children
+    std::uint32_t index = 0;     // among the parent's children
     Kind kind = Kind::null;
   };
   struct Source {
@@ -133,7 +133,7 @@ class Document {
   void add_child(NodeId parent, std::string key, NodeId child);
   void replace_child(NodeId old_child, NodeId child);
 
-  std::string text_;              // all sources, one after the other
+  std::string text_;  // all sources, one after the other
   std::vector<Source> sources_;
   std::vector<std::uint32_t> lines_;  // where each line of text_ begins; every source starts one
   std::vector<Node> nodes_;
@@ -142,13 +142,6 @@ class Document {
   NodeId root_ = no_node;
 };
 
-/// One step of a JSON pointer with "~0" and "~1" resolved, and the reverse.
-[[nodiscard]] std::string unescape(std::string_view token);
-[[nodiscard]] std::string escape(std::string_view key);
-/// The steps of a JSON pointer; nothing if it does not begin with '/' (the empty pointer has none).
-[[nodiscard]] std::optional<std::vector<std::string>> split(std::string_view pointer);
-/// The array index that a step means; nothing if it is none (digits without leading zeros).
-[[nodiscard]] std::optional<std::size_t> array_index(std::string_view token);
 /// `text` on one line and at most `length` bytes long, cut between characters.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t length);
 

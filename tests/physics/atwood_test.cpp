@@ -72,7 +72,8 @@ TEST(ElasticCable, StretchesByForceTimesCompliance) {
     machine.cables[0].damping = 2.0 * std::sqrt(2.0 / compliance);
     Simulation s = test::start(machine);
     test::run(s.world, 5.0);
-    for (const SpanReport& span : s.cable_reports()[0].spans) {
+    const std::vector<SpanReport> spans = s.cable_reports()[0].spans;
+    for (const SpanReport& span : spans) {
       EXPECT_NEAR(span.length - span.rest_length, 2.0 * g * compliance,
                   1e-6 * 2.0 * g * compliance);
       EXPECT_NEAR(span.tension, 2.0 * g, 1e-6 * 2.0 * g);
@@ -89,7 +90,8 @@ TEST(ElasticCable, OfAMaterialStretchesByForceTimesLengthOverStiffness) {
   machine.cables[0].damping = 100.0;
   Simulation s = test::start(machine);
   test::run(s.world, 5.0);
-  for (const SpanReport& span : s.cable_reports()[0].spans) {
+  const std::vector<SpanReport> spans = s.cable_reports()[0].spans;
+  for (const SpanReport& span : spans) {
     const double stretch = 2.0 * g * span.rest_length / stiffness;
     EXPECT_NEAR(span.length - span.rest_length, stretch, 1e-4 * stretch);
     EXPECT_NEAR(span.tension, 2.0 * g, 1e-4 * 2.0 * g);
@@ -102,7 +104,8 @@ TEST(WheelTrain, InBalanceStaysAtRest) {
   machine.model.step = test::settings(1.0 / 60.0, 1, 200);
   Simulation s = test::start(machine);
   test::run(s.world, 2.0);
-  for (const SpanReport& span : s.cable_reports()[0].spans) {
+  const std::vector<SpanReport> spans = s.cable_reports()[0].spans;
+  for (const SpanReport& span : spans) {
     EXPECT_NEAR(span.tension, g, 1e-9 * g);
   }
   EXPECT_NEAR(s.world.velocity({5}).y(), 0.0, 1e-9);

@@ -75,7 +75,7 @@ TEST(SolidMesh, RoundShapesApproachTheirVolumes) {
     expect_unit_normals(mesh);
   };
   check(SphereShape{0.5}, pi / 6.0, 0);
-  check(CylinderShape{0.5, 2.0}, pi / 2.0, 2 * 96);
+  check(CylinderShape{0.5, 2.0}, pi / 2.0, std::size_t{2} * 96);
   check(CapsuleShape{0.5, 2.0}, pi / 6.0 + pi / 2.0, 0);
 }
 

@@ -147,6 +147,7 @@ TEST(Renderer, WorksInSeveralThreadsAtOnce) {
   ASSERT_TRUE(expected);
   std::vector<Image> images(2);
   std::vector<std::thread> threads;
+  threads.reserve(images.size());
   for (Image& image : images) {
     threads.emplace_back([&] {
       auto renderer = Renderer::create(width, height);

@@ -29,7 +29,8 @@ Expectation expectation_of(const std::string& text) {
     const std::string expect = "// expect: ";
     if (number == 2 && line.starts_with(expect)) {
       const std::size_t colon = line.find(": ", expect.size() - 1);
-      expectation.pointer = colon < expect.size() ? "" : line.substr(expect.size(), colon - expect.size());
+      expectation.pointer =
+          colon < expect.size() ? "" : line.substr(expect.size(), colon - expect.size());
       expectation.message = line.substr(colon + 2);
     }
     if (line.ends_with("<-")) expectation.line = number;

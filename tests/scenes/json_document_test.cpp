@@ -1,9 +1,9 @@
-#include "scenes/json/document.h"
-
 #include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "scenes/json/document.h"
 
 namespace sheave::json {
 namespace {
@@ -31,8 +31,9 @@ struct Parsed {
 };
 
 TEST(json_document, knows_where_every_value_stands) {
-  const Parsed p("{\n  \"a\": [1, -2.5e3,\n    \"x\\\"y\"],  // comment, with: marks {\n"
-                 "  /* and\n another */ \"b\" : {\"c\": true, \"d\": null}\n}\n");
+  const Parsed p(
+      "{\n  \"a\": [1, -2.5e3,\n    \"x\\\"y\"],  // comment, with: marks {\n"
+      "  /* and\n another */ \"b\" : {\"c\": true, \"d\": null}\n}\n");
   ASSERT_TRUE(p.faults.empty()) << p.first_fault();
   EXPECT_EQ(p.place(""), "1:1");
   EXPECT_EQ(p.place("/a"), "2:8");
@@ -74,7 +75,8 @@ TEST(json_document, says_what_is_wrong_with_syntax_and_where) {
   EXPECT_THAT(Parsed("[1,\n 2,, 3]").first_fault(), HasSubstr("2:4 /2 syntax error"));
   EXPECT_THAT(Parsed("{\"a\": 1\n\"b\": 2}").first_fault(), HasSubstr("expected ',' or '}'"));
   EXPECT_THAT(Parsed("{\"a\": 1e999}").first_fault(), HasSubstr("1:7 /a number too large"));
-  EXPECT_THAT(Parsed("{\"a\": [0, 1e-999]}").first_fault(), HasSubstr("1:11 /a/1 number too small"));
+  EXPECT_THAT(Parsed("{\"a\": [0, 1e-999]}").first_fault(),
+              HasSubstr("1:11 /a/1 number too small"));
   EXPECT_TRUE(Parsed("[0e-999, 0.0, -0.0, 5e-324]").faults.empty());
   EXPECT_THAT(Parsed(std::string_view("{}\0 rest", 8)).first_fault(), HasSubstr("null character"));
   EXPECT_THAT(Parsed("").first_fault(), HasSubstr("unexpected end of input"));
@@ -176,12 +178,13 @@ TEST(json_document, random_texts_keep_cursor_and_parser_in_step) {
   std::mt19937 random(1);
   const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   const auto blank = [&] {
-    static const std::array<std::string, 6> kinds{"", " ", "\n", "/* , : \" */", "// [\n", "\t\r\n"};
+    static const std::array<std::string, 6> kinds{"",       " ",     "\n", "/* , : \" */",
+                                                  "// [\n", "\t\r\n"};
     return kinds[static_cast<std::size_t>(pick(6))];
   };
   const std::function<std::string(int)> value = [&](int depth) -> std::string {
-    static const std::array<std::string, 8> scalars{"1", "-2.5E+3", "true", "null", "\"\"",
-                                                    "\"a\\\\\"", "\"// \\\" , : {\"", "false"};
+    static const std::array<std::string, 8> scalars{
+        "1", "-2.5E+3", "true", "null", "\"\"", "\"a\\\\\"", "\"// \\\" , : {\"", "false"};
     if (depth == 0 || pick(3) == 0) return scalars[static_cast<std::size_t>(pick(8))];
     const bool object = pick(2) == 0;
     std::string text = object ? "{" : "[";
@@ -197,11 +200,21 @@ TEST(json_document, random_texts_keep_cursor_and_parser_in_step) {
   const std::function<void(const Parsed&, NodeId)> check = [&](const Parsed& p, NodeId id) {
     const std::string text = p.document.excerpt(id);
     switch (p.document.kind(id)) {
-      case Kind::null: EXPECT_EQ(text, "null"); break;
-      case Kind::boolean: EXPECT_EQ(text, p.document.boolean(id) ? "true" : "false"); break;
-      case Kind::number: EXPECT_EQ(std::stod(text), p.document.number(id)); break;
-      case Kind::string: EXPECT_EQ(text.front(), '"'); EXPECT_EQ(text.back(), '"'); break;
-      default: break;
+      case Kind::null:
+        EXPECT_EQ(text, "null");
+        break;
+      case Kind::boolean:
+        EXPECT_EQ(text, p.document.boolean(id) ? "true" : "false");
+        break;
+      case Kind::number:
+        EXPECT_EQ(std::stod(text), p.document.number(id));
+        break;
+      case Kind::string:
+        EXPECT_EQ(text.front(), '"');
+        EXPECT_EQ(text.back(), '"');
+        break;
+      default:
+        break;
     }
     for (const NodeId child : p.document.children(id)) check(p, child);
   };

@@ -1,10 +1,10 @@
-#include "scenes/json/pretty.h"
-
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "scenes/json/pretty.h"
 
 namespace sheave::json {
 namespace {

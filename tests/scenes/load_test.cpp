@@ -1,5 +1,3 @@
-#include "scenes/scene.h"
-
 #include <cmath>
 #include <fstream>
 
@@ -7,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/shapes/box.h"
+#include "scenes/scene.h"
 #include "tests/scenes/scene_files.h"
 
 namespace sheave::test {
@@ -121,7 +120,8 @@ TEST(load, semantic_faults_of_several_entities_come_together) {
 }
 
 TEST(load, an_only_shape_is_found_however_it_is_written) {
-  const std::string flat = R"("type": "prism", "length": 1, "outline": [[0,0,0], [1,0,0], [2,0,0]])";
+  const std::string flat =
+      R"("type": "prism", "length": 1, "outline": [[0,0,0], [1,0,0], [2,0,0]])";
   const SceneResult single =
       load(scene_text(R"("bodies": [{"name": "a", "mass": 1, "shape": {)" + flat + "}}]"));
   const SceneResult several =
@@ -180,7 +180,8 @@ TEST(load, quaternions_are_normalised_once) {
 }
 
 TEST(overrides, change_settings_before_they_are_checked) {
-  const std::string text = scene_text(R"("bodies": [{"name": "a", "mass": -5, "inertia": [1, 1, 1]}])");
+  const std::string text =
+      scene_text(R"("bodies": [{"name": "a", "mass": -5, "inertia": [1, 1, 1]}])");
   const SceneResult scene = load(text, {{"/bodies/0/mass", "5", ""},
                                         {"/step/dt", "0.001", "--dt"},
                                         {"/step/solver", "gauss-seidel", "--solver"},
@@ -196,9 +197,10 @@ TEST(overrides, change_settings_before_they_are_checked) {
 TEST(overrides, are_named_in_errors) {
   EXPECT_THAT(errors_of(load(scene_text(), {{"/step/dt", "-1", "--dt"}})),
               ElementsAre("--dt:1:1: /step/dt: value -1: must be > 0 [s]"));
-  EXPECT_THAT(errors_of(load(scene_text(), {{"/step/dtt", "1", ""}})),
-              ElementsAre(HasSubstr("--set /step/dtt:1:1: /step/dtt: unknown key in a step, did you "
-                                    "mean \"dt\"?")));
+  EXPECT_THAT(
+      errors_of(load(scene_text(), {{"/step/dtt", "1", ""}})),
+      ElementsAre(HasSubstr("--set /step/dtt:1:1: /step/dtt: unknown key in a step, did you "
+                            "mean \"dt\"?")));
   EXPECT_THAT(errors_of(load(scene_text(), {{"/bodies/3/mass", "1", ""}})),
               ElementsAre(HasSubstr("there is no /bodies/3")));
   EXPECT_THAT(errors_of(load(scene_text(), {{"/ground/normal", "[0, 1, 0]", ""}})),

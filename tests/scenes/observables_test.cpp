@@ -84,7 +84,8 @@ TEST(observables, some_are_sampled_as_all_are) {
   std::vector<double> some(indices.size());
   set.sample(simulation, indices, some);
   for (std::size_t i = 0; i < indices.size(); ++i) {
-    EXPECT_EQ(some[i], all[static_cast<std::size_t>(indices[i])]) << set.names()[static_cast<std::size_t>(indices[i])];
+    EXPECT_EQ(some[i], all[static_cast<std::size_t>(indices[i])])
+        << set.names()[static_cast<std::size_t>(indices[i])];
   }
 }
 

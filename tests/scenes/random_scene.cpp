@@ -49,11 +49,11 @@ class RandomFields {
 
     void operator()(double* x) const { *x = random.number(field.range); }
     void operator()(std::optional<double>* x) const { *x = random.number(field.range); }
-    void operator()(int* x) const {
-      *x = static_cast<int>(field.range.minimum) + random.pick(10);
-    }
+    void operator()(int* x) const { *x = static_cast<int>(field.range.minimum) + random.pick(10); }
     void operator()(bool* x) const { *x = random.pick(2) == 0; }
-    void operator()(std::string* x) const { *x = "text \"\\\n\xC3\xA4" + std::to_string(random.pick(99)); }
+    void operator()(std::string* x) const {
+      *x = "text \"\\\n\xC3\xA4" + std::to_string(random.pick(99));
+    }
     void operator()(Vector3* x) const { *x = random.vector(field.range); }
     void operator()(std::optional<Vector3>* x) const { *x = random.vector(field.range); }
     void operator()(Quaternion* x) const { *x = random.orientation(); }
@@ -62,6 +62,8 @@ class RandomFields {
     void operator()(std::vector<double>* x) const { x->assign(1, random.number(field.range)); }
     void operator()(std::vector<Vector3>* x) const {
       for (int i = 0; i < 12; ++i) x->push_back(random.vector(field.range));
+      if (field.name != "outline") return;
+      for (Vector3& point : *x) point.z() = 0.0;  // outlines lie in this plane
     }
     void operator()(const ChoiceSlot& x) const {
       x.set(x.object, random.pick(static_cast<int>(field.choices.size())));
@@ -104,7 +106,8 @@ class RandomScene {
   /// A new object of a random type of a registry.
   template <class Base>
   std::shared_ptr<Base> make(std::span<const TypeEntry<Base>> types) {
-    const auto& type = types[static_cast<std::size_t>(random_.pick(static_cast<int>(types.size())))];
+    const auto& type =
+        types[static_cast<std::size_t>(random_.pick(static_cast<int>(types.size())))];
     std::shared_ptr<Base> object = type.make();
     fill(type.fields(), const_cast<void*>(object->settings()));
     return object;

@@ -38,7 +38,8 @@ TEST(reference, shows_ranges_units_and_defaults) {
 }
 
 TEST(names, keep_columns_unambiguous) {
-  for (const char* good : {"a", "A1", "left wheel", "x_1-2", "0"}) EXPECT_TRUE(is_name(good)) << good;
+  for (const char* good : {"a", "A1", "left wheel", "x_1-2", "0"})
+    EXPECT_TRUE(is_name(good)) << good;
   for (const char* bad : {"", " a", "a ", "a.b", "a,b", "a\"", "a\n", "\xC3\xA4", "a/b", "a\tb"}) {
     EXPECT_FALSE(is_name(bad)) << bad;
   }

@@ -82,8 +82,9 @@ TEST(write_scene, leaves_defaults_out) {
   Scene scene;
   scene.duration = 1.0;
   scene.model.gravity = {0.0, -10.0, 0.0};
-  EXPECT_EQ(write_scene(scene),
-            "{\n  \"format\": \"sheave-scene/1\",\n  \"gravity\": [0, -10, 0],\n  \"duration\": 1\n}\n");
+  EXPECT_EQ(
+      write_scene(scene),
+      "{\n  \"format\": \"sheave-scene/1\",\n  \"gravity\": [0, -10, 0],\n  \"duration\": 1\n}\n");
 }
 
 TEST(write_scene, numbers_that_are_not_finite_do_not_load) {

@@ -1,5 +1,5 @@
-// Every shipped scene loads without a fault, shows what its checks promise, and the scenes that come
-// from a generator are what the generator makes today.
+// Every shipped scene loads without a fault and shows what its checks promise, and the scenes that
+// come from a generator are what the generator makes today.
 
 #include <gtest/gtest.h>
 

@@ -30,7 +30,9 @@ TEST(suggestion, says_nothing_if_nothing_is_near) {
   EXPECT_EQ(Suggestion("abc").question(), "");
 }
 
-TEST(suggestion, of_equals_the_first_wins) { EXPECT_EQ(best("bodyx", {"bodya", "bodyb"}), "bodya"); }
+TEST(suggestion, of_equals_the_first_wins) {
+  EXPECT_EQ(best("bodyx", {"bodya", "bodyb"}), "bodya");
+}
 
 TEST(suggestion, very_long_words_cost_nothing) {
   const std::string endless(1'000'000, 'a');

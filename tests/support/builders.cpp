@@ -10,8 +10,7 @@ namespace sheave::test {
 
 std::string text(const Errors& errors) {
   std::string all;
-  for (const Error& error : errors)
-    all += error.path + ": " + error.message + "\n";
+  for (const Error& error : errors) all += error.path + ": " + error.message + "\n";
   return all;
 }
 

@@ -22,7 +22,8 @@ void apply(Substep& substep, const Motion& motion, double amount) {
     return;
   }
   body.turn += d;
-  if (substep.bodies[motion.body].mount < 0) body.orientation = turned(body.orientation, d);
+  // A rotor's orientation follows from its turn.
+  if (body.tracks_orientation) body.orientation = turned(body.orientation, d);
 }
 
 /// A basis of the motions that the bodies' mobilities allow now.
@@ -37,8 +38,7 @@ std::vector<Motion> allowed_motions(const Substep& substep) {
     };
     switch (body.mobility) {
       case Mobility::free:
-        for (int k = 0; k < 6; ++k)
-          motions.push_back({i, Vector3::Unit(k % 3), k >= 3});
+        for (int k = 0; k < 6; ++k) motions.push_back({i, Vector3::Unit(k % 3), k >= 3});
         break;
       case Mobility::planar:
         add_across(false);
@@ -65,8 +65,7 @@ std::vector<double> values(Substep& substep, ConstraintBatch& batch) {
   std::vector<Row> rows;
   batch.linearise(substep, rows);
   std::vector<double> result;
-  for (const Row& row : rows)
-    result.push_back(row.value);
+  for (const Row& row : rows) result.push_back(row.value);
   return result;
 }
 

@@ -20,8 +20,8 @@ struct GradientCheck {
 /// and rotations that the mobilities allow. begin() has been called; bodies are anywhere.
 ///
 /// Motions follow the conventions of engine/row.h: a rotation d turns `orientation` by d and adds d
-/// to `turn`; a mounted rotor's coordinate is its absolute spin about its carrier's axle, so its
-/// `turn` changes along that axle and stays when the carrier is rotated.
+/// to `turn`. A rotor has its `turn` only; a mounted one's is its absolute spin about its carrier's
+/// axle, so it changes along that axle and stays when the carrier is rotated.
 [[nodiscard]] GradientCheck check_gradients(Substep& substep, ConstraintBatch& batch);
 
 /// Moves every moving body by a fixed pseudo-random amount: translations up to `distance` [m],

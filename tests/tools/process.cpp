@@ -55,9 +55,9 @@ int output_file(const ProcessOptions& options) {
 
 }  // namespace
 
-Process::Process(const std::vector<std::string>& arguments, const ProcessOptions& options) {
+Process::Process(const std::vector<std::string>& arguments, const ProcessOptions& options)
+    : out_(output_file(options)) {
   const int in = scratch_file(options.input);
-  out_ = output_file(options);
   if (options.terminal_stderr) {
     terminal_ = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
     if (terminal_ < 0 || ::grantpt(terminal_) != 0 || ::unlockpt(terminal_) != 0) fail("pty");

@@ -17,11 +17,11 @@ struct ProcessResult {
 
 /// How to start a process.
 struct ProcessOptions {
-  std::string input;                     ///< its standard input
-  std::vector<std::string> environment;  ///< added: "NAME=value"
-  bool closed_stdout = false;            ///< its standard output is a pipe that nobody reads
-  std::string stdout_path;               ///< its standard output goes to this file instead
-  bool terminal_stderr = false;          ///< its standard error is a terminal
+  std::string input{};                     ///< its standard input
+  std::vector<std::string> environment{};  ///< added: "NAME=value"
+  bool closed_stdout = false;              ///< its standard output is a pipe that nobody reads
+  std::string stdout_path{};               ///< its standard output goes to this file instead
+  bool terminal_stderr = false;            ///< its standard error is a terminal
 };
 
 /// The command, running.

@@ -6,7 +6,7 @@
 namespace sheave::test {
 
 /// Two weights on one cable over a wheel, for one second of 100 steps, with checks that hold.
-inline const std::string atwood_scene = R"({
+inline const std::string atwood_scene = R"json({
   "format": "sheave-scene/1",
   "name": "Two weights",
   "gravity": [0, -10, 0],
@@ -34,10 +34,10 @@ inline const std::string atwood_scene = R"({
     {"quantity": "rope.0.tension", "statistic": "mean", "equals": 12, "relative_tolerance": 0.01}
   ]
 }
-)";
+)json";
 
 /// A body that such a force throws out of the world within a few steps.
-inline const std::string runaway_scene = R"({
+inline const std::string runaway_scene = R"json({
   "format": "sheave-scene/1",
   "gravity": [0, 0, 0],
   "duration": 10,
@@ -47,10 +47,10 @@ inline const std::string runaway_scene = R"({
     {"name": "rocket", "mass": 1, "force": [1e12, 0, 0], "shape": {"type": "sphere", "radius": 1}}
   ]
 }
-)";
+)json";
 
 /// Falls for longer than anybody waits.
-inline const std::string endless_scene = R"({
+inline const std::string endless_scene = R"json({
   "format": "sheave-scene/1",
   "gravity": [0, 0, 0],
   "duration": 1e9,
@@ -60,6 +60,6 @@ inline const std::string endless_scene = R"({
      "shape": {"type": "sphere", "radius": 1}}
   ]
 }
-)";
+)json";
 
 }  // namespace sheave::test

@@ -20,22 +20,20 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::IsEmpty;
 using testing::Not;
 
-class Table : public testing::Test {
- protected:
+struct Table : testing::Test {
   /// The table that a run with these options writes.
   std::string run(const std::string& name, const std::vector<std::string>& options = {}) const {
-    std::vector<std::string> arguments{"run", scene_, "--quiet", "--out", folder_.path(name)};
+    std::vector<std::string> arguments{"run", scene, "--quiet", "--out", folder.path(name)};
     arguments.insert(arguments.end(), options.begin(), options.end());
     const ProcessResult result = run_sheave(arguments);
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    return read_file(folder_.path(name));
+    return read_file(folder.path(name));
   }
 
-  TemporaryFolder folder_;
-  std::string scene_ = folder_.write("atwood.json", atwood_scene);
+  TemporaryFolder folder;
+  std::string scene = folder.write("atwood.json", atwood_scene);
 };
 
 TEST_F(Table, CsvHasALineOfNamesAndARowPerStep) {
@@ -53,7 +51,7 @@ TEST_F(Table, CsvHasALineOfNamesAndARowPerStep) {
   EXPECT_THAT(lines[2], Not(HasSubstr(",,")));
   EXPECT_THAT(lines[2], testing::StartsWith("0.01,"));
   EXPECT_THAT(lines[101], testing::StartsWith("1,"));
-  EXPECT_THAT(folder_.entries(), ElementsAre("atwood.json", "out.csv"));
+  EXPECT_THAT(folder.entries(), ElementsAre("atwood.json", "out.csv"));
 }
 
 TEST_F(Table, NumbersAreTheShortestThatReadBack) {
@@ -71,31 +69,31 @@ TEST_F(Table, ColumnsByNameAndPattern) {
       run("out.csv", {"--columns", "rope.*.tension,light.y", "--columns", "energy.total"}), '\n');
   EXPECT_EQ(lines[0], "t,light.y,rope.0.tension,rope.1.tension,energy.total");
   const ProcessResult result =
-      run_sheave({"run", scene_, "--out", folder_.path("bad.csv"), "--columns", "rope.0.tensoin"});
+      run_sheave({"run", scene, "--out", folder.path("bad.csv"), "--columns", "rope.0.tensoin"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err, HasSubstr("did you mean \"rope.0.tension\"?"));
 }
 
 TEST_F(Table, ToStandardOutput) {
-  const ProcessResult result = run_sheave({"run", scene_, "--out", "-", "--columns", "t"});
+  const ProcessResult result = run_sheave({"run", scene, "--out", "-", "--columns", "t"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(split(result.out, '\n').size(), 102U) << "and no summary";
-  EXPECT_EQ(run_sheave({"run", scene_, "--out", "-", "--json"}).exit_code, 2);
+  EXPECT_EQ(run_sheave({"run", scene, "--out", "-", "--json"}).exit_code, 2);
 }
 
 TEST_F(Table, ALinkStaysOneAndItsTargetIsReplaced) {
-  std::filesystem::create_symlink("target.csv", folder_.path("link.csv"));
-  folder_.write("target.csv", "old");
+  std::filesystem::create_symlink("target.csv", folder.path("link.csv"));
+  folder.write("target.csv", "old");
   run("link.csv", {"--columns", "t"});
-  EXPECT_TRUE(std::filesystem::is_symlink(folder_.path("link.csv")));
-  EXPECT_EQ(split(read_file(folder_.path("target.csv")), '\n').size(), 102U);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path("link.csv")));
+  EXPECT_EQ(split(read_file(folder.path("target.csv")), '\n').size(), 102U);
 }
 
 TEST_F(Table, FilesFollowTheUmask) {
   const mode_t old = ::umask(027);
   run("out.csv");
   ::umask(old);
-  const auto permissions = std::filesystem::status(folder_.path("out.csv")).permissions();
+  const auto permissions = std::filesystem::status(folder.path("out.csv")).permissions();
   EXPECT_EQ(static_cast<unsigned>(permissions), 0640U);
 }
 
@@ -137,10 +135,10 @@ TEST_F(Table, NpyIsAStructuredArray) {
 }
 
 TEST_F(Table, NpyOfThousandsOfColumnsHasALongHeader) {
-  const std::string train = folder_.path("train.json");
+  const std::string train = folder.path("train.json");
   ASSERT_EQ(run_sheave({"generate", "wheel-train", "--wheels", "250", "--out", train}).exit_code,
             0);
-  const std::string file = folder_.path("train.npy");
+  const std::string file = folder.path("train.npy");
   const ProcessResult result =
       run_sheave({"run", train, "--steps", "2", "--iterations", "1", "--quiet", "--out", file});
   EXPECT_EQ(result.exit_code, 0);
@@ -152,7 +150,7 @@ TEST_F(Table, NpyOfThousandsOfColumnsHasALongHeader) {
 }
 
 TEST_F(Table, CsvAndNpyOfOneRunHoldTheSameNumbers) {
-  const std::string npy = folder_.path("out.npy");
+  const std::string npy = folder.path("out.npy");
   const std::vector<std::string> lines = split(run("out.csv", {"--out", npy}), '\n');
   const Array array = parse_npy(read_file(npy));
   const std::vector<std::string> last = split(lines.back(), ',');
