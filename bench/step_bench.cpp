@@ -1,12 +1,11 @@
 #include "bench/step_bench.h"
 
 #include <cmath>
+#include <ctime>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
-
-#include <time.h>
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>

@@ -99,7 +99,12 @@ SpanGeometry spatial_span(const LinkCircle& first, const LinkCircle& second) {
     converged = !both || change <= tolerance * (size + (end - start).norm());
   }
   bool has_tangent = first_tangent && second_tangent;
-  if (!converged) {
+  // Small changes do not mean a small error where the rounds converge slowly, so look at it.
+  const double residual =
+      both ? std::abs((start - first.center).dot(end - first.center) / first.signed_radius -
+                      first.signed_radius)
+           : 0.0;
+  if (!converged || (has_tangent && residual > tolerance * (size + (end - start).norm()))) {
     Vector3 refined_start = start;
     Vector3 refined_end = end;
     has_tangent = TangencySolver(first, second).refine(refined_start, refined_end);

@@ -3,7 +3,8 @@
 
 extern "C" const char* __asan_default_options();
 extern "C" const char* __asan_default_options() {
-  return "detect_leaks=1:strict_init_order=1:check_initialization_order=1:detect_stack_use_after_return=1";
+  return "detect_leaks=1:strict_init_order=1:check_initialization_order=1:detect_stack_use_after_"
+         "return=1";
 }
 
 extern "C" const char* __ubsan_default_options();

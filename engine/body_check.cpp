@@ -22,8 +22,7 @@ class BodyCheck {
   void run() {
     const std::size_t before = errors_.size();
     check_fields(BodyDef::field_table(), &body_, path_, errors_);
-    for (std::size_t i = 0; i < body_.shapes.size(); ++i)
-      check_shape(i);
+    for (std::size_t i = 0; i < body_.shapes.size(); ++i) check_shape(i);
     if (errors_.size() > before) return;  // what follows computes with these numbers
     check_axis();
     check_mount();
@@ -54,8 +53,7 @@ class BodyCheck {
       if (entry.name != placed.shape->type()) continue;
       check_fields(entry.fields(), placed.shape->settings(), path, errors_);
     }
-    for (const Error& error : placed.shape->validate(path))
-      errors_.push_back(error);
+    for (const Error& error : placed.shape->validate(path)) errors_.push_back(error);
   }
 
   void check_axis() {

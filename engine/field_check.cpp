@@ -11,10 +11,12 @@ class NumberCheck {
   NumberCheck(const Field& field, const std::string& path, Errors& errors)
       : field_(field), path_(path + "/" + std::string(field.name)), errors_(errors) {}
 
-  void operator()(const double* value) const { check(*value, path_); }
-  void operator()(const int* value) const { check(*value, path_); }
-  void operator()(const Vector3* value) const { check_components(*value, path_); }
-  void operator()(const Quaternion* value) const {
+  // Pointers to const would lose to the template below, which takes what holds no number.
+  // NOLINTBEGIN(readability-non-const-parameter)
+  void operator()(double* value) const { check(*value, path_); }
+  void operator()(int* value) const { check(*value, path_); }
+  void operator()(Vector3* value) const { check_components(*value, path_); }
+  void operator()(Quaternion* value) const {
     const double norm = value->norm();
     if (std::abs(norm - 1.0) <= 1e-6) return;  // what six printed decimals leave
     errors_.push_back({path_, std::string(field_.name) +
@@ -22,18 +24,19 @@ class NumberCheck {
                                   "its length is " +
                                   number_text(norm)});
   }
-  void operator()(const std::optional<double>* value) const {
+  void operator()(std::optional<double>* value) const {
     if (*value) check(**value, path_);
   }
-  void operator()(const std::optional<Vector3>* value) const {
+  void operator()(std::optional<Vector3>* value) const {
     if (*value) check_components(**value, path_);
   }
-  void operator()(const std::vector<double>* value) const {
+  void operator()(std::vector<double>* value) const {
     for (std::size_t i = 0; i < value->size(); ++i) check((*value)[i], item(i));
   }
-  void operator()(const std::vector<Vector3>* value) const {
+  void operator()(std::vector<Vector3>* value) const {
     for (std::size_t i = 0; i < value->size(); ++i) check_components((*value)[i], item(i));
   }
+  // NOLINTEND(readability-non-const-parameter)
   template <class Other>
   void operator()(const Other& /*no number*/) const {}
 

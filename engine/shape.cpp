@@ -4,9 +4,7 @@
 
 namespace sheave {
 
-Errors Shape::validate(const std::string& /*path*/) const {
-  return {};
-}
+Errors Shape::validate(const std::string& /*path*/) const { return {}; }
 
 std::span<const Field> PlacedShape::field_table() {
   static const std::array table{

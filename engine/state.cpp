@@ -16,16 +16,14 @@ void for_each_word(const State& state, const Visit& visit) {
   const auto integer = [&](std::int64_t i) { visit(std::bit_cast<std::uint64_t>(i)); };
   const auto count = [&](std::size_t n) { visit(static_cast<std::uint64_t>(n)); };
   const auto vector = [&](const Vector3& v) {
-    for (const double x : v)
-      real(x);
+    for (const double x : v) real(x);
   };
   integer(state.steps);
   real(state.time);
   count(state.bodies.size());
   for (const BodyState& body : state.bodies) {
     vector(body.position);
-    for (const double x : body.orientation.coeffs())
-      real(x);
+    for (const double x : body.orientation.coeffs()) real(x);
     vector(body.velocity);
     vector(body.angular_velocity);
     real(body.angle);
@@ -33,11 +31,9 @@ void for_each_word(const State& state, const Visit& visit) {
   count(state.features.size());
   for (const FeatureState& feature : state.features) {
     count(feature.reals.size());
-    for (const double x : feature.reals)
-      real(x);
+    for (const double x : feature.reals) real(x);
     count(feature.integers.size());
-    for (const std::int64_t i : feature.integers)
-      integer(i);
+    for (const std::int64_t i : feature.integers) integer(i);
   }
 }
 
@@ -66,8 +62,7 @@ class Reader {
   }
   Vector3 vector() {
     Vector3 v;
-    for (double& x : v)
-      x = real();
+    for (double& x : v) x = real();
     return v;
   }
   [[nodiscard]] bool complete() const { return !failed_ && position_ == bytes_.size(); }
@@ -114,8 +109,7 @@ Result<State> state_from_bytes(const std::string& bytes) {
   state.bodies.resize(reader.count(14));
   for (BodyState& body : state.bodies) {
     body.position = reader.vector();
-    for (double& x : body.orientation.coeffs())
-      x = reader.real();
+    for (double& x : body.orientation.coeffs()) x = reader.real();
     body.velocity = reader.vector();
     body.angular_velocity = reader.vector();
     body.angle = reader.real();
@@ -123,11 +117,9 @@ Result<State> state_from_bytes(const std::string& bytes) {
   state.features.resize(reader.count(2));
   for (FeatureState& feature : state.features) {
     feature.reals.resize(reader.count(1));
-    for (double& x : feature.reals)
-      x = reader.real();
+    for (double& x : feature.reals) x = reader.real();
     feature.integers.resize(reader.count(1));
-    for (std::int64_t& i : feature.integers)
-      i = reader.integer();
+    for (std::int64_t& i : feature.integers) i = reader.integer();
   }
   if (!reader.complete()) {
     return Error{"", "a saved state must be complete: these " + std::to_string(bytes.size()) +

@@ -13,7 +13,7 @@ namespace sheave {
 
 /// What a step observed; sums and maxima over its substeps.
 struct StepStatistics {
-  int rows = 0;        ///< constraint rows solved per substep
+  int rows = 0;                 ///< constraint rows solved per substep
   std::int64_t row_solves = 0;  ///< rows x iterations x substeps
   /// Largest correction, as an error of a row, in the last sweep of a substep [m or rad]: how far
   /// the solver was from convergence.

@@ -10,9 +10,9 @@ namespace sheave::render {
 /// A hanging cable, parametrised by the arc length s in [0, length()] from its first end.
 class Catenary {
  public:
-  /// From `start` to `end` [m] with the given length [m]; `gravity` gives the direction down, any
-  /// length. A length at or below the distance gives the straight line, whose length() is then the
-  /// distance; so does zero gravity, unless the cable is longer, when down is taken as -y.
+  /// From `start` to `end` [m] with the given length [m]; only the direction of `gravity` counts,
+  /// and without gravity down is -y. A length at or below the distance of the ends gives the
+  /// straight line, whose length() is then the distance.
   Catenary(const Vector3& start, const Vector3& end, double length, const Vector3& gravity);
 
   /// Place at arc length s [m], clamped to [0, length()]. Exact at both ends.

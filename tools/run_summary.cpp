@@ -21,7 +21,7 @@ std::vector<Warning> collect_warnings(const Simulation& simulation) {
   for (const CableSystem::TangentWarning& warning : simulation.cables->tangent_warnings()) {
     std::string span = fmt::format("{}.{}", warning.cable, warning.span);
     std::string message = fmt::format(
-        "span {} had no tangent in {} substeps, first at {} s: its wheels overlap too far, and its "
+        "span {} had no tangent in {} substeps, first at {} s: its wheels overlap, and its "
         "numbers mean little there",
         span, warning.substeps, number_text(warning.first_time));
     warnings.push_back({"no_tangent", std::move(span), std::move(message)});

@@ -39,8 +39,7 @@ class GroundBatch final : public ConstraintBatch {
     for (const Owner& owner : owners_) {
       points_.clear();
       append_points(substep, owner);
-      for (const Vector3& point : points_)
-        contacts_[next++].point = point;
+      for (const Vector3& point : points_) contacts_[next++].point = point;
     }
   }
 
@@ -57,8 +56,7 @@ class GroundBatch final : public ConstraintBatch {
   }
 
   void linearise(Substep& substep, std::vector<Row>& rows) override {
-    for (const Contact& contact : contacts_)
-      evaluate(substep, contact, rows.emplace_back());
+    for (const Contact& contact : contacts_) evaluate(substep, contact, rows.emplace_back());
   }
 
   void finish(Substep& substep, FeatureState& next) override {
@@ -88,8 +86,7 @@ class GroundBatch final : public ConstraintBatch {
       owners_.push_back({body, &placed, bodies[body].center_of_mass});
       points_.clear();
       placed.shape->append_contact_points(Vector3::UnitX(), points_);
-      for (const Vector3& point : points_)
-        contacts_.push_back({body, point});
+      for (const Vector3& point : points_) contacts_.push_back({body, point});
     }
   }
 

@@ -201,7 +201,12 @@ TEST(SpatialSpan, IsTangentToBothCirclesSeenAlongTheirNormals) {
     // A tangent that is short in this view loses digits, as 1/l, at both ends.
     const double sharpness = seen_length(a, span) * seen_length(b, span);
     const double error = tangency_error(a, b, span) * std::min(1.0, sharpness);
-    if (error > 1e-12) ++unsolved;
+    // An end is rounded to 1 ulp of its distance, 2 m; divided by the radius that turns the radial
+    // direction, and the condition multiplies it by the 2 m to the other end.
+    const double smallest = std::min(a.signed_radius == 0.0 ? 1.0 : std::abs(a.signed_radius),
+                                     b.signed_radius == 0.0 ? 1.0 : std::abs(b.signed_radius));
+    const double rounding = 4.0 * 2.0 * 2.0 * std::numeric_limits<double>::epsilon() / smallest;
+    if (error > 1e-12 + rounding) ++unsolved;
     worst = std::max(worst, error);
     for (const auto& [circle, at] : {std::pair{a, span.start}, std::pair{b, span.end}}) {
       if (circle.signed_radius == 0.0 || error > 1e-12) continue;

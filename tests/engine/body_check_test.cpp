@@ -53,9 +53,7 @@ void expect_fault(const std::string& path, const std::function<void(Model&)>& sp
   EXPECT_FALSE(World::create(model).ok());
 }
 
-TEST(BodyCheck, AcceptsAGoodModel) {
-  EXPECT_EQ(test::text(check_bodies(good_model())), "");
-}
+TEST(BodyCheck, AcceptsAGoodModel) { EXPECT_EQ(test::text(check_bodies(good_model())), ""); }
 
 TEST(BodyCheck, Names) {
   expect_fault("/bodies/0/name", [](Model& m) { m.bodies[0].name = ""; });

@@ -26,8 +26,7 @@ TEST(Ground, CarriesTheWeightOfABoxAtRest) {
   EXPECT_NEAR(world.velocity({0}).norm(), 0.0, 1e-9);
   const std::vector<double>& forces = world.feature_state(0).reals;
   EXPECT_NEAR(std::accumulate(forces.begin(), forces.end(), 0.0), 2.0 * g, 1e-6 * 2.0 * g);
-  for (const double force : forces)
-    EXPECT_GE(force, 0.0);
+  for (const double force : forces) EXPECT_GE(force, 0.0);
 }
 
 TEST(Ground, StopsASphereOnASlopeInTheNormalDirectionOnly) {

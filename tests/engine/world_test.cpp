@@ -116,8 +116,7 @@ TEST(Restore, RefusesAForeignState) {
 
 std::vector<std::string> stage_names(const World& world) {
   std::vector<std::string> names;
-  for (const Stage& stage : world.stages())
-    names.push_back(stage.name);
+  for (const Stage& stage : world.stages()) names.push_back(stage.name);
   return names;
 }
 using Names = std::vector<std::string>;

@@ -8,11 +8,11 @@
 
 #include <gtest/gtest.h>
 
-#include "picture.h"
 #include "render/child_process.h"
 #include "render/output_file.h"
 #include "render/png_writer.h"
 #include "render/video_writer.h"
+#include "tests/render/picture.h"
 
 namespace sheave::render {
 namespace {

@@ -1,4 +1,4 @@
-#include "picture.h"
+#include "tests/render/picture.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -25,8 +25,8 @@ std::optional<Image> read_png(const std::string& path) {
 }
 
 std::string compare_with_golden(const Image& image, const std::string& name) {
-  const std::string golden =
-      std::string(SHEAVE_SOURCE_DIR) + "/tests/render/golden/" + name + ".png";
+  std::string golden = SHEAVE_SOURCE_DIR;
+  golden.append("/tests/render/golden/").append(name).append(".png");
   const char* update = std::getenv("SHEAVE_UPDATE_GOLDEN");
   if (update != nullptr && std::string(update) == "1") {
     const Errors errors = render::write_png(golden, image);

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "picture.h"
 #include "render/overlay.h"
+#include "tests/render/picture.h"
 
 namespace sheave::render {
 namespace {

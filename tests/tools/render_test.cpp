@@ -21,7 +21,6 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
-using testing::Not;
 
 // Small pictures: this is not about how they look.
 const std::vector<std::string> small{"--width", "96", "--height", "64"};

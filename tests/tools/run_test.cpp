@@ -234,6 +234,20 @@ TEST(RunCommand, ADurationThatIsNoMultipleOfDtIsSaid) {
   EXPECT_EQ(summary["warnings"][0]["kind"], "duration");
 }
 
+TEST(RunCommand, ASpanWithoutTangentIsAWarningWithItsName) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("overlap.json", overlap_scene);
+  const json summary = run_json({scene});
+  ASSERT_EQ(summary["warnings"].size(), 1U);
+  EXPECT_EQ(summary["warnings"][0]["kind"], "no_tangent");
+  EXPECT_EQ(summary["warnings"][0]["subject"], "rope.1");
+  EXPECT_GT(summary["statistics"]["geometry_fallbacks"], 0);
+  EXPECT_EQ(summary["cables"][0]["length_error"], 0.0);
+  const ProcessResult result = run_sheave({"run", scene});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("rope.1"));
+}
+
 TEST(RunCommand, ReadsASceneFromStandardInput) {
   const ProcessResult result = run_sheave({"run", "-", "--json"}, {.input = atwood_scene});
   EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -62,4 +62,28 @@ inline const std::string endless_scene = R"json({
 }
 )json";
 
+/// A wheel moves into another, so that after half a second the crossing span "rope.1" between them
+/// has no tangent.
+inline const std::string overlap_scene = R"json({
+  "format": "sheave-scene/1",
+  "gravity": [0, 0, 0],
+  "duration": 1,
+  "step": {"dt": 0.01},
+  "bodies": [
+    {"name": "still", "mobility": "rotor", "mass": 1,
+     "shape": {"type": "cylinder", "radius": 0.5, "length": 0.1}},
+    {"name": "coming", "mobility": "slider", "axis": [1, 0, 0], "position": [1.5, 0, 0],
+     "velocity": [-1, 0, 0], "mass": 1, "shape": {"type": "cylinder", "radius": 0.5, "length": 0.1}}
+  ],
+  "cables": [
+    {"name": "rope", "rest_lengths": [2, 3, 3.5], "links": [
+      {"type": "attachment", "body": "world", "point": [-0.5, -2, 0]},
+      {"type": "rolling", "body": "still", "winding": "clockwise"},
+      {"type": "rolling", "body": "coming", "winding": "counter-clockwise"},
+      {"type": "attachment", "body": "world", "point": [2, 3, 0]}
+    ]}
+  ]
+}
+)json";
+
 }  // namespace sheave::test
