@@ -17,6 +17,11 @@ constexpr std::array<double, 5> distances{1.0, 2.2, 3.8, 6.0, 9.0};
 /// Shares of the slide.
 constexpr std::array<double, 7> slides{0.0, 0.35, -0.35, 0.7, -0.7, 1.0, -1.0};
 
+/// Where labels find no room beside their anchors, as between the parts of a tackle, text across the
+/// cable it belongs to is clearer than text that touches a neighbour.
+constexpr double across_cost = 5.0;
+constexpr double own_line_reach = 3.0;  ///< a line nearer to the anchor than this is its own [pixels]
+
 /// With more labels than this, the lines they cover are not looked at: the picture is full anyway,
 /// and the cost would be felt.
 constexpr std::size_t many_labels = 60;
@@ -41,6 +46,22 @@ double covered_length(const Rectangle& r, const ScreenSegment& s) {
     }
   }
   return t1 > t0 ? (t1 - t0) * std::hypot(dx, dy) : 0.0;
+}
+
+double distance_to(const ScreenSegment& s, double x, double y) {
+  const double dx = s[2] - s[0];
+  const double dy = s[3] - s[1];
+  const double squared = dx * dx + dy * dy;
+  const double along = (x - s[0]) * dx + (y - s[1]) * dy;
+  const double t = squared > 0.0 ? std::clamp(along / squared, 0.0, 1.0) : 0.0;
+  return std::hypot(x - s[0] - t * dx, y - s[1] - t * dy);
+}
+
+/// The text centred on its anchor.
+LabelPlace place_across(const LabelRequest& label, double slide) {
+  const double x = label.x + slide * label.slide_x;
+  const double y = label.y + slide * label.slide_y;
+  return {{x - 0.5 * label.width, y - 0.5 * label.height, label.width, label.height}, x, y};
 }
 
 LabelPlace place(const LabelRequest& label, double slide, double direction, double distance) {
@@ -74,29 +95,35 @@ class Layout {
     const bool any = label.direction_x == 0.0 && label.direction_y == 0.0;
     const double preferred = any ? 0.0 : std::atan2(label.direction_y, label.direction_x);
     const bool fixed = label.slide_x == 0.0 && label.slide_y == 0.0;
-    double best = std::numeric_limits<double>::infinity();
-    LabelPlace chosen;
+    best_ = std::numeric_limits<double>::infinity();
+    const auto allowed_slides = std::span(slides).first(fixed ? 1 : slides.size());
     for (std::size_t d = 0; d < distances.size(); ++d) {
       for (const double turn : turns) {
-        for (const double slide : std::span(slides).first(fixed ? 1 : slides.size())) {
+        for (const double slide : allowed_slides) {
           const double own = 3.0 * static_cast<double>(d) + (any ? 0.4 : 1.0) * std::abs(turn) +
                              1.2 * std::abs(slide);
-          if (own >= best) continue;
-          const LabelPlace candidate =
-              place(label, slide, preferred + turn, distances[d] * around_.gap);
-          const double cost = own + conflicts(candidate.text, i);
-          if (cost < best) {
-            best = cost;
-            chosen = candidate;
-          }
+          if (own >= best_) continue;
+          consider(place(label, slide, preferred + turn, distances[d] * around_.gap), own, i, false);
         }
       }
     }
-    places_[i] = chosen;
+    for (const double slide : allowed_slides) {
+      consider(place_across(label, slide), across_cost + 1.2 * std::abs(slide), i, true);
+    }
     placed_[i] = true;
   }
 
-  [[nodiscard]] double conflicts(const Rectangle& r, std::size_t self) const {
+  /// Takes a place for label i if it is the best so far.
+  void consider(const LabelPlace& candidate, double own, std::size_t i, bool across) {
+    const double cost = own + conflicts(candidate, i, across);
+    if (cost >= best_) return;
+    best_ = cost;
+    places_[i] = candidate;
+  }
+
+  [[nodiscard]] double conflicts(const LabelPlace& candidate, std::size_t self,
+                                 bool across) const {
+    const Rectangle& r = candidate.text;
     const double area = std::max(r.width * r.height, 1.0);
     const Rectangle padded{r.x - 3.0, r.y - 1.0, r.width + 6.0, r.height + 2.0};
     const Rectangle picture{2.0, 2.0, around_.width - 4.0, around_.height - 4.0};
@@ -107,8 +134,12 @@ class Layout {
     }
     if (labels_.size() <= many_labels) {
       double covered = 0.0;
-      for (const ScreenSegment& line : around_.lines) covered += covered_length(padded, line);
-      cost += 6.0 * std::min(4.0, covered / std::max(r.height, 1.0));
+      for (const ScreenSegment& line : around_.lines) {
+        const double apart = distance_to(line, candidate.anchor_x, candidate.anchor_y);
+        if (across && apart < own_line_reach) continue;
+        covered += covered_length(padded, line);
+      }
+      cost += 10.0 * std::min(4.0, covered / std::max(r.height, 1.0));
       double hidden = 0.0;
       for (const Rectangle& body : around_.bodies) hidden += overlap(r, body) / area;
       cost += 5.0 * std::min(1.0, hidden);
@@ -120,6 +151,7 @@ class Layout {
   const LabelSurroundings& around_;
   std::vector<LabelPlace> places_;
   std::vector<bool> placed_;
+  double best_ = 0.0;  ///< cost of the place chosen so far for the label at hand
 };
 
 }  // namespace

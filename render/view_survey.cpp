@@ -17,9 +17,9 @@ void extend(Eigen::AlignedBox3d& box, const Vector3& center, const Vector3& half
   box.extend(Vector3(center + half));
 }
 
-/// Rounds up to 1, 1.5, 2, 2.5, 3, 4, 5, 6 or 8 times a power of ten.
+/// Rounds up to 1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6 or 8 times a power of ten.
 double round_up(double value) {
-  constexpr std::array<double, 10> steps{1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0};
+  constexpr std::array<double, 11> steps{1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0};
   const double power = std::pow(10.0, std::floor(std::log10(value)));
   for (const double step : steps) {
     if (value <= step * power * (1.0 + 1e-9)) return step * power;
