@@ -17,64 +17,18 @@
 #include "engine/shapes/polyhedron.h"
 #include "engine/shapes/prism.h"
 #include "engine/shapes/sphere.h"
+#include "tests/support/shapes.h"
 
 namespace sheave {
 namespace {
+
+using namespace test;  // NOLINT(google-build-using-namespace): builders of shapes
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
 // Mass properties are sums of up to a few dozen products of about five factors each, all below
 // mass * size^2, and every operation rounds once: 100 eps of that bound, where not said otherwise.
 constexpr double summed = 100.0 * eps;
-
-template <class Type>
-std::shared_ptr<Type> make(const std::function<void(Type&)>& fill) {
-  auto shape = std::make_shared<Type>();
-  fill(*shape);
-  return shape;
-}
-
-std::shared_ptr<Box> box(const Vector3& size) {
-  return make<Box>([&](Box& b) { b.size = size; });
-}
-
-std::shared_ptr<Prism> polygon(const std::vector<Vector3>& outline, double length) {
-  return make<Prism>([&](Prism& p) { p.outline = outline, p.length = length; });
-}
-
-std::shared_ptr<Polyhedron> polyhedron(const std::vector<Vector3>& points) {
-  return make<Polyhedron>([&](Polyhedron& p) { p.points = points; });
-}
-
-std::vector<Vector3> ring(int count, double radius, double z) {
-  std::vector<Vector3> points;
-  for (int i = 0; i < count; ++i) {
-    const double angle = 2.0 * pi * i / count;
-    points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
-  }
-  return points;
-}
-
-std::vector<Vector3> box_corners(const Vector3& size, const Vector3& center) {
-  std::vector<Vector3> corners;
-  for (int i = 0; i < 8; ++i) {
-    const Vector3 sign(i % 2 - 0.5, i / 2 % 2 - 0.5, i / 4 - 0.5);
-    corners.emplace_back(center + size.cwiseProduct(sign));
-  }
-  return corners;
-}
-
-std::vector<Vector3> random_points(int count, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> coordinate(-1.0, 1.0);
-  std::vector<Vector3> points(count);
-  for (Vector3& point : points) {
-    for (int k = 0; k < 3; ++k) {
-      point[k] = coordinate(random);
-    }
-  }
-  return points;
-}
 
 void expect_same(const MassProperties& a, const MassProperties& b, double size, double relative) {
   EXPECT_NEAR(a.mass, b.mass, relative * b.mass);
