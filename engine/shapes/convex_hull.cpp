@@ -52,6 +52,8 @@ class GrowingHull {
   std::vector<Triangle> grow() {
     std::vector<Triangle> surface;
     if (!start()) return surface;
+    // add() appends faces, so that iterators would not survive.
+    // NOLINTNEXTLINE(modernize-loop-convert)
     for (std::size_t id = 0; id < faces_.size(); ++id) {
       const int next = faces_[id].alive ? highest_above(faces_[id]) : -1;
       if (next >= 0) add(next);  // and faces_[id] is part of the hull no more

@@ -27,8 +27,9 @@ constexpr double flat_cells = 4.0;
 /// mostly rounding.
 constexpr double thinnest = 1e-9;
 
-__extension__ typedef __int128
-    Wide;  // NOLINT(modernize-use-using): what ISO C++ lacks, without -Wpedantic's warning
+// What ISO C++ lacks; only a typedef can do without -Wpedantic's warning.
+// NOLINTNEXTLINE(modernize-use-using)
+__extension__ typedef __int128 Wide;
 
 using GridPoint = std::array<std::int64_t, 3>;  ///< 0 .. 2^40 each
 
