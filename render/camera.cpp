@@ -136,7 +136,7 @@ CameraAxes axes(const Camera& camera) {
 }
 
 Projector::Projector(const Camera& camera, int width, int height)
-    : camera_(camera), axes_(axes(camera)), width_(width), height_(height), focal_(0.0) {
+    : camera_(camera), axes_(axes(camera)), width_(width), height_(height) {
   if (const auto* p = std::get_if<Perspective>(&camera.projection)) {
     focal_ = 0.5 * height_ / std::tan(0.5 * p->vertical_fov);
   }

@@ -63,7 +63,7 @@ class Projector {
   CameraAxes axes_;
   double width_;
   double height_;
-  double focal_;  ///< [pixels]: half the height over the tangent of half the angle
+  double focal_ = 0.0;  ///< [pixels]: half the height over the tangent of half the angle
 };
 
 /// Parts of the picture to keep free of the scene, as fractions of its width or height, each in [0,

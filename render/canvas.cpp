@@ -29,7 +29,7 @@ TextMask grow(const TextMask& mask, double radius) {
           const double w = weight[static_cast<std::size_t>(dy + reach) * side +
                                   static_cast<std::size_t>(dx + reach)];
           std::uint8_t& to = grown.coverage[index(x + dx, y + dy)];
-          to = std::max(to, static_cast<std::uint8_t>(coverage * w + 0.5));
+          to = std::max(to, static_cast<std::uint8_t>(std::lround(coverage * w)));
         }
       }
     }
@@ -45,7 +45,7 @@ void Canvas::blend(int x, int y, const Color& color, double alpha) {
   std::uint8_t* to = image_.pixel(x, y);
   const auto channel = [a](std::uint8_t& value, float wanted) {
     const double full = 255.0 * std::clamp(static_cast<double>(wanted), 0.0, 1.0);
-    value = static_cast<std::uint8_t>(value + (full - value) * a + 0.5);
+    value = static_cast<std::uint8_t>(std::lround(value + (full - value) * a));
   };
   channel(to[0], color.r);
   channel(to[1], color.g);

@@ -14,7 +14,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char** environ;  // NOLINT(readability-redundant-declaration): POSIX leaves it to the program
+// POSIX leaves the declaration to the program.
+// NOLINTNEXTLINE(readability-redundant-declaration,cppcoreguidelines-avoid-non-const-global-variables)
+extern char** environ;
 
 namespace sheave::render {
 namespace {
@@ -96,7 +98,8 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
   }
   std::vector<char*> pointers;
   for (const std::string& argument : arguments) {
-    pointers.push_back(const_cast<char*>(argument.c_str()));  // exec promises not to write
+    // exec promises not to write.
+    pointers.push_back(const_cast<char*>(argument.c_str()));  // NOLINT(*-pro-type-const-cast)
   }
   pointers.push_back(nullptr);
   pid_t process = -1;

@@ -20,7 +20,8 @@ constexpr std::array<double, 7> slides{0.0, 0.35, -0.35, 0.7, -0.7, 1.0, -1.0};
 /// Where labels find no room beside their anchors, as between the parts of a tackle, text across the
 /// cable it belongs to is clearer than text that touches a neighbour.
 constexpr double across_cost = 5.0;
-constexpr double own_line_reach = 3.0;  ///< a line nearer to the anchor than this is its own [pixels]
+constexpr double own_line_reach =
+    3.0;  ///< a line nearer to the anchor than this is its own [pixels]
 
 /// With more labels than this, the lines they cover are not looked at: the picture is full anyway,
 /// and the cost would be felt.
@@ -103,7 +104,8 @@ class Layout {
           const double own = 3.0 * static_cast<double>(d) + (any ? 0.4 : 1.0) * std::abs(turn) +
                              1.2 * std::abs(slide);
           if (own >= best_) continue;
-          consider(place(label, slide, preferred + turn, distances[d] * around_.gap), own, i, false);
+          consider(place(label, slide, preferred + turn, distances[d] * around_.gap), own, i,
+                   false);
         }
       }
     }
@@ -121,8 +123,7 @@ class Layout {
     places_[i] = candidate;
   }
 
-  [[nodiscard]] double conflicts(const LabelPlace& candidate, std::size_t self,
-                                 bool across) const {
+  [[nodiscard]] double conflicts(const LabelPlace& candidate, std::size_t self, bool across) const {
     const Rectangle& r = candidate.text;
     const double area = std::max(r.width * r.height, 1.0);
     const Rectangle padded{r.x - 3.0, r.y - 1.0, r.width + 6.0, r.height + 2.0};

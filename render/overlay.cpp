@@ -34,8 +34,11 @@ struct LegendBox {
   std::string heading;
   Ticks ticks;  ///< in scaled units
   UnitScale scale;
-  double bar_x, bar_y, bar_width, bar_height;
-  double tick_x;
+  double bar_x = 0.0;
+  double bar_y = 0.0;
+  double bar_width = 0.0;
+  double bar_height = 0.0;
+  double tick_x = 0.0;
   Rectangle area;
 };
 

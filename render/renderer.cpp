@@ -26,8 +26,9 @@ Errors check_settings(int width, int height, const RendererOptions& options) {
   Errors errors;
   check(errors, "supersample", options.supersample, 1, 4);
   const int factor = errors.empty() ? options.supersample : 1;
-  check(errors, "width", width, Renderer::min_side, Renderer::max_side / factor);
-  check(errors, "height", height, Renderer::min_side, Renderer::max_side / factor);
+  const int most = Renderer::max_side / factor;  // whole pixels
+  check(errors, "width", width, Renderer::min_side, most);
+  check(errors, "height", height, Renderer::min_side, most);
   if (options.samples != 1 && options.samples != 2 && options.samples != 4) {
     errors.push_back({"/samples", "renderer: samples is " + std::to_string(options.samples) +
                                       "; it must be 1, 2 or 4"});

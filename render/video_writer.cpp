@@ -117,6 +117,8 @@ Result<VideoWriter> VideoWriter::create(const std::string& path, int width, int 
     errors.front().message += "; videos need ffmpeg (Debian: apt install ffmpeg)";
     return errors;
   }
+  // An aggregate, which make_unique cannot initialise for every compiler.
+  // NOLINTNEXTLINE(modernize-make-unique)
   return VideoWriter(std::unique_ptr<Content>(
       new Content{width, height, 0, std::move(file).value(), std::move(encoder).value(), {}}));
 }

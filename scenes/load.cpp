@@ -123,7 +123,9 @@ std::string pointer_in_file(const json::Document& document, const std::string& p
                                     std::pair<std::string, std::string>{"/shapes/0", "/shape"}}) {
     const std::size_t at = path.find(ours);
     if (at == std::string::npos) continue;
-    const std::string replaced = path.substr(0, at) + other + path.substr(at + ours.size());
+    const std::size_t end = at + ours.size();
+    if (end < path.size() && path[end] != '/') continue;  // "/shape" is no part of "/shapes/1"
+    const std::string replaced = path.substr(0, at) + other + path.substr(end);
     const std::string shape = path.substr(0, at) + other;
     if (document.find(shape).exact) return replaced;
   }

@@ -33,7 +33,7 @@ class CsvWriter final : public TableWriter {
 
  private:
   void append(double value) {
-    std::array<char, 32> text;  // the longest double has 24 characters
+    std::array<char, 32> text{};  // the longest double has 24 characters
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
     line_.append(text.data(), end);
   }

@@ -115,7 +115,9 @@ ExitCode report(const RunOutcome& outcome, const PictureOutputs& outputs,
   std::string text =
       diverged ? "diverged: " + outcome.divergence->message : std::string("interrupted");
   for (const std::string& path : {options.video, options.png}) {
-    if (!path.empty()) text += fmt::format("\n{}: partial, {} frames", path, outputs.frames());
+    if (path.empty()) continue;
+    text += outputs.frames() > 0 ? fmt::format("\n{}: partial, {} frames", path, outputs.frames())
+                                 : fmt::format("\n{}: no frame was drawn", path);
   }
   if (!options.still.empty() && !outputs.has_still()) {
     text += "\n" + options.still + ": not written, its time was not reached";

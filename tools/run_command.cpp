@@ -42,7 +42,7 @@ std::vector<Warning> early_warnings(const RunOptions& options, const Scene& scen
                                     "{} s",
                                     number_text(scene.duration), number_text(end))});
   }
-  if (simulation.world.state().steps >= last_step) {
+  if (!options.steps && simulation.world.state().steps >= last_step) {
     warnings.push_back({"nothing_to_do", "duration",
                         fmt::format("the loaded state is at {} s already, at or after the end",
                                     number_text(simulation.world.state().time))});
@@ -95,8 +95,9 @@ void report(const RunOptions& options, const RunSummary& summary, std::int64_t r
   for (const Warning& warning : summary.warnings) print_warning(warning.message);
   explain_early_end(options, summary, rows);
   const bool summarised = !options.json && !options.quiet && !writes_to_stdout(options);
-  if (!summary.checks_passed() && !summarised)
+  if (!summary.checks_passed() && !summarised) {
     print_error("checks failed\n" + checks_text(summary.checks));
+  }
   if (options.json) print(to_json(summary));
   if (summarised) print(to_text(summary));
 }

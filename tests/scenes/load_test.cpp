@@ -131,6 +131,11 @@ TEST(load, an_only_shape_is_found_however_it_is_written) {
   EXPECT_EQ(single.errors[0].pointer, "/bodies/0/shape/outline");
   EXPECT_EQ(several.errors[0].pointer, "/bodies/0/shapes/0/outline");
   EXPECT_EQ(several.errors[0].line, 5);
+  const SceneResult second = load(scene_text(
+      R"("bodies": [{"name": "a", "mass": 1, "shapes": [{"type": "sphere", "radius": 1}, {)" +
+      flat + "}]}]"));
+  ASSERT_EQ(second.errors.size(), 1U);
+  EXPECT_EQ(second.errors[0].pointer, "/bodies/0/shapes/1/outline");
 }
 
 TEST(load, huge_counts_are_refused_before_anything_is_made) {

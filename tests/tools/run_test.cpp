@@ -224,6 +224,7 @@ TEST(RunCommand, ZeroStepsLeaveTensionsUnknown) {
   const json summary = run_json({scene, "--steps", "0"});
   EXPECT_TRUE(summary["cables"][0]["spans"][0]["tension"].is_null());
   EXPECT_TRUE(summary["us_per_step"].is_null());
+  EXPECT_TRUE(summary["warnings"].empty());
 }
 
 TEST(RunCommand, ADurationThatIsNoMultipleOfDtIsSaid) {
