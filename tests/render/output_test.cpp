@@ -20,22 +20,21 @@ namespace {
 namespace fs = std::filesystem;
 
 /// A folder that lives as long as the test.
-class Output : public testing::Test {
- protected:
+struct Output : testing::Test {
   void SetUp() override {
     std::string name = (fs::temp_directory_path() / "sheave_render_XXXXXX").string();
     ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
+    folder = name;
   }
   void TearDown() override {
-    fs::permissions(folder_, fs::perms::owner_all);
-    fs::remove_all(folder_);
+    fs::permissions(folder, fs::perms::owner_all);
+    fs::remove_all(folder);
   }
-  [[nodiscard]] std::string file(const char* name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string file(const char* name) const { return (folder / name).string(); }
   [[nodiscard]] int file_count() const {
-    return static_cast<int>(std::distance(fs::directory_iterator(folder_), {}));
+    return static_cast<int>(std::distance(fs::directory_iterator(folder), {}));
   }
-  fs::path folder_;
+  fs::path folder;
 };
 
 std::string content(const std::string& path) {
@@ -91,7 +90,7 @@ TEST_F(Output, MissingFolderIsNamed) {
   ASSERT_EQ(errors.size(), 1U);
   EXPECT_NE(errors[0].message.find("none/a.png"), std::string::npos);
   EXPECT_NE(errors[0].message.find("No such file"), std::string::npos);
-  EXPECT_FALSE(write_png(folder_.string(), Image(2, 2)).empty());
+  EXPECT_FALSE(write_png(folder.string(), Image(2, 2)).empty());
   EXPECT_FALSE(write_png("", Image(2, 2)).empty());
 }
 

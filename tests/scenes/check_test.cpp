@@ -14,18 +14,17 @@ constexpr double speed = 3.0;  // [m/s] of the only body, along x
 constexpr double dt = 0.125;
 
 /// A body that moves steadily for 2 s: x = 3 t, and y = -y_amplitude ... for nothing else.
-class Checks : public testing::Test {
- protected:
+struct Checks : testing::Test {
   Checks() {
     BodyDef body = lump("body", Vector3::Zero(), 1.0);
     body.velocity = {speed, 0.0, 0.0};
-    scene_.model.add(body);
-    scene_.model.step = settings(dt, 1, 1);
-    scene_.duration = 2.0;
+    scene.model.add(body);
+    scene.model.step = settings(dt, 1, 1);
+    scene.duration = 2.0;
   }
 
   CheckDef& add(std::string quantity, Statistic statistic, double equals) {
-    CheckDef& check = scene_.checks.emplace_back();
+    CheckDef& check = scene.checks.emplace_back();
     check.quantity = std::move(quantity);
     check.statistic = statistic;
     check.equals = equals;
@@ -33,8 +32,8 @@ class Checks : public testing::Test {
     return check;
   }
   std::vector<CheckResult> run_until(double time) {
-    Simulation simulation = start(Machine{scene_.model, scene_.cables});
-    CheckRecorder recorder(scene_, simulation);
+    Simulation simulation = start(Machine{scene.model, scene.cables});
+    CheckRecorder recorder(scene, simulation);
     recorder.record(simulation);
     while (simulation.world.state().time < time - 0.5 * dt) {
       EXPECT_TRUE(simulation.world.step().ok());
@@ -44,7 +43,7 @@ class Checks : public testing::Test {
   }
   CheckResult only(double time = 2.0) { return run_until(time).at(0); }
 
-  Scene scene_;
+  Scene scene;
 };
 
 TEST_F(Checks, statistics_are_what_they_are_called) {
@@ -70,7 +69,7 @@ TEST_F(Checks, statistics_are_what_they_are_called) {
 }
 
 TEST_F(Checks, drift_has_a_sign_and_range_has_none) {
-  scene_.model.bodies[0].velocity = {-speed, 0.0, 0.0};
+  scene.model.bodies[0].velocity = {-speed, 0.0, 0.0};
   add("body.x", Statistic::drift, -speed * 2.0);
   add("body.x", Statistic::range, speed * 2.0);
   add("body.x", Statistic::rate, -speed);
@@ -97,9 +96,9 @@ TEST_F(Checks, the_larger_tolerance_counts) {
   check.relative_tolerance = 0.6;
   EXPECT_EQ(check.allowed_error(), 1.2);
   EXPECT_TRUE(only().passed);
-  scene_.checks[0].relative_tolerance = 0.4;
+  scene.checks[0].relative_tolerance = 0.4;
   EXPECT_FALSE(only().passed);
-  scene_.checks[0].tolerance = 1.1;
+  scene.checks[0].tolerance = 1.1;
   EXPECT_TRUE(only().passed);
 }
 
@@ -137,8 +136,8 @@ TEST_F(Checks, a_rate_needs_two_samples) {
 
 TEST_F(Checks, nothing_recorded_fails) {
   add("body.x", Statistic::at, 0.0).at = 0.0;
-  const Simulation simulation = start(Machine{scene_.model, {}});
-  const CheckResult result = CheckRecorder(scene_, simulation).results().at(0);
+  const Simulation simulation = start(Machine{scene.model, {}});
+  const CheckResult result = CheckRecorder(scene, simulation).results().at(0);
   EXPECT_FALSE(result.passed);
   EXPECT_THAT(result.message, testing::HasSubstr("nothing was simulated"));
 }
@@ -153,8 +152,8 @@ TEST_F(Checks, infinite_values_fail_every_statistic) {
   for (int s = 0; s < static_cast<int>(statistic_names.size()); ++s) {
     add("body.x", static_cast<Statistic>(s), 0.0).tolerance = 1e300;
   }
-  Simulation simulation = start(Machine{scene_.model, {}});
-  CheckRecorder recorder(scene_, simulation);
+  Simulation simulation = start(Machine{scene.model, {}});
+  CheckRecorder recorder(scene, simulation);
   recorder.record(simulation);
   while (simulation.world.state().time < 1.8) {
     ASSERT_TRUE(simulation.world.step().ok());
@@ -172,9 +171,9 @@ TEST_F(Checks, infinite_values_fail_every_statistic) {
 }
 
 TEST_F(Checks, tensions_before_the_first_step_do_not_count) {
-  scene_.model.gravity = down;
-  scene_.model.bodies[0].velocity.setZero();
-  scene_.cables.push_back(
+  scene.model.gravity = down;
+  scene.model.bodies[0].velocity.setZero();
+  scene.cables.push_back(
       cable("rope", {attach(BodyId::world(), {0.0, 5.0, 0.0}), attach(BodyId{0})}));
   add("rope.0.tension", Statistic::minimum, g).tolerance = 0.01 * g;
   EXPECT_TRUE(only().passed) << only().message;
