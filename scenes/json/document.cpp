@@ -178,9 +178,10 @@ void Document::set(std::string_view pointer, std::string_view value, std::string
 std::string Document::pointer(NodeId id) const {
   std::vector<NodeId> path;
   for (; node(id).parent != no_node; id = node(id).parent) path.push_back(id);
+  std::reverse(path.begin(), path.end());
   std::string result;
-  for (auto step = path.rbegin(); step != path.rend(); ++step) {
-    const Node& n = node(*step);
+  for (const NodeId step : path) {
+    const Node& n = node(step);
     result += '/';
     result += n.key != no_key ? escape(strings_[n.key]) : std::to_string(n.index);
   }
