@@ -5,11 +5,10 @@
 
 #include "cable/cable_system.h"
 #include "engine/field_check.h"
+#include "engine/index.h"
 
 namespace sheave {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// A length to be printed for people.
 std::string metres(double length) {

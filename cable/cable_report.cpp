@@ -3,14 +3,9 @@
 #include <algorithm>
 
 #include "cable/cable_system.h"
+#include "engine/index.h"
 
 namespace sheave {
-namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
-
-}  // namespace
-
 void CableSystem::append_links(const CompiledCable& cable, const Substep& now,
                                const FeatureState& own, CableReport& report) const {
   for (int i = 0; i < cable.link_count; ++i) {

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "engine/index.h"
+
 namespace sheave {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// The multiple of `quantum`, a power of two, nearest to `length`.
 double quantised(double length, double quantum) { return std::round(length / quantum) * quantum; }

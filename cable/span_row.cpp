@@ -2,10 +2,10 @@
 
 #include <Eigen/LU>
 
+#include "engine/index.h"
+
 namespace sheave {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Centre of the link now; bodies that hold it at their centre of mass need no rotation.
 inline Vector3 center_of(const Substep& substep, const LinkGeometry& link) {

@@ -13,7 +13,9 @@ set(SHEAVE_WARNINGS
 if(SHEAVE_WARNINGS_AS_ERRORS)
   list(APPEND SHEAVE_WARNINGS -Werror)
 endif()
-if(SHEAVE_SANITIZE)
+# The same meaning of -Wconversion in both compilers.
+list(APPEND SHEAVE_WARNINGS -Wno-sign-conversion)
+if(SHEAVE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # Instrumented code confuses GCC's data-flow warnings into false alarms inside Eigen; the plain builds keep them.
   list(APPEND SHEAVE_WARNINGS -Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-null-dereference)
 endif()

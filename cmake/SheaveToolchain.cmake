@@ -8,6 +8,13 @@ if(SHEAVE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_C_COMPILER_LAUNCHER "${SHEAVE_CCACHE}")
 endif()
 
+# Most of a build's time goes into the same headers again and again; sources of a folder are compiled eight at a
+# time. Names in unnamed namespaces must therefore differ within a folder.
+if(SHEAVE_UNITY)
+  set(CMAKE_UNITY_BUILD ON)
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+endif()
+
 include(CheckLinkerFlag)
 find_program(SHEAVE_MOLD mold)
 find_program(SHEAVE_LLD ld.lld)

@@ -11,12 +11,11 @@
 #include <Eigen/LU>
 
 #include "engine/body_check.h"
+#include "engine/index.h"
 #include "engine/model.h"
 
 namespace sheave {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Mass properties in the body frame as the definition gives them.
 MassProperties defined_mass_properties(const BodyDef& body) {

@@ -8,10 +8,10 @@
 
 #include "engine/substep.h"
 
+#include "engine/index.h"
+
 namespace sheave {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Inverse mass and inverse inertia in the world frame of a body with this orientation.
 void set_inverse_masses(const BodyProperties& properties, MovingBody& body) {

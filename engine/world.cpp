@@ -4,11 +4,10 @@
 
 #include "engine/contacts/ground_batch.h"
 #include "engine/field_check.h"
+#include "engine/index.h"
 
 namespace sheave {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// Beyond this many scene sizes from the origin, or per substep, a state means nothing any more:
 /// with 16 digits, positions there have lost the scene's own length scale.

@@ -15,12 +15,11 @@
 // This deviates from the paper's engine, which gets w' from the difference of orientations: that
 // aliases beyond half a turn per substep and does not conserve L.
 
+#include "engine/index.h"
 #include "engine/stages.h"
 
 namespace sheave {
 namespace {
-
-std::size_t at(int index) { return static_cast<std::size_t>(index); }
 
 /// World inertia of a free body with this orientation.
 Matrix3 world_inertia(const BodyProperties& body, const Quaternion& orientation, bool inverse) {

@@ -13,7 +13,7 @@
 namespace sheave {
 namespace {
 
-constexpr std::size_t most_points = 4096;
+constexpr std::size_t most_hull_points = 4096;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ std::span<const Field> Polyhedron::field_table() {
 
 Errors Polyhedron::validate(const std::string& path) const {
   const std::string here = path + "/points";
-  if (points.size() < 4 || points.size() > most_points) {
+  if (points.size() < 4 || points.size() > most_hull_points) {
     return {{here, "points: " + std::to_string(points.size()) +
                        " points are given; between 4 and 4096 are needed"}};
   }

@@ -17,7 +17,7 @@
 namespace sheave {
 namespace {
 
-constexpr std::size_t most_points = 4096;
+constexpr std::size_t most_outline_points = 4096;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ std::span<const Field> Prism::field_table() {
 
 Errors Prism::validate(const std::string& path) const {
   const std::string here = path + "/outline";
-  if (outline.size() < 3 || outline.size() > most_points) {
+  if (outline.size() < 3 || outline.size() > most_outline_points) {
     return {{here, "outline: " + std::to_string(outline.size()) +
                        " points are given; between 3 and 4096 are needed"}};
   }

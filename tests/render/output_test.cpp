@@ -49,8 +49,8 @@ Image test_frame(int width, int height, int time) {
     for (int x = 0; x < width; ++x) {
       std::uint8_t* p = image.pixel(x, y);
       const bool inside = x >= 2 * time && x < 2 * time + height / 3 && y > height / 3;
-      p[0] = inside ? 220 : static_cast<std::uint8_t>(255 * x / width);
-      p[1] = inside ? 60 : static_cast<std::uint8_t>(255 * y / height);
+      p[0] = static_cast<std::uint8_t>(inside ? 220 : 255 * x / width);
+      p[1] = static_cast<std::uint8_t>(inside ? 60 : 255 * y / height);
       p[2] = inside ? 40 : 128;
     }
   }

@@ -13,19 +13,19 @@
 namespace sheave::render {
 namespace {
 
-constexpr int width = 160;
-constexpr int height = 120;
+constexpr int frame_width = 160;
+constexpr int frame_height = 120;
 
 /// Making a renderer compiles its shaders, which takes longer than any test here.
 Renderer& shared_renderer() {
-  static Result<Renderer> renderer = Renderer::create(width, height);
+  static Result<Renderer> renderer = Renderer::create(frame_width, frame_height);
   return renderer.value();
 }
 
 Camera camera_for(const DrawList& list) {
   FrameOptions options;
-  options.aspect = static_cast<double>(width) / height;
-  options.margins = overlay_margins(list, width, height);
+  options.aspect = static_cast<double>(frame_width) / frame_height;
+  options.margins = overlay_margins(list, frame_width, frame_height);
   return frame_box(bounds(list),
                    default_view_direction(Vector3::UnitY(), Vector3(Vector3::UnitZ())),
                    Vector3::UnitY(), options);
@@ -118,7 +118,7 @@ TEST(Golden, Pulley) {
 TEST(Golden, BeltOrthographic) {
   const DrawList list = belt();
   FrameOptions options;
-  options.aspect = static_cast<double>(width) / height;
+  options.aspect = static_cast<double>(frame_width) / frame_height;
   options.projection = Orthographic{};
   const Camera camera = frame_box(bounds(list), {0, 0, -1}, {0, 1, 0}, options);
   const auto image = shared_renderer().draw(list, camera);
@@ -135,7 +135,7 @@ TEST(Renderer, SameInputGivesTheSameBytes) {
   ASSERT_TRUE(first && other && again);
   EXPECT_EQ(*first, *again);
   EXPECT_NE(*first, *other);
-  auto fresh = Renderer::create(width, height);
+  auto fresh = Renderer::create(frame_width, frame_height);
   ASSERT_TRUE(fresh);
   EXPECT_EQ(*fresh->draw(list, camera), *first);
 }
@@ -150,7 +150,7 @@ TEST(Renderer, WorksInSeveralThreadsAtOnce) {
   threads.reserve(images.size());
   for (Image& image : images) {
     threads.emplace_back([&] {
-      auto renderer = Renderer::create(width, height);
+      auto renderer = Renderer::create(frame_width, frame_height);
       if (!renderer) return;
       if (auto drawn = renderer->draw(list, camera)) image = std::move(drawn).value();
     });
@@ -189,7 +189,7 @@ TEST(Renderer, OptionsWork) {
   plain.shadow_side = 0;
   plain.text = false;
   plain.line_width = 0.0;
-  auto renderer = Renderer::create(width, height, plain);
+  auto renderer = Renderer::create(frame_width, frame_height, plain);
   ASSERT_TRUE(renderer);
   const auto image = renderer->draw(list, camera);
   ASSERT_TRUE(image);
