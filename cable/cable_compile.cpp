@@ -106,7 +106,7 @@ class CableCompiler {
   }
 
   void check_stored_length(const LinkGeometry& link, bool end, const std::string& field) {
-    if (link.signed_radius == 0.0) return;
+    if (!link.wraps()) return;
     const bool given = !std::isnan(link.given_stored_length);
     if (end && !given) {
       fail(field, "a cable that ends on a wheel needs \"stored_length\", the cable wound on it");
@@ -142,22 +142,26 @@ class CableCompiler {
 
   /// Planar if the geometry of the bodies' mobilities guarantees it for ever.
   void choose_kind(SpanSetup& setup, const LinkGeometry& a, const LinkGeometry& b) const {
-    if (a.signed_radius == 0.0 && b.signed_radius == 0.0) {
+    if (!a.wraps() && !b.wraps()) {
       setup.kind = SpanKind::straight;
       return;
     }
     const LinkCircle circle_a = circle_of(now_, a);
     const LinkCircle circle_b = circle_of(now_, b);
-    setup.normal = a.signed_radius != 0.0 ? circle_a.normal : circle_b.normal;
+    setup.outlined = a.outline || b.outline;
+    setup.normal = a.wraps() ? circle_a.normal : circle_b.normal;
     setup.first_radius = a.signed_radius;
     setup.second_radius = b.signed_radius;
     bool planar = bodies_.stays_in_plane(a.carrier, setup.normal) &&
                   bodies_.stays_in_plane(b.carrier, setup.normal);
     const double offset = setup.normal.dot(circle_b.center - circle_a.center);
     planar = planar && std::abs(offset) <= 1e-9 * bodies_.scale();
-    if (a.signed_radius != 0.0 && b.signed_radius != 0.0) {
+    if (a.wraps() && b.wraps()) {
       planar = planar && circle_a.normal.cross(circle_b.normal).norm() <= 1e-9;
-      if (circle_a.normal.dot(circle_b.normal) < 0.0) setup.second_radius = -setup.second_radius;
+      if (circle_a.normal.dot(circle_b.normal) < 0.0) {
+        setup.second_radius = -setup.second_radius;
+        setup.second_sense = -1.0;
+      }
     }
     setup.kind = planar ? SpanKind::planar : SpanKind::spatial;
   }
@@ -174,8 +178,8 @@ class CableCompiler {
     const std::string pair = link_name(first) + " and " + link_name(second);
     const double ra = std::abs(a.signed_radius);
     const double rb = std::abs(b.signed_radius);
-    const double distance = (circle_of(now_, b).center - circle_of(now_, a).center).norm();
-    if (ra == 0.0 && rb == 0.0) {
+    const double distance = (link_center(now_, b) - link_center(now_, a)).norm();
+    if (!a.wraps() && !b.wraps()) {
       if (a.body == b.body)
         fail(field, pair +
                         " are points of one body; the span between them "
@@ -183,7 +187,10 @@ class CableCompiler {
       return check_rest_length(def, first, span);
     }
     if (span.has_tangent) return check_rest_length(def, first, span);
-    if (ra == 0.0 || rb == 0.0) {
+    if (a.outline || b.outline) {
+      fail(field, "no tangent joins " + pair +
+                      ": one of them lies inside the other's outline, or the outlines overlap");
+    } else if (ra == 0.0 || rb == 0.0) {
       fail(field, "the attachment at " + link_name(ra == 0.0 ? first : second) +
                       " lies inside the wheel of " + link_name(ra == 0.0 ? second : first) +
                       ": it is " + metres(distance) +
@@ -212,14 +219,25 @@ class CableCompiler {
   }
 
   /// Cable on the wheel between the incoming and the outgoing tangent.
-  [[nodiscard]] double arc(int link, const Vector3& entry, const Vector3& exit) const {
+  [[nodiscard]] double arc(int link, const SpanGeometry& incoming,
+                           const SpanGeometry& outgoing) const {
+    constexpr double touch = 1e-9;  // [rad] just below 0 is a touch, not a full turn
     const LinkGeometry& wheel = links_[at(link)];
+    if (wheel.outline) {
+      const double entry = normal_angle(now_, wheel, incoming.direction);
+      double turn = wheel.side * (normal_angle(now_, wheel, outgoing.direction) - entry);
+      turn -= 2.0 * pi * std::floor((turn + touch) / (2.0 * pi));
+      const Outline& curve = wheel.outline->curve;
+      const double way = curve.distance(outgoing.first_corner, entry + wheel.side * turn) -
+                         curve.distance(incoming.second_corner, entry);
+      return wheel.side * way + wheel.extra_turns * curve.perimeter();
+    }
     const LinkCircle circle = circle_of(now_, wheel);
     const double radius = std::abs(wheel.signed_radius);
-    const double side = wheel.signed_radius > 0.0 ? 1.0 : -1.0;
-    double angle = side * angle_between((entry - circle.center) / radius,
-                                        (exit - circle.center) / radius, circle.normal);
-    if (angle < -1e-9) angle += 2.0 * pi;  // just below 0 is a touch, not a full turn
+    double angle =
+        wheel.side * angle_between((incoming.end - circle.center) / radius,
+                                   (outgoing.start - circle.center) / radius, circle.normal);
+    if (angle < -touch) angle += 2.0 * pi;
     return radius * (std::max(angle, 0.0) + 2.0 * pi * wheel.extra_turns);
   }
 
@@ -245,9 +263,9 @@ class CableCompiler {
       const LinkGeometry& link = links_[at(i)];
       cable.link_types.push_back(def.links[at(i)]->type());
       const int incoming = i > 0 ? i - 1 : cable.span_count - 1;
-      lengths.push_back(link.signed_radius == 0.0 ? 0.0
+      lengths.push_back(!link.wraps() ? 0.0
                         : std::isnan(link.given_stored_length)
-                            ? arc(i, geometry_[at(incoming)].end, geometry_[at(i)].start)
+                            ? arc(i, geometry_[at(incoming)], geometry_[at(i)])
                             : link.given_stored_length);
     }
     double total = 0.0;

@@ -11,16 +11,15 @@ void CableSystem::append_links(const CompiledCable& cable, const Substep& now,
   for (int i = 0; i < cable.link_count; ++i) {
     const int index = cable.first_link + i;
     const LinkGeometry& link = links_[at(index)];
-    const LinkCircle circle = circle_of(now, link);
     LinkReport entry;
     entry.type = cable.link_types[at(i)];
     entry.body = link.body == now.bodies.count() ? BodyId::world() : BodyId{link.body};
-    entry.center = circle.center;
-    entry.normal = circle.normal;
+    entry.center = link_center(now, link);
+    entry.normal = now.orientation(link.carrier) * link.normal;
     entry.radius = std::abs(link.signed_radius);
-    entry.winding = link.signed_radius > 0.0 ? 1 : link.signed_radius < 0.0 ? -1 : 0;
+    entry.winding = link.side;
     entry.stored_length = own.reals[stored_length_index(index)];
-    entry.wrap_angle = entry.radius > 0.0 ? entry.stored_length / entry.radius : 0.0;
+    entry.wrap_angle = link.wraps() ? 2.0 * pi * entry.stored_length / link.perimeter() : 0.0;
     const bool has_incoming = cable.closed || i > 0;
     const bool has_outgoing = cable.closed || i + 1 < cable.link_count;
     const int incoming = i > 0 ? i - 1 : cable.span_count - 1;

@@ -92,8 +92,8 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
       rest_length += moved;
       next.reals[stored_length_index(link)] -= moved;
     };
-    if (first.signed_radius != 0.0) move(transport.from_first, setup.first, 0);
-    if (second.signed_radius != 0.0) move(transport.from_second, setup.second, 1);
+    if (first.wraps()) move(transport.from_first, setup.first, 0);
+    if (second.wraps()) move(transport.from_second, setup.second, 1);
     next.reals[tension_index(k)] = multipliers_[at(k)] * inverse_square;
   }
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "cable/outline.h"
 #include "engine/body_set.h"
 #include "engine/field.h"
 #include "engine/result.h"
@@ -16,8 +17,17 @@ namespace sheave {
 enum class Winding { counter_clockwise, clockwise };
 inline constexpr std::array<std::string_view, 2> winding_names{"counter-clockwise", "clockwise"};
 
+/// An outline placed on a body: coordinates of the body that carries the link.
+struct LinkOutline {
+  Outline curve;
+  Vector3 x = Vector3::UnitX();  ///< axes of the outline's plane; x cross y is the link's normal
+  Vector3 y = Vector3::UnitY();
+  std::vector<Vector3> corners;  ///< of the curve, relative to the carrier's centre of mass [m]
+};
+
 /// A link as the step needs it. All link types share one geometry: a circle of signed radius in a
-/// plane fixed to a body; a point is a circle of radius 0.
+/// plane fixed to a body; a point is a circle of radius 0, and an outline has one such circle at
+/// each corner.
 struct LinkGeometry {
   int body = 0;     ///< the body the cable touches: its turning moves cable
   int carrier = 0;  ///< the body that carries `center` and `normal`: of a wheel on a mounted rotor
@@ -26,10 +36,18 @@ struct LinkGeometry {
   Vector3 center = Vector3::Zero();   ///< [m], own frame of the carrier
   bool centered = false;              ///< `center` is 0, so its position needs no rotation
   Vector3 normal = Vector3::UnitZ();  ///< unit normal of the link's plane, own frame of the carrier
-  double signed_radius = 0.0;         ///< > 0 counter-clockwise, < 0 clockwise, 0 a point [m]
+  int side = 0;                       ///< +1 counter-clockwise, -1 clockwise, 0 a point
+  double signed_radius = 0.0;         ///< side times the radius, of an outline at its corners [m]
+  std::shared_ptr<const LinkOutline> outline;  ///< null: a circle about `center`, or a point
   /// Cable on the body at time 0 [m] as the user gave it; NaN: the arc between the tangents.
   double given_stored_length = 0.0;
   int extra_turns = 0;  ///< whole turns beyond the arc between the tangents
+
+  [[nodiscard]] bool wraps() const { return side != 0; }
+  /// Length of cable once round the link [m]; 0 for a point.
+  [[nodiscard]] double perimeter() const {
+    return outline ? outline->curve.perimeter() : 2.0 * pi * std::abs(signed_radius);
+  }
 };
 
 /// Settings of one link of a cable; derived types add their own.

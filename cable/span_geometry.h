@@ -32,6 +32,8 @@ struct SpanGeometry {
   Vector3 direction = Vector3::Zero();  ///< unit vector from start to end; 0 if they coincide
   double length = 0.0;                  ///< [m]
   bool has_tangent = true;              ///< false: the fallback of the head of this file
+  int first_corner = 0;                 ///< of the first link's outline, where the span leaves it
+  int second_corner = 0;
 };
 
 /// The span between two points.

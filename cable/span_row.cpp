@@ -7,8 +7,9 @@
 namespace sheave {
 namespace {
 
-/// Centre of the link now; bodies that hold it at their centre of mass need no rotation.
-inline Vector3 center_of(const Substep& substep, const LinkGeometry& link) {
+/// Centre of the link's circle now; bodies that hold it at their centre of mass need no rotation.
+inline Vector3 center_of(const Substep& substep, const LinkGeometry& link, int corner) {
+  if (link.outline) return substep.point(link.carrier, link.outline->corners[at(corner)]);
   const bool on_mounted_rotor = link.mounted && link.carrier == link.body;
   if (link.centered && !on_mounted_rotor) return substep.moving[at(link.carrier)].position;
   return substep.point(link.carrier, link.center);
@@ -26,7 +27,8 @@ inline void add_link_force(const Substep& substep, Row& row, const LinkGeometry&
   row.add(link.body, direction, cross(point - body.position, direction));
 }
 
-/// Velocity of the link's centre at the start of the substep.
+/// Velocity of the link's centre at the start of the substep (of an outline: of its origin, which is near enough for a
+/// guess of the span's turn).
 Vector3 start_velocity(const Substep& substep, const LinkGeometry& link) {
   if (link.carrier == substep.bodies.count()) return Vector3::Zero();
   const BodyState& carrier = substep.start.bodies[at(link.carrier)];
@@ -39,27 +41,46 @@ Vector3 radial(const LinkCircle& circle, const Vector3& point) {
   return (point - circle.center) / std::abs(circle.signed_radius);
 }
 
-/// Rotation A - B of the tangent point at one end, relative to the body, since the start.
+/// Rotation A - B of the tangent point at one end, relative to the body, since the start. `radial` is the unit vector
+/// from the centre of the end's circle to the tangent point, now; `start_radial` the same at the start, own frame.
 double relative_turn(const Substep& substep, const LinkGeometry& link, const Vector3& start_radial,
-                     const Vector3& point) {
+                     const Vector3& radial) {
   const MovingBody& carrier = substep.moving[at(link.carrier)];
   const Quaternion orientation = substep.orientation(link.carrier);
   const Vector3 normal = orientation * link.normal;
-  const Vector3 center = center_of(substep, link);
-  const Vector3 now = orientation.conjugate() * (point - center);
-  const double raw = angle_between(start_radial, now / std::abs(link.signed_radius), link.normal);
+  const double raw = angle_between(start_radial, orientation.conjugate() * radial, link.normal);
   const double carrier_turn = normal.dot(carrier.turn);
   // In the carrier's frame the tangent point moves against the carrier's rotation.
   const double relative_to_carrier = unwrapped(raw, -carrier_turn);
-  if (!link.mounted) return relative_to_carrier;
+  if (link.carrier == link.body) return relative_to_carrier;
   return relative_to_carrier - (normal.dot(substep.moving[at(link.body)].turn) - carrier_turn);
+}
+
+/// Outward unit normal at the contact of a span with its link, in the link's plane. On a circle the tangent point tells
+/// it; a corner of an outline may have no radius, but there the direction does.
+Vector3 contact_normal(const Substep& substep, const LinkGeometry& link, int corner,
+                       const Vector3& point, const Vector3& direction) {
+  if (!link.outline) return radial(circle_of(substep, link), point);
+  const Vector3 normal = substep.orientation(link.carrier) * link.normal;
+  const Vector3 outward = -link.side * cross(normal, direction);
+  const double length = outward.norm();
+  return length > 0.0 ? Vector3(outward / length)
+                      : radial({center_of(substep, link, corner), normal, 1.0}, point);
+}
+
+/// Cable that a relative turn of the tangent point puts onto a circle, or the way along an outline, counter-clockwise.
+inline double way_along(const LinkGeometry& link, double relative_turn, int start_corner,
+                        double start_angle, int corner) {
+  if (!link.outline) return std::abs(link.signed_radius) * relative_turn;
+  return link.outline->curve.distance(corner, start_angle + relative_turn) -
+         link.outline->curve.distance(start_corner, start_angle);
 }
 
 /// The forces along e1 and e2 that the moving tangent points of skew planes add to the row.
 void add_skew_terms(const Substep& substep, const LinkGeometry& first, const LinkGeometry& second,
                     const SpanGeometry& span, Row& row) {
-  const LinkCircle circle1 = circle_of(substep, first);
-  const LinkCircle circle2 = circle_of(substep, second);
+  const LinkCircle circle1 = circle_of(substep, first, span.first_corner);
+  const LinkCircle circle2 = circle_of(substep, second, span.second_corner);
   const double r1 = std::abs(first.signed_radius);
   const double r2 = std::abs(second.signed_radius);
   // A point is a circle whose tangent point cannot move: k = 0, and 1 on the diagonal of M.
@@ -88,24 +109,82 @@ void add_skew_terms(const Substep& substep, const LinkGeometry& first, const Lin
 
 }  // namespace
 
-LinkCircle circle_of(const Substep& substep, const LinkGeometry& link) {
-  return {center_of(substep, link), substep.orientation(link.carrier) * link.normal,
+LinkCircle circle_of(const Substep& substep, const LinkGeometry& link, int corner) {
+  return {center_of(substep, link, corner), substep.orientation(link.carrier) * link.normal,
           link.signed_radius};
+}
+
+double normal_angle(const Substep& substep, const LinkGeometry& link, const Vector3& direction) {
+  const Vector3 along = substep.orientation(link.carrier).conjugate() * direction;
+  // Outward is -side times left of the direction, and left of x is y.
+  return std::atan2(-link.side * link.outline->x.dot(along),
+                    link.side * link.outline->y.dot(along));
+}
+
+namespace {
+
+inline SpanGeometry span_between(const Substep& substep, const SpanSetup& setup,
+                                 const LinkGeometry& first, const LinkGeometry& second,
+                                 int first_corner, int second_corner) {
+  switch (setup.kind) {
+    case SpanKind::straight:
+      return straight_span(center_of(substep, first, 0), center_of(substep, second, 0));
+    case SpanKind::planar:
+      return planar_span(center_of(substep, first, first_corner), setup.first_radius,
+                         center_of(substep, second, second_corner), setup.second_radius,
+                         setup.normal);
+    case SpanKind::spatial:
+      break;
+  }
+  return spatial_span(circle_of(substep, first, first_corner),
+                      circle_of(substep, second, second_corner));
+}
+
+/// The corner of the link's outline that a span along `direction` touches.
+int touched_corner(const Substep& substep, const LinkGeometry& link, const Vector3& direction,
+                   int near) {
+  if (!link.outline) return 0;
+  const Vector3 along = substep.orientation(link.carrier).conjugate() * direction;
+  return link.outline->curve.support(link.side * link.outline->y.dot(along),
+                                     -link.side * link.outline->x.dot(along), near);
+}
+
+/// Finds the corners: each round turns the span about one end until it no longer cuts the other outline. Between convex
+/// outlines that do not overlap every turn goes the same way for the same end, so each corner is passed once at most
+/// and the rounds are bounded by the number of corners; if they are used up, the outlines overlap.
+SpanGeometry outlined_span(const Substep& substep, const SpanSetup& setup,
+                           const LinkGeometry& first, const LinkGeometry& second) {
+  const Vector3 between = link_center(substep, second) - link_center(substep, first);
+  int first_corner = touched_corner(substep, first, between, 0);
+  int second_corner = touched_corner(substep, second, between, 0);
+  const int rounds = 4 + 2 * (first.outline ? first.outline->curve.corner_count() : 0) +
+                     2 * (second.outline ? second.outline->curve.corner_count() : 0);
+  SpanGeometry span;
+  bool settled = false;
+  for (int round = 0; round < rounds && !settled; ++round) {
+    span = span_between(substep, setup, first, second, first_corner, second_corner);
+    const int next_first = touched_corner(substep, first, span.direction, first_corner);
+    if (next_first != first_corner) {
+      first_corner = next_first;
+      continue;
+    }
+    const int next_second = touched_corner(substep, second, span.direction, second_corner);
+    settled = next_second == second_corner;
+    second_corner = next_second;
+  }
+  span.first_corner = first_corner;
+  span.second_corner = second_corner;
+  span.has_tangent = span.has_tangent && settled;
+  return span;
 }
 
 inline SpanGeometry span_geometry_now(const Substep& substep, const SpanSetup& setup,
                                       const LinkGeometry& first, const LinkGeometry& second) {
-  switch (setup.kind) {
-    case SpanKind::straight:
-      return straight_span(center_of(substep, first), center_of(substep, second));
-    case SpanKind::planar:
-      return planar_span(center_of(substep, first), setup.first_radius, center_of(substep, second),
-                         setup.second_radius, setup.normal);
-    case SpanKind::spatial:
-      break;
-  }
-  return spatial_span(circle_of(substep, first), circle_of(substep, second));
+  if (setup.outlined) return outlined_span(substep, setup, first, second);
+  return span_between(substep, setup, first, second, 0, 0);
 }
+
+}  // namespace
 
 SpanGeometry span_geometry(const Substep& substep, const SpanSetup& setup,
                            const LinkGeometry& first, const LinkGeometry& second) {
@@ -118,10 +197,17 @@ SpanReference span_reference(const Substep& substep, const SpanSetup& setup,
   SpanReference reference;
   reference.rest_length = rest_length;
   if (setup.kind == SpanKind::straight) return reference;
-  const SpanGeometry span = span_geometry(substep, setup, first, second);
+  const SpanGeometry span = span_geometry_now(substep, setup, first, second);
+  if (setup.outlined) {
+    reference.first_corner = span.first_corner;
+    reference.second_corner = span.second_corner;
+    if (first.outline) reference.first_angle = normal_angle(substep, first, span.direction);
+    if (second.outline) reference.second_angle = normal_angle(substep, second, span.direction);
+  }
   if (setup.kind == SpanKind::planar) {
     reference.direction = span.direction;
-    const Vector3 apart = center_of(substep, second) - center_of(substep, first);
+    const Vector3 apart = center_of(substep, second, span.second_corner) -
+                          center_of(substep, first, span.first_corner);
     const Vector3 velocity = start_velocity(substep, second) - start_velocity(substep, first);
     const double distance_squared = dot(apart, apart);
     if (distance_squared > 0.0) {
@@ -130,12 +216,14 @@ SpanReference span_reference(const Substep& substep, const SpanSetup& setup,
     }
     return reference;
   }
-  const auto own_radial = [&](const LinkGeometry& link, const Vector3& point) -> Vector3 {
-    if (link.signed_radius == 0.0) return Vector3::Zero();
-    return substep.orientation(link.carrier).conjugate() * radial(circle_of(substep, link), point);
+  const auto own_radial = [&](const LinkGeometry& link, int corner,
+                              const Vector3& point) -> Vector3 {
+    if (!link.wraps()) return Vector3::Zero();
+    return substep.orientation(link.carrier).conjugate() *
+           contact_normal(substep, link, corner, point, span.direction);
   };
-  reference.first_radial = own_radial(first, span.start);
-  reference.second_radial = own_radial(second, span.end);
+  reference.first_radial = own_radial(first, span.first_corner, span.start);
+  reference.second_radial = own_radial(second, span.second_corner, span.end);
   return reference;
 }
 
@@ -153,22 +241,42 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
       const auto body_turn = [&](const LinkGeometry& link) {
         return dot(setup.normal, substep.moving[at(link.body)].turn);
       };
-      transport.from_first = -setup.first_radius * (turn - body_turn(first));
-      transport.from_second = setup.second_radius * (turn - body_turn(second));
+      const double first_turn = turn - body_turn(first);
+      const double second_turn = turn - body_turn(second);
+      if (setup.outlined) {
+        // The outline counts about its own normal, which may be opposite to the span's.
+        transport.from_first =
+            -first.side * way_along(first, setup.first_sense * first_turn, reference.first_corner,
+                                    reference.first_angle, geometry.first_corner);
+        transport.from_second =
+            second.side * way_along(second, setup.second_sense * second_turn,
+                                    reference.second_corner, reference.second_angle,
+                                    geometry.second_corner);
+        break;
+      }
+      transport.from_first = -setup.first_radius * first_turn;
+      transport.from_second = setup.second_radius * second_turn;
       break;
     }
-    case SpanKind::spatial:
-      if (first.signed_radius != 0.0) {
+    case SpanKind::spatial: {
+      const auto way = [&](const LinkGeometry& link, const Vector3& start_radial, int start_corner,
+                           double start_angle, int corner, const Vector3& point) {
+        const Vector3 outward = contact_normal(substep, link, corner, point, geometry.direction);
+        return way_along(link, relative_turn(substep, link, start_radial, outward), start_corner,
+                         start_angle, corner);
+      };
+      if (first.wraps()) {
         transport.from_first =
-            -first.signed_radius *
-            relative_turn(substep, first, reference.first_radial, geometry.start);
+            -first.side * way(first, reference.first_radial, reference.first_corner,
+                              reference.first_angle, geometry.first_corner, geometry.start);
       }
-      if (second.signed_radius != 0.0) {
+      if (second.wraps()) {
         transport.from_second =
-            second.signed_radius *
-            relative_turn(substep, second, reference.second_radial, geometry.end);
+            second.side * way(second, reference.second_radial, reference.second_corner,
+                              reference.second_angle, geometry.second_corner, geometry.end);
       }
       break;
+    }
   }
   return transport;
 }

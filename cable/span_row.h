@@ -4,7 +4,9 @@
 // C = L - l >= 0 with the length l and the rest length L. With no slip, L follows from the bodies'
 // motion since the start of the substep (design 5.2): with the change A of the angle of the span's
 // tangent point in the link's plane and the rotation B of the body about the plane's normal,
-//   incoming end:  L += q2 (A2 - B2)        outgoing end:  L -= q1 (A1 - B1).
+//   incoming end:  L += q2 (A2 - B2)        outgoing end:  L -= q1 (A1 - B1);
+// on an outline q (A - B) becomes the way along it (cable/outline.h), and the rest of this text holds for the circle
+// at the corner where the span ends.
 // In one plane A1 = A2 is the change of the span's direction. So C is a function of the positions,
 // and nothing drifts.
 //
@@ -48,6 +50,9 @@ struct SpanSetup {
   Vector3 normal = Vector3::UnitZ();  ///< planar: of the common plane, world frame
   double first_radius = 0.0;          ///< planar: signed radii, seen against `normal` [m]
   double second_radius = 0.0;
+  bool outlined = false;     ///< at least one of the links is an outline
+  double first_sense = 1.0;  ///< planar: +1 if the link's normal is `normal`, -1 if opposite
+  double second_sense = 1.0;
 };
 
 /// What a span remembers during a substep: the reference its transport is measured from.
@@ -57,7 +62,11 @@ struct SpanReference {
   double expected_turn = 0.0;               ///< planar: of u over the substep [rad]
   Vector3 first_radial = Vector3::Zero();   ///< spatial: e1 at the start, carrier's own frame
   Vector3 second_radial = Vector3::Zero();  ///< spatial: e2 at the start
-  Vector3 first_point = Vector3::Zero();    ///< tangent_update substep: own frame of the body
+  int first_corner = 0;                     ///< outlines: contact corner at the start
+  int second_corner = 0;
+  double first_angle = 0.0;  ///< outlines: normal angle at the start [rad], carrier's own frame
+  double second_angle = 0.0;
+  Vector3 first_point = Vector3::Zero();  ///< tangent_update substep: own frame of the body
   Vector3 second_point = Vector3::Zero();
 };
 
@@ -67,8 +76,19 @@ struct SpanTransport {
   double from_second = 0.0;  ///< from the second link [m]
 };
 
-/// The link's circle in the world, now.
-[[nodiscard]] LinkCircle circle_of(const Substep& substep, const LinkGeometry& link);
+/// The link's circle in the world, now; of an outline the circle at `corner`.
+[[nodiscard]] LinkCircle circle_of(const Substep& substep, const LinkGeometry& link,
+                                   int corner = 0);
+
+/// Where the link is drawn and named to be: the wheel's centre, the point, the origin of the outline's plane [m].
+[[nodiscard]] inline Vector3 link_center(const Substep& substep, const LinkGeometry& link) {
+  return substep.point(link.carrier, link.center);
+}
+
+/// Angle [rad, (-pi, pi]] of the outline's outward normal where a span along `direction` touches it, about the link's
+/// normal from the outline's x axis.
+[[nodiscard]] double normal_angle(const Substep& substep, const LinkGeometry& link,
+                                  const Vector3& direction);
 
 /// The span as it is now.
 [[nodiscard]] SpanGeometry span_geometry(const Substep& substep, const SpanSetup& setup,

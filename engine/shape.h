@@ -8,6 +8,7 @@
 
 #include "engine/field.h"
 #include "engine/result.h"
+#include "engine/shapes/section.h"
 #include "engine/vector.h"
 
 namespace sheave {
@@ -39,6 +40,9 @@ class Shape {
   /// Appends the points [m] that decide contact with a plane whose inward (downward) unit normal in
   /// the shape's frame is `down`: all corners, or the lowest points of a curved surface.
   virtual void append_contact_points(const Vector3& down, std::vector<Vector3>& points) const = 0;
+  /// Appends points [m] in the plane whose convex hull is the hull of the shape's section with it; curved sections as
+  /// polygons (engine/shapes/section.h). Nothing if the plane misses the shape.
+  virtual void append_section(const SectionPlane& plane, std::vector<Vector3>& points) const = 0;
   /// Half edges [m] of a box about the shape's origin that contains it; for framing a picture and
   /// for the length scale of a scene.
   [[nodiscard]] virtual Vector3 half_extent() const = 0;

@@ -84,7 +84,8 @@ void check_check(const CheckDef& check, const std::string& path, double duration
     fail("/at", fmt::format("the statistic {} has a window; give from and to",
                             statistic_names[static_cast<std::size_t>(check.statistic)]));
   }
-  if (check.from && !(*check.from < check.to.value_or(duration))) {
+  const bool has_end = check.to || !may_end_late;
+  if (check.from && has_end && !(*check.from < check.to.value_or(duration))) {
     fail("/from", fmt::format("the window must not be empty; it ends at {} s",
                               number_text(check.to.value_or(duration))));
   }

@@ -7,7 +7,9 @@
 namespace sheave {
 namespace {
 
-/// The first shape of a body that a cable can roll on; null if there is none.
+constexpr double parallel_tolerance = 1e-6;  // what six printed decimals leave
+
+/// The first shape of a body that a cable can roll on as on a wheel; null if there is none.
 const PlacedShape* wheel_shape(const BodySet& bodies, int body) {
   if (body == bodies.count()) return nullptr;
   for (const PlacedShape& placed : bodies.definition(body).shapes) {
@@ -16,15 +18,14 @@ const PlacedShape* wheel_shape(const BodySet& bodies, int body) {
   return nullptr;
 }
 
-/// A cable plane must be perpendicular to the wheel's axis, or its section would be no circle, and
-/// to the axis the body turns about, or the wheel would leave the plane.
-bool plane_fits(const BodySet& bodies, int body, const PlacedShape* wheel, const Vector3& normal) {
-  constexpr double tolerance = 1e-6;  // what six printed decimals leave
-  const bool round = wheel != nullptr && wheel->shape->type() == "sphere";
-  if (wheel != nullptr && !round &&
-      (wheel->orientation * Vector3::UnitZ()).cross(normal).norm() > tolerance) {
-    return false;
-  }
+/// Whether the section of the wheel with a plane of this normal is a circle.
+bool is_circle(const PlacedShape& wheel, const Vector3& normal) {
+  if (wheel.shape->type() == "sphere") return true;
+  return (wheel.orientation * Vector3::UnitZ()).cross(normal).norm() <= parallel_tolerance;
+}
+
+/// A cable plane must be perpendicular to the axis that the body turns about, or the body would leave it.
+bool plane_fits_axle(const BodySet& bodies, int body, const Vector3& normal) {
   if (body == bodies.count()) return true;
   const BodyProperties& properties = bodies[body];
   if (properties.mobility != Mobility::rotor) return true;
@@ -32,7 +33,55 @@ bool plane_fits(const BodySet& bodies, int body, const PlacedShape* wheel, const
       properties.mount < 0
           ? properties.axis
           : Vector3(bodies.initial_orientation(properties.mount) * properties.axis);
-  return (bodies.initial_orientation(body).conjugate() * axle).cross(normal).norm() <= tolerance;
+  return (bodies.initial_orientation(body).conjugate() * axle).cross(normal).norm() <=
+         parallel_tolerance;
+}
+
+/// Hull of the section of all shapes of the body with the plane; an error if it has no area.
+Result<LinkOutline> section_outline(const BodySet& bodies, int body, const Vector3& center,
+                                    const Vector3& normal) {
+  std::vector<Vector3> points;
+  for (const PlacedShape& placed : bodies.definition(body).shapes) {
+    const Quaternion to_shape = placed.orientation.conjugate();
+    std::vector<Vector3> section;
+    placed.shape->append_section({to_shape * (center - placed.position), to_shape * normal},
+                                 section);
+    for (const Vector3& point : section) {
+      points.emplace_back(placed.position + placed.orientation * point);
+    }
+  }
+  LinkOutline outline;
+  int smallest = 0;
+  normal.cwiseAbs().minCoeff(&smallest);
+  outline.y = normal.cross(Vector3::Unit(smallest)).normalized();
+  outline.x = outline.y.cross(normal);
+  for (Vector3& point : points) {
+    const Vector3 offset = point - center;
+    point = {outline.x.dot(offset), outline.y.dot(offset), 0.0};
+  }
+  Result<Outline> curve = Outline::create(points);
+  if (!curve) return curve.errors();
+  outline.curve = std::move(*curve);
+  for (int i = 0; i < outline.curve.corner_count(); ++i) {
+    const Vector3& corner = outline.curve.corner(i);
+    outline.corners.emplace_back(center - bodies[body].center_of_mass + corner.x() * outline.x +
+                                 corner.y() * outline.y);
+  }
+  return outline;
+}
+
+/// A wheel whose centre lies on the axle of a mounted rotor has it and its plane fixed to the carrier, which saves
+/// following the rotor's own angle.
+void carry_by_axle(const BodySet& bodies, const Vector3& body_center, LinkGeometry& link) {
+  const int mount = bodies[link.body].mount;
+  if (mount < 0) return;
+  const Quaternion to_carrier =
+      bodies.initial_orientation(mount).conjugate() * bodies.initial_orientation(link.body);
+  const Vector3 offset = to_carrier * body_center;
+  if (offset.cross(bodies[link.body].axis).norm() > 1e-9 * std::abs(link.signed_radius)) return;
+  link.carrier = mount;
+  link.center = bodies[link.body].mount_position + offset;
+  link.normal = to_carrier * link.normal;
 }
 
 }  // namespace
@@ -44,12 +93,14 @@ std::span<const Field> RollingLink::field_table() {
           "which way the cable runs round the wheel, seen against the plane's normal"),
       field<&RollingLink::center>("center", "m", any_number(), optional,
                                   "centre of the wheel, body frame; default: the centre of the "
-                                  "body's first wheel-like shape"),
+                                  "body's first wheel-like shape, or of its first shape"),
       field<&RollingLink::normal>("normal", "", any_number(), optional,
                                   "normal of the cable's plane, body frame; default: that shape's "
                                   "z axis"),
-      field<&RollingLink::radius>("radius", "m", above(0.0), optional,
-                                  "default: that shape's radius"),
+      field<&RollingLink::radius>(
+          "radius", "m", above(0.0), optional,
+          "of a circular wheel; default: that shape's radius, or without a wheel-like shape "
+          "the hull of the section of all the body's shapes with the plane"),
       field<&RollingLink::stored_length>(
           "stored_length", "m", at_least(0.0), optional,
           "cable wound on the wheel at time 0; required at the end of an open cable, elsewhere it "
@@ -63,51 +114,50 @@ std::span<const Field> RollingLink::field_table() {
 Result<LinkGeometry> RollingLink::compile(const BodySet& bodies, const std::string& path) const {
   const int index = bodies.index(body);
   const PlacedShape* wheel = wheel_shape(bodies, index);
-  Errors errors;
-  if (!radius && wheel == nullptr) {
-    errors.push_back({path + "/body", "body \"" + bodies.name(index) +
-                                          "\" has no wheel-like shape (cylinder, sphere, capsule) "
-                                          "to roll on; give the link a \"radius\""});
+  const PlacedShape* shape = wheel;
+  if (shape == nullptr && index != bodies.count() && !bodies.definition(index).shapes.empty()) {
+    shape = &bodies.definition(index).shapes.front();
+  }
+  if (!radius && shape == nullptr) {
+    return Error{path + "/body", "body \"" + bodies.name(index) +
+                                     "\" has no shape to roll on; give the link a \"radius\""};
   }
   Vector3 plane_normal = Vector3::UnitZ();
-  if (wheel != nullptr) plane_normal = wheel->orientation * plane_normal;
+  if (shape != nullptr) plane_normal = shape->orientation * plane_normal;
   if (normal) {
     if (!(normal->norm() > 1e-12)) {
-      errors.push_back({path + "/normal", "the normal must have a direction; its length is 0"});
-    } else {
-      plane_normal = normal->normalized();
+      return Error{path + "/normal", "the normal must have a direction; its length is 0"};
     }
+    plane_normal = normal->normalized();
   }
-  if (errors.empty() && !plane_fits(bodies, index, wheel, plane_normal)) {
-    errors.push_back({path + (normal ? "/normal" : "/body"),
-                      "the cable's plane on body \"" + bodies.name(index) +
-                          "\" must be perpendicular to the wheel's axis and to its axle"});
+  if (!plane_fits_axle(bodies, index, plane_normal)) {
+    return Error{path + (normal ? "/normal" : "/body"), "the cable's plane on body \"" +
+                                                            bodies.name(index) +
+                                                            "\" must be perpendicular to its axle"};
   }
-  if (!errors.empty()) return errors;
+  const Vector3 body_center =
+      center.value_or(shape != nullptr ? shape->position : Vector3(Vector3::Zero()));
 
   LinkGeometry link;
   link.body = link.carrier = index;
-  const double size = radius.value_or(wheel != nullptr ? wheel->shape->wheel_radius() : 0.0);
-  link.signed_radius = winding == Winding::counter_clockwise ? size : -size;
-  const Vector3 body_center =
-      center.value_or(wheel != nullptr ? wheel->position : Vector3(Vector3::Zero()));
+  link.side = winding == Winding::counter_clockwise ? 1 : -1;
   link.center = body_center - bodies[index].center_of_mass;
   link.normal = plane_normal;
   link.given_stored_length = stored_length.value_or(std::numeric_limits<double>::quiet_NaN());
   link.extra_turns = turns;
-  const int mount = bodies[index].mount;
-  if (mount < 0) return link;
-  // The wheel's centre lies on the axle, which is fixed to the carrier.
-  const Quaternion to_carrier =
-      bodies.initial_orientation(mount).conjugate() * bodies.initial_orientation(index);
-  link.carrier = mount;
-  link.mounted = true;
-  link.center = bodies[index].mount_position + to_carrier * body_center;
-  link.normal = to_carrier * plane_normal;
-  if ((to_carrier * body_center).cross(bodies[index].axis).norm() > 1e-9 * size) {
-    return Error{path + "/center", "the wheel on the mounted rotor \"" + bodies.name(index) +
-                                       "\" must be centred on its axle"};
+  link.mounted = bodies[index].mount >= 0;
+  if (radius || (wheel != nullptr && is_circle(*wheel, plane_normal))) {
+    link.signed_radius = link.side * (radius ? *radius : wheel->shape->wheel_radius());
+    carry_by_axle(bodies, body_center, link);
+    return link;
   }
+  Result<LinkOutline> outline = section_outline(bodies, index, body_center, plane_normal);
+  if (!outline) {
+    return Error{path + (center ? "/center" : "/body"),
+                 "the cable's plane does not cut the shapes of body \"" + bodies.name(index) +
+                     "\" in an area"};
+  }
+  link.outline = std::make_shared<const LinkOutline>(std::move(*outline));
   return link;
 }
 

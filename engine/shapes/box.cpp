@@ -28,4 +28,10 @@ void Box::append_contact_points(const Vector3& /*down*/, std::vector<Vector3>& p
   }
 }
 
+void Box::append_section(const SectionPlane& plane, std::vector<Vector3>& points) const {
+  std::vector<Vector3> corners;
+  append_contact_points(plane.normal, corners);
+  append_hull_section(corners, plane, points);
+}
+
 }  // namespace sheave

@@ -17,6 +17,7 @@ class Box final : public Shape {
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] MassProperties unit_density() const override;
   void append_contact_points(const Vector3& down, std::vector<Vector3>& points) const override;
+  void append_section(const SectionPlane& plane, std::vector<Vector3>& points) const override;
   [[nodiscard]] Vector3 half_extent() const override { return 0.5 * size; }
 };
 

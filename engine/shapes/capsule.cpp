@@ -32,4 +32,11 @@ void Capsule::append_contact_points(const Vector3& down, std::vector<Vector3>& p
   }
 }
 
+void Capsule::append_section(const SectionPlane& plane, std::vector<Vector3>& points) const {
+  append_cylinder_section(radius, length, plane, points);
+  for (const double end : {-0.5, 0.5}) {
+    append_ball_section(Vector3(0.0, 0.0, end * length), radius, plane, points);
+  }
+}
+
 }  // namespace sheave

@@ -20,6 +20,7 @@ class Capsule final : public Shape {
   [[nodiscard]] MassProperties unit_density() const override;
   [[nodiscard]] double wheel_radius() const override { return radius; }
   void append_contact_points(const Vector3& down, std::vector<Vector3>& points) const override;
+  void append_section(const SectionPlane& plane, std::vector<Vector3>& points) const override;
   [[nodiscard]] Vector3 half_extent() const override {
     return {radius, radius, 0.5 * length + radius};
   }

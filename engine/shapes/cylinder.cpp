@@ -36,4 +36,8 @@ void Cylinder::append_contact_points(const Vector3& down, std::vector<Vector3>& 
   }
 }
 
+void Cylinder::append_section(const SectionPlane& plane, std::vector<Vector3>& points) const {
+  append_cylinder_section(radius, length, plane, points);
+}
+
 }  // namespace sheave

@@ -79,4 +79,8 @@ Hull Polyhedron::hull() const {
   return surface ? std::move(surface).value() : Hull{};
 }
 
+void Polyhedron::append_section(const SectionPlane& plane, std::vector<Vector3>& section) const {
+  append_hull_section(hull().vertices, plane, section);
+}
+
 }  // namespace sheave

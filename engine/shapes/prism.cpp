@@ -98,4 +98,12 @@ std::vector<Vector3> Prism::hull() const {
   return corners ? std::move(corners).value() : std::vector<Vector3>{};
 }
 
+void Prism::append_section(const SectionPlane& plane, std::vector<Vector3>& points) const {
+  std::vector<Vector3> corners;
+  for (const Vector3& corner : hull()) {
+    for (const double end : {-0.5, 0.5}) corners.emplace_back(corner.x(), corner.y(), end * length);
+  }
+  append_hull_section(corners, plane, points);
+}
+
 }  // namespace sheave

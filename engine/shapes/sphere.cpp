@@ -20,4 +20,8 @@ void Sphere::append_contact_points(const Vector3& down, std::vector<Vector3>& po
   points.emplace_back(radius * down);
 }
 
+void Sphere::append_section(const SectionPlane& plane, std::vector<Vector3>& points) const {
+  append_ball_section(Vector3::Zero(), radius, plane, points);
+}
+
 }  // namespace sheave

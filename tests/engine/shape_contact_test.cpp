@@ -20,6 +20,7 @@
 #include "engine/shapes/polyhedron.h"
 #include "engine/shapes/prism.h"
 #include "engine/shapes/sphere.h"
+#include "tests/support/rounding.h"
 #include "tests/support/shapes.h"
 
 namespace sheave {
@@ -27,7 +28,7 @@ namespace {
 
 using namespace test;  // NOLINT(google-build-using-namespace): builders of shapes
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 
 /// A shape with points of its surface, among them one no deeper than `coarseness` above the deepest
 /// in any direction: rings of 1000 points miss a circle by at most r (1 - cos(pi/1000)) < 5e-6 r.

@@ -17,6 +17,7 @@
 #include "engine/shapes/polyhedron.h"
 #include "engine/shapes/prism.h"
 #include "engine/shapes/sphere.h"
+#include "tests/support/rounding.h"
 #include "tests/support/shapes.h"
 
 namespace sheave {
@@ -24,7 +25,7 @@ namespace {
 
 using namespace test;  // NOLINT(google-build-using-namespace): builders of shapes
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
+using test::eps;
 
 // Mass properties are sums of up to a few dozen products of about five factors each, all below
 // mass * size^2, and every operation rounds once: 100 eps of that bound, where not said otherwise.

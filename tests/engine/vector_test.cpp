@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/rounding.h"
+
 namespace sheave {
 namespace {
 

@@ -215,7 +215,8 @@ TEST(overrides, are_named_in_errors) {
 TEST(overrides, may_shorten_a_run_below_its_checks) {
   const std::string text = scene_text(R"("checks": [
     {"quantity": "t", "equals": 1, "tolerance": 0.1, "at": 1},
-    {"quantity": "t", "statistic": "mean", "equals": 1, "tolerance": 1, "from": 0.5, "to": 1}])");
+    {"quantity": "t", "statistic": "mean", "equals": 1, "tolerance": 1, "from": 0.5, "to": 1},
+    {"quantity": "t", "statistic": "mean", "equals": 1, "tolerance": 2, "from": 0.5}])");
   EXPECT_TRUE(load(text));
   EXPECT_TRUE(load(text, {{"/duration", "0.25", "--duration"}}));
   EXPECT_FALSE(load(text, {{"/checks/0/at", "2", ""}}));

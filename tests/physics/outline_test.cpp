@@ -1,0 +1,219 @@
+// Cables on outlines: cams, polygons as wheels, bodies that tumble on their cable.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/shapes/prism.h"
+#include "tests/support/builders.h"
+#include "tests/support/gradient_check.h"
+
+namespace sheave {
+namespace {
+
+using test::attach;
+using test::cable;
+using test::g;
+using test::left;
+using test::right;
+using test::roll;
+
+/// A body whose shape is a regular prism with corners on a circle of this radius about `center`.
+BodyDef polygon(std::string name, int corners, double radius, const Vector3& center,
+                double inertia) {
+  BodyDef body = test::wheel(std::move(name), Vector3::Zero(), radius, inertia);
+  auto prism = std::make_shared<Prism>();
+  prism->length = 0.1;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2.0 * pi * i / corners;
+    prism->outline.emplace_back(center.x() + radius * std::cos(angle),
+                                center.y() + radius * std::sin(angle), 0.0);
+  }
+  body.shapes = {{prism}};
+  if (center.norm() > 0.0) {
+    // Counterweights beside the cable's plane bring the centre of mass back to the axle.
+    auto half = std::make_shared<Prism>(*prism);
+    half->length = 0.05;
+    const Quaternion turned = rotation_by({0.0, 0.0, pi});
+    body.shapes.push_back({half, {0.0, 0.0, 0.3}, turned});
+    body.shapes.push_back({half, {0.0, 0.0, -0.3}, turned});
+  }
+  return body;
+}
+
+/// A cable from a point far above to a spool on a cam that turns about the origin.
+struct Cam {
+  static constexpr double radius = 0.2;
+  static constexpr double eccentricity = 0.1;
+  static constexpr double height = 3.0;
+  test::Machine machine;
+
+  explicit Cam(int corners) {
+    BodyDef body = corners > 0 ? polygon("cam", corners, radius, {eccentricity, 0.0, 0.0}, 0.05)
+                               : test::wheel("cam", Vector3::Zero(), radius, 0.05);
+    auto spool = roll(machine.model.add(body), left);
+    spool->stored_length = 20.0;
+    if (corners == 0) spool->center = Vector3(eccentricity, 0.0, 0.0);
+    machine.cables.push_back(cable("rope", {attach(BodyId::world(), {0.0, height, 0.0}), spool}));
+  }
+
+  /// Torque per tension about the axle when the cam has turned by `angle`.
+  [[nodiscard]] double torque(double angle) const {
+    test::Machine turned = machine;
+    turned.model.bodies[0].orientation = rotation_by({0.0, 0.0, angle});
+    const Simulation s = test::start(turned);
+    Substep substep(s.world.bodies(), s.world.state(), 0.01, 1);
+    ConstraintBatch& batch = *s.world.features().back();
+    batch.begin(substep, s.world.state().features.back());
+    std::vector<Row> rows;
+    batch.linearise(substep, rows);
+    return rows.at(0).terms[0].angular.z();
+  }
+
+  /// The lever arm of the tangent from (0, height) to the disc about (e cos, e sin), by elementary geometry: the line
+  /// makes the angle asin(r / d) with the line to the centre.
+  [[nodiscard]] static double lever(double angle) {
+    const double x = eccentricity * std::cos(angle);
+    const double y = eccentricity * std::sin(angle) - height;
+    const double d = std::hypot(x, y);
+    // Down from the point, the disc on the left of a cable that winds on counter-clockwise.
+    const double direction = std::atan2(y, x) - std::asin(radius / d);
+    const Vector3 u(std::cos(direction), std::sin(direction), 0.0);
+    return Vector3(0.0, height, 0.0).cross(u).z();
+  }
+};
+
+TEST(Cam, TorqueOfAnEccentricDiscIsTensionTimesLeverArm) {
+  const Cam cam(0);
+  for (int i = 0; i < 72; ++i) {
+    const double angle = 2.0 * pi * i / 72.0;
+    // The cable pulls the rim along -u; rounding of lengths of 3 m.
+    EXPECT_NEAR(cam.torque(angle), -Cam::lever(angle), 1e-13) << angle;
+  }
+}
+
+TEST(Cam, TorqueOfA256GonIsThatOfTheDiscWithinATenthOfAPercent) {
+  const Cam cam(256);
+  for (int i = 0; i < 72; ++i) {
+    const double angle = 2.0 * pi * i / 72.0;
+    const double lever = Cam::lever(angle);
+    // The line passes through a corner, within r (1 - cos(pi / 256)) = 1.5e-5 m of the disc's tangent; the
+    // smallest arm is r - e = 0.1 m.
+    EXPECT_NEAR(cam.torque(angle), -lever, 1.6e-5) << angle;
+    EXPECT_LT(1.6e-5 / std::abs(lever), 1e-3);
+  }
+}
+
+TEST(Outline, GradientsAreExactInOnePlane) {
+  test::Machine m;
+  const BodyId a = m.model.add(polygon("a", 7, 0.3, {0.05, 0.02, 0.0}, 0.05));
+  BodyDef block = polygon("b", 5, 0.25, Vector3::Zero(), 0.05);
+  block.mobility = Mobility::planar;
+  block.position = {1.5, 0.3, 0.0};
+  const BodyId b = m.model.add(block);
+  // An outline that looks the other way: its own normal is -z, so its windings are mirrored.
+  BodyDef flipped = polygon("c", 6, 0.2, Vector3::Zero(), 0.05);
+  flipped.position = {3.0, -0.2, 0.0};
+  flipped.orientation = rotation_by({pi, 0.0, 0.0});
+  const BodyId c = m.model.add(flipped);
+  const BodyId w = m.model.add(test::wheel("w", {4.2, 0.3, 0.0}, 0.2, 0.05));
+  m.cables.push_back(
+      cable("rope", {attach(BodyId::world(), {-1.0, -0.5, 0.0}), roll(a, right), roll(b, left),
+                     roll(c, left), roll(w, left), attach(BodyId::world(), {4.0, -2.0, 0.0})}));
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Simulation s = test::start(m);
+    Substep substep(s.world.bodies(), s.world.state(), 0.01, 1);
+    ConstraintBatch& batch = *s.world.features().back();
+    batch.begin(substep, s.world.state().features.back());
+    test::displace(substep, 0.1, 2.0, seed);
+    const test::GradientCheck check = test::check_gradients(substep, batch);
+    EXPECT_GT(check.compared, 8);
+    EXPECT_LT(check.error, 1e-9) << check.worst << " seed " << seed;
+  }
+}
+
+TEST(Outline, GradientsAreExactInSpaceBetweenPointAndPolygon) {
+  test::Machine m;
+  BodyDef block = polygon("block", 6, 0.3, Vector3::Zero(), 0.05);
+  block.mobility = Mobility::free;
+  block.orientation = rotation_by({0.3, -0.2, 0.1});
+  const BodyId b = m.model.add(block);
+  m.cables.push_back(cable("rope", {attach(BodyId::world(), {-1.0, -0.8, 0.3}), roll(b, right),
+                                    attach(BodyId::world(), {1.3, -0.9, -0.2})}));
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Simulation s = test::start(m);
+    Substep substep(s.world.bodies(), s.world.state(), 0.01, 1);
+    ConstraintBatch& batch = *s.world.features().back();
+    batch.begin(substep, s.world.state().features.back());
+    test::displace(substep, 0.02, 0.05, seed);
+    const test::GradientCheck check = test::check_gradients(substep, batch);
+    EXPECT_LT(check.error, 1e-9) << check.worst << " seed " << seed;
+  }
+}
+
+/// Acceleration of weights of 1 kg and 2 kg over a regular polygon inscribed in a circle (0 corners: the circle), as an
+/// average over 1.5 s in which the wheel turns some 5 times.
+double polygon_acceleration(int corners) {
+  constexpr double radius = 0.25;
+  test::Machine m;
+  m.model.gravity = test::down;
+  m.model.step = test::settings(0.002, 1, 20);
+  const BodyDef circle = test::wheel("wheel", Vector3::Zero(), radius, 0.05);
+  const BodyId wheel =
+      m.model.add(corners > 0 ? polygon("wheel", corners, radius, Vector3::Zero(), 0.05) : circle);
+  const BodyId a = m.model.add(test::weight("a", {-radius, -30.0, 0.0}, 1.0));
+  const BodyId b = m.model.add(test::weight("b", {radius, -30.0, 0.0}, 2.0));
+  m.cables.push_back(cable("rope", {attach(a), roll(wheel, right), attach(b)}));
+  Simulation s = test::start(m);
+  test::run(s.world, 1.5);
+  EXPECT_LT(std::abs(s.cable_reports()[0].length_error), 1e-15);
+  return -2.0 * (s.world.position(b).y() + 30.0) / (1.5 * 1.5);
+}
+
+TEST(Outline, PolygonsConvergeToTheCircleInSecondOrder) {
+  // A polygon with n corners acts on average like a wheel with its perimeter, 2 n r sin(pi / n), which falls short of
+  // the circle's by pi^2 / 6 n^2. With J / r^2 = 0.8 kg beside 3 kg, a = g / (3 + J / r^2) falls
+  // by 2 * 0.8 / 3.8 of that share.
+  const double circle = polygon_acceleration(0);
+  std::vector<double> errors;
+  for (const int corners : {8, 16, 32, 64}) {
+    const double error = (circle - polygon_acceleration(corners)) / circle;
+    const double expected = 2.0 * 0.8 / 3.8 * pi * pi / 6.0 / (corners * corners);
+    // The average ends somewhere between two corners, where the lever arm is off its mean by up to the same share.
+    EXPECT_NEAR(error, expected, 0.25 * expected) << corners;
+    errors.push_back(error);
+  }
+  for (std::size_t i = 1; i < errors.size(); ++i) {
+    EXPECT_NEAR(std::log2(errors[i - 1] / errors[i]), 2.0, 0.35);
+  }
+}
+
+TEST(Outline, ManyTurnsOfAPolygonMoveTheirPerimeters) {
+  // A square drum is driven; the load rises by one perimeter per turn, however fast it turns: here 1.7 turns per step.
+  for (const double turns_per_step : {0.05, 0.4, 1.7}) {
+    test::Machine m;
+    m.model.step = test::settings(0.01, 1, 10);
+    BodyDef drum = polygon("drum", 4, 0.1, Vector3::Zero(), 0.01);
+    drum.mobility = Mobility::kinematic;
+    drum.axis.reset();
+    drum.mass.reset();
+    drum.inertia.reset();
+    drum.angular_velocity = {0.0, 0.0, 2.0 * pi * turns_per_step / 0.01};
+    auto spool = roll(m.model.add(drum), left);
+    spool->stored_length = 100.0;
+    const BodyId load = m.model.add(test::weight("load", {-0.1, -100.0, 0.0}, 1.0));
+    m.cables.push_back(cable("rope", {attach(load), spool}));
+    Simulation s = test::start(m);
+    const double before = s.cable_reports()[0].links[1].stored_length;
+    for (int i = 0; i < 20; ++i) ASSERT_TRUE(s.world.step().ok());
+    const CableReport report = s.cable_reports()[0];
+    const double perimeter = 4.0 * 0.1 * std::sqrt(2.0);
+    // 20 steps are a whole number of quarter turns; the direction of the span hardly changes over 100 m.
+    EXPECT_NEAR(std::abs(report.links[1].stored_length - before), 20.0 * turns_per_step * perimeter,
+                0.01 * perimeter)
+        << turns_per_step;
+  }
+}
+
+}  // namespace
+}  // namespace sheave
