@@ -47,6 +47,12 @@ class CableCompiler {
     s.references_.resize(spans);
     s.multipliers_.resize(spans);
     s.fallbacks_.resize(spans);
+    s.initial_.reals.resize(s.initial_.reals.size() + s.links_.size(), 0.0);  // slip
+    s.initial_.integers.assign(s.links_.size(), 0);
+    s.slip_.assign(s.links_.size(), 0);
+    s.pending_slip_ = s.flips_ = s.slip_;
+    s.sweeps_.assign(s.cables_.size(), 0);
+    s.stored_lengths_.resize(s.links_.size());
     return std::move(system_);
   }
 
@@ -102,6 +108,22 @@ class CableCompiler {
       links_.back().centered = compiled->center.isZero(0.0);
       const bool end = !def.closed && (i == 0 || i + 1 == def.links.size());
       check_stored_length(*compiled, end, "/links/" + std::to_string(i));
+      check_passage(*compiled, end, "/links/" + std::to_string(i));
+    }
+  }
+
+  void check_passage(const LinkGeometry& link, bool end, const std::string& field) {
+    if (end && link.slides) fail(field, "a cable cannot end in a pinhole; attach it");
+    if (end && link.wraps() && !std::isnan(link.friction)) {
+      fail(field + "/friction", "at the end of a cable nothing can slip; leave friction out");
+    }
+    if (!link.massless) return;
+    const std::string& wheel = bodies_.name(link.body);
+    if (end) fail(field, "a cable cannot end on \"" + wheel + "\", which has no spin inertia");
+    if (link.outline) fail(field, "the massless wheel \"" + wheel + "\" must be circular");
+    if (!massless_wheels_.insert(link.body).second) {
+      fail(field, "the massless wheel \"" + wheel +
+                      "\" can carry only one cable once: nothing would hold two together");
     }
   }
 
@@ -180,7 +202,7 @@ class CableCompiler {
     const double rb = std::abs(b.signed_radius);
     const double distance = (link_center(now_, b) - link_center(now_, a)).norm();
     if (!a.wraps() && !b.wraps()) {
-      if (a.body == b.body)
+      if (a.body == b.body && !a.passes() && !b.passes())
         fail(field, pair +
                         " are points of one body; the span between them "
                         "would do nothing");
@@ -254,6 +276,12 @@ class CableCompiler {
     cable.inverse_stiffness = def.axial_stiffness ? 1.0 / *def.axial_stiffness : 0.0;
     cable.damping = def.damping;
     cable.tangent_update = def.tangent_update;
+    for (int i = 0; i < cable.link_count; ++i) {
+      const bool end = !def.closed && (i == 0 || i + 1 == cable.link_count);
+      if (end || !links_[at(i)].passes()) continue;
+      cable.shares = true;
+      cable.has_friction = cable.has_friction || !links_[at(i)].frictionless();
+    }
     std::vector<double> lengths;
     for (int k = 0; k < cable.span_count; ++k) {
       lengths.push_back(def.rest_lengths.empty() ? geometry_[at(k)].length
@@ -290,6 +318,7 @@ class CableCompiler {
   std::unique_ptr<CableSystem> system_{new CableSystem};
   Errors errors_;
   std::set<std::string> names_;
+  std::set<int> massless_wheels_;
   std::vector<double> rest_lengths_;
   std::vector<double> stored_lengths_;
   // Of the cable that is being added.

@@ -20,6 +20,7 @@ void CableSystem::append_links(const CompiledCable& cable, const Substep& now,
     entry.winding = link.side;
     entry.stored_length = own.reals[stored_length_index(index)];
     entry.wrap_angle = link.wraps() ? 2.0 * pi * entry.stored_length / link.perimeter() : 0.0;
+    entry.slip = own.reals[slip_index(index)];
     const bool has_incoming = cable.closed || i > 0;
     const bool has_outgoing = cable.closed || i + 1 < cable.link_count;
     const int incoming = i > 0 ? i - 1 : cable.span_count - 1;

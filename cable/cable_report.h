@@ -22,7 +22,10 @@ struct LinkReport {
   Vector3 entry = Vector3::Zero();
   Vector3 exit = Vector3::Zero();
   double stored_length = 0.0;  ///< cable on the body [m]
-  double wrap_angle = 0.0;     ///< stored_length / radius [rad], any number of turns
+  /// Stored length in turns of the link's perimeter, as an angle [rad]; any number of turns.
+  double wrap_angle = 0.0;
+  /// Cable that has slid over the link towards the next span since time 0 [m]; what rolled with a wheel is not counted.
+  double slip = 0.0;
 };
 
 /// One free span of a cable.

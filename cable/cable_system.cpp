@@ -21,6 +21,12 @@ double CableSystem::compliance_of(const CompiledCable& cable, double rest_length
 
 void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
+  std::fill(sweeps_.begin(), sweeps_.end(), 0);
+  std::fill(flips_.begin(), flips_.end(), 0);
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    slip_[i] = pending_slip_[i] = static_cast<int>(state.integers[i]);
+    stored_lengths_[i] = state.reals[stored_length_index(static_cast<int>(i))];
+  }
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const SpanSetup& setup = spans_[k];
     const LinkGeometry& first = links_[at(setup.first)];
@@ -54,8 +60,17 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row) c
 
 double CableSystem::sweep(Substep& substep) {
   double correction = 0.0;
+  for (std::size_t i = 0; i < cables_.size(); ++i) {
+    correction = std::max(correction, cables_[i].shares ? sweep_runs(substep, static_cast<int>(i))
+                                                        : sweep_spans(substep, cables_[i]));
+  }
+  return correction;
+}
+
+double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
+  double correction = 0.0;
   Row row;
-  for (int k = 0; k < row_count(); ++k) {
+  for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     row.clear();
     evaluate(substep, k, row);
     double& multiplier = multipliers_[at(k)];
@@ -96,6 +111,14 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     if (second.wraps()) move(transport.from_second, setup.second, 1);
     next.reals[tension_index(k)] = multipliers_[at(k)] * inverse_square;
   }
+  for (const CompiledCable& cable : cables_) {
+    if (cable.shares) share_lengths(substep, cable, next);
+  }
+}
+
+SpanGeometry CableSystem::geometry_of(const Substep& substep, int span) const {
+  const SpanSetup& setup = spans_[at(span)];
+  return span_geometry(substep, setup, links_[at(setup.first)], links_[at(setup.second)]);
 }
 
 double CableSystem::elastic_energy(const BodySet& bodies, const State& state,

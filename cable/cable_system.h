@@ -23,6 +23,8 @@ struct CompiledCable {
   double compliance = 0.0;         ///< [m/N]; 0 if rigid or of a material
   double inverse_stiffness = 0.0;  ///< 1/EA [1/N]; 0 if not of a material
   double damping = 0.0;            ///< [N s/m]
+  bool shares = false;             ///< cable can pass at one of its links other than by rolling
+  bool has_friction = false;       ///< and at one of them with friction
   TangentUpdate tangent_update = TangentUpdate::iteration;
   double start_length = 0.0;  ///< rest and stored lengths at time 0 [m]
   /// Power of two that all rest and stored lengths are multiples of [m], about 1e-15 of the cable.
@@ -34,7 +36,9 @@ struct CompiledCable {
 
 /// The feature "cables" of a world. Layout of its state, with the spans and links of all cables in
 /// order: reals = rest length per span [m], stored length per link [m], tension per span [N],
-/// transport below the quantum per span end (first, second) [m]; no integers.
+/// transport below the quantum per span end (first, second) [m], slip per
+/// link [m]: cable that has slid over it towards the next span; integers = per link with friction which way the cable
+/// slides: +1 towards the next span, -1 towards the last, 0 not at all.
 class CableSystem final : public ConstraintBatch {
  public:
   /// Checks and compiles the cables. Errors have paths "/cables/i/...".
@@ -80,11 +84,40 @@ class CableSystem final : public ConstraintBatch {
     return 2 * spans_.size() + links_.size() + 2 * static_cast<std::size_t>(span) +
            static_cast<std::size_t>(end);
   }
+  [[nodiscard]] std::size_t slip_index(int link) const {
+    return 4 * spans_.size() + links_.size() + static_cast<std::size_t>(link);
+  }
 
  private:
   friend class CableCompiler;
   CableSystem() = default;
   SpanGeometry evaluate(const Substep& substep, int span, Row& row) const;
+  [[nodiscard]] SpanGeometry geometry_of(const Substep& substep, int span) const;
+
+  // Cable that passes between spans: cable/cable_runs.cpp.
+  /// Spans first, first + 1, ... of a cable (cyclic if it is closed) that share one multiplier.
+  struct Run {
+    int first = 0;
+    int count = 0;
+  };
+  [[nodiscard]] int next_span(const CompiledCable& cable, int span) const;
+  [[nodiscard]] bool shared(int link) const;
+  template <class Visit>
+  void for_each_run(const CompiledCable& cable, Visit visit) const;
+  /// Friction times wrap angle at a link, now.
+  [[nodiscard]] double friction_exponent(const Substep& substep, int link,
+                                         const SpanGeometry& incoming,
+                                         const SpanGeometry& outgoing) const;
+  double sweep_spans(Substep& substep, const CompiledCable& cable);
+  double sweep_runs(Substep& substep, int cable_index);
+  double solve_run(Substep& substep, const CompiledCable& cable, Run run);
+  /// Per span of the run: rest length that has to leave it [m], so that all have their tensions.
+  [[nodiscard]] std::vector<double> run_spare(const Substep& substep, const CompiledCable& cable,
+                                              Run run) const;
+  void update_slip(const Substep& substep, const CompiledCable& cable);
+  void share_lengths(Substep& substep, const CompiledCable& cable, FeatureState& next);
+  void share_run(Substep& substep, const CompiledCable& cable, Run run, FeatureState& next) const;
+  void turn_massless_wheel(Substep& substep, int link, double length) const;
   [[nodiscard]] double compliance_of(const CompiledCable& cable, double rest_length) const;
   void append_links(const CompiledCable& cable, const Substep& now, const FeatureState& own,
                     CableReport& report) const;
@@ -96,6 +129,16 @@ class CableSystem final : public ConstraintBatch {
   // Scratch of a substep, filled by begin().
   std::vector<SpanReference> references_;
   std::vector<double> multipliers_;
+  std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
+  std::vector<int> pending_slip_;
+  std::vector<int> sweeps_;             ///< per cable, in this substep
+  std::vector<int> flips_;              ///< per link: how often that has changed in this substep
+  std::vector<double> stored_lengths_;  ///< per link, at the start of the substep [m]
+  // Scratch of solve_run().
+  std::vector<Row> run_rows_;
+  std::vector<SpanGeometry> run_spans_;
+  std::vector<double> run_weights_;
+  std::vector<RowTerm> run_gradient_;  ///< per body; `body` is not used
   // Diagnostics, no part of the simulation.
   struct Fallback {
     long substeps = 0;

@@ -2,6 +2,7 @@
 // What every link type must provide. Adding one: a file in cable/links/ and a line in
 // cable/link_registry.cpp.
 
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -41,9 +42,18 @@ struct LinkGeometry {
   std::shared_ptr<const LinkOutline> outline;  ///< null: a circle about `center`, or a point
   /// Cable on the body at time 0 [m] as the user gave it; NaN: the arc between the tangents.
   double given_stored_length = 0.0;
+  /// Whether the cable slides over the link instead of rolling with it: a pinhole.
+  bool slides = false;
+  /// Capstan coefficient of a link over which the cable can slide; NaN: it cannot.
+  double friction = std::numeric_limits<double>::quiet_NaN();
+  /// The link's rotor has no inertia, so the tension is the same on both sides and the cable's motion turns it.
+  bool massless = false;
   int extra_turns = 0;  ///< whole turns beyond the arc between the tangents
 
   [[nodiscard]] bool wraps() const { return side != 0; }
+  /// Whether cable can pass from the span before the link to the one after it other than by rolling.
+  [[nodiscard]] bool passes() const { return massless || !std::isnan(friction); }
+  [[nodiscard]] bool frictionless() const { return massless || friction == 0.0; }
   /// Length of cable once round the link [m]; 0 for a point.
   [[nodiscard]] double perimeter() const {
     return outline ? outline->curve.perimeter() : 2.0 * pi * std::abs(signed_radius);

@@ -281,6 +281,21 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
   return transport;
 }
 
+double wrap_angle(const Substep& substep, const LinkGeometry& link, const SpanGeometry& incoming,
+                  const SpanGeometry& outgoing, double stored_length) {
+  if (!link.wraps()) {
+    return std::atan2(cross(incoming.direction, outgoing.direction).norm(),
+                      dot(incoming.direction, outgoing.direction));
+  }
+  const Vector3 normal = substep.orientation(link.carrier) * link.normal;
+  const Vector3 entry =
+      contact_normal(substep, link, incoming.second_corner, incoming.end, incoming.direction);
+  const Vector3 exit =
+      contact_normal(substep, link, outgoing.first_corner, outgoing.start, outgoing.direction);
+  const double angle = link.side * angle_between(entry, exit, normal);
+  return std::max(unwrapped(angle, 2.0 * pi * stored_length / link.perimeter()), 0.0);
+}
+
 SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
                            const LinkGeometry& first, const LinkGeometry& second,
                            const SpanReference& reference, Row& row) {

@@ -90,6 +90,12 @@ struct SpanTransport {
 [[nodiscard]] double normal_angle(const Substep& substep, const LinkGeometry& link,
                                   const Vector3& direction);
 
+/// Angle [rad, >= 0] by which the cable is wrapped round the link between two spans. Of a wheel or an outline it is known
+/// up to whole turns from the directions; `stored_length` [m] on it tells how many. Of a pinhole it is the deflection.
+[[nodiscard]] double wrap_angle(const Substep& substep, const LinkGeometry& link,
+                                const SpanGeometry& incoming, const SpanGeometry& outgoing,
+                                double stored_length);
+
 /// The span as it is now.
 [[nodiscard]] SpanGeometry span_geometry(const Substep& substep, const SpanSetup& setup,
                                          const LinkGeometry& first, const LinkGeometry& second);

@@ -25,6 +25,9 @@ std::span<const Field> BodyDef::field_table() {
       field<&BodyDef::inertia>("inertia", "kg m2", above(0.0), optional,
                                "moments about the centre of mass and the body's x, y, z axes; "
                                "default: from the shapes, scaled to the mass"),
+      field<&BodyDef::spin_inertia>("spin_inertia", "kg m2", at_least(0.0), optional,
+                                    "rotor: moment of inertia about the axle, in place of that of "
+                                    "the shapes; 0: a massless wheel"),
       field<&BodyDef::force>("force", "N", any_number(), optional,
                              "constant, at the centre of mass"),
       field<&BodyDef::torque>("torque", "N m", any_number(), optional, "constant"),

@@ -42,6 +42,9 @@ struct BodyDef {
   /// Moments of inertia [kg m2] about the centre of mass and the body's x, y, z axes, which are
   /// then principal axes. Default: from the shapes, scaled to the mass.
   std::optional<Vector3> inertia;
+  /// rotor only: moment of inertia about the axle [kg m2], >= 0; replaces that of `inertia` and the shapes. 0 is a
+  /// massless wheel, which turns as its cable moves it and passes the tension on unchanged.
+  std::optional<double> spin_inertia;
   Vector3 force = Vector3::Zero();   ///< constant, at the centre of mass [N]
   Vector3 torque = Vector3::Zero();  ///< constant [N m]
   /// kinematic only: the position is position + velocity t + oscillation (sin(2 pi f t + p) - sin

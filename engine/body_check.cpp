@@ -133,7 +133,13 @@ class BodyCheck {
       fail("/density", "density needs a shape; give mass and inertia instead");
       return;
     }
-    const bool rotates = !is(Mobility::slider);
+    if (body_.spin_inertia && !is(Mobility::rotor)) {
+      fail("/spin_inertia", "only a rotor has a spin inertia; mobility is " + mobility_name());
+    }
+    if (body_.spin_inertia == 0.0 && body_.torque.norm() > 0.0) {
+      fail("/torque", "a massless wheel cannot take up a torque; its spin inertia is 0");
+    }
+    const bool rotates = !is(Mobility::slider) && !body_.spin_inertia;
     if (body_.shapes.empty() && !body_.inertia && rotates) {
       fail("", "a body without a shape needs \"inertia\"");
       return;

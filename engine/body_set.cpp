@@ -64,7 +64,7 @@ void lump_mounted_rotor(std::vector<BodyProperties>& bodies, const std::vector<B
   const Vector3 spin_axis = def.orientation.normalized().conjugate() * rotor.axis;
   const double spin_inertia = spin_axis.dot(rotor.inertia * spin_axis);
   rotor.mount = mount;
-  rotor.axis_inertia = spin_inertia;
+  rotor.axis_inertia = def.spin_inertia.value_or(spin_inertia);
   rotor.axis = carrier_inverse * rotor.axis;
   rotor.start_orientation = carrier_inverse * def.orientation.normalized();
   rotor.mount_position = carrier_inverse * (def.position - carrier_def.position);  // body frame yet
@@ -92,7 +92,7 @@ void finish_body(BodyProperties& body, const BodyDef& def) {
         (body.inertia - mean * Matrix3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * mean;
   }
   if (body.mobility == Mobility::planar || (body.mobility == Mobility::rotor && body.mount < 0)) {
-    body.axis_inertia = own_axis.dot(body.inertia * own_axis);
+    body.axis_inertia = def.spin_inertia.value_or(own_axis.dot(body.inertia * own_axis));
   }
 }
 

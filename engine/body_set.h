@@ -28,7 +28,7 @@ struct BodyProperties {
   /// Unit vector: planar normal, slider direction or axle, in the world frame; of a mounted rotor
   /// in its carrier's own frame.
   Vector3 axis = Vector3::UnitZ();
-  double axis_inertia = 0.0;                 ///< about the axis [kg m2]; planar bodies and rotors
+  double axis_inertia = 0.0;  ///< about the axis [kg m2]; planar bodies and rotors, 0: massless
   Vector3 mount_position = Vector3::Zero();  ///< centre of a mounted rotor, carrier's own frame [m]
   Quaternion start_orientation = Quaternion::Identity();  ///< at angle 0; relative to the carrier
   std::vector<int> mounted_rotors;  ///< indices of the rotors this body carries

@@ -38,7 +38,8 @@ void set_inverse_masses(const BodyProperties& properties, MovingBody& body) {
       body.inverse_mass = along / properties.mass;
       break;
     case Mobility::rotor:
-      body.inverse_inertia = along / properties.axis_inertia;
+      // A massless wheel is turned by its cable when the substep is complete, not by forces.
+      if (properties.axis_inertia > 0.0) body.inverse_inertia = along / properties.axis_inertia;
       break;
   }
 }
@@ -76,7 +77,7 @@ void Substep::restart() {
     if (properties.mobility == Mobility::free && !properties.isotropic) {
       set_inverse_masses(properties, body);
     }
-    if (properties.mount >= 0) {
+    if (properties.mount >= 0 && properties.axis_inertia > 0.0) {
       const Vector3 axis = start.bodies[at(properties.mount)].orientation * properties.axis;
       body.inverse_inertia = axis * axis.transpose() / properties.axis_inertia;
     }

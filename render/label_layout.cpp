@@ -127,6 +127,9 @@ class Layout {
     const Rectangle& r = candidate.text;
     const double area = std::max(r.width * r.height, 1.0);
     const Rectangle padded{r.x - 3.0, r.y - 1.0, r.width + 6.0, r.height + 2.0};
+    // Text wants more air to its sides than above and below, or it reads as part of the lines beside it.
+    const double air = std::max(3.0, 0.45 * around_.gap);
+    const Rectangle airy{r.x - air, r.y - 1.0, r.width + 2.0 * air, r.height + 2.0};
     const Rectangle picture{2.0, 2.0, around_.width - 4.0, around_.height - 4.0};
     double cost = 300.0 * (1.0 - overlap(r, picture) / area);
     for (const Rectangle& other : around_.occupied) cost += 200.0 * overlap(padded, other) / area;
@@ -138,7 +141,7 @@ class Layout {
       for (const ScreenSegment& line : around_.lines) {
         const double apart = distance_to(line, candidate.anchor_x, candidate.anchor_y);
         if (across && apart < own_line_reach) continue;
-        covered += covered_length(padded, line);
+        covered += covered_length(across ? padded : airy, line);
       }
       cost += 10.0 * std::min(4.0, covered / std::max(r.height, 1.0));
       double hidden = 0.0;

@@ -14,6 +14,10 @@ namespace {
 constexpr std::array<std::string_view, 14> body_quantities{
     "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz", "angle"};
 constexpr std::array<std::string_view, 3> span_quantities{"tension", "length", "rest_length"};
+constexpr std::array<std::string_view, 9> link_quantities{"stored_length", "wrap_angle", "slip",
+                                                          "entry_x",       "entry_y",    "entry_z",
+                                                          "exit_x",        "exit_y",     "exit_z"};
+constexpr std::array<std::string_view, 2> cable_quantities{"length_error", "total_length"};
 constexpr std::array<std::string_view, 4> energy_quantities{"kinetic", "potential", "elastic",
                                                             "total"};
 constexpr int tension = 0;  // in span_quantities
@@ -39,9 +43,10 @@ class ObservableSet::Sampler {
       case Group::span:
         return of_span(cable(source.entity).spans[item], source.quantity);
       case Group::link:
-        return cable(source.entity).links[item].stored_length;
+        return of_link(cable(source.entity).links[item], source.quantity);
       case Group::cable:
-        return cable(source.entity).length_error;
+        return source.quantity == 0 ? cable(source.entity).length_error
+                                    : cable(source.entity).total_length;
       case Group::energy:
         return energy(source.quantity);
     }
@@ -52,6 +57,18 @@ class ObservableSet::Sampler {
   static double of_span(const SpanReport& span, int quantity) {
     if (quantity == tension) return span.tension;
     return quantity == 1 ? span.length : span.rest_length;
+  }
+  static double of_link(const LinkReport& link, int quantity) {
+    switch (quantity) {
+      case 0:
+        return link.stored_length;
+      case 1:
+        return link.wrap_angle;
+      case 2:
+        return link.slip;
+      default:
+        return quantity < 6 ? link.entry[quantity - 3] : link.exit[quantity - 6];
+    }
   }
   const std::array<double, 14>& body(int index) {
     if (index == body_) return body_values_;
@@ -135,9 +152,15 @@ void ObservableSet::add_cable(std::string_view name, int entity, int spans, int 
     }
   }
   for (int link = 0; link < links; ++link) {
-    add(fmt::format("{}.link{}.stored_length", name, link), {Group::link, entity, link, 0});
+    for (int q = 0; q < static_cast<int>(link_quantities.size()); ++q) {
+      add(fmt::format("{}.link{}.{}", name, link, link_quantities[static_cast<std::size_t>(q)]),
+          {Group::link, entity, link, q});
+    }
   }
-  add(fmt::format("{}.length_error", name), {Group::cable, entity, 0, 0});
+  for (int q = 0; q < static_cast<int>(cable_quantities.size()); ++q) {
+    add(fmt::format("{}.{}", name, cable_quantities[static_cast<std::size_t>(q)]),
+        {Group::cable, entity, 0, q});
+  }
 }
 
 void ObservableSet::add_energies() {

@@ -9,7 +9,9 @@
 //   <body>.wx .wy .wz                             angular velocity [rad/s]
 //   <body>.angle                                  angle turned about the axis [rad] (State)
 //   <cable>.<span>.tension .length .rest_length   spans count from 0 [N, m, m]
-//   <cable>.link<k>.stored_length                 cable on link k [m]
+//   <cable>.link<k>.stored_length .wrap_angle     cable on link k [m], the same as an angle [rad]
+//   <cable>.link<k>.slip                          cable that has slid over it, forwards [m]
+//   <cable>.link<k>.entry_x ... .exit_z           where the cable meets and leaves the body [m]
 //   <cable>.length_error                          relative error of the length invariant
 //   energy.kinetic .potential .elastic .total     [J]
 

@@ -203,7 +203,9 @@ The columns of the files, and the names that checks use, are
   <body>.x .y .z .qw .qx .qy .qz                  pose of the body frame [m]
   <body>.vx .vy .vz .wx .wy .wz .angle            its velocity [m/s, rad/s], angle turned [rad]
   <cable>.<span>.tension .length .rest_length     [N, m, m]; spans count from 0
-  <cable>.link<k>.stored_length                   cable on a link [m]
+  <cable>.link<k>.stored_length .wrap_angle       cable on a link [m], as an angle [rad]
+  <cable>.link<k>.slip                            cable that has slid over it, forwards [m]
+  <cable>.link<k>.entry_x ... .exit_z             where the cable meets and leaves the body [m]
   <cable>.length_error                            relative error of the length invariant
   energy.kinetic .potential .elastic .total       [J]
 Tensions at time 0 are not known yet and left empty.

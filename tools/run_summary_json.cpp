@@ -51,9 +51,15 @@ Json cables(const RunSummary& summary) {
     }
     Json links = Json::array();
     for (const LinkReport& link : reports[i].links) {
-      links.push_back({{"type", link.type}, {"stored_length", link.stored_length}});
+      links.push_back({{"type", link.type},
+                       {"stored_length", link.stored_length},
+                       {"wrap_angle", link.wrap_angle},
+                       {"slip", link.slip},
+                       {"entry", json(link.entry)},
+                       {"exit", json(link.exit)}});
     }
     list.push_back({{"name", reports[i].name},
+                    {"total_length", reports[i].total_length},
                     {"length_error", summary.monitor.cables()[i].length_error},
                     {"max_stretch", summary.monitor.cables()[i].max_stretch},
                     {"spans", std::move(spans)},

@@ -105,6 +105,9 @@ std::span<const Field> RollingLink::field_table() {
           "stored_length", "m", at_least(0.0), optional,
           "cable wound on the wheel at time 0; required at the end of an open cable, elsewhere it "
           "follows from the tangents"),
+      field<&RollingLink::friction>("friction", "", at_least(0.0), optional,
+                                    "capstan coefficient: the cable slips when the ratio of the "
+                                    "tensions passes e^(friction x wrap angle); default: no slip"),
       field<&RollingLink::turns>("turns", "", between(0, 1000), optional,
                                  "whole turns in addition to the arc between the tangents"),
   };
@@ -146,6 +149,9 @@ Result<LinkGeometry> RollingLink::compile(const BodySet& bodies, const std::stri
   link.given_stored_length = stored_length.value_or(std::numeric_limits<double>::quiet_NaN());
   link.extra_turns = turns;
   link.mounted = bodies[index].mount >= 0;
+  link.friction = friction.value_or(std::numeric_limits<double>::quiet_NaN());
+  const BodyProperties& properties = bodies[index];
+  link.massless = properties.mobility == Mobility::rotor && properties.axis_inertia == 0.0;
   if (radius || (wheel != nullptr && is_circle(*wheel, plane_normal))) {
     link.signed_radius = link.side * (radius ? *radius : wheel->shape->wheel_radius());
     carry_by_axle(bodies, body_center, link);

@@ -20,6 +20,9 @@ class RollingLink final : public LinkDef {
   /// Cable on the wheel at time 0 [m], >= 0; default: the arc between the tangents. Required at the
   /// end of an open cable, where there is no second tangent.
   std::optional<double> stored_length;
+  /// Capstan coefficient, >= 0; default: the cable does not slip. With it, it slips as soon as the ratio of the tensions
+  /// passes e^(friction x wrap angle), any number of turns.
+  std::optional<double> friction;
   int turns = 0;  ///< whole turns in addition to the arc between the tangents, 0 ... 1000
 
   static constexpr std::string_view type_name = "rolling";

@@ -107,9 +107,10 @@ void rotate_freely(Substep& substep, int i) {
 void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
   const BodyProperties& body = substep.bodies[i];
   MovingBody& moving = substep.moving[at(i)];
-  const double torque = axis.dot(load_on(substep, i).torque);
-  const double spin = axis.dot(substep.start.bodies[at(i)].angular_velocity) +
-                      substep.h * torque / body.axis_inertia;
+  double spin = axis.dot(substep.start.bodies[at(i)].angular_velocity);
+  if (body.axis_inertia > 0.0) {
+    spin += substep.h * axis.dot(load_on(substep, i).torque) / body.axis_inertia;
+  }
   moving.turn = (substep.h * spin) * axis;
   if (moving.tracks_orientation) moving.orientation = turned(moving.orientation, moving.turn);
   substep.predicted[at(i)].angular_velocity = spin * axis;

@@ -152,7 +152,8 @@ class RandomScene {
     if (cable.compliance) cable.axial_stiffness.reset();
     if (!cable.compliance && !cable.axial_stiffness) cable.damping = 0.0;
     cable.closed = false;
-    for (int i = 0; i < 2; ++i) {
+    const int links = 2 + random_.pick(2);
+    for (int i = 0; i < links; ++i) {
       auto link = make(link_types());
       fill(LinkDef::common_field_table(), link.get());
       cable.links.push_back(std::move(link));

@@ -1,0 +1,303 @@
+// Spans that share a tension.
+//
+// Cable passes freely through a pinhole without friction and over a massless wheel, and it slides over a link with
+// friction once the tensions on both sides differ by the factor e^(m a) (Euler-Eytelwein; a: wrap angle). A maximal
+// row of spans joined by such links is a run. What moves between its spans cannot move anything else, so only the sum
+// of their rest lengths counts, and one multiplier l gives all tensions, T_i = k_i l / h^2, with k_i the product of the
+// e^(+-m a) up to span i (1 without friction). One step of XPBD for the run, with C_i = rest length - length:
+//
+//   sum_i (C_i + k_i a~_i l) = 0,   motion  x += W sum_i grad C_i d(k_i l)
+//   =>  l' = (-sum C_i + sum_j w_j l_j) / sum_j k_j (w_j + a~_j),   w_j = (sum_i grad C_i) W grad C_j^T
+//
+// with l_j the multiplier that span j has so far. Without friction that is one ordinary row, so any number of pinholes
+// is exact in one visit. (The paper's Algorithm 1 instead moves rest length across each pinhole so that the ratios of
+// length to rest length become equal; as printed it swaps the two excesses, see tests/physics/pinhole_test.cpp.)
+//
+// Whether a link with friction sticks or slides is found in the sweeps: it starts to slide when the ratio of the
+// multipliers passes the limit, and sticks again when cable would have to slide against the pull.
+//
+// When the substep is complete, rest length is moved within each run so that every span has its tension; what passed a
+// link is its slip, or turns the massless wheel. A slack run is not touched, except that a span that has become longer
+// than its rest length takes what it lacks from the nearest spans that have some to spare.
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/cable_system.h"
+#include "engine/index.h"
+
+namespace sheave {
+namespace {
+
+/// More changes of a link between sticking and sliding in one substep are rounding or a solver far from convergence.
+constexpr int most_flips = 4;
+
+/// Takes what spans with a negative entry of `spare` lack from the nearest ones with a positive entry. Of two equally
+/// near, each gives the same share as far as it can, so a cable's mirror image does the mirror image.
+void pull_slack(std::vector<double>& spare) {
+  const auto count = static_cast<int>(spare.size());
+  for (int i = 0; i < count; ++i) {
+    for (int distance = 1; distance < count && spare[at(i)] < 0.0; ++distance) {
+      const auto available = [&](int k) {
+        return k >= 0 && k < count ? std::max(spare[at(k)], 0.0) : 0.0;
+      };
+      const double before = available(i - distance);
+      const double after = available(i + distance);
+      const double needed = std::min(-spare[at(i)], before + after);
+      if (!(needed > 0.0)) continue;
+      const double from_before = std::clamp(0.5 * needed, needed - after, before);
+      if (from_before > 0.0) spare[at(i - distance)] -= from_before;
+      if (needed - from_before > 0.0) spare[at(i + distance)] -= needed - from_before;
+      spare[at(i)] += needed;
+    }
+  }
+}
+
+}  // namespace
+
+int CableSystem::next_span(const CompiledCable& cable, int span) const {
+  const bool last = span + 1 == cable.first_span + cable.span_count;
+  return last ? cable.first_span : span + 1;
+}
+
+bool CableSystem::shared(int link) const {
+  return links_[at(link)].frictionless() || slip_[at(link)] != 0;
+}
+
+template <class Visit>
+void CableSystem::for_each_run(const CompiledCable& cable, Visit visit) const {
+  int first = cable.first_span;
+  int left = cable.span_count;
+  if (cable.closed) {
+    // Begin behind a link that cable does not pass; if there is none, the ring is one run.
+    for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+      if (shared(spans_[at(k)].second)) continue;
+      first = next_span(cable, k);
+      break;
+    }
+  }
+  while (left > 0) {
+    Run run{first, 1};
+    int last = first;
+    while (run.count < left && shared(spans_[at(last)].second)) {
+      last = next_span(cable, last);
+      ++run.count;
+    }
+    visit(run);
+    left -= run.count;
+    first = next_span(cable, last);
+  }
+}
+
+double CableSystem::friction_exponent(const Substep& substep, int link,
+                                      const SpanGeometry& incoming,
+                                      const SpanGeometry& outgoing) const {
+  const LinkGeometry& geometry = links_[at(link)];
+  return geometry.friction *
+         wrap_angle(substep, geometry, incoming, outgoing, stored_lengths_[at(link)]);
+}
+
+double CableSystem::sweep_runs(Substep& substep, int cable_index) {
+  const CompiledCable& cable = cables_[at(cable_index)];
+  double correction = 0.0;
+  for_each_run(cable,
+               [&](Run run) { correction = std::max(correction, solve_run(substep, cable, run)); });
+  const int sweeps = ++sweeps_[at(cable_index)];
+  if (cable.has_friction && sweeps < substep.iterations) update_slip(substep, cable);
+  return correction;
+}
+
+double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run run) {
+  const auto count = at(run.count);
+  run_rows_.resize(std::max(run_rows_.size(), count));
+  run_spans_.resize(std::max(run_spans_.size(), count));
+  run_weights_.resize(std::max(run_weights_.size(), count));
+  run_gradient_.resize(substep.moving.size());
+  const double inverse_square = 1.0 / (substep.h * substep.h);
+
+  // Evaluate; sum the gradients body by body; collect the logarithms of the weights.
+  double error = 0.0;
+  double heaviest = 0.0;
+  for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+    Row& row = run_rows_[at(i)];
+    row.clear();
+    run_spans_[at(i)] = evaluate(substep, k, row);
+    const double gamma = row.compliance * row.damping / substep.h;
+    error += row.value;
+    if (gamma > 0.0) error += gamma * substep_change(row, substep.moving);
+    for (const RowTerm& term : row.active_terms()) {
+      RowTerm& sum = run_gradient_[at(term.body)];
+      sum.linear += (1.0 + gamma) * term.linear;
+      sum.angular += (1.0 + gamma) * term.angular;
+    }
+    double& weight = run_weights_[at(i)];
+    weight = 0.0;
+    if (i == 0) continue;
+    const int link = spans_[at(k)].first;
+    weight = run_weights_[at(i - 1)];
+    if (!links_[at(link)].frictionless()) {
+      weight += slip_[at(link)] *
+                friction_exponent(substep, link, run_spans_[at(i - 1)], run_spans_[at(i)]);
+    }
+    heaviest = std::max(heaviest, weight);
+  }
+
+  // Weights relative to the heaviest, so that no number of turns overflows.
+  double numerator = -error;
+  double denominator = 0.0;
+  for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+    const Row& row = run_rows_[at(i)];
+    double& weight = run_weights_[at(i)];
+    weight = std::exp(weight - heaviest);
+    double yield = 0.0;  // w_j
+    for (const RowTerm& term : row.active_terms()) {
+      const MovingBody& body = substep.moving[at(term.body)];
+      const RowTerm& sum = run_gradient_[at(term.body)];
+      if (body.translates) yield += dot(sum.linear, times(body.inverse_mass, term.linear));
+      if (body.rotates) yield += dot(sum.angular, times(body.inverse_inertia, term.angular));
+    }
+    numerator += yield * multipliers_[at(k)];
+    denominator += weight * (yield + row.compliance * inverse_square);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    for (const RowTerm& term : run_rows_[i].active_terms()) run_gradient_[at(term.body)] = {};
+  }
+  if (!(denominator > 0.0)) return 0.0;
+  const double multiplier = std::max(numerator / denominator, 0.0);
+  double largest = 0.0;
+  for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+    const double increment = run_weights_[at(i)] * multiplier - multipliers_[at(k)];
+    if (increment == 0.0) continue;
+    multipliers_[at(k)] += increment;
+    RowResponse response;
+    respond(run_rows_[at(i)], substep.moving, response);
+    apply_multiplier(run_rows_[at(i)], response, increment, substep.moving);
+    largest = std::max(largest, std::abs(increment));
+  }
+  return largest * denominator;
+}
+
+std::vector<double> CableSystem::run_spare(const Substep& substep, const CompiledCable& cable,
+                                           Run run) const {
+  std::vector<double> spare;
+  const double inverse_square = 1.0 / (substep.h * substep.h);
+  bool taut = false;
+  double total = 0.0;
+  double length = 0.0;
+  std::vector<double> lengths;
+  Row row;
+  for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+    row.clear();
+    const SpanGeometry span = evaluate(substep, k, row);
+    const double tension = multipliers_[at(k)] * inverse_square;
+    taut = taut || tension > 0.0;
+    // The rest length with which the span has its tension; a material's compliance grows with it.
+    const double wanted = cable.inverse_stiffness > 0.0
+                              ? span.length / (1.0 + tension * cable.inverse_stiffness)
+                              : std::max(span.length - tension * cable.compliance, 0.0);
+    spare.push_back(row.value + span.length - wanted);
+    total += spare.back();
+    lengths.push_back(wanted);
+    length += wanted;
+  }
+  if (!taut) {
+    std::vector<double> kept = spare;
+    pull_slack(kept);
+    for (std::size_t i = 0; i < spare.size(); ++i) spare[i] -= kept[i];
+    return spare;
+  }
+  // What the solver has left over is spread evenly.
+  for (std::size_t i = 0; i < spare.size() && length > 0.0; ++i) {
+    spare[i] -= total * lengths[i] / length;
+  }
+  return spare;
+}
+
+void CableSystem::update_slip(const Substep& substep, const CompiledCable& cable) {
+  // Links that slide: has the cable moved with the pull?
+  for_each_run(cable, [&](Run run) {
+    if (run.count == 1) return;
+    const std::vector<double> spare = run_spare(substep, cable, run);
+    double passed = 0.0;
+    for (int i = 0, k = run.first; i + 1 < run.count; ++i, k = next_span(cable, k)) {
+      passed += spare[at(i)];
+      const int link = spans_[at(k)].second;
+      if (links_[at(link)].frictionless()) continue;
+      int& slip = pending_slip_[at(link)];
+      if (passed * slip > 0.0 || flips_[at(link)] >= most_flips) continue;
+      slip = 0;
+      ++flips_[at(link)];
+    }
+  });
+  // Links that stick: do they hold?
+  const int spans = cable.closed ? cable.span_count : cable.span_count - 1;
+  for (int i = 0; i < spans; ++i) {
+    const int incoming = cable.first_span + i;
+    const int outgoing = next_span(cable, incoming);
+    const int link = spans_[at(incoming)].second;
+    if (!links_[at(link)].passes() || shared(link)) continue;
+    const double before = multipliers_[at(incoming)];
+    const double after = multipliers_[at(outgoing)];
+    if (before == after || flips_[at(link)] >= most_flips) continue;
+    const double limit = std::exp(friction_exponent(substep, link, geometry_of(substep, incoming),
+                                                    geometry_of(substep, outgoing)));
+    const int slip = after > limit * before ? 1 : before > limit * after ? -1 : 0;
+    if (slip == 0) continue;
+    pending_slip_[at(link)] = slip;
+    ++flips_[at(link)];
+  }
+  slip_ = pending_slip_;
+}
+
+void CableSystem::share_lengths(Substep& substep, const CompiledCable& cable, FeatureState& next) {
+  for_each_run(cable, [&](Run run) {
+    if (run.count > 1) share_run(substep, cable, run, next);
+  });
+  if (cable.has_friction) update_slip(substep, cable);
+  for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
+    next.integers[at(i)] = slip_[at(i)];
+  }
+}
+
+void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run run,
+                            FeatureState& next) const {
+  const std::vector<double> spare = run_spare(substep, cable, run);
+  double passed = 0.0;         // over the link after span i
+  double passed_before = 0.0;  // over the link before it, as moved
+  for (int i = 0, k = run.first; i + 1 < run.count; ++i, k = next_span(cable, k)) {
+    double& rest_length = next.reals[rest_length_index(k)];
+    passed += spare[at(i)];
+    // A multiple of the quantum, and no more than there is.
+    const double moved =
+        std::min(std::round(passed / cable.quantum) * cable.quantum, rest_length + passed_before);
+    rest_length += passed_before - moved;
+    passed_before = moved;
+    const int link = spans_[at(k)].second;
+    if (links_[at(link)].massless) {
+      turn_massless_wheel(substep, link, moved);
+    } else {
+      next.reals[slip_index(link)] += moved;
+    }
+    const int last = next_span(cable, k);
+    if (i + 2 == run.count) next.reals[rest_length_index(last)] += moved;
+  }
+}
+
+void CableSystem::turn_massless_wheel(Substep& substep, int link, double length) const {
+  if (length == 0.0) return;
+  const LinkGeometry& geometry = links_[at(link)];
+  const BodyProperties& wheel = substep.bodies[geometry.body];
+  BodyState& next = substep.next.bodies[at(geometry.body)];
+  const bool mounted = wheel.mount >= 0;
+  const Quaternion carrier = mounted ? substep.next.bodies[at(wheel.mount)].orientation
+                                     : Quaternion(Quaternion::Identity());
+  const Vector3 axis = carrier * wheel.axis;
+  const Quaternion& link_frame = geometry.carrier == geometry.body ? next.orientation : carrier;
+  const double sense = axis.dot(link_frame * geometry.normal) > 0.0 ? 1.0 : -1.0;
+  const double turn = sense * length / geometry.signed_radius;
+  next.angle += turn;
+  next.angular_velocity += turn / substep.h * axis;
+  next.orientation = carrier * rotation_by(next.angle * wheel.axis) * wheel.start_orientation;
+}
+
+}  // namespace sheave
