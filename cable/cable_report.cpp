@@ -6,8 +6,42 @@
 #include "engine/index.h"
 
 namespace sheave {
+namespace {
+
+/// Corners from `entry` to `exit`, -1 where there is none, and so many whole turns more that the stored length is used.
+std::vector<Vector3> outline_path(const Substep& now, const LinkGeometry& link, int entry, int exit,
+                                  double stored_length) {
+  const Outline& curve = link.outline->curve;
+  const int count = curve.corner_count();
+  constexpr double most_turns = 50.0;  // more cannot be seen
+  const double longest = std::min(stored_length, most_turns * curve.perimeter());
+  // Walked backwards from the exit, or forwards from the entry where the cable ends on the body.
+  const bool backwards = exit >= 0;
+  const int step = (link.side > 0) == backwards ? count - 1 : 1;
+  int corner = backwards ? exit : entry;
+  const auto point = [&](int k) { return now.point(link.carrier, link.outline->corners[at(k)]); };
+  std::vector<Vector3> path{point(corner)};
+  double walked = 0.0;
+  while (true) {
+    const int next = (corner + step) % count;
+    const double edge = (curve.corner(next) - curve.corner(corner)).norm();
+    const bool arrived = entry >= 0 && exit >= 0 && corner == entry;
+    // Half an edge decides what rounding or a corner between two contacts leaves open.
+    if (walked + 0.5 * edge > longest && (arrived || entry < 0 || exit < 0)) break;
+    if (walked > longest + curve.perimeter()) break;
+    path.push_back(point(next));
+    walked += edge;
+    corner = next;
+  }
+  if (backwards) std::reverse(path.begin(), path.end());
+  return path;
+}
+
+}  // namespace
+
 void CableSystem::append_links(const CompiledCable& cable, const Substep& now,
-                               const FeatureState& own, CableReport& report) const {
+                               const FeatureState& own, std::span<const SpanGeometry> ends,
+                               CableReport& report) const {
   for (int i = 0; i < cable.link_count; ++i) {
     const int index = cable.first_link + i;
     const LinkGeometry& link = links_[at(index)];
@@ -27,6 +61,11 @@ void CableSystem::append_links(const CompiledCable& cable, const Substep& now,
     if (has_incoming) entry.entry = entry.exit = report.spans[at(incoming)].end;
     if (has_outgoing) entry.exit = report.spans[at(i)].start;
     if (!has_incoming) entry.entry = entry.exit;
+    if (link.outline) {
+      const int entry_corner = has_incoming ? ends[at(incoming)].second_corner : -1;
+      const int exit_corner = has_outgoing ? ends[at(i)].first_corner : -1;
+      entry.path = outline_path(now, link, entry_corner, exit_corner, entry.stored_length);
+    }
     report.links.push_back(entry);
   }
 }
@@ -39,11 +78,13 @@ std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State&
     CableReport report;
     report.name = cable.name;
     report.closed = cable.closed;
+    std::vector<SpanGeometry> ends;
     const bool rigid = compliance_of(cable, 1.0) == 0.0;
     for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
       const SpanSetup& setup = spans_[at(k)];
       const SpanGeometry geometry =
           span_geometry(now, setup, links_[at(setup.first)], links_[at(setup.second)]);
+      ends.push_back(geometry);
       SpanReport span;
       span.start = geometry.start;
       span.end = geometry.end;
@@ -58,7 +99,7 @@ std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State&
       }
       report.spans.push_back(span);
     }
-    append_links(cable, now, own, report);
+    append_links(cable, now, own, ends, report);
     for (const LinkReport& link : report.links) report.total_length += link.stored_length;
     report.length_error = (report.total_length - cable.start_length) / cable.start_length;
     reports.push_back(std::move(report));

@@ -21,6 +21,9 @@ struct LinkReport {
   /// two does not exist, both are the one that does.
   Vector3 entry = Vector3::Zero();
   Vector3 exit = Vector3::Zero();
+  /// Outlines: the cable's way along the body from entry to exit, corner by corner [m]. At the end of an open cable from
+  /// the last point of the stored cable. Empty for circles and points.
+  std::vector<Vector3> path;
   double stored_length = 0.0;  ///< cable on the body [m]
   /// Stored length in turns of the link's perimeter, as an angle [rad]; any number of turns.
   double wrap_angle = 0.0;

@@ -120,7 +120,7 @@ class CableSystem final : public ConstraintBatch {
   void turn_massless_wheel(Substep& substep, int link, double length) const;
   [[nodiscard]] double compliance_of(const CompiledCable& cable, double rest_length) const;
   void append_links(const CompiledCable& cable, const Substep& now, const FeatureState& own,
-                    CableReport& report) const;
+                    std::span<const SpanGeometry> ends, CableReport& report) const;
 
   std::vector<CompiledCable> cables_;
   std::vector<LinkGeometry> links_;

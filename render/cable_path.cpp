@@ -119,6 +119,10 @@ class Drawing {
   void add_link(std::size_t i) {
     const LinkReport& link = cable_.links[i];
     const Winding& w = windings_[i];
+    if (!link.path.empty()) {
+      add_path(i);
+      return;
+    }
     // Where there is no length to blend colours over, the tube is cut.
     if (!(link.radius > 0.0) || std::abs(w.angle) * link.radius < 2.0 * style_.radius) {
       if (i == 0) cut_at_start_ = true;
@@ -139,6 +143,22 @@ class Drawing {
       const Vector3 out = w.first * std::cos(angle) + w.second * std::sin(angle);
       add(link.center + out * link.radius + link.normal * (w.shift * (share - 0.5)),
           mix(from, to, static_cast<float>(share)));
+    }
+  }
+
+  /// Along an outline, just outside it.
+  void add_path(std::size_t i) {
+    const std::vector<Vector3>& path = cable_.links[i].path;
+    const std::size_t n = cable_.spans.size();
+    const bool has_incoming = cable_.closed || i > 0;
+    const std::size_t outgoing = i < n ? i : i - 1;
+    const std::size_t incoming = has_incoming ? (i + n - 1) % n : outgoing;
+    const Color from = tension_color(cable_.spans[incoming].tension, style_);
+    const Color to = tension_color(cable_.spans[outgoing].tension, style_);
+    for (std::size_t k = 0; k < path.size(); ++k) {
+      const auto share = static_cast<float>(
+          path.size() > 1 ? static_cast<double>(k) / static_cast<double>(path.size() - 1) : 0.5);
+      add(path[k], mix(from, to, share));
     }
   }
 

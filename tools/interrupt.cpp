@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 
 namespace sheave::tools {
 namespace {
@@ -12,14 +14,36 @@ std::atomic<bool>& flag() {
 }
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not wait");
 
-void raise_flag(int /*signal*/) { flag() = true; }
+std::atomic<std::int64_t>& first_time() {
+  static std::atomic<std::int64_t> nanoseconds{0};
+  return nanoseconds;
+}
+
+std::int64_t now() {
+  timespec time{};
+  ::clock_gettime(CLOCK_MONOTONIC, &time);  // safe in a signal handler
+  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
+void raise_flag(int signal) {
+  if (!flag().exchange(true)) {
+    first_time() = now();
+    return;
+  }
+  // `timeout` and some shells send a signal to the process and again to its group.
+  if (now() - first_time() < 500'000'000) return;
+  struct sigaction usual {};
+  usual.sa_handler = SIG_DFL;
+  ::sigaction(signal, &usual, nullptr);
+  ::raise(signal);
+}
 
 void catch_signal(int signal) {
   struct sigaction action {};
   action.sa_handler = raise_flag;
   sigemptyset(&action.sa_mask);
   // No SA_RESTART: a write that waits for a slow reader must notice.
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  action.sa_flags = 0;
   ::sigaction(signal, &action, nullptr);
 }
 

@@ -4,7 +4,7 @@
 namespace sheave::tools {
 
 /// From now on SIGINT, SIGTERM and SIGHUP (unless ignored, as under nohup) set a flag the first
-/// time; a second signal ends the process as usual.
+/// time; another one half a second later or more ends the process as usual.
 void catch_interrupts();
 /// Whether such a signal has come.
 [[nodiscard]] bool interrupted();

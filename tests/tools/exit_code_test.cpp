@@ -156,6 +156,7 @@ TEST(ExitCode, InterruptIs130AndLeavesValidFiles) {
         {"run", scene, "--json", "--out", table, "--out", array, "--save-state", state});
     wait_for_outputs(folder, 4);
     process.send(signal);
+    process.send(signal);  // as `timeout` does: to the process and again to its group
     const ProcessResult result = process.wait();
     EXPECT_EQ(result.exit_code, 130) << result.err;
     const json summary = json::parse(result.out);
