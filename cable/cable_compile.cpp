@@ -1,6 +1,7 @@
 // From what a user says about cables to what the step needs, with every check that needs geometry.
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "cable/cable_system.h"
@@ -47,8 +48,14 @@ class CableCompiler {
     s.references_.resize(spans);
     s.multipliers_.resize(spans);
     s.fallbacks_.resize(spans);
-    s.initial_.reals.resize(s.initial_.reals.size() + s.links_.size(), 0.0);  // slip
-    s.initial_.integers.assign(s.links_.size(), 0);
+    s.initial_.reals.resize(s.initial_.reals.size() + 2 * s.links_.size(), 0.0);  // slip, angle
+    s.initial_.integers.assign(2 * s.links_.size(), 0);
+    s.fed_.assign(spans, 0.0);
+    s.definitions_ = s.links_;
+    for (const auto& [link, radius] : bare_radii_) s.definitions_[at(link)].signed_radius = radius;
+    for (std::size_t i = 0; i < s.links_.size(); ++i) {
+      if (s.links_[i].changes()) s.changing_links_.push_back(static_cast<int>(i));
+    }
     s.slip_.assign(s.links_.size(), 0);
     s.pending_slip_ = s.flips_ = s.slip_;
     s.sweeps_.assign(s.cables_.size(), 0);
@@ -105,7 +112,16 @@ class CableCompiler {
         continue;
       }
       links_.push_back(*compiled);
-      links_.back().centered = compiled->center.isZero(0.0);
+      LinkGeometry& placed = links_.back();
+      placed.centered = compiled->center.isZero(0.0);
+      if (placed.layer_pitch > 0.0) {
+        // With what is on it at time 0; the definition keeps the bare drum.
+        bare_radii_[static_cast<int>(system_->links_.size() + i)] = placed.signed_radius;
+        const double bare = placed.signed_radius;
+        placed.signed_radius =
+            placed.side *
+            std::sqrt(bare * bare + placed.layer_pitch * placed.given_stored_length / pi);
+      }
       const bool end = !def.closed && (i == 0 || i + 1 == def.links.size());
       check_stored_length(*compiled, end, "/links/" + std::to_string(i));
       check_passage(*compiled, end, "/links/" + std::to_string(i));
@@ -116,6 +132,12 @@ class CableCompiler {
     if (end && link.slides) fail(field, "a cable cannot end in a pinhole; attach it");
     if (end && link.wraps() && !std::isnan(link.friction)) {
       fail(field + "/friction", "at the end of a cable nothing can slip; leave friction out");
+    }
+    if (!end && link.ends_here) {
+      fail(field, "this link is for an end of an open cable; between its ends use \"rolling\"");
+    }
+    if (!end && link.feed_speed != 0.0) {
+      fail(field + "/feed_speed", "cable can be fed only at an end of an open cable");
     }
     if (!link.massless) return;
     const std::string& wheel = bodies_.name(link.body);
@@ -133,7 +155,7 @@ class CableCompiler {
     if (end && !given) {
       fail(field, "a cable that ends on a wheel needs \"stored_length\", the cable wound on it");
     }
-    if (!end && given) {
+    if (!end && given && !link.ends_here) {
       fail(field + "/stored_length",
            "between the ends of a cable the stored length follows from the tangents; use \"turns\" "
            "for whole turns more");
@@ -319,6 +341,7 @@ class CableCompiler {
   Errors errors_;
   std::set<std::string> names_;
   std::set<int> massless_wheels_;
+  std::map<int, double> bare_radii_;  // of drums with layers, by their index among all links
   std::vector<double> rest_lengths_;
   std::vector<double> stored_lengths_;
   // Of the cable that is being added.

@@ -8,6 +8,13 @@
 namespace sheave {
 namespace {
 
+/// The angle over which the stored length is wound; layers lie on growing radii (cable/cable_ends.cpp).
+double wound_angle(const LinkGeometry& definition, const LinkGeometry& link, double stored_length) {
+  if (!(link.layer_pitch > 0.0)) return 2.0 * pi * stored_length / link.perimeter();
+  const double grown = std::abs(link.signed_radius) - std::abs(definition.signed_radius);
+  return 2.0 * pi * grown / link.layer_pitch;
+}
+
 /// Corners from `entry` to `exit`, -1 where there is none, and so many whole turns more that the stored length is used.
 std::vector<Vector3> outline_path(const Substep& now, const LinkGeometry& link, int entry, int exit,
                                   double stored_length) {
@@ -40,11 +47,11 @@ std::vector<Vector3> outline_path(const Substep& now, const LinkGeometry& link, 
 }  // namespace
 
 void CableSystem::append_links(const CompiledCable& cable, const Substep& now,
-                               const FeatureState& own, std::span<const SpanGeometry> ends,
-                               CableReport& report) const {
+                               const FeatureState& own, const Geometry& current,
+                               std::span<const SpanGeometry> ends, CableReport& report) const {
   for (int i = 0; i < cable.link_count; ++i) {
     const int index = cable.first_link + i;
-    const LinkGeometry& link = links_[at(index)];
+    const LinkGeometry& link = current.links[at(index)];
     LinkReport entry;
     entry.type = cable.link_types[at(i)];
     entry.body = link.body == now.bodies.count() ? BodyId::world() : BodyId{link.body};
@@ -53,8 +60,10 @@ void CableSystem::append_links(const CompiledCable& cable, const Substep& now,
     entry.radius = std::abs(link.signed_radius);
     entry.winding = link.side;
     entry.stored_length = own.reals[stored_length_index(index)];
-    entry.wrap_angle = link.wraps() ? 2.0 * pi * entry.stored_length / link.perimeter() : 0.0;
-    entry.slip = own.reals[slip_index(index)];
+    entry.wrap_angle =
+        link.wraps() ? wound_angle(definitions_[at(index)], link, entry.stored_length) : 0.0;
+    const double passed = own.reals[slip_index(index)];
+    (definitions_[at(index)].feed_speed != 0.0 ? entry.fed : entry.slip) = passed;
     const bool has_incoming = cable.closed || i > 0;
     const bool has_outgoing = cable.closed || i + 1 < cable.link_count;
     const int incoming = i > 0 ? i - 1 : cable.span_count - 1;
@@ -73,6 +82,7 @@ void CableSystem::append_links(const CompiledCable& cable, const Substep& now,
 std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State& state,
                                              const FeatureState& own) const {
   const Substep now(bodies, state, 1.0, 1);
+  const Geometry current = geometry_for(own);
   std::vector<CableReport> reports;
   for (const CompiledCable& cable : cables_) {
     CableReport report;
@@ -81,9 +91,9 @@ std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State&
     std::vector<SpanGeometry> ends;
     const bool rigid = compliance_of(cable, 1.0) == 0.0;
     for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
-      const SpanSetup& setup = spans_[at(k)];
-      const SpanGeometry geometry =
-          span_geometry(now, setup, links_[at(setup.first)], links_[at(setup.second)]);
+      const SpanSetup& setup = current.spans[at(k)];
+      const SpanGeometry geometry = span_geometry(now, setup, current.links[at(setup.first)],
+                                                  current.links[at(setup.second)]);
       ends.push_back(geometry);
       SpanReport span;
       span.start = geometry.start;
@@ -99,9 +109,13 @@ std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State&
       }
       report.spans.push_back(span);
     }
-    append_links(cable, now, own, ends, report);
-    for (const LinkReport& link : report.links) report.total_length += link.stored_length;
-    report.length_error = (report.total_length - cable.start_length) / cable.start_length;
+    append_links(cable, now, own, current, ends, report);
+    double fed = 0.0;
+    for (const LinkReport& link : report.links) {
+      report.total_length += link.stored_length;
+      fed += link.fed;
+    }
+    report.length_error = (report.total_length - cable.start_length - fed) / cable.start_length;
     reports.push_back(std::move(report));
   }
   return reports;

@@ -29,6 +29,7 @@ struct LinkReport {
   double wrap_angle = 0.0;
   /// Cable that has slid over the link towards the next span since time 0 [m]; what rolled with a wheel is not counted.
   double slip = 0.0;
+  double fed = 0.0;  ///< cable that an attachment with a feed speed has paid out since time 0 [m]
 };
 
 /// One free span of a cable.

@@ -20,6 +20,7 @@ double CableSystem::compliance_of(const CompiledCable& cable, double rest_length
 }
 
 void CableSystem::begin(const Substep& substep, const FeatureState& state) {
+  if (!changing_links_.empty()) refresh(state, links_, spans_);
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
   std::fill(sweeps_.begin(), sweeps_.end(), 0);
   std::fill(flips_.begin(), flips_.end(), 0);
@@ -32,6 +33,10 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     const LinkGeometry& first = links_[at(setup.first)];
     const LinkGeometry& second = links_[at(setup.second)];
     references_[k] = span_reference(substep, setup, first, second, state.reals[k]);
+    if (first.feed_speed != 0.0 || second.feed_speed != 0.0) {
+      fed_[k] = feed(state, substep.h, static_cast<int>(k));
+      references_[k].rest_length += fed_[k];
+    }
     if (cables_[at(setup.cable)].tangent_update == TangentUpdate::substep) {
       const SpanGeometry span = span_geometry(substep, setup, first, second);
       const auto own_point = [&](int body, const Vector3& point) -> Vector3 {
@@ -109,16 +114,33 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     };
     if (first.wraps()) move(transport.from_first, setup.first, 0);
     if (second.wraps()) move(transport.from_second, setup.second, 1);
+    if (first.feed_speed != 0.0 || second.feed_speed != 0.0) {
+      const int link = first.feed_speed != 0.0 ? setup.first : setup.second;
+      double& remainder = next.reals[remainder_index(k, link == setup.first ? 0 : 1)];
+      const double amount = fed_[at(k)];
+      const double moved =
+          std::max(quantised(amount + remainder, quantum), std::min(-rest_length, 0.0));
+      remainder += amount - moved;
+      rest_length += moved;
+      next.reals[slip_index(link)] += moved;
+    }
     next.reals[tension_index(k)] = multipliers_[at(k)] * inverse_square;
   }
   for (const CompiledCable& cable : cables_) {
     if (cable.shares) share_lengths(substep, cable, next);
   }
+  if (!changing_links_.empty()) change_ends(substep, next);
 }
 
 SpanGeometry CableSystem::geometry_of(const Substep& substep, int span) const {
   const SpanSetup& setup = spans_[at(span)];
   return span_geometry(substep, setup, links_[at(setup.first)], links_[at(setup.second)]);
+}
+
+CableSystem::Geometry CableSystem::geometry_for(const FeatureState& own) const {
+  Geometry geometry{links_, spans_};
+  if (!changing_links_.empty()) refresh(own, geometry.links, geometry.spans);
+  return geometry;
 }
 
 double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
@@ -128,13 +150,15 @@ double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
   };
   if (std::none_of(cables_.begin(), cables_.end(), elastic)) return 0.0;
   const Substep now(bodies, state, 1.0, 1);
+  const Geometry current = geometry_for(own);
   double energy = 0.0;
   for (int k = 0; k < row_count(); ++k) {
-    const SpanSetup& setup = spans_[at(k)];
+    const SpanSetup& setup = current.spans[at(k)];
     const double rest_length = own.reals[rest_length_index(k)];
     const double compliance = compliance_of(cables_[at(setup.cable)], rest_length);
     const double stretch =
-        span_geometry(now, setup, links_[at(setup.first)], links_[at(setup.second)]).length -
+        span_geometry(now, setup, current.links[at(setup.first)], current.links[at(setup.second)])
+            .length -
         rest_length;
     if (compliance > 0.0 && stretch > 0.0) energy += 0.5 * stretch * stretch / compliance;
   }

@@ -37,8 +37,10 @@ struct CompiledCable {
 /// The feature "cables" of a world. Layout of its state, with the spans and links of all cables in
 /// order: reals = rest length per span [m], stored length per link [m], tension per span [N],
 /// transport below the quantum per span end (first, second) [m], slip per
-/// link [m]: cable that has slid over it towards the next span; integers = per link with friction which way the cable
-/// slides: +1 towards the next span, -1 towards the last, 0 not at all.
+/// link [m]: cable that has slid over it towards the next span, of an attachment cable that was fed,
+/// angle of a hybrid end's attachment per link [rad]; integers = per link with friction which way the cable
+/// slides: +1 towards the next span, -1 towards the last, 0 not at all; per link its mode: 0 as defined, 1 wound the other
+/// way round, 2 attached (hybrid ends).
 class CableSystem final : public ConstraintBatch {
  public:
   /// Checks and compiles the cables. Errors have paths "/cables/i/...".
@@ -87,6 +89,16 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] std::size_t slip_index(int link) const {
     return 4 * spans_.size() + links_.size() + static_cast<std::size_t>(link);
   }
+  [[nodiscard]] std::size_t angle_index(int link) const {
+    return 4 * spans_.size() + 2 * links_.size() + static_cast<std::size_t>(link);
+  }
+  // And in FeatureState::integers.
+  [[nodiscard]] static std::size_t slip_state_index(int link) {
+    return static_cast<std::size_t>(link);
+  }
+  [[nodiscard]] std::size_t mode_index(int link) const {
+    return links_.size() + static_cast<std::size_t>(link);
+  }
 
  private:
   friend class CableCompiler;
@@ -117,19 +129,37 @@ class CableSystem final : public ConstraintBatch {
   void update_slip(const Substep& substep, const CompiledCable& cable);
   void share_lengths(Substep& substep, const CompiledCable& cable, FeatureState& next);
   void share_run(Substep& substep, const CompiledCable& cable, Run run, FeatureState& next) const;
+  // Ends that change: cable/cable_ends.cpp.
+  /// Puts what follows from the cables' state into links and spans.
+  void refresh(const FeatureState& own, std::vector<LinkGeometry>& links,
+               std::vector<SpanSetup>& spans) const;
+  struct Geometry {
+    std::vector<LinkGeometry> links;
+    std::vector<SpanSetup> spans;
+  };
+  [[nodiscard]] Geometry geometry_for(const FeatureState& own) const;
+  void change_ends(const Substep& substep, FeatureState& next) const;
+  void change_end(const Substep& substep, const CompiledCable& cable, int index, int span,
+                  bool first, FeatureState& next) const;
+  /// Cable that attachments feed into the span in a substep of length h [m].
+  [[nodiscard]] double feed(const FeatureState& state, double h, int span) const;
   void turn_massless_wheel(Substep& substep, int link, double length) const;
   [[nodiscard]] double compliance_of(const CompiledCable& cable, double rest_length) const;
   void append_links(const CompiledCable& cable, const Substep& now, const FeatureState& own,
-                    std::span<const SpanGeometry> ends, CableReport& report) const;
+                    const Geometry& current, std::span<const SpanGeometry> ends,
+                    CableReport& report) const;
 
   std::vector<CompiledCable> cables_;
-  std::vector<LinkGeometry> links_;
+  std::vector<LinkGeometry> definitions_;  ///< as compiled
+  std::vector<int> changing_links_;        ///< whose geometry depends on the state
+  std::vector<LinkGeometry> links_;        ///< in this substep
   std::vector<SpanSetup> spans_;
   FeatureState initial_;
   // Scratch of a substep, filled by begin().
   std::vector<SpanReference> references_;
   std::vector<double> multipliers_;
-  std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
+  std::vector<double> fed_;  ///< per span, in this substep [m]
+  std::vector<int> slip_;    ///< per link: which way it slides (see the integers of the state)
   std::vector<int> pending_slip_;
   std::vector<int> sweeps_;             ///< per cable, in this substep
   std::vector<int> flips_;              ///< per link: how often that has changed in this substep

@@ -1,16 +1,18 @@
 // The link types: one line each.
 
 #include "cable/links/attachment.h"
+#include "cable/links/hybrid.h"
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
+#include "cable/links/spool.h"
 
 namespace sheave {
 
 std::span<const TypeEntry<LinkDef>> link_types() {
   static const std::array types{
-      type_entry<LinkDef, AttachmentLink>(),
-      type_entry<LinkDef, RollingLink>(),
-      type_entry<LinkDef, PinholeLink>(),
+      type_entry<LinkDef, AttachmentLink>(), type_entry<LinkDef, RollingLink>(),
+      type_entry<LinkDef, PinholeLink>(),    type_entry<LinkDef, HybridLink>(),
+      type_entry<LinkDef, SpoolLink>(),
   };
   return types;
 }

@@ -68,6 +68,12 @@ Vector3 contact_normal(const Substep& substep, const LinkGeometry& link, int cor
                       : radial({center_of(substep, link, corner), normal, 1.0}, point);
 }
 
+/// What a drum takes on beyond radius times angle when it is wound by `angle` [rad], because it gets thicker: the
+/// integral of pitch angle / 2 pi.
+inline double layer_gain(const LinkGeometry& link, double angle) {
+  return link.layer_pitch * angle * angle / (4.0 * pi);
+}
+
 /// Cable that a relative turn of the tangent point puts onto a circle, or the way along an outline, counter-clockwise.
 inline double way_along(const LinkGeometry& link, double relative_turn, int start_corner,
                         double start_angle, int corner) {
@@ -254,16 +260,18 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
                                     geometry.second_corner);
         break;
       }
-      transport.from_first = -setup.first_radius * first_turn;
-      transport.from_second = setup.second_radius * second_turn;
+      transport.from_first = -setup.first_radius * first_turn - layer_gain(first, first_turn);
+      transport.from_second = setup.second_radius * second_turn - layer_gain(second, second_turn);
       break;
     }
     case SpanKind::spatial: {
       const auto way = [&](const LinkGeometry& link, const Vector3& start_radial, int start_corner,
                            double start_angle, int corner, const Vector3& point) {
         const Vector3 outward = contact_normal(substep, link, corner, point, geometry.direction);
-        return way_along(link, relative_turn(substep, link, start_radial, outward), start_corner,
-                         start_angle, corner);
+        const double turn = relative_turn(substep, link, start_radial, outward);
+        // `side` makes the gain of either end a loss of the span.
+        const double gain = &link == &first ? layer_gain(link, turn) : -layer_gain(link, turn);
+        return way_along(link, turn, start_corner, start_angle, corner) + link.side * gain;
       };
       if (first.wraps()) {
         transport.from_first =

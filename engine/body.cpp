@@ -28,6 +28,15 @@ std::span<const Field> BodyDef::field_table() {
       field<&BodyDef::spin_inertia>("spin_inertia", "kg m2", at_least(0.0), optional,
                                     "rotor: moment of inertia about the axle, in place of that of "
                                     "the shapes; 0: a massless wheel"),
+      choice_field<&BodyDef::drive>(
+          "drive", drive_names, optional,
+          "rotor on a fixed axle: what drive_values prescribe about the axis"),
+      field<&BodyDef::drive_times>(
+          "drive_times", "s", any_number(), optional,
+          "increasing times of the drive's values, linear in between; none "
+          "for one constant value"),
+      field<&BodyDef::drive_values>("drive_values", "rad/s, rad or N m", any_number(), optional,
+                                    "values of the drive, one per time"),
       field<&BodyDef::force>("force", "N", any_number(), optional,
                              "constant, at the centre of mass"),
       field<&BodyDef::torque>("torque", "N m", any_number(), optional, "constant"),

@@ -23,6 +23,15 @@ enum class Mobility {
 inline constexpr std::array<std::string_view, 6> mobility_names{"static", "free",  "planar",
                                                                 "slider", "rotor", "kinematic"};
 
+/// What a drive prescribes.
+enum class DriveKind {
+  none,
+  speed,   ///< spin [rad/s], whatever it takes: a winch
+  angle,   ///< angle [rad]; only its change counts, so that it need not start at 0
+  torque,  ///< [N m], in addition to the constant torque
+};
+inline constexpr std::array<std::string_view, 4> drive_names{"none", "speed", "angle", "torque"};
+
 /// Settings of one body. Positions and vectors are in the world frame at time 0.
 struct BodyDef {
   std::string name;  ///< unique in the model, not "world"
@@ -45,6 +54,11 @@ struct BodyDef {
   /// rotor only: moment of inertia about the axle [kg m2], >= 0; replaces that of `inertia` and the shapes. 0 is a
   /// massless wheel, which turns as its cable moves it and passes the tension on unchanged.
   std::optional<double> spin_inertia;
+  /// rotor on a fixed axle only: speed, angle or torque about the axis as a function of time, linear between the given
+  /// points and constant outside; a single value without times is constant.
+  DriveKind drive = DriveKind::none;
+  std::vector<double> drive_times;   ///< [s], increasing; as many as values, or none
+  std::vector<double> drive_values;  ///< [rad/s, rad or N m]
   Vector3 force = Vector3::Zero();   ///< constant, at the centre of mass [N]
   Vector3 torque = Vector3::Zero();  ///< constant [N m]
   /// kinematic only: the position is position + velocity t + oscillation (sin(2 pi f t + p) - sin

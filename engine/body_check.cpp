@@ -28,6 +28,7 @@ class BodyCheck {
     check_mount();
     check_motion();
     if (moves()) check_mass();
+    check_drive();
   }
 
  private:
@@ -117,6 +118,34 @@ class BodyCheck {
         (body_.oscillation.norm() > 0.0 || body_.oscillation_frequency > 0.0)) {
       fail("/oscillation",
            "only a kinematic body follows an oscillation; mobility is " + mobility_name());
+    }
+  }
+
+  void check_drive() {
+    if (body_.drive == DriveKind::none) {
+      if (!body_.drive_values.empty() || !body_.drive_times.empty()) {
+        fail("/drive", "drive_times and drive_values need a drive: speed, angle or torque");
+      }
+      return;
+    }
+    if (!is(Mobility::rotor) || body_.mount) {
+      fail("/drive", "only a rotor on a fixed axle can be driven; mobility is " + mobility_name() +
+                         (body_.mount ? ", on a mount" : ""));
+    }
+    const std::size_t values = body_.drive_values.size();
+    const std::size_t times = body_.drive_times.size();
+    if (values == 0 || (times == 0 && values != 1) || (times > 0 && times != values)) {
+      fail("/drive_values",
+           "one value per time is needed, or a single value without times; there are " +
+               std::to_string(values) + " values and " + std::to_string(times) + " times");
+    }
+    for (std::size_t i = 1; i < times; ++i) {
+      if (body_.drive_times[i] > body_.drive_times[i - 1]) continue;
+      fail("/drive_times/" + std::to_string(i), "times must increase");
+      break;
+    }
+    if (body_.drive == DriveKind::torque && body_.spin_inertia == 0.0) {
+      fail("/drive", "a massless wheel cannot take up a torque; its spin inertia is 0");
     }
   }
 

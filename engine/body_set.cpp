@@ -43,6 +43,8 @@ BodyProperties compile_body(const BodyDef& body) {
   result.start_orientation = body.orientation.normalized();
   if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) return result;
   const MassProperties own = defined_mass_properties(body);
+  result.drive = body.drive;
+  result.drive_table = {body.drive_times, body.drive_values};
   result.mass = own.mass;
   result.inertia = own.inertia;
   result.axis = world_axis(body);

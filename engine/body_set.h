@@ -8,6 +8,7 @@
 #include "engine/body.h"
 #include "engine/result.h"
 #include "engine/state.h"
+#include "engine/time_table.h"
 
 namespace sheave {
 
@@ -31,6 +32,12 @@ struct BodyProperties {
   double axis_inertia = 0.0;  ///< about the axis [kg m2]; planar bodies and rotors, 0: massless
   Vector3 mount_position = Vector3::Zero();  ///< centre of a mounted rotor, carrier's own frame [m]
   Quaternion start_orientation = Quaternion::Identity();  ///< at angle 0; relative to the carrier
+  DriveKind drive = DriveKind::none;
+  TimeTable drive_table;
+  /// Its rotation is prescribed, so constraints cannot turn it.
+  [[nodiscard]] bool prescribed() const {
+    return drive == DriveKind::speed || drive == DriveKind::angle;
+  }
   std::vector<int> mounted_rotors;  ///< indices of the rotors this body carries
 };
 

@@ -39,7 +39,8 @@ void set_inverse_masses(const BodyProperties& properties, MovingBody& body) {
       break;
     case Mobility::rotor:
       // A massless wheel is turned by its cable when the substep is complete, not by forces.
-      if (properties.axis_inertia > 0.0) body.inverse_inertia = along / properties.axis_inertia;
+      if (properties.axis_inertia > 0.0 && !properties.prescribed())
+        body.inverse_inertia = along / properties.axis_inertia;
       break;
   }
 }
@@ -58,7 +59,8 @@ Substep::Substep(const BodySet& body_set, const State& state_at_start, double le
     body.translates =
         mobility == Mobility::free || mobility == Mobility::planar || mobility == Mobility::slider;
     body.rotates =
-        mobility == Mobility::free || mobility == Mobility::planar || mobility == Mobility::rotor;
+        mobility == Mobility::free || mobility == Mobility::planar ||
+        (mobility == Mobility::rotor && !bodies[i].prescribed() && bodies[i].axis_inertia > 0.0);
     body.tracks_orientation = mobility != Mobility::rotor;
     body.orientation = start.bodies[at(i)].orientation;
     if (bodies[i].mount < 0) set_inverse_masses(bodies[i], body);

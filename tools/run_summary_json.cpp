@@ -55,6 +55,7 @@ Json cables(const RunSummary& summary) {
                        {"stored_length", link.stored_length},
                        {"wrap_angle", link.wrap_angle},
                        {"slip", link.slip},
+                       {"fed", link.fed},
                        {"entry", json(link.entry)},
                        {"exit", json(link.exit)}});
     }

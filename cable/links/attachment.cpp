@@ -6,6 +6,9 @@ std::span<const Field> AttachmentLink::field_table() {
   static const std::array table{
       field<&AttachmentLink::point>("point", "m", any_number(), optional,
                                     "where the cable is fixed, body frame (default its origin)"),
+      field<&AttachmentLink::feed_speed>("feed_speed", "m/s", any_number(), optional,
+                                         "cable that comes out of the point (negative: goes in); "
+                                         "at an end of the cable"),
   };
   return table;
 }
@@ -17,6 +20,7 @@ Result<LinkGeometry> AttachmentLink::compile(const BodySet& bodies,
   link.mounted = bodies[link.body].mount >= 0;
   link.center = point - bodies[link.body].center_of_mass;
   link.given_stored_length = 0.0;
+  link.feed_speed = feed_speed;
   return link;
 }
 

@@ -8,6 +8,9 @@ namespace sheave {
 class AttachmentLink final : public LinkDef {
  public:
   Vector3 point = Vector3::Zero();  ///< [m], body frame
+  /// Cable that comes out of the point (< 0: goes into it) [m/s]; at an end of an open cable. It stops when the span has
+  /// no rest length left to take in.
+  double feed_speed = 0.0;
 
   static constexpr std::string_view type_name = "attachment";
   static constexpr std::string_view type_meaning = "the cable is fixed to a point of a body";

@@ -1,90 +1,8 @@
 #include "cable/links/rolling.h"
 
-#include <limits>
-
-#include "engine/field_check.h"
+#include "cable/links/wheel.h"
 
 namespace sheave {
-namespace {
-
-constexpr double parallel_tolerance = 1e-6;  // what six printed decimals leave
-
-/// The first shape of a body that a cable can roll on as on a wheel; null if there is none.
-const PlacedShape* wheel_shape(const BodySet& bodies, int body) {
-  if (body == bodies.count()) return nullptr;
-  for (const PlacedShape& placed : bodies.definition(body).shapes) {
-    if (placed.shape->wheel_radius() > 0.0) return &placed;
-  }
-  return nullptr;
-}
-
-/// Whether the section of the wheel with a plane of this normal is a circle.
-bool is_circle(const PlacedShape& wheel, const Vector3& normal) {
-  if (wheel.shape->type() == "sphere") return true;
-  return (wheel.orientation * Vector3::UnitZ()).cross(normal).norm() <= parallel_tolerance;
-}
-
-/// A cable plane must be perpendicular to the axis that the body turns about, or the body would leave it.
-bool plane_fits_axle(const BodySet& bodies, int body, const Vector3& normal) {
-  if (body == bodies.count()) return true;
-  const BodyProperties& properties = bodies[body];
-  if (properties.mobility != Mobility::rotor) return true;
-  const Vector3 axle =
-      properties.mount < 0
-          ? properties.axis
-          : Vector3(bodies.initial_orientation(properties.mount) * properties.axis);
-  return (bodies.initial_orientation(body).conjugate() * axle).cross(normal).norm() <=
-         parallel_tolerance;
-}
-
-/// Hull of the section of all shapes of the body with the plane; an error if it has no area.
-Result<LinkOutline> section_outline(const BodySet& bodies, int body, const Vector3& center,
-                                    const Vector3& normal) {
-  std::vector<Vector3> points;
-  for (const PlacedShape& placed : bodies.definition(body).shapes) {
-    const Quaternion to_shape = placed.orientation.conjugate();
-    std::vector<Vector3> section;
-    placed.shape->append_section({to_shape * (center - placed.position), to_shape * normal},
-                                 section);
-    for (const Vector3& point : section) {
-      points.emplace_back(placed.position + placed.orientation * point);
-    }
-  }
-  LinkOutline outline;
-  int smallest = 0;
-  normal.cwiseAbs().minCoeff(&smallest);
-  outline.y = normal.cross(Vector3::Unit(smallest)).normalized();
-  outline.x = outline.y.cross(normal);
-  for (Vector3& point : points) {
-    const Vector3 offset = point - center;
-    point = {outline.x.dot(offset), outline.y.dot(offset), 0.0};
-  }
-  Result<Outline> curve = Outline::create(points);
-  if (!curve) return curve.errors();
-  outline.curve = std::move(*curve);
-  for (int i = 0; i < outline.curve.corner_count(); ++i) {
-    const Vector3& corner = outline.curve.corner(i);
-    outline.corners.emplace_back(center - bodies[body].center_of_mass + corner.x() * outline.x +
-                                 corner.y() * outline.y);
-  }
-  return outline;
-}
-
-/// A wheel whose centre lies on the axle of a mounted rotor has it and its plane fixed to the carrier, which saves
-/// following the rotor's own angle.
-void carry_by_axle(const BodySet& bodies, const Vector3& body_center, LinkGeometry& link) {
-  const int mount = bodies[link.body].mount;
-  if (mount < 0) return;
-  const Quaternion to_carrier =
-      bodies.initial_orientation(mount).conjugate() * bodies.initial_orientation(link.body);
-  const Vector3 offset = to_carrier * body_center;
-  if (offset.cross(bodies[link.body].axis).norm() > 1e-9 * std::abs(link.signed_radius)) return;
-  link.carrier = mount;
-  link.center = bodies[link.body].mount_position + offset;
-  link.normal = to_carrier * link.normal;
-}
-
-}  // namespace
 
 std::span<const Field> RollingLink::field_table() {
   static const std::array table{
@@ -115,55 +33,12 @@ std::span<const Field> RollingLink::field_table() {
 }
 
 Result<LinkGeometry> RollingLink::compile(const BodySet& bodies, const std::string& path) const {
-  const int index = bodies.index(body);
-  const PlacedShape* wheel = wheel_shape(bodies, index);
-  const PlacedShape* shape = wheel;
-  if (shape == nullptr && index != bodies.count() && !bodies.definition(index).shapes.empty()) {
-    shape = &bodies.definition(index).shapes.front();
-  }
-  if (!radius && shape == nullptr) {
-    return Error{path + "/body", "body \"" + bodies.name(index) +
-                                     "\" has no shape to roll on; give the link a \"radius\""};
-  }
-  Vector3 plane_normal = Vector3::UnitZ();
-  if (shape != nullptr) plane_normal = shape->orientation * plane_normal;
-  if (normal) {
-    if (!(normal->norm() > 1e-12)) {
-      return Error{path + "/normal", "the normal must have a direction; its length is 0"};
-    }
-    plane_normal = normal->normalized();
-  }
-  if (!plane_fits_axle(bodies, index, plane_normal)) {
-    return Error{path + (normal ? "/normal" : "/body"), "the cable's plane on body \"" +
-                                                            bodies.name(index) +
-                                                            "\" must be perpendicular to its axle"};
-  }
-  const Vector3 body_center =
-      center.value_or(shape != nullptr ? shape->position : Vector3(Vector3::Zero()));
-
-  LinkGeometry link;
-  link.body = link.carrier = index;
-  link.side = winding == Winding::counter_clockwise ? 1 : -1;
-  link.center = body_center - bodies[index].center_of_mass;
-  link.normal = plane_normal;
-  link.given_stored_length = stored_length.value_or(std::numeric_limits<double>::quiet_NaN());
-  link.extra_turns = turns;
-  link.mounted = bodies[index].mount >= 0;
-  link.friction = friction.value_or(std::numeric_limits<double>::quiet_NaN());
-  const BodyProperties& properties = bodies[index];
-  link.massless = properties.mobility == Mobility::rotor && properties.axis_inertia == 0.0;
-  if (radius || (wheel != nullptr && is_circle(*wheel, plane_normal))) {
-    link.signed_radius = link.side * (radius ? *radius : wheel->shape->wheel_radius());
-    carry_by_axle(bodies, body_center, link);
-    return link;
-  }
-  Result<LinkOutline> outline = section_outline(bodies, index, body_center, plane_normal);
-  if (!outline) {
-    return Error{path + (center ? "/center" : "/body"),
-                 "the cable's plane does not cut the shapes of body \"" + bodies.name(index) +
-                     "\" in an area"};
-  }
-  link.outline = std::make_shared<const LinkOutline>(std::move(*outline));
+  Result<LinkGeometry> link = place_wheel({body, winding, center, normal, radius}, bodies, path);
+  if (!link) return link;
+  carry_by_axle(bodies, *link);
+  link->given_stored_length = stored_length.value_or(std::numeric_limits<double>::quiet_NaN());
+  link->extra_turns = turns;
+  link->friction = friction.value_or(std::numeric_limits<double>::quiet_NaN());
   return link;
 }
 

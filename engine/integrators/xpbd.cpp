@@ -103,15 +103,29 @@ void rotate_freely(Substep& substep, int i) {
   substep.predicted[at(i)].angular_velocity = end_velocity;
 }
 
-/// Rotation about one axis: no gyroscopic effects, and turn = h w exactly.
+/// Rotation about one axis: no gyroscopic effects, and turn = h w exactly unless a drive says otherwise.
 void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
   const BodyProperties& body = substep.bodies[i];
   MovingBody& moving = substep.moving[at(i)];
+  const double from = substep.start.time;
+  const double to = substep.next.time;
   double spin = axis.dot(substep.start.bodies[at(i)].angular_velocity);
-  if (body.axis_inertia > 0.0) {
-    spin += substep.h * axis.dot(load_on(substep, i).torque) / body.axis_inertia;
+  double angle = 0.0;
+  if (body.drive == DriveKind::speed) {
+    spin = body.drive_table.at(to);
+    angle = body.drive_table.integral(from, to);
+  } else if (body.drive == DriveKind::angle) {
+    angle = body.drive_table.at(to) - body.drive_table.at(from);
+    spin = angle / substep.h;
+  } else {
+    if (body.axis_inertia > 0.0) {
+      double impulse = substep.h * axis.dot(load_on(substep, i).torque);
+      if (body.drive == DriveKind::torque) impulse += body.drive_table.integral(from, to);
+      spin += impulse / body.axis_inertia;
+    }
+    angle = substep.h * spin;
   }
-  moving.turn = (substep.h * spin) * axis;
+  moving.turn = angle * axis;
   if (moving.tracks_orientation) moving.orientation = turned(moving.orientation, moving.turn);
   substep.predicted[at(i)].angular_velocity = spin * axis;
 }
@@ -184,7 +198,7 @@ void derive_velocities(Substep& substep) {
     if (moving.translates) {
       next.velocity = allowed_velocity(body, (moving.position - start.position) / h);
     }
-    if (moving.rotates) {
+    if (moving.rotates || body.mobility == Mobility::rotor) {
       next.angular_velocity = substep.predicted[at(i)].angular_velocity +
                               (moving.turn - substep.predicted_turn[at(i)]) / h;
     }

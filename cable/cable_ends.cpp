@@ -1,0 +1,141 @@
+// Ends of a cable that change: hybrid links and drums, whose cable may be used up, layers that make a drum thicker, and
+// attachments that feed cable.
+//
+// A hybrid end is wound one way (as defined), wound the other way, or attached. Wound, it becomes attached when its
+// stored length falls below 0: the cable then ends at the point of the rim that lies |s| before the tangent point in
+// the direction of the free cable, and the negative s goes into the span's rest length, so none is lost. Attached, it is
+// wound again when the free cable would run through the wheel, which is when its direction away from the wheel and the
+// radius to the attachment enclose more than a right angle; the arc between attachment and tangent is then stored.
+// At either moment both descriptions have the same length up to the third order of the small arc, so no energy comes in.
+//
+// Layers: with the pitch p a drum of radius r0 that holds s has the radius sqrt(r0^2 + p s / pi), because s is the
+// integral of r = r0 + p angle / 2 pi over the angle. It is taken at the start of each substep.
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/cable_system.h"
+#include "engine/index.h"
+
+namespace sheave {
+namespace {
+
+constexpr int wound = 0;       ///< as defined
+constexpr int wound_back = 1;  ///< the other way round
+constexpr int attached = 2;
+
+struct PlaneAxes {
+  Vector3 x;
+  Vector3 y;
+};
+
+/// Axes in the link's plane, from which the angle of an attachment is counted.
+PlaneAxes axes_of(const LinkGeometry& link) {
+  int smallest = 0;
+  link.normal.cwiseAbs().minCoeff(&smallest);
+  const Vector3 y = link.normal.cross(Vector3::Unit(smallest)).normalized();
+  return {y.cross(link.normal), y};
+}
+
+double radius_with(const LinkGeometry& definition, double stored_length) {
+  const double bare = std::abs(definition.signed_radius);
+  if (!(definition.layer_pitch > 0.0)) return bare;
+  return std::sqrt(bare * bare + definition.layer_pitch * std::max(stored_length, 0.0) / pi);
+}
+
+}  // namespace
+
+void CableSystem::refresh(const FeatureState& own, std::vector<LinkGeometry>& links,
+                          std::vector<SpanSetup>& spans) const {
+  for (const int i : changing_links_) {
+    const LinkGeometry& definition = definitions_[at(i)];
+    LinkGeometry& link = links[at(i)];
+    const double radius = radius_with(definition, own.reals[stored_length_index(i)]);
+    const auto mode = static_cast<int>(own.integers[mode_index(i)]);
+    link.side = mode == attached ? 0 : mode == wound_back ? -definition.side : definition.side;
+    link.signed_radius = link.side * radius;
+    link.center = definition.center;
+    if (mode == attached) {
+      const PlaneAxes axes = axes_of(definition);
+      const double angle = own.reals[angle_index(i)];
+      link.center += radius * (std::cos(angle) * axes.x + std::sin(angle) * axes.y);
+    }
+    link.centered = link.center.isZero(0.0);
+  }
+  for (SpanSetup& setup : spans) {
+    setup.first_radius = setup.first_sense * links[at(setup.first)].signed_radius;
+    setup.second_radius = setup.second_sense * links[at(setup.second)].signed_radius;
+  }
+}
+
+void CableSystem::change_ends(const Substep& substep, FeatureState& next) const {
+  for (const CompiledCable& cable : cables_) {
+    if (cable.closed) continue;
+    const int last_link = cable.first_link + cable.link_count - 1;
+    const int last_span = cable.first_span + cable.span_count - 1;
+    change_end(substep, cable, cable.first_link, cable.first_span, true, next);
+    change_end(substep, cable, last_link, last_span, false, next);
+  }
+}
+
+void CableSystem::change_end(const Substep& substep, const CompiledCable& cable, int index,
+                             int span, bool first, FeatureState& next) const {
+  const LinkGeometry& definition = definitions_[at(index)];
+  if (!definition.hybrid) return;
+  double& stored = next.reals[stored_length_index(index)];
+  double& rest_length = next.reals[rest_length_index(span)];
+  std::int64_t& mode = next.integers[mode_index(index)];
+  const PlaneAxes axes = axes_of(definition);
+  const Quaternion orientation = substep.orientation(definition.carrier);
+  const Vector3 center = substep.point(definition.carrier, definition.center);
+  const double radius = radius_with(definition, stored);
+  const auto angle_of = [&](const Vector3& point) {
+    const Vector3 own = orientation.conjugate() * (point - center);
+    return std::atan2(axes.y.dot(own), axes.x.dot(own));
+  };
+  const SpanGeometry geometry = geometry_of(substep, span);
+  if (mode != attached) {
+    if (stored >= 0.0) return;
+    // From the tangent point along the free cable: with the cable's run at its first link, against it at its last.
+    const int side = links_[at(index)].side;
+    const double beyond = -stored / radius * (first ? side : -side);
+    next.reals[angle_index(index)] = angle_of(first ? geometry.start : geometry.end) + beyond;
+    mode = attached;
+    rest_length += stored;
+    stored = 0.0;
+    return;
+  }
+  const Vector3 away = first ? geometry.direction : Vector3(-geometry.direction);
+  const Vector3 attachment = first ? geometry.start : geometry.end;
+  const Vector3 outward = attachment - center;
+  if (!(dot(away, outward) < 0.0)) return;
+  const Vector3 normal = orientation * definition.normal;
+  const int around =
+      dot(away, cross(normal, outward)) >= 0.0 ? 1 : -1;  // of the way out of the wheel
+  LinkGeometry wheel = definition;
+  wheel.side = first ? around : -around;
+  wheel.signed_radius = wheel.side * radius;
+  SpanSetup setup = spans_[at(span)];
+  (first ? setup.first_radius : setup.second_radius) =
+      (first ? setup.first_sense : setup.second_sense) * wheel.signed_radius;
+  const SpanGeometry tangent =
+      span_geometry(substep, setup, first ? wheel : links_[at(setup.first)],
+                    first ? links_[at(setup.second)] : wheel);
+  if (!tangent.has_tangent) return;
+  const Vector3 exit = first ? tangent.start : tangent.end;
+  const double arc =
+      radius * around * angle_between(outward / radius, (exit - center) / radius, normal);
+  const double taken =
+      std::min(std::round(std::max(arc, 0.0) / cable.quantum) * cable.quantum, rest_length);
+  mode = wheel.side == definition.side ? wound : wound_back;
+  stored += taken;
+  rest_length -= taken;
+}
+
+double CableSystem::feed(const FeatureState& state, double h, int span) const {
+  const SpanSetup& setup = spans_[at(span)];
+  const double speed = links_[at(setup.first)].feed_speed + links_[at(setup.second)].feed_speed;
+  return std::max(speed * h, -state.reals[rest_length_index(span)]);
+}
+
+}  // namespace sheave

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include "cable/link.h"
+
+namespace sheave {
+
+/// A cable end wound onto a drum: the cable is paid out and taken in as the drum turns, any number of turns. With a layer
+/// pitch p each turn lies on the one before, so the drum's radius grows: with r = r0 + p turns the stored
+/// length is the integral of r over the angle, hence r^2 = r0^2 + p s / pi.
+class SpoolLink final : public LinkDef {
+ public:
+  Winding winding = Winding::counter_clockwise;  ///< as if the cable ran on beyond its end
+  std::optional<Vector3> center;                 ///< as of RollingLink
+  std::optional<Vector3> normal;
+  std::optional<double> radius;
+  double stored_length = 0.0;  ///< cable on the drum at time 0 [m], >= 0
+  double layer_pitch = 0.0;    ///< growth of the radius per turn [m], >= 0
+
+  static constexpr std::string_view type_name = "spool";
+  static constexpr std::string_view type_meaning =
+      "an end of the cable is wound onto a drum, in layers if it has a pitch";
+  static std::span<const Field> field_table();
+
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] Result<LinkGeometry> compile(const BodySet& bodies,
+                                             const std::string& path) const override;
+};
+
+}  // namespace sheave
