@@ -33,6 +33,12 @@ class CableCompiler {
     check_settings(def);
     compile_links(def);
     if (errors_.size() > before) return;
+    const auto lifted = std::count_if(links_.begin(), links_.end(),
+                                      [](const LinkGeometry& link) { return link.starts_lifted; });
+    if (static_cast<int>(links_.size()) - lifted < 2) {
+      fail("/links", "a cable must touch at least 2 links at time 0");
+      return;
+    }
     compile_spans(def);
     if (errors_.size() > before) return;
     store_lengths(def);
@@ -50,12 +56,18 @@ class CableCompiler {
     s.fallbacks_.resize(spans);
     s.initial_.reals.resize(s.initial_.reals.size() + 2 * s.links_.size(), 0.0);  // slip, angle
     s.initial_.integers.assign(2 * s.links_.size(), 0);
+    for (std::size_t i = 0; i < s.links_.size(); ++i) {
+      if (!s.links_[i].starts_lifted) continue;
+      s.initial_.integers[s.mode_index(static_cast<int>(i))] = CableSystem::lifted_mode;
+    }
     s.fed_.assign(spans, 0.0);
     s.definitions_ = s.links_;
     for (const auto& [link, radius] : bare_radii_) s.definitions_[at(link)].signed_radius = radius;
     for (std::size_t i = 0; i < s.links_.size(); ++i) {
       if (s.links_[i].changes()) s.changing_links_.push_back(static_cast<int>(i));
+      s.changes_ = s.changes_ || s.links_[i].changes() || s.links_[i].lifts;
     }
+    s.span_definitions_ = s.spans_;
     s.slip_.assign(s.links_.size(), 0);
     s.pending_slip_ = s.flips_ = s.slip_;
     s.sweeps_.assign(s.cables_.size(), 0);
@@ -133,6 +145,12 @@ class CableCompiler {
     if (end && link.wraps() && !std::isnan(link.friction)) {
       fail(field + "/friction", "at the end of a cable nothing can slip; leave friction out");
     }
+    if (end && link.starts_lifted) {
+      fail(field + "/lifted", "at its ends a cable cannot be off the wheel");
+    }
+    if (link.starts_lifted && link.extra_turns > 0) {
+      fail(field + "/turns", "a cable that is off the wheel has no turns on it");
+    }
     if (!end && link.ends_here) {
       fail(field, "this link is for an end of an open cable; between its ends use \"rolling\"");
     }
@@ -179,9 +197,23 @@ class CableCompiler {
       setup.second = base + second;
       choose_kind(setup, a, b);
       spans_.push_back(setup);
-      geometry_.push_back(span_geometry(now_, setup, a, b));
-      check_span(def, k, second);
+      if (a.starts_lifted) {  // no span yet
+        geometry_.emplace_back();
+        continue;
+      }
+      const int reached = next_touched(k);
+      choose_kind(setup, a, links_[at(reached)]);
+      geometry_.push_back(span_geometry(now_, setup, a, links_[at(reached)]));
+      check_span(def, k, reached);
     }
+  }
+
+  /// The next link that the cable touches at time 0; the ends of a cable always do.
+  [[nodiscard]] int next_touched(int link) const {
+    const int count = static_cast<int>(links_.size());
+    int next = (link + 1) % count;
+    while (links_[at(next)].starts_lifted && next != link) next = (next + 1) % count;
+    return next;
   }
 
   /// Planar if the geometry of the bodies' mobilities guarantees it for ever.
@@ -267,22 +299,39 @@ class CableCompiler {
                            const SpanGeometry& outgoing) const {
     constexpr double touch = 1e-9;  // [rad] just below 0 is a touch, not a full turn
     const LinkGeometry& wheel = links_[at(link)];
+    double angle = 0.0;
     if (wheel.outline) {
-      const double entry = normal_angle(now_, wheel, incoming.direction);
-      double turn = wheel.side * (normal_angle(now_, wheel, outgoing.direction) - entry);
-      turn -= 2.0 * pi * std::floor((turn + touch) / (2.0 * pi));
-      const Outline& curve = wheel.outline->curve;
-      const double way = curve.distance(outgoing.first_corner, entry + wheel.side * turn) -
-                         curve.distance(incoming.second_corner, entry);
-      return wheel.side * way + wheel.extra_turns * curve.perimeter();
+      angle = wheel.side * (normal_angle(now_, wheel, outgoing.direction) -
+                            normal_angle(now_, wheel, incoming.direction));
+      angle -= 2.0 * pi * std::floor((angle + touch) / (2.0 * pi));
+    } else {
+      const LinkCircle circle = circle_of(now_, wheel);
+      const double radius = std::abs(wheel.signed_radius);
+      angle = wheel.side * angle_between((incoming.end - circle.center) / radius,
+                                         (outgoing.start - circle.center) / radius, circle.normal);
+      if (angle < -touch) angle += 2.0 * pi;
+      angle = std::max(angle, 0.0);
     }
-    const LinkCircle circle = circle_of(now_, wheel);
-    const double radius = std::abs(wheel.signed_radius);
-    double angle =
-        wheel.side * angle_between((incoming.end - circle.center) / radius,
-                                   (outgoing.start - circle.center) / radius, circle.normal);
-    if (angle < -touch) angle += 2.0 * pi;
-    return radius * (std::max(angle, 0.0) + 2.0 * pi * wheel.extra_turns);
+    return arc_between(now_, wheel, incoming, outgoing, angle) +
+           wheel.extra_turns * wheel.perimeter();
+  }
+
+  /// Whether all links stay in one plane for ever, so that any two of them can be joined by a planar span.
+  void find_plane(CompiledCable& cable) const {
+    const auto wheel = std::find_if(links_.begin(), links_.end(),
+                                    [](const LinkGeometry& link) { return link.wraps(); });
+    if (wheel == links_.end()) return;
+    cable.normal = circle_of(now_, *wheel).normal;
+    const Vector3 origin = link_center(now_, *wheel);
+    cable.planar = true;
+    for (const LinkGeometry& link : links_) {
+      const double along = cable.normal.dot(circle_of(now_, link).normal);
+      const double offset = cable.normal.dot(link_center(now_, link) - origin);
+      const bool parallel = !link.wraps() || std::abs(along) >= 1.0 - 1e-15;
+      cable.senses.push_back(link.wraps() && along < 0.0 ? -1.0 : 1.0);
+      cable.planar = cable.planar && parallel && std::abs(offset) <= 1e-9 * bodies_.scale() &&
+                     bodies_.stays_in_plane(link.carrier, cable.normal);
+    }
   }
 
   void store_lengths(const CableDef& def) {
@@ -298,6 +347,12 @@ class CableCompiler {
     cable.inverse_stiffness = def.axial_stiffness ? 1.0 / *def.axial_stiffness : 0.0;
     cable.damping = def.damping;
     cable.tangent_update = def.tangent_update;
+    find_plane(cable);
+    for (int i = 0; i < cable.link_count; ++i) {
+      const bool end = !def.closed && (i == 0 || i + 1 == cable.link_count);
+      links_[at(i)].lifts = !end && links_[at(i)].wraps();
+      cable.lifts = cable.lifts || links_[at(i)].lifts;
+    }
     for (int i = 0; i < cable.link_count; ++i) {
       const bool end = !def.closed && (i == 0 || i + 1 == cable.link_count);
       if (end || !links_[at(i)].passes()) continue;
@@ -306,14 +361,18 @@ class CableCompiler {
     }
     std::vector<double> lengths;
     for (int k = 0; k < cable.span_count; ++k) {
-      lengths.push_back(def.rest_lengths.empty() ? geometry_[at(k)].length
-                                                 : def.rest_lengths[at(k)]);
+      lengths.push_back(links_[at(k)].starts_lifted ? 0.0
+                        : def.rest_lengths.empty()  ? geometry_[at(k)].length
+                                                    : def.rest_lengths[at(k)]);
     }
     for (int i = 0; i < cable.link_count; ++i) {
       const LinkGeometry& link = links_[at(i)];
       cable.link_types.push_back(def.links[at(i)]->type());
-      const int incoming = i > 0 ? i - 1 : cable.span_count - 1;
-      lengths.push_back(!link.wraps() ? 0.0
+      int incoming = i > 0 ? i - 1 : cable.span_count - 1;
+      while (links_[at(incoming)].starts_lifted) {
+        incoming = incoming > 0 ? incoming - 1 : cable.span_count - 1;
+      }
+      lengths.push_back(!link.wraps() || link.starts_lifted ? 0.0
                         : std::isnan(link.given_stored_length)
                             ? arc(i, geometry_[at(incoming)], geometry_[at(i)])
                             : link.given_stored_length);

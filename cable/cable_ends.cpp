@@ -62,13 +62,14 @@ void CableSystem::refresh(const FeatureState& own, std::vector<LinkGeometry>& li
     }
     link.centered = link.center.isZero(0.0);
   }
+  connect_spans(own, links, spans);
   for (SpanSetup& setup : spans) {
     setup.first_radius = setup.first_sense * links[at(setup.first)].signed_radius;
     setup.second_radius = setup.second_sense * links[at(setup.second)].signed_radius;
   }
 }
 
-void CableSystem::change_ends(const Substep& substep, FeatureState& next) const {
+void CableSystem::change_ends(const Substep& substep, FeatureState& next) {
   for (const CompiledCable& cable : cables_) {
     if (cable.closed) continue;
     const int last_link = cable.first_link + cable.link_count - 1;
@@ -79,7 +80,7 @@ void CableSystem::change_ends(const Substep& substep, FeatureState& next) const 
 }
 
 void CableSystem::change_end(const Substep& substep, const CompiledCable& cable, int index,
-                             int span, bool first, FeatureState& next) const {
+                             int span, bool first, FeatureState& next) {
   const LinkGeometry& definition = definitions_[at(index)];
   if (!definition.hybrid) return;
   double& stored = next.reals[stored_length_index(index)];
@@ -103,6 +104,8 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
     mode = attached;
     rest_length += stored;
     stored = 0.0;
+    events_.push_back(
+        {substep.next.time, cable.name, index - cable.first_link, CableEvent::Kind::attach});
     return;
   }
   const Vector3 away = first ? geometry.direction : Vector3(-geometry.direction);
@@ -130,6 +133,8 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
   mode = wheel.side == definition.side ? wound : wound_back;
   stored += taken;
   rest_length -= taken;
+  events_.push_back(
+      {substep.next.time, cable.name, index - cable.first_link, CableEvent::Kind::wind});
 }
 
 double CableSystem::feed(const FeatureState& state, double h, int span) const {

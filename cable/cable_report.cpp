@@ -64,6 +64,14 @@ void CableSystem::append_links(const CompiledCable& cable, const Substep& now,
         link.wraps() ? wound_angle(definitions_[at(index)], link, entry.stored_length) : 0.0;
     const double passed = own.reals[slip_index(index)];
     (definitions_[at(index)].feed_speed != 0.0 ? entry.fed : entry.slip) = passed;
+    if (own.integers[mode_index(index)] >= lifted_mode) {
+      entry.touched = false;
+      entry.winding = 0;
+      entry.radius = entry.wrap_angle = 0.0;
+      entry.entry = entry.exit = entry.center;
+      report.links.push_back(entry);
+      continue;
+    }
     const bool has_incoming = cable.closed || i > 0;
     const bool has_outgoing = cable.closed || i + 1 < cable.link_count;
     const int incoming = i > 0 ? i - 1 : cable.span_count - 1;
@@ -94,6 +102,14 @@ std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State&
       const SpanSetup& setup = current.spans[at(k)];
       const SpanGeometry geometry = span_geometry(now, setup, current.links[at(setup.first)],
                                                   current.links[at(setup.second)]);
+      if (!setup.active) {
+        // The cable has left the link before this span: a point where the span that passes it ends.
+        SpanReport none;
+        none.start = none.end = report.spans.empty() ? geometry.start : report.spans.back().end;
+        ends.push_back(ends.empty() ? geometry : SpanGeometry(ends.back()));
+        report.spans.push_back(none);
+        continue;
+      }
       ends.push_back(geometry);
       SpanReport span;
       span.start = geometry.start;

@@ -1,6 +1,8 @@
 #pragma once
 // Cables as a user or a renderer sees them, between two steps.
 
+#include <array>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,6 +18,7 @@ struct LinkReport {
   Vector3 center = Vector3::Zero();   ///< of the wheel, or the point itself [m]
   Vector3 normal = Vector3::UnitZ();  ///< of the link's plane
   double radius = 0.0;                ///< [m], 0 for a point
+  bool touched = true;                ///< false: the cable has left the wheel and passes it by
   int winding = 0;                    ///< +1 counter-clockwise, -1 clockwise, 0 for a point
   /// Where the cable meets and leaves the body [m]. At the ends of an open cable, where one of the
   /// two does not exist, both are the one that does.
@@ -31,6 +34,22 @@ struct LinkReport {
   double slip = 0.0;
   double fed = 0.0;  ///< cable that an attachment with a feed speed has paid out since time 0 [m]
 };
+
+/// Something that changed the course of a cable.
+struct CableEvent {
+  enum class Kind {
+    leave,   ///< the cable left a wheel
+    touch,   ///< it touched it again
+    attach,  ///< a hybrid end's cable was used up
+    wind,    ///< and is wound up again
+  };
+  double time = 0.0;  ///< end of the substep [s]
+  std::string cable;
+  int link = 0;  ///< within its cable
+  Kind kind = Kind::leave;
+};
+inline constexpr std::array<std::string_view, 4> cable_event_names{"leave", "touch", "attach",
+                                                                   "wind"};
 
 /// One free span of a cable.
 struct SpanReport {

@@ -56,8 +56,9 @@ void pull_slack(std::vector<double>& spare) {
 }  // namespace
 
 int CableSystem::next_span(const CompiledCable& cable, int span) const {
-  const bool last = span + 1 == cable.first_span + cable.span_count;
-  return last ? cable.first_span : span + 1;
+  // A span has the number of its first link; behind the last link of an open cable it begins again.
+  const int link = spans_[at(span)].second - cable.first_link;
+  return cable.first_span + (link < cable.span_count ? link : 0);
 }
 
 bool CableSystem::shared(int link) const {
@@ -66,12 +67,17 @@ bool CableSystem::shared(int link) const {
 
 template <class Visit>
 void CableSystem::for_each_run(const CompiledCable& cable, Visit visit) const {
-  int first = cable.first_span;
-  int left = cable.span_count;
+  int first = -1;
+  int left = 0;
+  for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+    if (!spans_[at(k)].active) continue;
+    ++left;
+    if (first < 0) first = k;
+  }
   if (cable.closed) {
     // Begin behind a link that cable does not pass; if there is none, the ring is one run.
     for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
-      if (shared(spans_[at(k)].second)) continue;
+      if (!spans_[at(k)].active || shared(spans_[at(k)].second)) continue;
       first = next_span(cable, k);
       break;
     }
@@ -107,16 +113,8 @@ double CableSystem::sweep_runs(Substep& substep, int cable_index) {
   return correction;
 }
 
-double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run run) {
-  const auto count = at(run.count);
-  run_rows_.resize(std::max(run_rows_.size(), count));
-  run_spans_.resize(std::max(run_spans_.size(), count));
-  run_weights_.resize(std::max(run_weights_.size(), count));
-  run_gradient_.resize(substep.moving.size());
-  const double inverse_square = 1.0 / (substep.h * substep.h);
-
-  // Evaluate; sum the gradients body by body; collect the logarithms of the weights.
-  double error = 0.0;
+double CableSystem::evaluate_run(const Substep& substep, const CompiledCable& cable, Run run,
+                                 double& error) {
   double heaviest = 0.0;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     Row& row = run_rows_[at(i)];
@@ -141,6 +139,19 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
     }
     heaviest = std::max(heaviest, weight);
   }
+  return heaviest;
+}
+
+double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run run) {
+  const auto count = at(run.count);
+  run_rows_.resize(std::max(run_rows_.size(), count));
+  run_spans_.resize(std::max(run_spans_.size(), count));
+  run_weights_.resize(std::max(run_weights_.size(), count));
+  run_gradient_.resize(substep.moving.size());
+  const double inverse_square = 1.0 / (substep.h * substep.h);
+
+  double error = 0.0;
+  const double heaviest = evaluate_run(substep, cable, run, error);
 
   // Weights relative to the heaviest, so that no number of turns overflows.
   double numerator = -error;
@@ -230,9 +241,11 @@ void CableSystem::update_slip(const Substep& substep, const CompiledCable& cable
     }
   });
   // Links that stick: do they hold?
-  const int spans = cable.closed ? cable.span_count : cable.span_count - 1;
-  for (int i = 0; i < spans; ++i) {
+  const int last_link = cable.first_link + cable.link_count - 1;
+  for (int i = 0; i < cable.span_count; ++i) {
     const int incoming = cable.first_span + i;
+    if (!spans_[at(incoming)].active) continue;
+    if (!cable.closed && spans_[at(incoming)].second == last_link) break;
     const int outgoing = next_span(cable, incoming);
     const int link = spans_[at(incoming)].second;
     if (!links_[at(link)].passes() || shared(link)) continue;

@@ -20,7 +20,10 @@ double CableSystem::compliance_of(const CompiledCable& cable, double rest_length
 }
 
 void CableSystem::begin(const Substep& substep, const FeatureState& state) {
-  if (!changing_links_.empty()) refresh(state, links_, spans_);
+  if (changes_ && (!changing_links_.empty() || state.integers != connected_for_)) {
+    refresh(state, links_, spans_);
+    connected_for_ = state.integers;
+  }
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
   std::fill(sweeps_.begin(), sweeps_.end(), 0);
   std::fill(flips_.begin(), flips_.end(), 0);
@@ -30,6 +33,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   }
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const SpanSetup& setup = spans_[k];
+    if (!setup.active) continue;
     const LinkGeometry& first = links_[at(setup.first)];
     const LinkGeometry& second = links_[at(setup.second)];
     references_[k] = span_reference(substep, setup, first, second, state.reals[k]);
@@ -76,6 +80,7 @@ double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
   double correction = 0.0;
   Row row;
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+    if (!spans_[at(k)].active) continue;
     row.clear();
     evaluate(substep, k, row);
     double& multiplier = multipliers_[at(k)];
@@ -86,13 +91,17 @@ double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
 }
 
 void CableSystem::linearise(Substep& substep, std::vector<Row>& rows) {
-  for (int k = 0; k < row_count(); ++k) evaluate(substep, k, rows.emplace_back());
+  for (int k = 0; k < row_count(); ++k) {
+    Row& row = rows.emplace_back();
+    if (spans_[at(k)].active) evaluate(substep, k, row);
+  }
 }
 
 void CableSystem::finish(Substep& substep, FeatureState& next) {
   const double inverse_square = 1.0 / (substep.h * substep.h);
   for (int k = 0; k < row_count(); ++k) {
     const SpanSetup& setup = spans_[at(k)];
+    if (!setup.active) continue;
     const LinkGeometry& first = links_[at(setup.first)];
     const LinkGeometry& second = links_[at(setup.second)];
     const double quantum = cables_[at(setup.cable)].quantum;
@@ -130,6 +139,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     if (cable.shares) share_lengths(substep, cable, next);
   }
   if (!changing_links_.empty()) change_ends(substep, next);
+  if (changes_) leave_and_touch(substep, next);
 }
 
 SpanGeometry CableSystem::geometry_of(const Substep& substep, int span) const {
@@ -139,7 +149,7 @@ SpanGeometry CableSystem::geometry_of(const Substep& substep, int span) const {
 
 CableSystem::Geometry CableSystem::geometry_for(const FeatureState& own) const {
   Geometry geometry{links_, spans_};
-  if (!changing_links_.empty()) refresh(own, geometry.links, geometry.spans);
+  if (changes_) refresh(own, geometry.links, geometry.spans);
   return geometry;
 }
 
@@ -154,6 +164,7 @@ double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
   double energy = 0.0;
   for (int k = 0; k < row_count(); ++k) {
     const SpanSetup& setup = current.spans[at(k)];
+    if (!setup.active) continue;
     const double rest_length = own.reals[rest_length_index(k)];
     const double compliance = compliance_of(cables_[at(setup.cable)], rest_length);
     const double stretch =

@@ -20,11 +20,15 @@ struct CompiledCable {
   int link_count = 0;
   int first_span = 0;
   int span_count = 0;
-  double compliance = 0.0;         ///< [m/N]; 0 if rigid or of a material
-  double inverse_stiffness = 0.0;  ///< 1/EA [1/N]; 0 if not of a material
-  double damping = 0.0;            ///< [N s/m]
-  bool shares = false;             ///< cable can pass at one of its links other than by rolling
-  bool has_friction = false;       ///< and at one of them with friction
+  double compliance = 0.0;            ///< [m/N]; 0 if rigid or of a material
+  double inverse_stiffness = 0.0;     ///< 1/EA [1/N]; 0 if not of a material
+  double damping = 0.0;               ///< [N s/m]
+  bool lifts = false;                 ///< it can leave and touch at least one of its links
+  bool planar = false;                ///< all links stay in one plane
+  Vector3 normal = Vector3::UnitZ();  ///< of that plane
+  std::vector<double> senses;         ///< per link: +1 if its normal is `normal`, -1 if opposite
+  bool shares = false;                ///< cable can pass at one of its links other than by rolling
+  bool has_friction = false;          ///< and at one of them with friction
   TangentUpdate tangent_update = TangentUpdate::iteration;
   double start_length = 0.0;  ///< rest and stored lengths at time 0 [m]
   /// Power of two that all rest and stored lengths are multiples of [m], about 1e-15 of the cable.
@@ -40,7 +44,8 @@ struct CompiledCable {
 /// link [m]: cable that has slid over it towards the next span, of an attachment cable that was fed,
 /// angle of a hybrid end's attachment per link [rad]; integers = per link with friction which way the cable
 /// slides: +1 towards the next span, -1 towards the last, 0 not at all; per link its mode: 0 as defined, 1 wound the other
-/// way round, 2 attached (hybrid ends).
+/// way round, 2 attached (hybrid ends), 3 left by the
+/// cable, 4 left and passed to the other side.
 class CableSystem final : public ConstraintBatch {
  public:
   /// Checks and compiles the cables. Errors have paths "/cables/i/...".
@@ -61,6 +66,8 @@ class CableSystem final : public ConstraintBatch {
     double first_time = 0.0;  ///< [s]
   };
   [[nodiscard]] std::vector<TangentWarning> tangent_warnings() const;
+  /// What happened since the system was created, in order.
+  [[nodiscard]] const std::vector<CableEvent>& events() const { return events_; }
 
   [[nodiscard]] std::string_view name() const override { return "cables"; }
   [[nodiscard]] FeatureState initial_state() const override { return initial_; }
@@ -122,6 +129,9 @@ class CableSystem final : public ConstraintBatch {
                                          const SpanGeometry& outgoing) const;
   double sweep_spans(Substep& substep, const CompiledCable& cable);
   double sweep_runs(Substep& substep, int cable_index);
+  /// Evaluates the spans of a run; sums their gradients body by body and their values into `error`, and collects the
+  /// logarithms of the weights k_i. Returns the largest of these.
+  double evaluate_run(const Substep& substep, const CompiledCable& cable, Run run, double& error);
   double solve_run(Substep& substep, const CompiledCable& cable, Run run);
   /// Per span of the run: rest length that has to leave it [m], so that all have their tensions.
   [[nodiscard]] std::vector<double> run_spare(const Substep& substep, const CompiledCable& cable,
@@ -138,9 +148,23 @@ class CableSystem final : public ConstraintBatch {
     std::vector<SpanSetup> spans;
   };
   [[nodiscard]] Geometry geometry_for(const FeatureState& own) const;
-  void change_ends(const Substep& substep, FeatureState& next) const;
+  void change_ends(const Substep& substep, FeatureState& next);
   void change_end(const Substep& substep, const CompiledCable& cable, int index, int span,
-                  bool first, FeatureState& next) const;
+                  bool first, FeatureState& next);
+  // Wheels that the cable leaves and touches: cable/cable_contacts.cpp.
+  static constexpr std::int64_t lifted_mode = 3;
+  static constexpr std::int64_t passed_mode = 4;
+  [[nodiscard]] static int span_before(const CompiledCable& cable, int link,
+                                       const std::vector<SpanSetup>& spans);
+  void connect_spans(const FeatureState& own, const std::vector<LinkGeometry>& links,
+                     std::vector<SpanSetup>& spans) const;
+  void leave_and_touch(const Substep& substep, FeatureState& next);
+  /// Winds on or off the cable by which a span's end moves along its link; returns what the span gains [m].
+  static double shift_contact(const Substep& substep, const CompiledCable& cable,
+                              const LinkGeometry& link, const SpanGeometry& from,
+                              const SpanGeometry& to, bool first, double& stored_length);
+  bool leave(const Substep& substep, const CompiledCable& cable, int link, FeatureState& next);
+  void touch(const Substep& substep, const CompiledCable& cable, int link, FeatureState& next);
   /// Cable that attachments feed into the span in a substep of length h [m].
   [[nodiscard]] double feed(const FeatureState& state, double h, int span) const;
   void turn_massless_wheel(Substep& substep, int link, double length) const;
@@ -150,10 +174,13 @@ class CableSystem final : public ConstraintBatch {
                     CableReport& report) const;
 
   std::vector<CompiledCable> cables_;
-  std::vector<LinkGeometry> definitions_;  ///< as compiled
-  std::vector<int> changing_links_;        ///< whose geometry depends on the state
-  std::vector<LinkGeometry> links_;        ///< in this substep
-  std::vector<SpanSetup> spans_;
+  std::vector<LinkGeometry> definitions_;    ///< as compiled
+  std::vector<int> changing_links_;          ///< whose geometry depends on the state
+  std::vector<LinkGeometry> links_;          ///< in this substep
+  std::vector<SpanSetup> span_definitions_;  ///< as compiled
+  std::vector<SpanSetup> spans_;             ///< in this substep
+  bool changes_ = false;                     ///< links or spans depend on the state
+  std::vector<std::int64_t> connected_for_;  ///< integers of the state that spans_ stand for
   FeatureState initial_;
   // Scratch of a substep, filled by begin().
   std::vector<SpanReference> references_;
@@ -175,6 +202,7 @@ class CableSystem final : public ConstraintBatch {
     double first_time = 0.0;
   };
   std::vector<Fallback> fallbacks_;
+  std::vector<CableEvent> events_;
 };
 
 }  // namespace sheave

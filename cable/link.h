@@ -48,11 +48,13 @@ struct LinkGeometry {
   double friction = std::numeric_limits<double>::quiet_NaN();
   /// The link's rotor has no inertia, so the tension is the same on both sides and the cable's motion turns it.
   bool massless = false;
-  bool ends_here = false;    ///< the link type is one for the end of an open cable only
-  bool hybrid = false;       ///< becomes an attachment when its stored length is used up
-  double layer_pitch = 0.0;  ///< growth of the radius with every turn wound on [m]
-  double feed_speed = 0.0;   ///< of an attachment: cable that enters the scene there [m/s]
-  int extra_turns = 0;       ///< whole turns beyond the arc between the tangents
+  bool ends_here = false;      ///< the link type is one for the end of an open cable only
+  bool starts_lifted = false;  ///< the cable passes it by at time 0
+  bool lifts = false;          ///< the cable can leave it and touch it again: between the ends
+  bool hybrid = false;         ///< becomes an attachment when its stored length is used up
+  double layer_pitch = 0.0;    ///< growth of the radius with every turn wound on [m]
+  double feed_speed = 0.0;     ///< of an attachment: cable that enters the scene there [m/s]
+  int extra_turns = 0;         ///< whole turns beyond the arc between the tangents
 
   [[nodiscard]] bool wraps() const { return side != 0; }
   /// Whether geometry depends on the cable's state, not only on the bodies.

@@ -289,6 +289,41 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
   return transport;
 }
 
+Clearance clearance(const Substep& substep, const LinkGeometry& link, const SpanGeometry& span) {
+  const Vector3 normal = substep.orientation(link.carrier) * link.normal;
+  Vector3 left = cross(normal, span.direction);
+  const double share = left.norm();
+  if (!(share > 0.0)) return {0.0, 0.0, false};
+  left /= share;
+  const Vector3 corner = center_of(substep, link, touched_corner(substep, link, span.direction, 0));
+  const Vector3 center = link_center(substep, link) - span.start;
+  const double along = dot(span.direction, center);
+  return {link.side * dot(left, corner - span.start) - std::abs(link.signed_radius),
+          link.side * dot(left, center), along > 0.0 && along < span.length};
+}
+
+double arc_between(const Substep& substep, const LinkGeometry& link, const SpanGeometry& incoming,
+                   const SpanGeometry& outgoing, double angle) {
+  if (!link.outline) return std::abs(link.signed_radius) * angle;
+  const double entry = normal_angle(substep, link, incoming.direction);
+  const Outline& curve = link.outline->curve;
+  return link.side * (curve.distance(outgoing.first_corner, entry + link.side * angle) -
+                      curve.distance(incoming.second_corner, entry));
+}
+
+double contact_shift(const Substep& substep, const LinkGeometry& link, const SpanGeometry& from,
+                     const SpanGeometry& to, bool first) {
+  if (!link.wraps()) return 0.0;
+  const int corner_from = first ? from.first_corner : from.second_corner;
+  const int corner_to = first ? to.first_corner : to.second_corner;
+  const Vector3 normal = substep.orientation(link.carrier) * link.normal;
+  const double angle = angle_between(
+      contact_normal(substep, link, corner_from, first ? from.start : from.end, from.direction),
+      contact_normal(substep, link, corner_to, first ? to.start : to.end, to.direction), normal);
+  const double start = link.outline ? normal_angle(substep, link, from.direction) : 0.0;
+  return way_along(link, angle, corner_from, start, corner_to);
+}
+
 double wrap_angle(const Substep& substep, const LinkGeometry& link, const SpanGeometry& incoming,
                   const SpanGeometry& outgoing, double stored_length) {
   if (!link.wraps()) {

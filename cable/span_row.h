@@ -50,6 +50,7 @@ struct SpanSetup {
   Vector3 normal = Vector3::UnitZ();  ///< planar: of the common plane, world frame
   double first_radius = 0.0;          ///< planar: signed radii, seen against `normal` [m]
   double second_radius = 0.0;
+  bool active = true;        ///< false: its first link is lifted, so there is no such span
   bool outlined = false;     ///< at least one of the links is an outline
   double first_sense = 1.0;  ///< planar: +1 if the link's normal is `normal`, -1 if opposite
   double second_sense = 1.0;
@@ -89,6 +90,26 @@ struct SpanTransport {
 /// normal from the outline's x axis.
 [[nodiscard]] double normal_angle(const Substep& substep, const LinkGeometry& link,
                                   const Vector3& direction);
+
+/// How a span passes an outline that it does not touch.
+struct Clearance {
+  /// From the outline to the span, on the side where the link's winding puts the cable [m]; < 0: the span cuts it.
+  double distance = 0.0;
+  double center_distance = 0.0;  ///< the same from the link's centre
+  bool between = false;          ///< whether the centre lies beside the span, not beyond its ends
+};
+[[nodiscard]] Clearance clearance(const Substep& substep, const LinkGeometry& link,
+                                  const SpanGeometry& span);
+
+/// Cable on the link between two spans [m] whose contacts are `angle` [rad] apart in the cable's direction.
+[[nodiscard]] double arc_between(const Substep& substep, const LinkGeometry& link,
+                                 const SpanGeometry& incoming, const SpanGeometry& outgoing,
+                                 double angle);
+
+/// Way along the link [m, counter-clockwise] from where one span touches it to where another does, with the link at rest;
+/// the shorter way round. `first` tells whether the link is the first of both spans or the second.
+[[nodiscard]] double contact_shift(const Substep& substep, const LinkGeometry& link,
+                                   const SpanGeometry& from, const SpanGeometry& to, bool first);
 
 /// Angle [rad, >= 0] by which the cable is wrapped round the link between two spans. Of a wheel or an outline it is known
 /// up to whole turns from the directions; `stored_length` [m] on it tells how many. Of a pinhole it is the deflection.

@@ -26,6 +26,9 @@ std::span<const Field> RollingLink::field_table() {
       field<&RollingLink::friction>("friction", "", at_least(0.0), optional,
                                     "capstan coefficient: the cable slips when the ratio of the "
                                     "tensions passes e^(friction x wrap angle); default: no slip"),
+      field<&RollingLink::lifted>("lifted", "", {}, optional,
+                                  "whether the cable passes the wheel by at time 0; it is wound on "
+                                  "when it comes to touch it"),
       field<&RollingLink::turns>("turns", "", between(0, 1000), optional,
                                  "whole turns in addition to the arc between the tangents"),
   };
@@ -38,6 +41,7 @@ Result<LinkGeometry> RollingLink::compile(const BodySet& bodies, const std::stri
   carry_by_axle(bodies, *link);
   link->given_stored_length = stored_length.value_or(std::numeric_limits<double>::quiet_NaN());
   link->extra_turns = turns;
+  link->starts_lifted = lifted;
   link->friction = friction.value_or(std::numeric_limits<double>::quiet_NaN());
   return link;
 }

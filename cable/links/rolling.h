@@ -23,6 +23,8 @@ class RollingLink final : public LinkDef {
   /// Capstan coefficient, >= 0; default: the cable does not slip. With it, it slips as soon as the ratio of the tensions
   /// passes e^(friction x wrap angle), any number of turns.
   std::optional<double> friction;
+  /// The cable passes the wheel by at time 0; it is wound on, as `winding` says, when it comes to touch it.
+  bool lifted = false;
   int turns = 0;  ///< whole turns in addition to the arc between the tangents, 0 ... 1000
 
   static constexpr std::string_view type_name = "rolling";

@@ -1,0 +1,150 @@
+// Wheels that a cable leaves and touches again.
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/builders.h"
+
+namespace sheave {
+namespace {
+
+using test::attach;
+using test::cable;
+using test::g;
+using test::left;
+using test::right;
+using test::roll;
+
+std::shared_ptr<RollingLink> passing(BodyId body, Winding winding) {
+  auto link = roll(body, winding);
+  link->lifted = true;
+  return link;
+}
+
+BodyDef peg(std::string name, const Vector3& center, double radius) {
+  BodyDef body = test::wheel(std::move(name), center, radius, 0.01);
+  body.mobility = Mobility::fixed;
+  body.axis.reset();
+  return body;
+}
+
+/// Galileo's pendulum: a ball on 1 m of cable from the origin that catches on a peg half way down.
+struct Pendulum {
+  test::Machine machine;
+  BodyId ball;
+  explicit Pendulum(double h) {
+    machine.model.gravity = test::down;
+    machine.model.step = test::settings(h, 1, 20);
+    const BodyId post = machine.model.add(peg("peg", {0.05, -0.5, 0.0}, 0.05));
+    BodyDef body = test::lump("ball", {-std::sin(0.5), -std::cos(0.5), 0.0}, 1.0);
+    body.mobility = Mobility::planar;
+    ball = machine.model.add(body);
+    // The peg is on the right; swinging to the right the cable runs clockwise... seen from the origin down to the
+    // ball it passes with the peg on its left.
+    machine.cables.push_back(
+        cable("rope", {attach(BodyId::world()), passing(post, left), attach(ball)}));
+  }
+};
+
+TEST(MergeSplit, APendulumCatchesOnAPegAndComesFreeAgain) {
+  const Pendulum pendulum(0.001);
+  Simulation s = test::start(pendulum.machine);
+  double energy = s.world.energy().total();
+  double highest = -1.0;
+  double rise = 0.0;
+  for (int i = 0; i < 4000; ++i) {
+    ASSERT_TRUE(s.world.step().ok());
+    const CableReport report = s.cable_reports()[0];
+    ASSERT_EQ(report.length_error, 0.0);
+    const double now = s.world.energy().total();
+    rise = std::max(rise, now - energy);
+    energy = now;
+    if (report.links[1].touched) highest = std::max(highest, s.world.position(pendulum.ball).y());
+    // The ball stays on its cable: the sum of free lengths and arc is 1 m.
+    double length = report.links[1].stored_length;
+    for (const SpanReport& span : report.spans) length += span.length;
+    EXPECT_NEAR(length, 1.0, 1e-6);
+  }
+  EXPECT_GE(s.cables->events().size(), 4U);
+  EXPECT_EQ(s.cables->events()[0].kind, CableEvent::Kind::touch);
+  EXPECT_EQ(s.cables->events()[1].kind, CableEvent::Kind::leave);
+  // It rises to the height it came from, but for the integrator's damping.
+  EXPECT_NEAR(highest, -std::cos(0.5), 0.01);
+  EXPECT_LT(rise, 1e-6 * g);
+}
+
+TEST(MergeSplit, TensionIsContinuousWhenACableTouches) {
+  // Pulled by constant weights over two outer wheels, the cable is pushed up by a wheel that rises slowly below it.
+  test::Machine m;
+  m.model.gravity = test::down;
+  m.model.step = test::settings(0.002, 1, 200);
+  const BodyId w1 = m.model.add(test::wheel("w1", {-1.0, 0.0, 0.0}, 0.1, 0.001));
+  const BodyId w2 = m.model.add(test::wheel("w2", {1.0, 0.0, 0.0}, 0.1, 0.001));
+  BodyDef pusher = peg("pusher", {0.0, -0.05, 0.0}, 0.1);
+  pusher.mobility = Mobility::kinematic;
+  pusher.velocity = {0.0, 0.2, 0.0};
+  const BodyId p = m.model.add(pusher);
+  const BodyId a = m.model.add(test::weight("a", {-1.1, -3.0, 0.0}, 1.0));
+  const BodyId b = m.model.add(test::weight("b", {1.1, -3.0, 0.0}, 1.0));
+  m.cables.push_back(
+      cable("rope", {attach(a), roll(w1, right), passing(p, right), roll(w2, right), attach(b)}));
+  Simulation s = test::start(m);
+  double last = g;
+  bool touched = false;
+  for (int i = 0; i < 400; ++i) {
+    ASSERT_TRUE(s.world.step().ok());
+    const CableReport report = s.cable_reports()[0];
+    ASSERT_EQ(report.length_error, 0.0);
+    EXPECT_NEAR(report.spans[1].tension, last, 0.02 * g) << i;
+    last = report.spans[1].tension;
+    touched = touched || report.links[2].touched;
+  }
+  EXPECT_TRUE(touched);
+  EXPECT_EQ(s.cables->events().size(), 1U);
+}
+
+TEST(MergeSplit, TenThousandRandomEventsLoseNoLength) {
+  // A cable between two shaking bodies through a field of pegs that it keeps leaving and touching.
+  test::Machine m;
+  m.model.gravity = Vector3::Zero();
+  m.model.step = test::settings(0.01, 1, 10);
+  CableDef rope = cable("rope", {attach(BodyId::world(), {-1.0, 0.0, 0.0})});
+  for (int i = 0; i < 6; ++i) {
+    const bool over = i % 2 == 0;
+    const BodyId id =
+        m.model.add(peg("peg" + std::to_string(i), {0.4 * i, over ? -0.11 : 0.11, 0.0}, 0.1));
+    rope.links.push_back(passing(id, over ? right : left));
+  }
+  BodyDef shaker = peg("shaker", {3.0, 0.0, 0.0}, 0.1);
+  shaker.mobility = Mobility::kinematic;
+  shaker.oscillation = {0.0, 1.5, 0.0};
+  shaker.oscillation_frequency = 3.7;
+  const BodyId end = m.model.add(shaker);
+  BodyDef slack = test::lump("slack", {4.0, 0.0, 0.0}, 1.0);
+  slack.mobility = Mobility::slider;
+  slack.axis = Vector3::UnitX();
+  slack.force = {50.0, 0.0, 0.0};
+  const BodyId pull = m.model.add(slack);
+  rope.links.push_back(roll(end, right));
+  rope.links.push_back(attach(pull));
+  m.cables.push_back(rope);
+  m.cables[0].links.erase(m.cables[0].links.end() - 2);
+  m.cables[0].links.back() = attach(end);
+  m.cables[0].compliance = 1e-3;
+  Simulation s = test::start(m);
+  for (int i = 0; i < 30000 && s.cables->events().size() < 10000; ++i) {
+    ASSERT_TRUE(s.world.step().ok());
+  }
+  EXPECT_GT(s.cables->events().size(), 2000U);
+  EXPECT_LT(std::abs(s.cable_reports()[0].length_error), 1e-12);
+  // No storm: a link has at most one event in a substep.
+  const auto& events = s.cables->events();
+  for (std::size_t i = 1; i < events.size(); ++i) {
+    EXPECT_TRUE(events[i].time > events[i - 1].time || events[i].link != events[i - 1].link);
+  }
+}
+
+}  // namespace
+}  // namespace sheave
