@@ -33,8 +33,7 @@ int CableSystem::span_before(const CompiledCable& cable, int link,
 
 void CableSystem::connect_spans(const FeatureState& own, const std::vector<LinkGeometry>& links,
                                 std::vector<SpanSetup>& spans) const {
-  for (std::size_t c = 0; c < cables_.size(); ++c) {
-    const CompiledCable& cable = cables_[c];
+  for (const CompiledCable& cable : cables_) {
     if (!cable.lifts) continue;
     const auto lifted = [&](int i) {
       return own.integers[mode_index(cable.first_link + i)] >= lifted_mode;
@@ -65,8 +64,7 @@ void CableSystem::connect_spans(const FeatureState& own, const std::vector<LinkG
 }
 
 void CableSystem::leave_and_touch(const Substep& substep, FeatureState& next) {
-  for (std::size_t c = 0; c < cables_.size(); ++c) {
-    const CompiledCable& cable = cables_[c];
+  for (const CompiledCable& cable : cables_) {
     if (!cable.lifts) continue;
     std::vector<int> left;
     for (int i = 0; i < cable.link_count; ++i) {

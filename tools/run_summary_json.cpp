@@ -69,6 +69,18 @@ Json cables(const RunSummary& summary) {
   return list;
 }
 
+Json events(const RunSummary& summary) {
+  Json list = Json::array();
+  if (summary.simulation.cables == nullptr) return list;
+  for (const CableEvent& event : summary.simulation.cables->events()) {
+    list.push_back({{"time", event.time},
+                    {"cable", event.cable},
+                    {"link", event.link},
+                    {"kind", cable_event_names[static_cast<std::size_t>(event.kind)]}});
+  }
+  return list;
+}
+
 Json bodies(const World& world) {
   Json list = Json::array();
   for (int i = 0; i < world.bodies().count(); ++i) {
@@ -136,7 +148,7 @@ std::string to_json(const RunSummary& summary) {
               {"cables", cables(summary)},
               {"bodies", bodies(world)},
               {"statistics", statistics(outcome.statistics)},
-              {"events", Json::array()},
+              {"events", events(summary)},
               {"warnings", warnings(summary.warnings)}};
   if (summary.checked) {
     object["checks"] = checks(summary.checks);
