@@ -157,6 +157,10 @@ class CableCompiler {
     if (!end && link.feed_speed != 0.0) {
       fail(field + "/feed_speed", "cable can be fed only at an end of an open cable");
     }
+    if (!link.wraps() && bodies_[link.body].massless()) {
+      fail(field + "/body", "nothing can be fixed to \"" + bodies_.name(link.body) +
+                                "\", which has no spin inertia: it would turn without resistance");
+    }
     if (!link.massless) return;
     const std::string& wheel = bodies_.name(link.body);
     if (end) fail(field, "a cable cannot end on \"" + wheel + "\", which has no spin inertia");

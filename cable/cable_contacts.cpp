@@ -104,6 +104,7 @@ bool CableSystem::leave(const Substep& substep, const CompiledCable& cable, int 
   rest_before += rest_after + stored;
   rest_after = stored = 0.0;
   next.integers[mode_index(link)] = lifted_mode;
+  next.integers[slip_state_index(link)] = 0;  // it will stick when it touches again
   const auto geometry = [&](const Geometry& g, int k) {
     const SpanSetup& setup = g.spans[at(k)];
     return span_geometry(substep, setup, g.links[at(setup.first)], g.links[at(setup.second)]);

@@ -73,7 +73,8 @@ void CableSystem::change_ends(const Substep& substep, FeatureState& next) {
   for (const CompiledCable& cable : cables_) {
     if (cable.closed) continue;
     const int last_link = cable.first_link + cable.link_count - 1;
-    const int last_span = cable.first_span + cable.span_count - 1;
+    // Not simply the last one: the cable may have left the link before.
+    const int last_span = span_before(cable, last_link, spans_);
     change_end(substep, cable, cable.first_link, cable.first_span, true, next);
     change_end(substep, cable, last_link, last_span, false, next);
   }

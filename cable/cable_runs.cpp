@@ -268,7 +268,7 @@ void CableSystem::share_lengths(Substep& substep, const CompiledCable& cable, Fe
   });
   if (cable.has_friction) update_slip(substep, cable);
   for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
-    next.integers[at(i)] = slip_[at(i)];
+    next.integers[slip_state_index(i)] = slip_[at(i)];
   }
 }
 

@@ -38,6 +38,10 @@ struct BodyProperties {
   [[nodiscard]] bool prescribed() const {
     return drive == DriveKind::speed || drive == DriveKind::angle;
   }
+  /// A wheel that only its cable turns, without any resistance. (A driven one resists, whatever its inertia.)
+  [[nodiscard]] bool massless() const {
+    return mobility == Mobility::rotor && axis_inertia == 0.0 && !prescribed();
+  }
   std::vector<int> mounted_rotors;  ///< indices of the rotors this body carries
 };
 

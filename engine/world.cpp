@@ -30,7 +30,15 @@ void check_joints(const Model& model, const BodySet& bodies, Errors& errors) {
     }
     for (const auto& [key, body] :
          {std::pair{"/body_a", joint.body_a}, {"/body_b", joint.body_b}}) {
-      if (bodies.contains(body)) continue;
+      if (bodies.contains(body)) {
+        const int index = bodies.index(body);
+        if (bodies[index].massless()) {
+          errors.push_back({path + key, "joint \"" + joint.name +
+                                            "\": nothing can be joined to \"" + bodies.name(index) +
+                                            "\", which has no spin inertia"});
+        }
+        continue;
+      }
       errors.push_back({path + key, "joint \"" + joint.name + "\": there is no body number " +
                                         std::to_string(body.index)});
     }

@@ -105,8 +105,7 @@ Result<LinkGeometry> place_wheel(const WheelPlacement& placement, const BodySet&
   link.center = body_center - bodies[index].center_of_mass;
   link.normal = plane_normal;
   link.mounted = bodies[index].mount >= 0;
-  const BodyProperties& properties = bodies[index];
-  link.massless = properties.mobility == Mobility::rotor && properties.axis_inertia == 0.0;
+  link.massless = bodies[index].massless();
   if (radius || (wheel != nullptr && is_circle(*wheel, plane_normal))) {
     link.signed_radius =
         link.side * radius.value_or(wheel != nullptr ? wheel->shape->wheel_radius() : 0.0);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/links/hybrid.h"
 #include "tests/support/builders.h"
 
 namespace sheave {
@@ -103,6 +104,32 @@ TEST(MergeSplit, TensionIsContinuousWhenACableTouches) {
   }
   EXPECT_TRUE(touched);
   EXPECT_EQ(s.cables->events().size(), 1U);
+}
+
+TEST(MergeSplit, AHybridEndBehindALiftedWheelChangesLikeAnyOther) {
+  // The weight's cable passes a peg without touching it and unwinds from a wheel until it is used up.
+  test::Machine m;
+  m.model.gravity = test::down;
+  m.model.step = test::settings(0.005, 1, 20);
+  const BodyId wheel = m.model.add(test::wheel("wheel", Vector3::Zero(), 0.2, 0.02));
+  const BodyId post = m.model.add(peg("peg", {0.5, -0.3, 0.0}, 0.05));
+  const BodyId weight = m.model.add(test::weight("weight", {0.2, -0.5, 0.0}, 1.0));
+  auto end = std::make_shared<HybridLink>();
+  end->body = wheel;
+  end->winding = left;
+  end->stored_length = 0.5;
+  m.cables.push_back(cable("rope", {attach(weight), passing(post, right), end}));
+  Simulation s = test::start(m);
+  for (int i = 0; i < 200 && s.cables->events().empty(); ++i) ASSERT_TRUE(s.world.step().ok());
+  ASSERT_EQ(s.cables->events().size(), 1U);
+  EXPECT_EQ(s.cables->events()[0].kind, CableEvent::Kind::attach);
+  EXPECT_EQ(s.cables->events()[0].link, 2);
+  const CableReport report = s.cable_reports()[0];
+  EXPECT_FALSE(report.links[1].touched);
+  EXPECT_EQ(report.links[2].winding, 0);
+  EXPECT_EQ(report.links[2].stored_length, 0.0);
+  EXPECT_NEAR(report.spans[0].rest_length, 1.0, 1e-12);
+  EXPECT_EQ(report.length_error, 0.0);
 }
 
 TEST(MergeSplit, TenThousandRandomEventsLoseNoLength) {

@@ -204,6 +204,20 @@ TEST(MasslessWheel, TackleAcceleratesInClosedFormWhateverTheInertia) {
   }
 }
 
+TEST(MasslessWheel, HoldsItsCableWhenItIsDriven) {
+  // A brake: the drive's speed is 0, so the wheel takes up the difference of the weights.
+  test::Machine m = test::Atwood{.m1 = 1.0, .m2 = 2.0}.machine();
+  m.model.bodies[0].spin_inertia = 0.0;
+  m.model.bodies[0].drive = DriveKind::speed;
+  m.model.bodies[0].drive_values = {0.0};
+  Simulation s = test::start(m);
+  for (int i = 0; i < 40; ++i) ASSERT_TRUE(s.world.step().ok());
+  EXPECT_NEAR(s.world.velocity({2}).y(), 0.0, 1e-9);
+  const CableReport report = s.cable_reports()[0];
+  EXPECT_NEAR(report.spans[0].tension, g, 1e-6 * g);
+  EXPECT_NEAR(report.spans[1].tension, 2.0 * g, 1e-6 * g);
+}
+
 TEST(MasslessWheel, TurnsWithItsCable) {
   for (const double inertia : {0.0, 0.05}) {
     test::Machine m = test::Atwood{.m1 = 1.0, .m2 = 2.0}.machine();
