@@ -20,6 +20,16 @@ std::span<const Field> CableDef::field_table() {
       field<&CableDef::rest_lengths>(
           "rest_lengths", "m", above(0.0), optional,
           "of each span at time 0; default: its length, so that the cable is just taut"),
+      field<&CableDef::wrap_friction>(
+          "wrap_friction", "", at_least(0.0), optional,
+          "capstan coefficient on wrappable bodies that the cable comes to touch"),
+      field<&CableDef::most_wraps>(
+          "most_wraps", "", between(0, 1000), optional,
+          "on how many wrappable bodies it can lie at the same time; 0: it goes through them"),
+      field<&CableDef::breaking_tension>("breaking_tension", "N", above(0.0), optional,
+                                         "tension at which it breaks; default: never"),
+      field<&CableDef::cut_time>("cut_time", "s", at_least(0.0), optional,
+                                 "when it is cut; default: never"),
   };
   return table;
 }

@@ -30,6 +30,12 @@ struct CableDef {
   /// Rest length of each span at time 0 [m], one per span; default: its length, so that the cable
   /// is just taut. Shorter than the length only for elastic cables.
   std::vector<double> rest_lengths;
+  /// Capstan coefficient on bodies that are wrappable and no links of this cable, >= 0.
+  double wrap_friction = 0.0;
+  int most_wraps = 16;  ///< on such bodies at the same time, 0 to 1000; 0: it goes through them
+  /// Mean tension over a substep at which the cable breaks [N], > 0; default: never.
+  std::optional<double> breaking_tension;
+  std::optional<double> cut_time;                     ///< when it is cut [s], >= 0; default: never
   std::vector<std::shared_ptr<const LinkDef>> links;  ///< at least 2
 
   /// Every member but the links.

@@ -1,19 +1,22 @@
-// Wheels that a cable leaves and touches again (paper, section 4.2).
+// Bodies that a cable leaves and touches again (paper, section 4.2).
 //
-// Leave (merge): the stored length of a rolling link between the ends falls below 0. The spans before and after it become
-// one, with the rest length L1 + L2 + s; s is negative, and leaving it out would make cable. The link is lifted.
+// Leave (merge): the stored length of a rolling link between the ends falls below 0, or at the corner of an outline, which
+// stores none, the angle by which the cable is bent round it. The spans before and after it become
+// one, with the rest length L1 + L2 + s; s is negative, and leaving it out would make cable. A listed link is lifted, a wrap
+// on a wrappable body is gone.
 //
-// Touch (split): the span that passes a lifted link cuts its outline from the side on which the link's winding puts it.
-// The span becomes two with an arc s between them, s being the angle between the tangents; the rest length that remains,
-// L - s, is shared in proportion to the lengths, so both spans have the strain, hence the tension, that the
-// one had. Chord and arc differ in the third order of the angle, so what C jumps by is far below the motion of a
-// substep.
+// Touch (split): a span cuts the outline of a lifted link from the side on which the link's winding puts it, or that of a
+// wrappable body from the side on which the span was before (cable/wrap_candidate.h). The span becomes two with an arc s
+// between them, s being the angle between the tangents; the rest length that remains, L - s, is shared in proportion to the
+// lengths, so both spans have the strain, hence the tension, that the one had. Chord and arc differ in the third order of
+// the angle, so what C jumps by is far below the motion of a substep.
 //
 // A lifted link remembers whether the cable is on its winding's side: if it has been carried past to the other side, it
 // must come back and clear of the outline before it can touch, or it would be wound on all at once.
 //
-// Leaving comes first, touching after it, each in the order of the links; what has left does not touch in the same
-// substep. So there is at most one event per link and substep, and their order is the same in every run.
+// Leaving comes first, then touching, then leaving where a touch has taken the cable off a neighbour, each along the cable;
+// what has left or touched does nothing else in the same substep. So there is at most one event per link and substep, and their order is the same in every run. A span does not touch the bodies
+// that its own two links are on.
 
 #include <algorithm>
 #include <cmath>
@@ -23,166 +26,271 @@
 
 namespace sheave {
 
-int CableSystem::span_before(const CompiledCable& cable, int link,
-                             const std::vector<SpanSetup>& spans) {
-  for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
-    if (spans[at(k)].active && spans[at(k)].second == link) return k;
-  }
-  return -1;
+void CableSystem::record(const Substep& substep, const CompiledCable& cable, int link,
+                         CableEvent::Kind kind) {
+  const int listed = link - cable.first_link;
+  CableEvent event{substep.next.time, cable.name, listed < cable.listed_links ? listed : -1, kind};
+  const int body = links_[at(link)].body;
+  if (body != substep.bodies.count()) event.body = substep.bodies.name(body);
+  events_.push_back(std::move(event));
 }
 
-void CableSystem::connect_spans(const FeatureState& own, const std::vector<LinkGeometry>& links,
-                                std::vector<SpanSetup>& spans) const {
-  for (const CompiledCable& cable : cables_) {
-    if (!cable.lifts) continue;
-    const auto lifted = [&](int i) {
-      return own.integers[mode_index(cable.first_link + i)] >= lifted_mode;
-    };
-    for (int i = 0; i < cable.span_count; ++i) {
-      const int k = cable.first_span + i;
-      SpanSetup& setup = spans[at(k)];
-      setup.active = !lifted(i);
-      int next = (i + 1) % cable.link_count;
-      while (lifted(next)) next = (next + 1) % cable.link_count;
-      setup.second = cable.first_link + next;
-      const LinkGeometry& a = links[at(setup.first)];
-      const LinkGeometry& b = links[at(setup.second)];
-      const bool neighbours = next == (i + 1) % cable.link_count;
-      if (neighbours) {
-        setup = span_definitions_[at(k)];
-        setup.active = !lifted(i);
-      } else {
-        setup.kind = cable.planar ? SpanKind::planar : SpanKind::spatial;
-        setup.normal = cable.normal;
-        setup.first_sense = cable.senses[at(i)];
-        setup.second_sense = cable.senses[at(next)];
-        setup.outlined = a.outline || b.outline;
-        if (!a.wraps() && !b.wraps()) setup.kind = SpanKind::straight;
-      }
+void CableSystem::remember_sides(const Substep& substep, const CompiledCable& cable) {
+  for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+    std::vector<WrapSide>& sides = sides_[at(k)];
+    sides.assign(cable.candidates.size(), WrapSide{});
+    if (!spans_[at(k)].active) continue;
+    const SpanGeometry span = geometry_of(substep, k);
+    for (std::size_t c = 0; c < sides.size(); ++c) {
+      sides[c] = wrap_side(substep, cable.candidates[c], span);
     }
   }
 }
 
 void CableSystem::leave_and_touch(const Substep& substep, FeatureState& next) {
-  for (const CompiledCable& cable : cables_) {
-    if (!cable.lifts) continue;
-    std::vector<int> left;
-    for (int i = 0; i < cable.link_count; ++i) {
-      const int link = cable.first_link + i;
-      if (!links_[at(link)].lifts || next.integers[mode_index(link)] != 0) continue;
-      if (!(next.reals[stored_length_index(link)] < 0.0)) continue;
-      if (leave(substep, cable, link, next)) left.push_back(link);
-    }
-    for (int i = 0; i < cable.link_count; ++i) {
-      const int link = cable.first_link + i;
-      if (next.integers[mode_index(link)] < lifted_mode) continue;
-      if (std::find(left.begin(), left.end(), link) == left.end())
-        touch(substep, cable, link, next);
+  changed_links_.assign(links_.size(), 0);
+  for (int c = 0; c < static_cast<int>(cables_.size()); ++c) {
+    if (!cables_[at(c)].course_changes || next.integers[cut_index(c)] != 0) continue;
+    left_bodies_.clear();
+    leave_all(substep, cables_[at(c)], next);
+    touch_all(substep, c, next);
+    // A touch can take the cable off a neighbour.
+    leave_all(substep, cables_[at(c)], next);
+  }
+}
+
+void CableSystem::leave_all(const Substep& substep, const CompiledCable& cable,
+                            FeatureState& next) {
+  const int start = first_active_span(cable, spans_);
+  int k = start;
+  for (int walked = 0; walked < cable.span_count && k >= 0; ++walked) {
+    const int link = spans_[at(k)].second;
+    const int following = next_span(cable, k);
+    const bool left = links_[at(link)].lifts && changed_links_[at(link)] == 0 &&
+                      comes_off(substep, k, link, next) &&
+                      leave(substep, cable, link, next);
+    // The span before a link that has been left now ends at the next one.
+    if (!left) k = following;
+    if (k == start && !left) break;
+  }
+}
+
+bool CableSystem::comes_off(const Substep& substep, int span, int link,
+                            const FeatureState& next) const {
+  const double stored = next.reals[stored_length_index(link)];
+  const LinkGeometry& wheel = links_[at(link)];
+  if (stored < 0.0 || !wheel.outline) return stored < 0.0;
+  // At a corner there is no length, but an angle.
+  if (stored > 0.5 * wheel.perimeter()) return false;
+  const SpanSetup& setup = spans_[at(span)];
+  const int after = span_after(cables_[at(setup.cable)], link);
+  return signed_wrap_angle(substep, wheel, geometry_of(substep, span), geometry_of(substep, after),
+                           stored) < 0.0;
+}
+
+void CableSystem::touch_all(const Substep& substep, int cable_index, FeatureState& next) {
+  const CompiledCable& cable = cables_[at(cable_index)];
+  const int start = first_active_span(cable, spans_);
+  int k = start;
+  // Every touch makes one span more, so there are at most span_count of them.
+  for (int walked = 0; walked <= 2 * cable.span_count && k >= 0; ++walked) {
+    if (!touch_on_span(substep, cable_index, k, next)) {
+      k = next_span(cable, k);
+      if (k == start) break;
     }
   }
+}
+
+bool CableSystem::touch_on_span(const Substep& substep, int cable_index, int span,
+                                FeatureState& next) {
+  const CompiledCable& cable = cables_[at(cable_index)];
+  // Listed links that have been left have kept their place between the same listed neighbours.
+  int link = listed_before(cable, span);
+  for (int walked = 1; walked < cable.listed_links; ++walked) {
+    link = link == cable.last_listed_link() ? cable.first_link : link + 1;
+    if (next.integers[mode_index(link)] < lifted_mode) break;
+    if (changed_links_[at(link)] == 0 && touch_listed(substep, cable, span, link, next)) return true;
+  }
+  for (int c = 0; c < static_cast<int>(cable.candidates.size()); ++c) {
+    if (touch_wrappable(substep, cable_index, span, c, next)) return true;
+  }
+  return false;
+}
+
+int CableSystem::listed_before(const CompiledCable& cable, int span) const {
+  int link = spans_[at(span)].first;
+  while (link > cable.last_listed_link()) {
+    link = spans_[at(span_before(cable, link, spans_))].first;
+  }
+  return link;
 }
 
 double CableSystem::shift_contact(const Substep& substep, const CompiledCable& cable,
                                   const LinkGeometry& link, const SpanGeometry& from,
                                   const SpanGeometry& to, bool first, double& stored_length) {
   const double shift = link.side * contact_shift(substep, link, from, to, first);
-  const double wound = std::round((first ? shift : -shift) / cable.quantum) * cable.quantum;
+  const double wound = cable.quantised(first ? shift : -shift);
   stored_length += wound;
   return -wound;
 }
 
 bool CableSystem::leave(const Substep& substep, const CompiledCable& cable, int link,
                         FeatureState& next) {
-  const Geometry now = geometry_for(next);
-  const int before = span_before(cable, link, now.spans);
-  const int after = cable.first_span + (link - cable.first_link);
+  const int before = span_before(cable, link, spans_);
+  const int after = span_after(cable, link);
   // A belt on one wheel would be a span from the wheel to itself.
-  if (before < 0 || now.spans[at(before)].first == now.spans[at(after)].second) return false;
+  if (before < 0 || spans_[at(before)].first == spans_[at(after)].second) return false;
+  const SpanGeometry in = geometry_of(substep, before);
+  const SpanGeometry out = geometry_of(substep, after);
   double& stored = next.reals[stored_length_index(link)];
   double& rest_before = next.reals[rest_length_index(before)];
   double& rest_after = next.reals[rest_length_index(after)];
   rest_before += rest_after + stored;
   rest_after = stored = 0.0;
-  next.integers[mode_index(link)] = lifted_mode;
-  next.integers[slip_state_index(link)] = 0;  // it will stick when it touches again
-  const auto geometry = [&](const Geometry& g, int k) {
-    const SpanSetup& setup = g.spans[at(k)];
-    return span_geometry(substep, setup, g.links[at(setup.first)], g.links[at(setup.second)]);
-  };
-  const Geometry joined = geometry_for(next);
-  const SpanGeometry span = geometry(joined, before);
-  const int outer_first = joined.spans[at(before)].first;
-  const int outer_second = joined.spans[at(before)].second;
-  rest_before += shift_contact(substep, cable, joined.links[at(outer_first)], geometry(now, before),
-                               span, true, next.reals[stored_length_index(outer_first)]);
-  rest_before += shift_contact(substep, cable, joined.links[at(outer_second)], geometry(now, after),
-                               span, false, next.reals[stored_length_index(outer_second)]);
-  next.reals[tension_index(before)] =
-      std::max(next.reals[tension_index(before)], next.reals[tension_index(after)]);
+  changed_links_[at(link)] = 1;
+  record(substep, cable, link, CableEvent::Kind::leave);
+  if (link <= cable.last_listed_link()) {
+    next.integers[mode_index(link)] = lifted_mode;
+  } else {
+    left_bodies_.push_back(links_[at(link)].body);
+    next.reals[slip_index(link)] = 0.0;
+  }
+  slip_[at(link)] = 0;  // it will stick when it touches again
+  next.integers[slip_state_index(link)] = 0;
+  remove_link(spans_[at(before)].first, link, next);
+  follow_course(substep.bodies, next);
+  const SpanGeometry span = geometry_of(substep, before);
+  const int first = spans_[at(before)].first;
+  const int second = spans_[at(before)].second;
+  rest_before += shift_contact(substep, cable, links_[at(first)], in, span, true,
+                               next.reals[stored_length_index(first)]);
+  rest_before += shift_contact(substep, cable, links_[at(second)], out, span, false,
+                               next.reals[stored_length_index(second)]);
+  double& tension = next.reals[tension_index(before)];
+  tension = std::max(tension, next.reals[tension_index(after)]);
   next.reals[tension_index(after)] = 0.0;
-  events_.push_back(
-      {substep.next.time, cable.name, link - cable.first_link, CableEvent::Kind::leave});
   return true;
 }
 
-void CableSystem::touch(const Substep& substep, const CompiledCable& cable, int link,
-                        FeatureState& next) {
-  const Geometry now = geometry_for(next);
+bool CableSystem::touch_listed(const Substep& substep, const CompiledCable& cable, int span,
+                               int link, FeatureState& next) {
   const LinkGeometry& wheel = definitions_[at(link)];
-  int i = link - cable.first_link;
-  do i = (i + cable.link_count - 1) % cable.link_count;
-  while (next.integers[mode_index(cable.first_link + i)] >= lifted_mode);
-  const int before = cable.first_span + i;
-  const SpanSetup& joined = now.spans[at(before)];
-  const SpanGeometry span =
-      span_geometry(substep, joined, now.links[at(joined.first)], now.links[at(joined.second)]);
-  const Clearance clear = clearance(substep, wheel, span);
+  const Clearance clear = clearance(substep, wheel, geometry_of(substep, span));
+  // Where wraps divide the way past the link, only the span beside it tells.
+  const bool only_span = spans_[at(span)].first <= cable.last_listed_link() &&
+                         spans_[at(span)].second <= cable.last_listed_link();
+  if (!only_span && !clear.between) return false;
   std::int64_t& mode = next.integers[mode_index(link)];
   if (mode == passed_mode) {
     if (clear.distance >= 0.0) mode = lifted_mode;
-    return;
+    return false;
   }
   if (clear.center_distance < 0.0) {
     mode = passed_mode;
-    return;
+    return false;
   }
-  const double size = wheel.perimeter();
-  if (!(clear.distance < -1e-9 * size) || !clear.between) return;
-
-  FeatureState trial = next;
-  trial.integers[mode_index(link)] = 0;
-  const Geometry split = geometry_for(trial);
-  const int after = cable.first_span + (link - cable.first_link);
-  const auto geometry = [&](int k) {
-    const SpanSetup& setup = split.spans[at(k)];
-    return span_geometry(substep, setup, split.links[at(setup.first)],
-                         split.links[at(setup.second)]);
-  };
-  const SpanGeometry in = geometry(before);
-  const SpanGeometry out = geometry(after);
-  if (!in.has_tangent || !out.has_tangent || !(in.length + out.length > 0.0)) return;
-  const double angle = wrap_angle(substep, split.links[at(link)], in, out, 0.0);
-  const double arc = arc_between(substep, split.links[at(link)], in, out, angle);
-  double& rest_before = next.reals[rest_length_index(before)];
-  // The span's outer ends move along their links, too, as its direction changes.
-  const double whole = rest_before +
-                       shift_contact(substep, cable, now.links[at(joined.first)], span, in, true,
-                                     next.reals[stored_length_index(joined.first)]) +
-                       shift_contact(substep, cable, now.links[at(joined.second)], span, out, false,
-                                     next.reals[stored_length_index(joined.second)]);
-  const auto quantised = [&](double length) {
-    return std::round(length / cable.quantum) * cable.quantum;
-  };
-  const double stored = std::min(quantised(arc), whole);
-  const double kept =
-      std::min(quantised((whole - stored) * in.length / (in.length + out.length)), whole - stored);
-  rest_before = kept;
-  next.reals[rest_length_index(after)] = whole - stored - kept;
-  next.reals[stored_length_index(link)] = stored;
-  next.reals[tension_index(after)] = next.reals[tension_index(before)];
+  if (!clear.cuts(wheel)) return false;
   mode = 0;
-  events_.push_back(
-      {substep.next.time, cable.name, link - cable.first_link, CableEvent::Kind::touch});
+  if (split(substep, cable, span, link, next)) return true;
+  mode = lifted_mode;
+  return false;
+}
+
+bool CableSystem::touch_wrappable(const Substep& substep, int cable_index, int span,
+                                  int candidate_index, FeatureState& next) {
+  const CompiledCable& cable = cables_[at(cable_index)];
+  const WrapCandidate& candidate = cable.candidates[at(candidate_index)];
+  const WrapSide before = sides_[at(span)][at(candidate_index)];
+  const int body = candidate.body;
+  if (links_[at(spans_[at(span)].first)].body == body ||
+      links_[at(spans_[at(span)].second)].body == body || before.moment.isZero(0.0) ||
+      std::find(left_bodies_.begin(), left_bodies_.end(), body) != left_bodies_.end()) {
+    return false;
+  }
+  const SpanGeometry line = geometry_of(substep, span);
+  const WrapSide now = wrap_side(substep, candidate, line);
+  const bool swept = before.between && now.between && dot(before.moment, now.moment) < 0.0;
+  if (now.distance > candidate.reach && !swept) return false;
+
+  std::optional<WrapPlane> plane;
+  std::optional<LinkGeometry> section;
+  if (candidate.planar) {
+    section = candidate.link;
+  } else if ((plane = wrap_plane(substep, candidate, line))) {
+    section = wrap_link(substep.bodies, candidate, *plane);
+  }
+  if (!section) return false;
+  const Vector3 normal = substep.orientation(section->carrier) * section->normal;
+  section->side = dot(normal, before.moment) > 0.0 ? 1 : -1;
+  section->signed_radius = section->side * std::abs(section->signed_radius);
+  if (!clearance(substep, *section, line).cuts(*section)) return false;
+
+  int place = cable.first_link + cable.listed_links;
+  const int end = cable.first_link + cable.link_count;
+  while (place < end && next.integers[wrap_index(place)] != 0) ++place;
+  if (place == end) {
+    Fallback& crowded = crowded_[at(cable_index)];
+    if (crowded.substeps++ == 0) crowded.first_time = substep.next.time;
+    return false;
+  }
+  next.integers[wrap_index(place)] = section->side * (candidate_index + 1);
+  if (plane) {
+    const std::size_t start =
+        plane_index(cable.first_plane + place - cable.first_link - cable.listed_links);
+    for (int i = 0; i < 3; ++i) {
+      next.reals[start + at(i)] = plane->center[i];
+      next.reals[start + at(3 + i)] = plane->normal[i];
+    }
+  }
+  sides_[at(span_after(cable, place))] = sides_[at(span)];
+  return split(substep, cable, span, place, next);
+}
+
+bool CableSystem::split(const Substep& substep, const CompiledCable& cable, int span, int link,
+                        FeatureState& next) {
+  const SpanGeometry whole = geometry_of(substep, span);
+  const int first = spans_[at(span)].first;
+  const int second = spans_[at(span)].second;
+  const int after = span_after(cable, link);
+  insert_link(cable, first, link, next);
+  follow_course(substep.bodies, next);
+  const SpanGeometry in = geometry_of(substep, span);
+  const SpanGeometry out = geometry_of(substep, after);
+  const LinkGeometry& wheel = links_[at(link)];
+  const bool tangents = in.has_tangent && out.has_tangent && in.length + out.length > 0.0;
+  const double angle = tangents ? wrap_angle(substep, wheel, in, out, 0.0) : 0.0;
+  if (!tangents || (link > cable.last_listed_link() && !(angle > 0.0))) {
+    remove_link(first, link, next);
+    follow_course(substep.bodies, next);
+    return false;
+  }
+  const double arc = cable.quantised(arc_between(substep, wheel, in, out, angle));
+  double& rest_before = next.reals[rest_length_index(span)];
+  // The span's outer ends move along their links, too, as its direction changes.
+  const double available = rest_before +
+                           shift_contact(substep, cable, links_[at(first)], whole, in, true,
+                                         next.reals[stored_length_index(first)]) +
+                           shift_contact(substep, cable, links_[at(second)], whole, out, false,
+                                         next.reals[stored_length_index(second)]);
+  const double stored = std::min(arc, available);
+  const double share = in.length / (in.length + out.length);
+  const double kept = std::min(cable.quantised((available - stored) * share), available - stored);
+  rest_before = kept;
+  next.reals[rest_length_index(after)] = available - stored - kept;
+  next.reals[stored_length_index(link)] = stored;
+  next.reals[tension_index(after)] = next.reals[tension_index(span)];
+  changed_links_[at(link)] = 1;
+  record(substep, cable, link, CableEvent::Kind::touch);
+  return true;
+}
+
+std::vector<CableSystem::WrapWarning> CableSystem::wrap_warnings() const {
+  std::vector<WrapWarning> warnings;
+  for (std::size_t c = 0; c < cables_.size(); ++c) {
+    if (crowded_[c].substeps == 0) continue;
+    warnings.push_back({cables_[c].name, crowded_[c].substeps, crowded_[c].first_time});
+  }
+  return warnings;
 }
 
 }  // namespace sheave

@@ -31,9 +31,7 @@ struct PlaneAxes {
 
 /// Axes in the link's plane, from which the angle of an attachment is counted.
 PlaneAxes axes_of(const LinkGeometry& link) {
-  int smallest = 0;
-  link.normal.cwiseAbs().minCoeff(&smallest);
-  const Vector3 y = link.normal.cross(Vector3::Unit(smallest)).normalized();
+  const Vector3 y = any_perpendicular(link.normal);
   return {y.cross(link.normal), y};
 }
 
@@ -45,8 +43,15 @@ double radius_with(const LinkGeometry& definition, double stored_length) {
 
 }  // namespace
 
-void CableSystem::refresh(const FeatureState& own, std::vector<LinkGeometry>& links,
-                          std::vector<SpanSetup>& spans) const {
+void CableSystem::refresh(const BodySet& bodies, const FeatureState& own,
+                          std::vector<LinkGeometry>& links, std::vector<SpanSetup>& spans) const {
+  place_wraps(bodies, own, links);
+  connect_spans(own, links, spans);
+  refresh_ends(own, links, spans);
+}
+
+void CableSystem::refresh_ends(const FeatureState& own, std::vector<LinkGeometry>& links,
+                               std::vector<SpanSetup>& spans) const {
   for (const int i : changing_links_) {
     const LinkGeometry& definition = definitions_[at(i)];
     LinkGeometry& link = links[at(i)];
@@ -62,7 +67,6 @@ void CableSystem::refresh(const FeatureState& own, std::vector<LinkGeometry>& li
     }
     link.centered = link.center.isZero(0.0);
   }
-  connect_spans(own, links, spans);
   for (SpanSetup& setup : spans) {
     setup.first_radius = setup.first_sense * links[at(setup.first)].signed_radius;
     setup.second_radius = setup.second_sense * links[at(setup.second)].signed_radius;
@@ -70,20 +74,23 @@ void CableSystem::refresh(const FeatureState& own, std::vector<LinkGeometry>& li
 }
 
 void CableSystem::change_ends(const Substep& substep, FeatureState& next) {
-  for (const CompiledCable& cable : cables_) {
-    if (cable.closed) continue;
-    const int last_link = cable.first_link + cable.link_count - 1;
-    // Not simply the last one: the cable may have left the link before.
-    const int last_span = span_before(cable, last_link, spans_);
-    change_end(substep, cable, cable.first_link, cable.first_span, true, next);
-    change_end(substep, cable, last_link, last_span, false, next);
+  for (std::size_t c = 0; c < cables_.size(); ++c) {
+    const CompiledCable& cable = cables_[c];
+    if (cable.closed || next.integers[cut_index(static_cast<int>(c))] != 0) continue;
+    const int last_link = cable.last_listed_link();
+    if (definitions_[at(cable.first_link)].hybrid) {
+      change_end(substep, cable, cable.first_link, cable.first_span, true, next);
+    }
+    if (definitions_[at(last_link)].hybrid) {
+      // Not simply the last span: the cable may have left the link before.
+      change_end(substep, cable, last_link, span_before(cable, last_link, spans_), false, next);
+    }
   }
 }
 
 void CableSystem::change_end(const Substep& substep, const CompiledCable& cable, int index,
                              int span, bool first, FeatureState& next) {
   const LinkGeometry& definition = definitions_[at(index)];
-  if (!definition.hybrid) return;
   double& stored = next.reals[stored_length_index(index)];
   double& rest_length = next.reals[rest_length_index(span)];
   std::int64_t& mode = next.integers[mode_index(index)];
@@ -105,8 +112,7 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
     mode = attached;
     rest_length += stored;
     stored = 0.0;
-    events_.push_back(
-        {substep.next.time, cable.name, index - cable.first_link, CableEvent::Kind::attach});
+    record(substep, cable, index, CableEvent::Kind::attach);
     return;
   }
   const Vector3 away = first ? geometry.direction : Vector3(-geometry.direction);
@@ -129,19 +135,22 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
   const Vector3 exit = first ? tangent.start : tangent.end;
   const double arc =
       radius * around * angle_between(outward / radius, (exit - center) / radius, normal);
-  const double taken =
-      std::min(std::round(std::max(arc, 0.0) / cable.quantum) * cable.quantum, rest_length);
+  const double taken = std::min(cable.quantised(std::max(arc, 0.0)), rest_length);
   mode = wheel.side == definition.side ? wound : wound_back;
   stored += taken;
   rest_length -= taken;
-  events_.push_back(
-      {substep.next.time, cable.name, index - cable.first_link, CableEvent::Kind::wind});
+  record(substep, cable, index, CableEvent::Kind::wind);
 }
 
-double CableSystem::feed(const FeatureState& state, double h, int span) const {
+void CableSystem::feed(const FeatureState& state, double h, int span) {
   const SpanSetup& setup = spans_[at(span)];
-  const double speed = links_[at(setup.first)].feed_speed + links_[at(setup.second)].feed_speed;
-  return std::max(speed * h, -state.reals[rest_length_index(span)]);
+  auto& [first, second] = fed_[at(span)];
+  first = links_[at(setup.first)].feed_speed * h;
+  second = links_[at(setup.second)].feed_speed * h;
+  // No more can be taken out than there is.
+  const double rest_length = std::max(state.reals[rest_length_index(span)], 0.0);
+  first = std::max(first, -rest_length);
+  second = std::max(second, -rest_length - first);
 }
 
 }  // namespace sheave

@@ -44,97 +44,196 @@ std::vector<Vector3> outline_path(const Substep& now, const LinkGeometry& link, 
   return path;
 }
 
+/// Where a span is and what it carries.
+SpanReport span_report(const SpanGeometry& geometry, double rest_length, double tension) {
+  SpanReport span;
+  span.start = geometry.start;
+  span.end = geometry.end;
+  span.length = geometry.length;
+  span.rest_length = rest_length;
+  span.tension = tension;
+  span.has_tangent = geometry.has_tangent;
+  return span;
+}
+
 }  // namespace
 
-void CableSystem::append_links(const CompiledCable& cable, const Substep& now,
-                               const FeatureState& own, const Geometry& current,
-                               std::span<const SpanGeometry> ends, CableReport& report) const {
-  for (int i = 0; i < cable.link_count; ++i) {
-    const int index = cable.first_link + i;
-    const LinkGeometry& link = current.links[at(index)];
-    LinkReport entry;
-    entry.type = cable.link_types[at(i)];
-    entry.body = link.body == now.bodies.count() ? BodyId::world() : BodyId{link.body};
-    entry.center = link_center(now, link);
-    entry.normal = now.orientation(link.carrier) * link.normal;
-    entry.radius = std::abs(link.signed_radius);
-    entry.winding = link.side;
-    entry.stored_length = own.reals[stored_length_index(index)];
-    entry.wrap_angle =
-        link.wraps() ? wound_angle(definitions_[at(index)], link, entry.stored_length) : 0.0;
-    const double passed = own.reals[slip_index(index)];
-    (definitions_[at(index)].feed_speed != 0.0 ? entry.fed : entry.slip) = passed;
-    if (own.integers[mode_index(index)] >= lifted_mode) {
-      entry.touched = false;
-      entry.winding = 0;
-      entry.radius = entry.wrap_angle = 0.0;
-      entry.entry = entry.exit = entry.center;
-      report.links.push_back(entry);
-      continue;
-    }
-    const bool has_incoming = cable.closed || i > 0;
-    const bool has_outgoing = cable.closed || i + 1 < cable.link_count;
-    const int incoming = i > 0 ? i - 1 : cable.span_count - 1;
-    if (has_incoming) entry.entry = entry.exit = report.spans[at(incoming)].end;
-    if (has_outgoing) entry.exit = report.spans[at(i)].start;
-    if (!has_incoming) entry.entry = entry.exit;
-    if (link.outline) {
-      const int entry_corner = has_incoming ? ends[at(incoming)].second_corner : -1;
-      const int exit_corner = has_outgoing ? ends[at(i)].first_corner : -1;
-      entry.path = outline_path(now, link, entry_corner, exit_corner, entry.stored_length);
-    }
-    report.links.push_back(entry);
+LinkReport CableSystem::link_report(const CableView& view, int index, int incoming,
+                                    int outgoing) const {
+  const Substep& now = view.now;
+  const FeatureState& own = view.own;
+  const LinkGeometry& link = view.current.links[at(index)];
+  LinkReport report;
+  report.body = link.body == now.bodies.count() ? BodyId::world() : BodyId{link.body};
+  report.center = link_center(now, link);
+  report.normal = now.orientation(link.carrier) * link.normal;
+  report.radius = std::abs(link.signed_radius);
+  report.winding = link.side;
+  report.stored_length = own.reals[stored_length_index(index)];
+  const LinkGeometry& definition = definitions_[at(index)].wraps() ? definitions_[at(index)] : link;
+  if (link.wraps()) report.wrap_angle = wound_angle(definition, link, report.stored_length);
+  const double passed = own.reals[slip_index(index)];
+  (definitions_[at(index)].feed_speed != 0.0 ? report.fed : report.slip) = passed;
+  const bool lifted = own.integers[mode_index(index)] >= lifted_mode;
+  if (lifted || (incoming < 0 && outgoing < 0)) {
+    report.touched = !lifted && !link.wraps();
+    if (lifted) report.winding = 0;
+    if (lifted) report.radius = report.wrap_angle = 0.0;
+    report.entry = report.exit = report.center;
+    return report;
   }
+  if (incoming >= 0) report.entry = report.exit = view.ends[at(incoming)].end;
+  if (outgoing >= 0) report.exit = view.ends[at(outgoing)].start;
+  if (incoming < 0) report.entry = report.exit;
+  if (link.outline) {
+    const int entry_corner = incoming >= 0 ? view.ends[at(incoming)].second_corner : -1;
+    const int exit_corner = outgoing >= 0 ? view.ends[at(outgoing)].first_corner : -1;
+    report.path = outline_path(now, link, entry_corner, exit_corner, report.stored_length);
+  }
+  return report;
+}
+
+void CableSystem::append_wraps(const CableView& view, const CompiledCable& cable,
+                               CableReport& report) const {
+  if (cable.candidates.empty()) return;
+  const int start = first_active_span(cable, view.current.spans);
+  int after = 0;
+  int incoming = -1;
+  for (int walked = 0, k = start; walked <= cable.span_count && k >= 0; ++walked) {
+    const SpanSetup& setup = view.current.spans[at(k)];
+    if (setup.first <= cable.last_listed_link()) {
+      after = setup.first - cable.first_link;
+    } else if (incoming >= 0) {
+      WrapReport wrap;
+      wrap.after = after;
+      wrap.link = link_report(view, setup.first, incoming, k);
+      wrap.link.type = "wrap";
+      wrap.span = span_report(view.ends[at(k)], view.own.reals[rest_length_index(k)],
+                              view.own.reals[tension_index(k)]);
+      report.wraps.push_back(std::move(wrap));
+    }
+    incoming = k;
+    if (!cable.closed && setup.second == cable.last_listed_link()) break;
+    k = span_after(cable, setup.second);
+    if (k == start) break;
+  }
+}
+
+void CableSystem::measure(const CableView& view, const CompiledCable& cable, int cut_span,
+                          CableReport& report) const {
+  const bool rigid = compliance_of(cable, 1.0) == 0.0;
+  const auto add_span = [&](const SpanReport& span) {
+    report.total_length += span.rest_length;
+    if (rigid && span.rest_length > 0.0 && !report.cut) {
+      report.max_stretch =
+          std::max(report.max_stretch, (span.length - span.rest_length) / span.rest_length);
+    }
+  };
+  double fed = 0.0;
+  for (const SpanReport& span : report.spans) add_span(span);
+  for (const LinkReport& link : report.links) {
+    report.total_length += link.stored_length;
+    fed += link.fed;
+  }
+  for (const WrapReport& wrap : report.wraps) {
+    add_span(wrap.span);
+    report.total_length += wrap.link.stored_length;
+  }
+  if (report.cut) {
+    // Wraps are gone with the spans; their cable is that of the listed span before them.
+    report.total_length = 0.0;
+    const FeatureState& own = view.own;
+    for (int i = 0; i < cable.link_count; ++i) {
+      report.total_length += own.reals[stored_length_index(cable.first_link + i)];
+    }
+    for (int i = 0; i < cable.span_count; ++i) {
+      report.total_length += own.reals[rest_length_index(cable.first_span + i)];
+    }
+    const double before = length_before(own, cable, cut_span);
+    report.pieces = {before, report.total_length - before};
+  }
+  report.length_error = (report.total_length - cable.start_length - fed) / cable.start_length;
+}
+
+double CableSystem::length_before(const FeatureState& own, const CompiledCable& cable,
+                                  int span) const {
+  double length = 0.0;
+  int link = 0;
+  for (int walked = 0; walked < cable.link_count && link >= 0; ++walked) {
+    length += own.reals[stored_length_index(cable.first_link + link)];
+    const double rest_length =
+        link < cable.span_count ? own.reals[rest_length_index(cable.first_span + link)] : 0.0;
+    if (link == span) return length + 0.5 * rest_length;
+    length += rest_length;
+    link = static_cast<int>(own.integers[next_index(cable.first_link + link)]);
+  }
+  return length;
 }
 
 std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State& state,
                                              const FeatureState& own) const {
   const Substep now(bodies, state, 1.0, 1);
-  const Geometry current = geometry_for(own);
+  const Geometry current = geometry_for(bodies, own);
+  std::vector<SpanGeometry> ends(spans_.size());
+  for (int k = 0; k < row_count(); ++k) {
+    const SpanSetup& setup = current.spans[at(k)];
+    if (!setup.active) continue;
+    ends[at(k)] =
+        span_geometry(now, setup, current.links[at(setup.first)], current.links[at(setup.second)]);
+  }
+  const CableView view{now, own, current, ends};
   std::vector<CableReport> reports;
-  for (const CompiledCable& cable : cables_) {
+  for (std::size_t c = 0; c < cables_.size(); ++c) {
+    const CompiledCable& cable = cables_[c];
     CableReport report;
     report.name = cable.name;
     report.closed = cable.closed;
-    std::vector<SpanGeometry> ends;
-    const bool rigid = compliance_of(cable, 1.0) == 0.0;
-    for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
-      const SpanSetup& setup = current.spans[at(k)];
-      const SpanGeometry geometry = span_geometry(now, setup, current.links[at(setup.first)],
-                                                  current.links[at(setup.second)]);
-      if (!setup.active) {
-        // The cable has left the link before this span: a point where the span that passes it ends.
-        SpanReport none;
-        none.start = none.end = report.spans.empty() ? geometry.start : report.spans.back().end;
-        ends.push_back(ends.empty() ? geometry : SpanGeometry(ends.back()));
-        report.spans.push_back(none);
-        continue;
+    const auto cut_span = static_cast<int>(own.integers[cut_index(static_cast<int>(c))]) - 1;
+    report.cut = cut_span >= 0;
+    for (int i = 0; i < cable.listed_links; ++i) {
+      const int link = cable.first_link + i;
+      const int outgoing = i < cable.span_count && current.spans[at(cable.first_span + i)].active
+                               ? cable.first_span + i
+                               : -1;
+      report.links.push_back(
+          link_report(view, link, span_before(cable, link, current.spans), outgoing));
+      report.links.back().type = cable.link_types[at(i)];
+      if (i >= cable.listed_spans) continue;
+      const int k = cable.first_span + i;
+      SpanReport& span = report.spans.emplace_back();
+      if (outgoing >= 0) {
+        span =
+            span_report(ends[at(k)], own.reals[rest_length_index(k)], own.reals[tension_index(k)]);
+      } else {
+        // The cable has left the link: a point where the span that passes it ends.
+        span.start = span.end = i > 0 ? report.spans[at(i - 1)].end : report.links.back().center;
       }
-      ends.push_back(geometry);
-      SpanReport span;
-      span.start = geometry.start;
-      span.end = geometry.end;
-      span.length = geometry.length;
-      span.rest_length = own.reals[rest_length_index(k)];
-      span.tension = own.reals[tension_index(k)];
-      span.has_tangent = geometry.has_tangent;
-      report.total_length += span.rest_length;
-      if (rigid && span.rest_length > 0.0) {
-        report.max_stretch =
-            std::max(report.max_stretch, (span.length - span.rest_length) / span.rest_length);
-      }
-      report.spans.push_back(span);
     }
-    append_links(cable, now, own, current, ends, report);
-    double fed = 0.0;
-    for (const LinkReport& link : report.links) {
-      report.total_length += link.stored_length;
-      fed += link.fed;
-    }
-    report.length_error = (report.total_length - cable.start_length - fed) / cable.start_length;
+    append_wraps(view, cable, report);
+    measure(view, cable, cut_span, report);
     reports.push_back(std::move(report));
   }
   return reports;
+}
+
+CableReport CableReport::with_wraps_in_place(std::vector<int>* places) const {
+  CableReport whole = *this;
+  whole.links.clear();
+  whole.spans.clear();
+  whole.wraps.clear();
+  std::size_t next = 0;
+  if (places != nullptr) places->clear();
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    whole.links.push_back(links[i]);
+    if (places != nullptr) places->push_back(static_cast<int>(i));
+    if (i < spans.size()) whole.spans.push_back(spans[i]);
+    for (; next < wraps.size() && wraps[next].after == static_cast<int>(i); ++next) {
+      whole.links.push_back(wraps[next].link);
+      whole.spans.push_back(wraps[next].span);
+      if (places != nullptr) places->push_back(-1);
+    }
+  }
+  return whole;
 }
 
 }  // namespace sheave

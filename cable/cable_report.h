@@ -42,14 +42,16 @@ struct CableEvent {
     touch,   ///< it touched it again
     attach,  ///< a hybrid end's cable was used up
     wind,    ///< and is wound up again
+    cut,     ///< the cable was cut or broke, in the span that begins at the link
   };
   double time = 0.0;  ///< end of the substep [s]
   std::string cable;
-  int link = 0;  ///< within its cable
+  int link = 0;  ///< within the cable's list of links; -1: a wrap
   Kind kind = Kind::leave;
+  std::string body{};  ///< that the link is on; empty: the world
 };
-inline constexpr std::array<std::string_view, 4> cable_event_names{"leave", "touch", "attach",
-                                                                   "wind"};
+inline constexpr std::array<std::string_view, 5> cable_event_names{"leave", "touch", "attach",
+                                                                   "wind", "cut"};
 
 /// One free span of a cable.
 struct SpanReport {
@@ -61,16 +63,32 @@ struct SpanReport {
   bool has_tangent = true;          ///< false: the wheels overlap so that no tangent exists
 };
 
+/// A wrap on a wrappable body that is no link of the cable's list.
+struct WrapReport {
+  int after = 0;    ///< the listed link behind which it lies; several behind one are in order
+  LinkReport link;  ///< of type "wrap"
+  SpanReport span;  ///< from here on
+};
+
 /// One cable.
 struct CableReport {
   std::string_view name;
   bool closed = false;
-  std::vector<LinkReport> links;
-  std::vector<SpanReport> spans;  ///< span k joins link k and link k + 1 (cyclic if closed)
-  double total_length = 0.0;      ///< sum of rest lengths and stored lengths [m]
+  std::vector<LinkReport> links;  ///< as listed
+  /// Span k begins at link k and ends at the next one that is touched (cyclic if closed), be it a link or a wrap.
+  std::vector<SpanReport> spans;
+  std::vector<WrapReport> wraps;  ///< in their order along the cable
+  bool cut = false;
+  /// Of a cut cable the lengths of its two pieces, from the first link and from the last [m].
+  std::array<double, 2> pieces{};
+  double total_length = 0.0;  ///< sum of rest lengths and stored lengths [m]
   /// (total_length - its value at time 0 - what was fed) / that value; the length invariant.
   double length_error = 0.0;
   double max_stretch = 0.0;  ///< largest (length - rest length) / rest length of a rigid span
+
+  /// The same with the wraps among links and spans, each at its place, for those that follow the cable's whole way;
+  /// `places` gets the place that each link has in this report, -1 for wraps.
+  [[nodiscard]] CableReport with_wraps_in_place(std::vector<int>* places = nullptr) const;
 };
 
 }  // namespace sheave

@@ -55,24 +55,17 @@ void pull_slack(std::vector<double>& spare) {
 
 }  // namespace
 
-int CableSystem::next_span(const CompiledCable& cable, int span) const {
-  // A span has the number of its first link; behind the last link of an open cable it begins again.
-  const int link = spans_[at(span)].second - cable.first_link;
-  return cable.first_span + (link < cable.span_count ? link : 0);
-}
-
 bool CableSystem::shared(int link) const {
   return links_[at(link)].frictionless() || slip_[at(link)] != 0;
 }
 
 template <class Visit>
 void CableSystem::for_each_run(const CompiledCable& cable, Visit visit) const {
-  int first = -1;
+  int first = first_active_span(cable, spans_);
+  if (first < 0) return;
   int left = 0;
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
-    if (!spans_[at(k)].active) continue;
-    ++left;
-    if (first < 0) first = k;
+    if (spans_[at(k)].active) ++left;
   }
   if (cable.closed) {
     // Begin behind a link that cable does not pass; if there is none, the ring is one run.
@@ -188,14 +181,16 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   return largest * denominator;
 }
 
-std::vector<double> CableSystem::run_spare(const Substep& substep, const CompiledCable& cable,
-                                           Run run) const {
-  std::vector<double> spare;
+const std::vector<double>& CableSystem::run_spare(const Substep& substep,
+                                                  const CompiledCable& cable, Run run) {
+  std::vector<double>& spare = run_spare_;
+  std::vector<double>& lengths = run_lengths_;
+  spare.clear();
+  lengths.clear();
   const double inverse_square = 1.0 / (substep.h * substep.h);
   bool taut = false;
   double total = 0.0;
   double length = 0.0;
-  std::vector<double> lengths;
   Row row;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     row.clear();
@@ -212,7 +207,8 @@ std::vector<double> CableSystem::run_spare(const Substep& substep, const Compile
     length += wanted;
   }
   if (!taut) {
-    std::vector<double> kept = spare;
+    std::vector<double>& kept = lengths;
+    kept = spare;
     pull_slack(kept);
     for (std::size_t i = 0; i < spare.size(); ++i) spare[i] -= kept[i];
     return spare;
@@ -228,7 +224,7 @@ void CableSystem::update_slip(const Substep& substep, const CompiledCable& cable
   // Links that slide: has the cable moved with the pull?
   for_each_run(cable, [&](Run run) {
     if (run.count == 1) return;
-    const std::vector<double> spare = run_spare(substep, cable, run);
+    const std::vector<double>& spare = run_spare(substep, cable, run);
     double passed = 0.0;
     for (int i = 0, k = run.first; i + 1 < run.count; ++i, k = next_span(cable, k)) {
       passed += spare[at(i)];
@@ -241,11 +237,10 @@ void CableSystem::update_slip(const Substep& substep, const CompiledCable& cable
     }
   });
   // Links that stick: do they hold?
-  const int last_link = cable.first_link + cable.link_count - 1;
   for (int i = 0; i < cable.span_count; ++i) {
     const int incoming = cable.first_span + i;
     if (!spans_[at(incoming)].active) continue;
-    if (!cable.closed && spans_[at(incoming)].second == last_link) break;
+    if (!cable.closed && spans_[at(incoming)].second == cable.last_listed_link()) continue;
     const int outgoing = next_span(cable, incoming);
     const int link = spans_[at(incoming)].second;
     if (!links_[at(link)].passes() || shared(link)) continue;
@@ -273,16 +268,15 @@ void CableSystem::share_lengths(Substep& substep, const CompiledCable& cable, Fe
 }
 
 void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run run,
-                            FeatureState& next) const {
-  const std::vector<double> spare = run_spare(substep, cable, run);
+                            FeatureState& next) {
+  const std::vector<double>& spare = run_spare(substep, cable, run);
   double passed = 0.0;         // over the link after span i
   double passed_before = 0.0;  // over the link before it, as moved
   for (int i = 0, k = run.first; i + 1 < run.count; ++i, k = next_span(cable, k)) {
     double& rest_length = next.reals[rest_length_index(k)];
     passed += spare[at(i)];
     // A multiple of the quantum, and no more than there is.
-    const double moved =
-        std::min(std::round(passed / cable.quantum) * cable.quantum, rest_length + passed_before);
+    const double moved = std::min(cable.quantised(passed), rest_length + passed_before);
     rest_length += passed_before - moved;
     passed_before = moved;
     const int link = spans_[at(k)].second;

@@ -7,22 +7,16 @@
 #include "engine/index.h"
 
 namespace sheave {
-namespace {
-
-/// The multiple of `quantum`, a power of two, nearest to `length`.
-double quantised(double length, double quantum) { return std::round(length / quantum) * quantum; }
-
-}  // namespace
-
 double CableSystem::compliance_of(const CompiledCable& cable, double rest_length) const {
   // A material's spring gets softer in proportion to the length that stretches.
   return cable.compliance + cable.inverse_stiffness * std::max(rest_length, 0.0);
 }
 
 void CableSystem::begin(const Substep& substep, const FeatureState& state) {
-  if (changes_ && (!changing_links_.empty() || state.integers != connected_for_)) {
-    refresh(state, links_, spans_);
-    connected_for_ = state.integers;
+  if (course_changes_ && !follows(state)) {
+    follow_course(substep.bodies, state);
+  } else if (!changing_links_.empty()) {
+    refresh_ends(state, links_, spans_);
   }
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
   std::fill(sweeps_.begin(), sweeps_.end(), 0);
@@ -38,8 +32,8 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     const LinkGeometry& second = links_[at(setup.second)];
     references_[k] = span_reference(substep, setup, first, second, state.reals[k]);
     if (first.feed_speed != 0.0 || second.feed_speed != 0.0) {
-      fed_[k] = feed(state, substep.h, static_cast<int>(k));
-      references_[k].rest_length += fed_[k];
+      feed(state, substep.h, static_cast<int>(k));
+      references_[k].rest_length += fed_[k][0] + fed_[k][1];
     }
     if (cables_[at(setup.cable)].tangent_update == TangentUpdate::substep) {
       const SpanGeometry span = span_geometry(substep, setup, first, second);
@@ -49,6 +43,9 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
       references_[k].first_point = own_point(first.body, span.start);
       references_[k].second_point = own_point(second.body, span.end);
     }
+  }
+  for (const CompiledCable& cable : cables_) {
+    if (!cable.candidates.empty()) remember_sides(substep, cable);
   }
 }
 
@@ -104,7 +101,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     if (!setup.active) continue;
     const LinkGeometry& first = links_[at(setup.first)];
     const LinkGeometry& second = links_[at(setup.second)];
-    const double quantum = cables_[at(setup.cable)].quantum;
+    const CompiledCable& cable = cables_[at(setup.cable)];
     const SpanGeometry span = span_geometry(substep, setup, first, second);
     if (!span.has_tangent) {
       if (fallbacks_[at(k)].substeps++ == 0) fallbacks_[at(k)].first_time = substep.next.time;
@@ -116,30 +113,34 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     // What is smaller than the quantum waits for the next substep.
     const auto move = [&](double amount, int link, int end) {
       double& remainder = next.reals[remainder_index(k, end)];
-      const double moved = quantised(amount + remainder, quantum);
+      const double moved = cable.quantised(amount + remainder);
       remainder += amount - moved;
       rest_length += moved;
       next.reals[stored_length_index(link)] -= moved;
     };
     if (first.wraps()) move(transport.from_first, setup.first, 0);
     if (second.wraps()) move(transport.from_second, setup.second, 1);
-    if (first.feed_speed != 0.0 || second.feed_speed != 0.0) {
-      const int link = first.feed_speed != 0.0 ? setup.first : setup.second;
-      double& remainder = next.reals[remainder_index(k, link == setup.first ? 0 : 1)];
-      const double amount = fed_[at(k)];
+    const auto feed_in = [&](int link, int end) {
+      double& remainder = next.reals[remainder_index(k, end)];
+      const double amount = fed_[at(k)][at(end)];
       const double moved =
-          std::max(quantised(amount + remainder, quantum), std::min(-rest_length, 0.0));
+          std::max(cable.quantised(amount + remainder), std::min(-rest_length, 0.0));
       remainder += amount - moved;
       rest_length += moved;
       next.reals[slip_index(link)] += moved;
-    }
+    };
+    if (first.feed_speed != 0.0) feed_in(setup.first, 0);
+    if (second.feed_speed != 0.0) feed_in(setup.second, 1);
     next.reals[tension_index(k)] = multipliers_[at(k)] * inverse_square;
   }
   for (const CompiledCable& cable : cables_) {
     if (cable.shares) share_lengths(substep, cable, next);
   }
   if (!changing_links_.empty()) change_ends(substep, next);
-  if (changes_) leave_and_touch(substep, next);
+  if (course_changes_) {
+    cut(substep, next);
+    leave_and_touch(substep, next);
+  }
 }
 
 SpanGeometry CableSystem::geometry_of(const Substep& substep, int span) const {
@@ -147,9 +148,12 @@ SpanGeometry CableSystem::geometry_of(const Substep& substep, int span) const {
   return span_geometry(substep, setup, links_[at(setup.first)], links_[at(setup.second)]);
 }
 
-CableSystem::Geometry CableSystem::geometry_for(const FeatureState& own) const {
+CableSystem::Geometry CableSystem::geometry_for(const BodySet& bodies,
+                                                const FeatureState& own) const {
   Geometry geometry{links_, spans_};
-  if (changes_) refresh(own, geometry.links, geometry.spans);
+  if (course_changes_ || !changing_links_.empty()) {
+    refresh(bodies, own, geometry.links, geometry.spans);
+  }
   return geometry;
 }
 
@@ -160,7 +164,7 @@ double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
   };
   if (std::none_of(cables_.begin(), cables_.end(), elastic)) return 0.0;
   const Substep now(bodies, state, 1.0, 1);
-  const Geometry current = geometry_for(own);
+  const Geometry current = geometry_for(bodies, own);
   double energy = 0.0;
   for (int k = 0; k < row_count(); ++k) {
     const SpanSetup& setup = current.spans[at(k)];
@@ -182,7 +186,9 @@ std::vector<CableSystem::TangentWarning> CableSystem::tangent_warnings() const {
     const Fallback& fallback = fallbacks_[at(k)];
     if (fallback.substeps == 0) continue;
     const CompiledCable& cable = cables_[at(spans_[at(k)].cable)];
-    warnings.push_back({cable.name, k - cable.first_span, fallback.substeps, fallback.first_time});
+    const int span = k - cable.first_span;
+    warnings.push_back({cable.name, span < cable.listed_spans ? span : -1, fallback.substeps,
+                        fallback.first_time});
   }
   return warnings;
 }

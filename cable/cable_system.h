@@ -1,6 +1,8 @@
 #pragma once
 // All cables of a world: one unilateral distance row per free span.
 
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,6 +10,7 @@
 #include "cable/cable.h"
 #include "cable/cable_report.h"
 #include "cable/span_row.h"
+#include "cable/wrap_candidate.h"
 #include "engine/constraint_batch.h"
 
 namespace sheave {
@@ -16,19 +19,28 @@ namespace sheave {
 struct CompiledCable {
   std::string name;
   bool closed = false;
-  int first_link = 0;  ///< its links and spans within those of all cables
+  /// Its links and spans within those of all cables. Span k begins at link k; behind the links that the user listed there
+  /// are places for wraps on bodies that the cable comes to touch.
+  int first_link = 0;
+  int listed_links = 0;
   int link_count = 0;
   int first_span = 0;
+  int listed_spans = 0;
   int span_count = 0;
-  double compliance = 0.0;            ///< [m/N]; 0 if rigid or of a material
-  double inverse_stiffness = 0.0;     ///< 1/EA [1/N]; 0 if not of a material
-  double damping = 0.0;               ///< [N s/m]
-  bool lifts = false;                 ///< it can leave and touch at least one of its links
-  bool planar = false;                ///< all links stay in one plane
-  Vector3 normal = Vector3::UnitZ();  ///< of that plane
-  std::vector<double> senses;         ///< per link: +1 if its normal is `normal`, -1 if opposite
-  bool shares = false;                ///< cable can pass at one of its links other than by rolling
-  bool has_friction = false;          ///< and at one of them with friction
+  double compliance = 0.0;         ///< [m/N]; 0 if rigid or of a material
+  double inverse_stiffness = 0.0;  ///< 1/EA [1/N]; 0 if not of a material
+  double damping = 0.0;            ///< [N s/m]
+  double breaking_tension = std::numeric_limits<double>::infinity();  ///< [N]
+  double cut_time = std::numeric_limits<double>::infinity();          ///< [s]
+  double wrap_friction = 0.0;             ///< capstan coefficient on wrappable bodies
+  std::vector<WrapCandidate> candidates;  ///< bodies it can come to touch
+  int first_plane = 0;                    ///< of its places for wraps within those of all cables
+  bool course_changes = false;            ///< it leaves or touches bodies, or can be cut
+  bool planar = false;                    ///< all links stay in one plane
+  Vector3 normal = Vector3::UnitZ();      ///< of that plane
+  std::vector<double> senses;  ///< per link: +1 if its normal is `normal`, -1 if opposite
+  bool shares = false;         ///< cable can pass at one of its links other than by rolling
+  bool has_friction = false;   ///< and at one of them with friction
   TangentUpdate tangent_update = TangentUpdate::iteration;
   double start_length = 0.0;  ///< rest and stored lengths at time 0 [m]
   /// Power of two that all rest and stored lengths are multiples of [m], about 1e-15 of the cable.
@@ -36,16 +48,26 @@ struct CompiledCable {
   /// cannot lose any: the length invariant holds to the last bit, for ever.
   double quantum = 0.0;
   std::vector<std::string_view> link_types;
+
+  [[nodiscard]] int last_listed_link() const { return first_link + listed_links - 1; }
+  /// The multiple of the quantum nearest to `length` [m].
+  [[nodiscard]] double quantised(double length) const {
+    return std::round(length / quantum) * quantum;
+  }
 };
 
-/// The feature "cables" of a world. Layout of its state, with the spans and links of all cables in
-/// order: reals = rest length per span [m], stored length per link [m], tension per span [N],
-/// transport below the quantum per span end (first, second) [m], slip per
-/// link [m]: cable that has slid over it towards the next span, of an attachment cable that was fed,
-/// angle of a hybrid end's attachment per link [rad]; integers = per link with friction which way the cable
-/// slides: +1 towards the next span, -1 towards the last, 0 not at all; per link its mode: 0 as defined, 1 wound the other
-/// way round, 2 attached (hybrid ends), 3 left by the
-/// cable, 4 left and passed to the other side.
+/// The feature "cables" of a world. Layout of its state, with the spans and links of all cables in order:
+///
+/// reals: rest length per span [m], stored length per link [m], tension per span [N], transport below the quantum per
+/// span end (first, second) [m], slip per link [m]: cable that has slid over it towards the next span, of an attachment
+/// cable that was fed, angle of a hybrid end's attachment per link [rad], plane per place for a wrap: centre [m] and
+/// normal, own frame of the body.
+///
+/// integers: per link with friction which way the cable slides: +1 towards the next span, -1 towards the last, 0 not at
+/// all; per link its mode: 0 as defined, 1 wound the other way round, 2 attached (hybrid ends), 3 left by the cable,
+/// 4 left and passed to the other side; per link the next one along the cable, counted within it, -1 at its end and where
+/// the cable does not touch; per place for a wrap +-(candidate + 1), the sign being its winding, 0 unused; per cable 0, or
+/// 1 + the span where it is cut.
 class CableSystem final : public ConstraintBatch {
  public:
   /// Checks and compiles the cables. Errors have paths "/cables/i/...".
@@ -61,16 +83,24 @@ class CableSystem final : public ConstraintBatch {
   /// A span that had no tangent in some substeps since the system was created.
   struct TangentWarning {
     std::string cable;
-    int span = 0;  ///< within its cable
+    int span = 0;  ///< within its cable's list; -1: behind a wrap
     long substeps = 0;
     double first_time = 0.0;  ///< [s]
   };
   [[nodiscard]] std::vector<TangentWarning> tangent_warnings() const;
+  /// A cable that touched more bodies than `most_wraps` allows: it passed through the others.
+  struct WrapWarning {
+    std::string cable;
+    long substeps = 0;
+    double first_time = 0.0;  ///< [s]
+  };
+  [[nodiscard]] std::vector<WrapWarning> wrap_warnings() const;
   /// What happened since the system was created, in order.
   [[nodiscard]] const std::vector<CableEvent>& events() const { return events_; }
 
   [[nodiscard]] std::string_view name() const override { return "cables"; }
   [[nodiscard]] FeatureState initial_state() const override { return initial_; }
+  [[nodiscard]] bool accepts(const FeatureState& state) const override;
   [[nodiscard]] int row_count() const override { return static_cast<int>(spans_.size()); }
   void begin(const Substep& substep, const FeatureState& state) override;
   double sweep(Substep& substep) override;
@@ -99,12 +129,25 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] std::size_t angle_index(int link) const {
     return 4 * spans_.size() + 2 * links_.size() + static_cast<std::size_t>(link);
   }
+  /// Six numbers, of the place `plane` for a wrap, counted over all cables.
+  [[nodiscard]] std::size_t plane_index(int plane) const {
+    return 4 * spans_.size() + 3 * links_.size() + 6 * static_cast<std::size_t>(plane);
+  }
   // And in FeatureState::integers.
   [[nodiscard]] static std::size_t slip_state_index(int link) {
     return static_cast<std::size_t>(link);
   }
   [[nodiscard]] std::size_t mode_index(int link) const {
     return links_.size() + static_cast<std::size_t>(link);
+  }
+  [[nodiscard]] std::size_t next_index(int link) const {
+    return 2 * links_.size() + static_cast<std::size_t>(link);
+  }
+  [[nodiscard]] std::size_t wrap_index(int link) const {
+    return 3 * links_.size() + static_cast<std::size_t>(link);
+  }
+  [[nodiscard]] std::size_t cut_index(int cable) const {
+    return 4 * links_.size() + static_cast<std::size_t>(cable);
   }
 
  private:
@@ -134,44 +177,91 @@ class CableSystem final : public ConstraintBatch {
   double evaluate_run(const Substep& substep, const CompiledCable& cable, Run run, double& error);
   double solve_run(Substep& substep, const CompiledCable& cable, Run run);
   /// Per span of the run: rest length that has to leave it [m], so that all have their tensions.
-  [[nodiscard]] std::vector<double> run_spare(const Substep& substep, const CompiledCable& cable,
-                                              Run run) const;
+  const std::vector<double>& run_spare(const Substep& substep, const CompiledCable& cable, Run run);
   void update_slip(const Substep& substep, const CompiledCable& cable);
   void share_lengths(Substep& substep, const CompiledCable& cable, FeatureState& next);
-  void share_run(Substep& substep, const CompiledCable& cable, Run run, FeatureState& next) const;
+  void share_run(Substep& substep, const CompiledCable& cable, Run run, FeatureState& next);
   // Ends that change: cable/cable_ends.cpp.
   /// Puts what follows from the cables' state into links and spans.
-  void refresh(const FeatureState& own, std::vector<LinkGeometry>& links,
+  void refresh(const BodySet& bodies, const FeatureState& own, std::vector<LinkGeometry>& links,
                std::vector<SpanSetup>& spans) const;
+  void refresh_ends(const FeatureState& own, std::vector<LinkGeometry>& links,
+                    std::vector<SpanSetup>& spans) const;
   struct Geometry {
     std::vector<LinkGeometry> links;
     std::vector<SpanSetup> spans;
   };
-  [[nodiscard]] Geometry geometry_for(const FeatureState& own) const;
+  [[nodiscard]] Geometry geometry_for(const BodySet& bodies, const FeatureState& own) const;
   void change_ends(const Substep& substep, FeatureState& next);
   void change_end(const Substep& substep, const CompiledCable& cable, int index, int span,
                   bool first, FeatureState& next);
-  // Wheels that the cable leaves and touches: cable/cable_contacts.cpp.
+  // The order in which a cable runs over its links: cable/cable_course.cpp.
   static constexpr std::int64_t lifted_mode = 3;
   static constexpr std::int64_t passed_mode = 4;
   [[nodiscard]] static int span_before(const CompiledCable& cable, int link,
                                        const std::vector<SpanSetup>& spans);
+  [[nodiscard]] static int span_after(const CompiledCable& cable, int link) {
+    return cable.first_span + link - cable.first_link;
+  }
+  /// The first span of the cable that there is; -1 if it is cut.
+  [[nodiscard]] static int first_active_span(const CompiledCable& cable,
+                                             const std::vector<SpanSetup>& spans);
   void connect_spans(const FeatureState& own, const std::vector<LinkGeometry>& links,
                      std::vector<SpanSetup>& spans) const;
+  [[nodiscard]] bool keeps_plane(const CompiledCable& cable, int link,
+                                 const FeatureState& own) const;
+  void place_wraps(const BodySet& bodies, const FeatureState& own,
+                   std::vector<LinkGeometry>& links) const;
+  void insert_link(const CompiledCable& cable, int after, int link, FeatureState& own) const;
+  void remove_link(int before, int link, FeatureState& own) const;
+  /// Makes links_ and spans_ those of a state with another course.
+  void follow_course(const BodySet& bodies, const FeatureState& own);
+  /// Whether they are.
+  [[nodiscard]] bool follows(const FeatureState& own) const;
+  // Bodies that the cable leaves and touches: cable/cable_contacts.cpp.
   void leave_and_touch(const Substep& substep, FeatureState& next);
+  void leave_all(const Substep& substep, const CompiledCable& cable, FeatureState& next);
+  void touch_all(const Substep& substep, int cable, FeatureState& next);
+  /// Lets the span touch the first body that it cuts; false if there is none.
+  bool touch_on_span(const Substep& substep, int cable, int span, FeatureState& next);
+  [[nodiscard]] int listed_before(const CompiledCable& cable, int span) const;
   /// Winds on or off the cable by which a span's end moves along its link; returns what the span gains [m].
   static double shift_contact(const Substep& substep, const CompiledCable& cable,
                               const LinkGeometry& link, const SpanGeometry& from,
                               const SpanGeometry& to, bool first, double& stored_length);
+  [[nodiscard]] bool comes_off(const Substep& substep, int span, int link,
+                               const FeatureState& next) const;
   bool leave(const Substep& substep, const CompiledCable& cable, int link, FeatureState& next);
-  void touch(const Substep& substep, const CompiledCable& cable, int link, FeatureState& next);
-  /// Cable that attachments feed into the span in a substep of length h [m].
-  [[nodiscard]] double feed(const FeatureState& state, double h, int span) const;
+  bool touch_listed(const Substep& substep, const CompiledCable& cable, int span, int link,
+                    FeatureState& next);
+  bool touch_wrappable(const Substep& substep, int cable, int span, int candidate,
+                       FeatureState& next);
+  bool split(const Substep& substep, const CompiledCable& cable, int span, int link,
+             FeatureState& next);
+  void record(const Substep& substep, const CompiledCable& cable, int link, CableEvent::Kind kind);
+  void remember_sides(const Substep& substep, const CompiledCable& cable);
+  // Cutting: cable/cable_cut.cpp.
+  void cut(const Substep& substep, FeatureState& next);
+  void feed(const FeatureState& state, double h, int span);
   void turn_massless_wheel(Substep& substep, int link, double length) const;
   [[nodiscard]] double compliance_of(const CompiledCable& cable, double rest_length) const;
-  void append_links(const CompiledCable& cable, const Substep& now, const FeatureState& own,
-                    const Geometry& current, std::span<const SpanGeometry> ends,
-                    CableReport& report) const;
+  // Reports: cable/cable_report.cpp.
+  /// A state as it is reported: the geometry that belongs to it, and where its spans are.
+  struct CableView {
+    const Substep& now;
+    const FeatureState& own;
+    const Geometry& current;
+    const std::vector<SpanGeometry>& ends;
+  };
+  /// The link `index` with the spans before and after it; -1: none.
+  [[nodiscard]] LinkReport link_report(const CableView& view, int index, int incoming,
+                                       int outgoing) const;
+  void append_wraps(const CableView& view, const CompiledCable& cable, CableReport& report) const;
+  void measure(const CableView& view, const CompiledCable& cable, int cut_span,
+               CableReport& report) const;
+  /// Cable from its first link to the middle of a span [m].
+  [[nodiscard]] double length_before(const FeatureState& own, const CompiledCable& cable,
+                                     int span) const;
 
   std::vector<CompiledCable> cables_;
   std::vector<LinkGeometry> definitions_;    ///< as compiled
@@ -179,14 +269,16 @@ class CableSystem final : public ConstraintBatch {
   std::vector<LinkGeometry> links_;          ///< in this substep
   std::vector<SpanSetup> span_definitions_;  ///< as compiled
   std::vector<SpanSetup> spans_;             ///< in this substep
-  bool changes_ = false;                     ///< links or spans depend on the state
+  bool course_changes_ = false;              ///< spans depend on the state
   std::vector<std::int64_t> connected_for_;  ///< integers of the state that spans_ stand for
+  std::vector<double> planes_;               ///< its planes of wraps
   FeatureState initial_;
   // Scratch of a substep, filled by begin().
   std::vector<SpanReference> references_;
   std::vector<double> multipliers_;
-  std::vector<double> fed_;  ///< per span, in this substep [m]
-  std::vector<int> slip_;    ///< per link: which way it slides (see the integers of the state)
+  std::vector<std::array<double, 2>>
+      fed_;                ///< per span at its first and second link, in this substep [m]
+  std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
   std::vector<int> pending_slip_;
   std::vector<int> sweeps_;             ///< per cable, in this substep
   std::vector<int> flips_;              ///< per link: how often that has changed in this substep
@@ -196,12 +288,19 @@ class CableSystem final : public ConstraintBatch {
   std::vector<SpanGeometry> run_spans_;
   std::vector<double> run_weights_;
   std::vector<RowTerm> run_gradient_;  ///< per body; `body` is not used
+  std::vector<double> run_spare_;
+  std::vector<double> run_lengths_;
+  // Of leave_and_touch(): on which side of its candidates a span was at the start, span by span; and what has left.
+  std::vector<std::vector<WrapSide>> sides_;
+  std::vector<char> changed_links_;
+  std::vector<int> left_bodies_;
   // Diagnostics, no part of the simulation.
   struct Fallback {
     long substeps = 0;
     double first_time = 0.0;
   };
   std::vector<Fallback> fallbacks_;
+  std::vector<Fallback> crowded_;  ///< per cable: wraps that found no place
   std::vector<CableEvent> events_;
 };
 

@@ -1,5 +1,7 @@
 #include "cable/span_row.h"
 
+#include <algorithm>
+
 #include <Eigen/LU>
 
 #include "engine/index.h"
@@ -289,17 +291,53 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
   return transport;
 }
 
+namespace {
+
+/// Whether a piece of the line from `start` along `direction`, both in the outline's plane, lies within its corners.
+bool runs_through(const Outline& curve, const Vector3& start, const Vector3& direction,
+                  double length) {
+  double from = 0.0;
+  double to = length;
+  const int count = curve.corner_count();
+  for (int i = 0; i < count && from < to; ++i) {
+    const Vector3& corner = curve.corner(i);
+    const Vector3 edge = curve.corner((i + 1) % count) - corner;
+    // Inside is left of the edge.
+    const double height = cross(edge, start - corner).z();
+    const double rise = cross(edge, direction).z();
+    if (rise == 0.0) {
+      if (height < 0.0) return false;
+    } else if (rise > 0.0) {
+      from = std::max(from, -height / rise);
+    } else {
+      to = std::min(to, -height / rise);
+    }
+  }
+  return from < to;
+}
+
+}  // namespace
+
 Clearance clearance(const Substep& substep, const LinkGeometry& link, const SpanGeometry& span) {
-  const Vector3 normal = substep.orientation(link.carrier) * link.normal;
-  Vector3 left = cross(normal, span.direction);
+  const Quaternion orientation = substep.orientation(link.carrier);
+  Vector3 left = cross(orientation * link.normal, span.direction);
   const double share = left.norm();
   if (!(share > 0.0)) return {0.0, 0.0, false};
   left /= share;
   const Vector3 corner = center_of(substep, link, touched_corner(substep, link, span.direction, 0));
   const Vector3 center = link_center(substep, link) - span.start;
   const double along = dot(span.direction, center);
+  bool between = along > 0.0 && along < span.length;
+  if (link.outline) {
+    const auto in_plane = [&](const Vector3& vector) {
+      const Vector3 own = orientation.conjugate() * vector;
+      return Vector3(link.outline->x.dot(own), link.outline->y.dot(own), 0.0);
+    };
+    between =
+        runs_through(link.outline->curve, in_plane(-center), in_plane(span.direction), span.length);
+  }
   return {link.side * dot(left, corner - span.start) - std::abs(link.signed_radius),
-          link.side * dot(left, center), along > 0.0 && along < span.length};
+          link.side * dot(left, center), between};
 }
 
 double arc_between(const Substep& substep, const LinkGeometry& link, const SpanGeometry& incoming,
@@ -330,13 +368,19 @@ double wrap_angle(const Substep& substep, const LinkGeometry& link, const SpanGe
     return std::atan2(cross(incoming.direction, outgoing.direction).norm(),
                       dot(incoming.direction, outgoing.direction));
   }
+  return std::max(signed_wrap_angle(substep, link, incoming, outgoing, stored_length), 0.0);
+}
+
+double signed_wrap_angle(const Substep& substep, const LinkGeometry& link,
+                         const SpanGeometry& incoming, const SpanGeometry& outgoing,
+                         double stored_length) {
   const Vector3 normal = substep.orientation(link.carrier) * link.normal;
   const Vector3 entry =
       contact_normal(substep, link, incoming.second_corner, incoming.end, incoming.direction);
   const Vector3 exit =
       contact_normal(substep, link, outgoing.first_corner, outgoing.start, outgoing.direction);
   const double angle = link.side * angle_between(entry, exit, normal);
-  return std::max(unwrapped(angle, 2.0 * pi * stored_length / link.perimeter()), 0.0);
+  return unwrapped(angle, 2.0 * pi * stored_length / link.perimeter());
 }
 
 SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,

@@ -96,7 +96,12 @@ struct Clearance {
   /// From the outline to the span, on the side where the link's winding puts the cable [m]; < 0: the span cuts it.
   double distance = 0.0;
   double center_distance = 0.0;  ///< the same from the link's centre
-  bool between = false;          ///< whether the centre lies beside the span, not beyond its ends
+  bool between = false;          ///< whether the outline lies beside the span, not beyond its ends
+
+  /// Whether the span runs through the outline, by more than rounding.
+  [[nodiscard]] bool cuts(const LinkGeometry& link) const {
+    return between && distance < -1e-9 * link.perimeter();
+  }
 };
 [[nodiscard]] Clearance clearance(const Substep& substep, const LinkGeometry& link,
                                   const SpanGeometry& span);
@@ -116,6 +121,11 @@ struct Clearance {
 [[nodiscard]] double wrap_angle(const Substep& substep, const LinkGeometry& link,
                                 const SpanGeometry& incoming, const SpanGeometry& outgoing,
                                 double stored_length);
+
+/// The same for a wheel or outline without the bound: < 0 where the cable is bent away from it.
+[[nodiscard]] double signed_wrap_angle(const Substep& substep, const LinkGeometry& link,
+                                       const SpanGeometry& incoming, const SpanGeometry& outgoing,
+                                       double stored_length);
 
 /// The span as it is now.
 [[nodiscard]] SpanGeometry span_geometry(const Substep& substep, const SpanSetup& setup,

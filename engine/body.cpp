@@ -37,6 +37,8 @@ std::span<const Field> BodyDef::field_table() {
           "for one constant value"),
       field<&BodyDef::drive_values>("drive_values", "rad/s, rad or N m", any_number(), optional,
                                     "values of the drive, one per time"),
+      field<&BodyDef::wrappable>("wrappable", "", {}, optional,
+                                 "whether cables that come against the body are wrapped round it"),
       field<&BodyDef::force>("force", "N", any_number(), optional,
                              "constant, at the centre of mass"),
       field<&BodyDef::torque>("torque", "N m", any_number(), optional, "constant"),

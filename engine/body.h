@@ -66,7 +66,10 @@ struct BodyDef {
   Vector3 oscillation = Vector3::Zero();  ///< amplitude [m]
   double oscillation_frequency = 0.0;     ///< f [Hz], >= 0
   double oscillation_phase = 0.0;         ///< p [rad]
-  std::vector<PlacedShape> shapes;        ///< may be empty if mass and inertia are given
+  /// Whether things that are laid over bodies (cables) can come to lie on this one without being told. Needs a shape; not
+  /// for massless wheels.
+  bool wrappable = false;
+  std::vector<PlacedShape> shapes;  ///< may be empty if mass and inertia are given
 
   /// Every member but the shapes.
   static std::span<const Field> field_table();

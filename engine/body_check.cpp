@@ -29,6 +29,7 @@ class BodyCheck {
     check_motion();
     if (moves()) check_mass();
     check_drive();
+    check_wrappable();
   }
 
  private:
@@ -118,6 +119,17 @@ class BodyCheck {
         (body_.oscillation.norm() > 0.0 || body_.oscillation_frequency > 0.0)) {
       fail("/oscillation",
            "only a kinematic body follows an oscillation; mobility is " + mobility_name());
+    }
+  }
+
+  void check_wrappable() {
+    if (!body_.wrappable) return;
+    if (body_.shapes.empty()) {
+      fail("/wrappable", "only a body with a shape can be wrapped; give it one");
+    }
+    if (body_.spin_inertia == 0.0 && body_.drive == DriveKind::none) {
+      fail("/wrappable",
+           "a wheel without spin inertia cannot be wrapped unless its cable lists it");
     }
   }
 

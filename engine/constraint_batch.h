@@ -26,6 +26,8 @@ class ConstraintBatch {
   [[nodiscard]] virtual std::string_view name() const = 0;
   /// The feature's state at time 0.
   [[nodiscard]] virtual FeatureState initial_state() const = 0;
+  /// Whether `state`, of the right sizes, can be one of this feature: what begin() relies on.
+  [[nodiscard]] virtual bool accepts(const FeatureState& /*state*/) const { return true; }
   /// Number of rows that linearise() appends.
   [[nodiscard]] virtual int row_count() const = 0;
 

@@ -210,7 +210,8 @@ Errors World::restore(const State& state) {
       state.bodies.size() == own.bodies.size() && state.features.size() == own.features.size();
   for (std::size_t i = 0; fits && i < own.features.size(); ++i) {
     fits = state.features[i].reals.size() == own.features[i].reals.size() &&
-           state.features[i].integers.size() == own.features[i].integers.size();
+           state.features[i].integers.size() == own.features[i].integers.size() &&
+           content_->features[i]->accepts(state.features[i]);
   }
   if (!fits) {
     return {{"",

@@ -170,6 +170,30 @@ class Drawing {
   bool cut_at_start_ = false;
 };
 
+/// What a cut cable leaves hanging from its ends; a cut belt has none.
+std::vector<Tube> cut_pieces(const CableReport& cable, const CableStyle& style) {
+  std::vector<Tube> tubes;
+  if (cable.closed || !(style.gravity.norm() > 0.0)) return tubes;
+  const Vector3 down = style.gravity.normalized();
+  for (const bool first : {true, false}) {
+    const LinkReport& end = first ? cable.links.front() : cable.links.back();
+    // Where a cable that runs down from the wheel, or up to it, touches it.
+    const double side = first ? -end.winding : end.winding;
+    const Vector3 start = end.center + side * end.radius * end.normal.cross(down);
+    double length = cable.pieces[first ? 0 : 1] - end.stored_length;
+    if (style.floor && style.floor->normal.dot(down) < 0.0) {
+      const double height = style.floor->normal.dot(start - style.floor->point) - style.radius;
+      length = std::min(length, height / -style.floor->normal.dot(down));
+    }
+    if (!(length > 0.0)) continue;
+    Tube tube;
+    tube.radius = style.radius;
+    tube.points = {{start, slack_color}, {start + length * down, slack_color}};
+    tubes.push_back(std::move(tube));
+  }
+  return tubes;
+}
+
 }  // namespace
 
 bool is_slack(const SpanReport& span) {
@@ -193,6 +217,7 @@ double wound_angle(const LinkReport& link, bool is_end) {
 }
 
 std::vector<std::vector<Vector3>> span_lines(const CableReport& cable, const CableStyle& style) {
+  if (cable.cut) return std::vector<std::vector<Vector3>>(cable.spans.size());
   const Drawing drawing(cable, style);
   std::vector<std::vector<Vector3>> lines;
   for (std::size_t k = 0; k < cable.spans.size(); ++k) lines.push_back(drawing.span_line(k));
@@ -200,6 +225,7 @@ std::vector<std::vector<Vector3>> span_lines(const CableReport& cable, const Cab
 }
 
 std::vector<Tube> cable_tubes(const CableReport& cable, const CableStyle& style) {
+  if (cable.cut) return cut_pieces(cable, style);
   return Drawing(cable, style).run();
 }
 

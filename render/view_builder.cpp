@@ -157,6 +157,7 @@ double ViewBuilder::tension_scale(std::span<const CableReport> cables) const {
   double largest = 0.0;
   for (const CableReport& cable : cables) {
     for (const SpanReport& span : cable.spans) largest = std::max(largest, span.tension);
+    for (const WrapReport& wrap : cable.wraps) largest = std::max(largest, wrap.span.tension);
   }
   if (largest > 1e-6 * weight_) return largest;
   return weight_ > 0.0 ? weight_ : 1.0;
@@ -170,9 +171,14 @@ void ViewBuilder::add_cables(std::span<const CableReport> cables, DrawList& list
   style.gravity = gravity_;
   style.floor = floor_;
   for (std::size_t c = 0; c < cables.size(); ++c) {
-    const CableReport& cable = cables[c];
+    std::vector<int> places;
+    const CableReport cable = cables[c].with_wraps_in_place(&places);
     style.winding_room.clear();
-    if (c < bodies_.winding_room.size()) style.winding_room = bodies_.winding_room[c];
+    for (const int place : places) {
+      const bool has_room = place >= 0 && c < bodies_.winding_room.size();
+      style.winding_room.push_back(
+          has_room ? bodies_.winding_room[c][static_cast<std::size_t>(place)] : 0.0);
+    }
     for (Tube& tube : cable_tubes(cable, style)) list.tubes.push_back(std::move(tube));
     for (const LinkReport& link : cable.links) {
       if (link.radius > 0.0) continue;
@@ -194,6 +200,7 @@ void ViewBuilder::add_cables(std::span<const CableReport> cables, DrawList& list
 void ViewBuilder::add_labels(const CableReport& cable, const CableStyle& style,
                              DrawList& list) const {
   const std::vector<std::vector<Vector3>> lines = span_lines(cable, style);
+  if (cable.cut) return;
   for (std::size_t k = 0; k < cable.spans.size(); ++k) {
     const SpanReport& span = cable.spans[k];
     const LinkReport& first = cable.links[k];

@@ -47,7 +47,8 @@ void ViewSurvey::add(const World& world, std::span<const CableReport> cables) {
   if (const auto& ground = world.model().ground) {
     style.floor = Plane{.point = ground->point, .normal = ground->normal.normalized()};
   }
-  for (const CableReport& cable : cables) {
+  for (const CableReport& listed : cables) {
+    const CableReport cable = listed.with_wraps_in_place();
     for (const LinkReport& link : cable.links) {
       // A disc reaches r sqrt(1 - n_i^2) along axis i.
       const Vector3 disc =

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
@@ -11,21 +12,67 @@
 namespace sheave {
 namespace {
 
-constexpr std::array<std::string_view, 14> body_quantities{
-    "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz", "angle"};
-constexpr std::array<std::string_view, 3> span_quantities{"tension", "length", "rest_length"};
-constexpr std::array<std::string_view, 9> link_quantities{"stored_length", "wrap_angle", "slip",
-                                                          "entry_x",       "entry_y",    "entry_z",
-                                                          "exit_x",        "exit_y",     "exit_z"};
-constexpr std::array<std::string_view, 2> cable_quantities{"length_error", "total_length"};
-constexpr std::array<std::string_view, 4> energy_quantities{"kinetic", "potential", "elastic",
-                                                            "total"};
+constexpr std::array<Quantity, 14> body_quantities{{
+    {"x", "m", "position of the body frame's origin"},
+    {"y", "m", "the same"},
+    {"z", "m", "the same"},
+    {"qw", "", "orientation"},
+    {"qx", "", "the same"},
+    {"qy", "", "the same"},
+    {"qz", "", "the same"},
+    {"vx", "m/s", "velocity of the body frame's origin"},
+    {"vy", "m/s", "the same"},
+    {"vz", "m/s", "the same"},
+    {"wx", "rad/s", "angular velocity"},
+    {"wy", "rad/s", "the same"},
+    {"wz", "rad/s", "the same"},
+    {"angle", "rad", "angle turned about the axis: planar bodies and rotors"},
+}};
+constexpr std::array<Quantity, 3> span_quantities{{
+    {"tension", "N", "of the free span that begins at a link, counted from 0"},
+    {"length", "m", "the same"},
+    {"rest_length", "m", "the same"},
+}};
+constexpr std::array<Quantity, 9> link_quantities{{
+    {"stored_length", "m", "cable on link k, counted from 0"},
+    {"wrap_angle", "rad", "the same as an angle"},
+    {"slip", "m", "cable that has slid over the link, forwards"},
+    {"entry_x", "m", "where the cable meets the link"},
+    {"entry_y", "m", "the same"},
+    {"entry_z", "m", "the same"},
+    {"exit_x", "m", "where the cable leaves the link"},
+    {"exit_y", "m", "the same"},
+    {"exit_z", "m", "the same"},
+}};
+constexpr std::array<Quantity, 5> cable_quantities{{
+    {"length_error", "", "relative error of the length invariant"},
+    {"total_length", "m", "rest lengths and stored lengths together"},
+    {"wraps", "", "number of wrappable bodies that the cable lies on"},
+    {"wrapped_length", "m", "cable on these bodies"},
+    {"cut", "", "1 when the cable has been cut or has broken, 0 before"},
+}};
+constexpr std::array<Quantity, 4> energy_quantities{{
+    {"kinetic", "J", "of the whole scene"},
+    {"potential", "J", "the same"},
+    {"elastic", "J", "the same"},
+    {"total", "J", "the same"},
+}};
 constexpr int tension = 0;  // in span_quantities
 
 // Comparing a word with more names than this takes longer than a user waits for a hint.
 constexpr std::size_t max_suggestions = 100'000;
 
+constexpr std::array<QuantityGroup, 5> groups{{
+    {"<body>.", body_quantities},
+    {"<cable>.<span>.", span_quantities},
+    {"<cable>.link<k>.", link_quantities},
+    {"<cable>.", cable_quantities},
+    {"energy.", energy_quantities},
+}};
+
 }  // namespace
+
+std::span<const QuantityGroup> quantity_groups() { return groups; }
 
 /// Evaluates observables of one moment. What several of them share is computed once, when first
 /// asked for; asking in the order of the set therefore visits each body once.
@@ -45,8 +92,7 @@ class ObservableSet::Sampler {
       case Group::link:
         return of_link(cable(source.entity).links[item], source.quantity);
       case Group::cable:
-        return source.quantity == 0 ? cable(source.entity).length_error
-                                    : cable(source.entity).total_length;
+        return of_cable(cable(source.entity), source.quantity);
       case Group::energy:
         return energy(source.quantity);
     }
@@ -68,6 +114,22 @@ class ObservableSet::Sampler {
         return link.slip;
       default:
         return quantity < 6 ? link.entry[quantity - 3] : link.exit[quantity - 6];
+    }
+  }
+  static double of_cable(const CableReport& cable, int quantity) {
+    switch (quantity) {
+      case 0:
+        return cable.length_error;
+      case 1:
+        return cable.total_length;
+      case 2:
+        return static_cast<double>(cable.wraps.size());
+      case 3:
+        return std::accumulate(
+            cable.wraps.begin(), cable.wraps.end(), 0.0,
+            [](double sum, const WrapReport& wrap) { return sum + wrap.link.stored_length; });
+      default:
+        return cable.cut ? 1.0 : 0.0;
     }
   }
   const std::array<double, 14>& body(int index) {
@@ -138,7 +200,7 @@ void ObservableSet::add_bodies(const Model& model) {
   for (int i = 0; i < static_cast<int>(model.bodies.size()); ++i) {
     const std::string& name = model.bodies[static_cast<std::size_t>(i)].name;
     for (int q = 0; q < static_cast<int>(body_quantities.size()); ++q) {
-      add(fmt::format("{}.{}", name, body_quantities[static_cast<std::size_t>(q)]),
+      add(fmt::format("{}.{}", name, body_quantities[static_cast<std::size_t>(q)].name),
           {Group::body, i, 0, q});
     }
   }
@@ -147,25 +209,26 @@ void ObservableSet::add_bodies(const Model& model) {
 void ObservableSet::add_cable(std::string_view name, int entity, int spans, int links) {
   for (int span = 0; span < spans; ++span) {
     for (int q = 0; q < static_cast<int>(span_quantities.size()); ++q) {
-      add(fmt::format("{}.{}.{}", name, span, span_quantities[static_cast<std::size_t>(q)]),
+      add(fmt::format("{}.{}.{}", name, span, span_quantities[static_cast<std::size_t>(q)].name),
           {Group::span, entity, span, q});
     }
   }
   for (int link = 0; link < links; ++link) {
     for (int q = 0; q < static_cast<int>(link_quantities.size()); ++q) {
-      add(fmt::format("{}.link{}.{}", name, link, link_quantities[static_cast<std::size_t>(q)]),
+      add(fmt::format("{}.link{}.{}", name, link,
+                      link_quantities[static_cast<std::size_t>(q)].name),
           {Group::link, entity, link, q});
     }
   }
   for (int q = 0; q < static_cast<int>(cable_quantities.size()); ++q) {
-    add(fmt::format("{}.{}", name, cable_quantities[static_cast<std::size_t>(q)]),
+    add(fmt::format("{}.{}", name, cable_quantities[static_cast<std::size_t>(q)].name),
         {Group::cable, entity, 0, q});
   }
 }
 
 void ObservableSet::add_energies() {
   for (int q = 0; q < static_cast<int>(energy_quantities.size()); ++q) {
-    add(fmt::format("energy.{}", energy_quantities[static_cast<std::size_t>(q)]),
+    add(fmt::format("energy.{}", energy_quantities[static_cast<std::size_t>(q)].name),
         {Group::energy, 0, 0, q});
   }
 }

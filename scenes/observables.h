@@ -2,18 +2,7 @@
 // Every number of a running simulation that has a name: the columns of a CSV file, and what the
 // checks of a scene refer to.
 //
-//   t                                             time [s]
-//   <body>.x .y .z                                position of the body frame's origin [m]
-//   <body>.qw .qx .qy .qz                         orientation
-//   <body>.vx .vy .vz                             velocity of the body frame's origin [m/s]
-//   <body>.wx .wy .wz                             angular velocity [rad/s]
-//   <body>.angle                                  angle turned about the axis [rad] (State)
-//   <cable>.<span>.tension .length .rest_length   spans count from 0 [N, m, m]
-//   <cable>.link<k>.stored_length .wrap_angle     cable on link k [m], the same as an angle [rad]
-//   <cable>.link<k>.slip                          cable that has slid over it, forwards [m]
-//   <cable>.link<k>.entry_x ... .exit_z           where the cable meets and leaves the body [m]
-//   <cable>.length_error                          relative error of the length invariant
-//   energy.kinetic .potential .elastic .total     [J]
+// t, the time, and what quantity_groups() lists, e.g. weight.vy, rope.1.tension, rope.link0.slip, energy.total.
 
 #include <span>
 #include <string>
@@ -24,6 +13,22 @@
 #include "engine/result.h"
 
 namespace sheave {
+
+/// The last part of a name, and what it stands for.
+struct Quantity {
+  std::string_view name;
+  std::string_view unit;  ///< empty: a pure number
+  std::string_view help;  ///< "the same": as the one before
+};
+
+/// Quantities whose names begin alike.
+struct QuantityGroup {
+  std::string_view prefix;  ///< e.g. "<body>."
+  std::span<const Quantity> quantities;
+};
+
+/// All of them but the time, for the documentation.
+[[nodiscard]] std::span<const QuantityGroup> quantity_groups();
 
 /// The observables of one model, in a fixed order: time, bodies, cables, energies.
 class ObservableSet {

@@ -7,6 +7,7 @@
 #include "scenes/field_json.h"
 #include "scenes/format.h"
 #include "scenes/json/pretty.h"
+#include "scenes/observables.h"
 #include "scenes/scene.h"
 
 namespace sheave {
@@ -29,16 +30,25 @@ What a check may name, and the columns of a CSV file:
 | quantity | unit | meaning |
 |---|---|---|
 | `t` | s | time |
-| `<body>.x`, `.y`, `.z` | m | position of the body frame's origin |
-| `<body>.qw`, `.qx`, `.qy`, `.qz` | | orientation |
-| `<body>.vx`, `.vy`, `.vz` | m/s | velocity of the body frame's origin |
-| `<body>.wx`, `.wy`, `.wz` | rad/s | angular velocity |
-| `<body>.angle` | rad | angle turned about the axis: planar bodies and rotors |
-| `<cable>.<span>.tension`, `.length`, `.rest_length` | N, m, m | of a free span, counted from 0 |
-| `<cable>.link<k>.stored_length` | m | cable on link k, counted from 0 |
-| `<cable>.length_error` | | relative error of the length invariant |
-| `energy.kinetic`, `.potential`, `.elastic`, `.total` | J | of the whole scene |
 )";
+
+/// Rows of the table of quantities; those that mean the same share one.
+void append_quantities(std::string& text) {
+  for (const QuantityGroup& group : quantity_groups()) {
+    const auto& quantities_of = group.quantities;
+    for (std::size_t i = 0; i < quantities_of.size();) {
+      std::string names = fmt::format("`{}{}`", group.prefix, quantities_of[i].name);
+      const Quantity& first = quantities_of[i];
+      std::string units(first.unit);
+      for (++i; i < quantities_of.size() && quantities_of[i].help == "the same"; ++i) {
+        names += fmt::format(", `.{}`", quantities_of[i].name);
+        if (quantities_of[i].unit != first.unit)
+          units += fmt::format(", {}", quantities_of[i].unit);
+      }
+      text += fmt::format("| {} | {} | {} |\n", names, units, first.help);
+    }
+  }
+}
 
 /// Text inside a cell of a table.
 std::string cell(std::string_view text) {
@@ -107,6 +117,7 @@ std::string scene_reference() {
   collect(scene_format(), formats);
   for (const ObjectFormat* format : formats) add_format(*format, text);
   text += quantities;
+  append_quantities(text);
   return text;
 }
 

@@ -19,12 +19,20 @@ std::vector<Warning> collect_warnings(const Simulation& simulation) {
   std::vector<Warning> warnings;
   if (simulation.cables == nullptr) return warnings;
   for (const CableSystem::TangentWarning& warning : simulation.cables->tangent_warnings()) {
-    std::string span = fmt::format("{}.{}", warning.cable, warning.span);
+    std::string span = warning.span < 0 ? fmt::format("{} behind a wrap", warning.cable)
+                                        : fmt::format("{}.{}", warning.cable, warning.span);
     std::string message = fmt::format(
         "span {} had no tangent in {} substeps, first at {} s: its wheels overlap, and its "
         "numbers mean little there",
         span, warning.substeps, number_text(warning.first_time));
     warnings.push_back({"no_tangent", std::move(span), std::move(message)});
+  }
+  for (const CableSystem::WrapWarning& warning : simulation.cables->wrap_warnings()) {
+    std::string message = fmt::format(
+        "cable {} found no place for another wrap in {} substeps, first at {} s, and went through "
+        "the body; raise its most_wraps",
+        warning.cable, warning.substeps, number_text(warning.first_time));
+    warnings.push_back({"too_many_wraps", warning.cable, std::move(message)});
   }
   return warnings;
 }

@@ -37,6 +37,22 @@ Json statistics(const RunStatistics& statistics) {
           {"geometry_fallbacks", statistics.geometry_fallbacks}};
 }
 
+Json json(const SpanReport& span, bool known) {
+  return {{"tension", known ? Json(span.tension) : Json()},
+          {"length", span.length},
+          {"rest_length", span.rest_length}};
+}
+
+Json json(const LinkReport& link) {
+  return {{"type", link.type},
+          {"stored_length", link.stored_length},
+          {"wrap_angle", link.wrap_angle},
+          {"slip", link.slip},
+          {"fed", link.fed},
+          {"entry", json(link.entry)},
+          {"exit", json(link.exit)}};
+}
+
 Json cables(const RunSummary& summary) {
   Json list = Json::array();
   // Before the first step nobody knows the tensions.
@@ -44,27 +60,26 @@ Json cables(const RunSummary& summary) {
   const std::vector<CableReport> reports = summary.simulation.cable_reports();
   for (std::size_t i = 0; i < reports.size(); ++i) {
     Json spans = Json::array();
-    for (const SpanReport& span : reports[i].spans) {
-      spans.push_back({{"tension", known ? Json(span.tension) : Json()},
-                       {"length", span.length},
-                       {"rest_length", span.rest_length}});
-    }
+    for (const SpanReport& span : reports[i].spans) spans.push_back(json(span, known));
     Json links = Json::array();
-    for (const LinkReport& link : reports[i].links) {
-      links.push_back({{"type", link.type},
-                       {"stored_length", link.stored_length},
-                       {"wrap_angle", link.wrap_angle},
-                       {"slip", link.slip},
-                       {"fed", link.fed},
-                       {"entry", json(link.entry)},
-                       {"exit", json(link.exit)}});
+    for (const LinkReport& link : reports[i].links) links.push_back(json(link));
+    Json wraps = Json::array();
+    for (const WrapReport& wrap : reports[i].wraps) {
+      wraps.push_back({{"after_link", wrap.after},
+                       {"body", summary.simulation.world.model()
+                                    .bodies[static_cast<std::size_t>(wrap.link.body.index)]
+                                    .name},
+                       {"link", json(wrap.link)},
+                       {"span", json(wrap.span, known)}});
     }
     list.push_back({{"name", reports[i].name},
                     {"total_length", reports[i].total_length},
                     {"length_error", summary.monitor.cables()[i].length_error},
                     {"max_stretch", summary.monitor.cables()[i].max_stretch},
+                    {"cut", reports[i].cut},
                     {"spans", std::move(spans)},
-                    {"links", std::move(links)}});
+                    {"links", std::move(links)},
+                    {"wraps", std::move(wraps)}});
   }
   return list;
 }
@@ -76,6 +91,7 @@ Json events(const RunSummary& summary) {
     list.push_back({{"time", event.time},
                     {"cable", event.cable},
                     {"link", event.link},
+                    {"body", event.body},
                     {"kind", cable_event_names[static_cast<std::size_t>(event.kind)]}});
   }
   return list;

@@ -49,9 +49,7 @@ Result<LinkOutline> section_outline(const BodySet& bodies, int body, const Vecto
     }
   }
   LinkOutline outline;
-  int smallest = 0;
-  normal.cwiseAbs().minCoeff(&smallest);
-  outline.y = normal.cross(Vector3::Unit(smallest)).normalized();
+  outline.y = any_perpendicular(normal);
   outline.x = outline.y.cross(normal);
   for (Vector3& point : points) {
     const Vector3 offset = point - center;

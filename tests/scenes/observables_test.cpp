@@ -69,7 +69,7 @@ TEST(observables, names_are_unique_and_the_number_is_as_documented) {
   const Machine m = machine();
   const std::vector<std::string> names = ObservableSet(m.model, m.cables).names();
   // time, 3 bodies, 1 span, 2 links, the cable, energies
-  EXPECT_EQ(names.size(), 1U + 3U * 14U + 3U + 2U * 9U + 2U + 4U);
+  EXPECT_EQ(names.size(), 1U + 3U * 14U + 3U + 2U * 9U + 5U + 4U);
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
 }
 

@@ -1,0 +1,102 @@
+#include <cmath>
+
+#include "cable/cable_compiler.h"
+#include "engine/field_check.h"
+#include "engine/index.h"
+
+namespace sheave {
+
+void CableCompiler::compile_links(const CableDef& def) {
+  links_.clear();
+  for (std::size_t i = 0; i < def.links.size(); ++i) {
+    const std::string path = path_ + "/links/" + std::to_string(i);
+    const LinkDef& link = *def.links[i];
+    const std::size_t before = errors_.size();
+    if (!bodies_.contains(link.body)) {
+      fail("/links/" + std::to_string(i) + "/body",
+           "there is no body number " + std::to_string(link.body.index));
+      continue;
+    }
+    for (const auto& entry : link_types()) {
+      if (entry.name == link.type()) check_fields(entry.fields(), link.settings(), path, errors_);
+    }
+    if (errors_.size() > before) continue;
+    const Result<LinkGeometry> compiled = link.compile(bodies_, path);
+    if (!compiled) {
+      errors_.insert(errors_.end(), compiled.errors().begin(), compiled.errors().end());
+      continue;
+    }
+    links_.push_back(*compiled);
+    LinkGeometry& placed = links_.back();
+    placed.centered = compiled->center.isZero(0.0);
+    if (placed.layer_pitch > 0.0) {
+      // With what is on it at time 0; the definition keeps the bare drum.
+      bare_radii_[static_cast<int>(system_->links_.size() + i)] = placed.signed_radius;
+      const double bare = placed.signed_radius;
+      placed.signed_radius =
+          placed.side *
+          std::sqrt(bare * bare + placed.layer_pitch * placed.given_stored_length / pi);
+    }
+    const bool end = !def.closed && (i == 0 || i + 1 == def.links.size());
+    check_stored_length(*compiled, end, "/links/" + std::to_string(i));
+    check_passage(*compiled, end, "/links/" + std::to_string(i));
+  }
+}
+
+void CableCompiler::check_passage(const LinkGeometry& link, bool end, const std::string& field) {
+  if (end && link.slides) fail(field, "a cable cannot end in a pinhole; attach it");
+  if (end && link.wraps() && !std::isnan(link.friction)) {
+    fail(field + "/friction", "at the end of a cable nothing can slip; leave friction out");
+  }
+  if (end && link.starts_lifted) {
+    fail(field + "/lifted", "at its ends a cable cannot be off the wheel");
+  }
+  if (link.starts_lifted && link.extra_turns > 0) {
+    fail(field + "/turns", "a cable that is off the wheel has no turns on it");
+  }
+  if (!end && link.ends_here) {
+    fail(field, "this link is for an end of an open cable; between its ends use \"rolling\"");
+  }
+  if (!end && link.feed_speed != 0.0) {
+    fail(field + "/feed_speed", "cable can be fed only at an end of an open cable");
+  }
+  check_massless(link, end, field);
+}
+
+void CableCompiler::check_massless(const LinkGeometry& link, bool end, const std::string& field) {
+  if (!link.wraps() && bodies_[link.body].massless()) {
+    fail(field + "/body", "nothing can be fixed to \"" + bodies_.name(link.body) +
+                              "\", which has no spin inertia: it would turn without resistance");
+  }
+  if (!link.massless) return;
+  const std::string& wheel = bodies_.name(link.body);
+  if (end) fail(field, "a cable cannot end on \"" + wheel + "\", which has no spin inertia");
+  if (link.outline) fail(field, "the massless wheel \"" + wheel + "\" must be circular");
+  if (!massless_wheels_.insert(link.body).second) {
+    fail(field, "the massless wheel \"" + wheel +
+                    "\" can carry only one cable once: nothing would hold two together");
+  }
+}
+
+void CableCompiler::check_stored_length(const LinkGeometry& link, bool end,
+                                        const std::string& field) {
+  if (!link.wraps()) return;
+  const bool given = !std::isnan(link.given_stored_length);
+  if (end && !given) {
+    fail(field, "a cable that ends on a wheel needs \"stored_length\", the cable wound on it");
+  }
+  if (!end && given && !link.ends_here) {
+    fail(field + "/stored_length",
+         "between the ends of a cable the stored length follows from the tangents; use \"turns\" "
+         "for whole turns more");
+  }
+  if (end && link.extra_turns > 0) {
+    fail(field + "/turns", "at the end of a cable \"stored_length\" says all; leave turns out");
+  }
+}
+
+std::string CableCompiler::link_name(int i) const {
+  return "link " + std::to_string(i) + " on \"" + bodies_.name(links_[at(i)].body) + "\"";
+}
+
+}  // namespace sheave

@@ -1,0 +1,178 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "cable/cable_compiler.h"
+#include "engine/index.h"
+
+namespace sheave {
+namespace {
+
+/// A length to be printed for people.
+std::string metres(double length) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.6g m", length);
+  return buffer;
+}
+
+}  // namespace
+
+void CableCompiler::compile_spans(const CableDef& def) {
+  spans_.clear();
+  geometry_.clear();
+  for (int k = 0; k < def.span_count(); ++k) {
+    const int second = (k + 1) % static_cast<int>(links_.size());
+    const LinkGeometry& a = links_[at(k)];
+    const LinkGeometry& b = links_[at(second)];
+    SpanSetup setup;
+    setup.cable = static_cast<int>(system_->cables_.size());
+    const int base = static_cast<int>(system_->links_.size());
+    setup.first = base + k;
+    setup.second = base + second;
+    choose_kind(setup, a, b);
+    spans_.push_back(setup);
+    if (a.starts_lifted) {  // no span yet
+      geometry_.emplace_back();
+      continue;
+    }
+    const int reached = next_touched(k);
+    choose_kind(setup, a, links_[at(reached)]);
+    geometry_.push_back(span_geometry(now_, setup, a, links_[at(reached)]));
+    check_span(def, k, reached);
+  }
+}
+
+int CableCompiler::next_touched(int link) const {
+  const int count = static_cast<int>(links_.size());
+  int next = (link + 1) % count;
+  while (links_[at(next)].starts_lifted && next != link) next = (next + 1) % count;
+  return next;
+}
+
+void CableCompiler::choose_kind(SpanSetup& setup, const LinkGeometry& a,
+                                const LinkGeometry& b) const {
+  if (!a.wraps() && !b.wraps()) {
+    setup.kind = SpanKind::straight;
+    return;
+  }
+  const LinkCircle circle_a = circle_of(now_, a);
+  const LinkCircle circle_b = circle_of(now_, b);
+  setup.outlined = a.outline || b.outline;
+  setup.normal = a.wraps() ? circle_a.normal : circle_b.normal;
+  setup.first_radius = a.signed_radius;
+  setup.second_radius = b.signed_radius;
+  bool planar = bodies_.stays_in_plane(a.carrier, setup.normal) &&
+                bodies_.stays_in_plane(b.carrier, setup.normal);
+  const double offset = setup.normal.dot(circle_b.center - circle_a.center);
+  planar = planar && std::abs(offset) <= 1e-9 * bodies_.scale();
+  if (a.wraps() && b.wraps()) {
+    planar = planar && circle_a.normal.cross(circle_b.normal).norm() <= 1e-9;
+    if (circle_a.normal.dot(circle_b.normal) < 0.0) {
+      setup.second_radius = -setup.second_radius;
+      setup.second_sense = -1.0;
+    }
+  }
+  setup.kind = planar ? SpanKind::planar : SpanKind::spatial;
+}
+
+void CableCompiler::check_span(const CableDef& def, int first, int second) {
+  const LinkGeometry& a = links_[at(first)];
+  const LinkGeometry& b = links_[at(second)];
+  const SpanGeometry& span = geometry_.back();
+  const std::string field = "/links/" + std::to_string(second);
+  const std::string pair = link_name(first) + " and " + link_name(second);
+  if (!a.wraps() && !b.wraps()) {
+    if (a.body == b.body && !a.passes() && !b.passes())
+      fail(field, pair +
+                      " are points of one body; the span between them "
+                      "would do nothing");
+    return check_rest_length(def, first, span);
+  }
+  if (span.has_tangent) return check_rest_length(def, first, span);
+  explain_missing_tangent(first, second);
+}
+
+void CableCompiler::explain_missing_tangent(int first, int second) {
+  const LinkGeometry& a = links_[at(first)];
+  const LinkGeometry& b = links_[at(second)];
+  const std::string field = "/links/" + std::to_string(second);
+  const std::string pair = link_name(first) + " and " + link_name(second);
+  const double ra = std::abs(a.signed_radius);
+  const double rb = std::abs(b.signed_radius);
+  const double distance = (link_center(now_, b) - link_center(now_, a)).norm();
+  if (a.outline || b.outline) {
+    fail(field, "no tangent joins " + pair +
+                    ": one of them lies inside the other's outline, or the outlines overlap");
+  } else if (ra == 0.0 || rb == 0.0) {
+    fail(field, "the attachment at " + link_name(ra == 0.0 ? first : second) +
+                    " lies inside the wheel of " + link_name(ra == 0.0 ? second : first) +
+                    ": it is " + metres(distance) +
+                    " from the wheel's centre and must be more "
+                    "than the radius, " +
+                    metres(ra + rb));
+  } else if (distance <= std::abs(ra - rb)) {
+    fail(field, "no tangent joins " + pair + ": one wheel lies inside the other");
+  } else {
+    fail(field, "no tangent joins " + pair +
+                    ": the wheels overlap, and with opposite windings "
+                    "the cable would cross between them; their centres are " +
+                    metres(distance) + " apart and must be more than " + metres(ra + rb) +
+                    " apart");
+  }
+}
+
+void CableCompiler::check_rest_length(const CableDef& def, int span, const SpanGeometry& geometry) {
+  if (def.rest_lengths.empty()) return;
+  const double rest_length = def.rest_lengths[at(span)];
+  const bool elastic = def.axial_stiffness || def.compliance.value_or(0.0) > 0.0;
+  if (elastic || rest_length >= geometry.length * (1.0 - 1e-9)) return;
+  fail("/rest_lengths/" + std::to_string(span),
+       "a rigid span cannot start stretched: its ends are " + metres(geometry.length) +
+           " apart and the rest length is only " + metres(rest_length));
+}
+
+double CableCompiler::arc(int link, const SpanGeometry& incoming,
+                          const SpanGeometry& outgoing) const {
+  constexpr double touch = 1e-9;  // [rad] just below 0 is a touch, not a full turn
+  const LinkGeometry& wheel = links_[at(link)];
+  double angle = 0.0;
+  if (wheel.outline) {
+    angle = wheel.side * (normal_angle(now_, wheel, outgoing.direction) -
+                          normal_angle(now_, wheel, incoming.direction));
+    angle -= 2.0 * pi * std::floor((angle + touch) / (2.0 * pi));
+  } else {
+    const LinkCircle circle = circle_of(now_, wheel);
+    const double radius = std::abs(wheel.signed_radius);
+    angle = wheel.side * angle_between((incoming.end - circle.center) / radius,
+                                       (outgoing.start - circle.center) / radius, circle.normal);
+    if (angle < -touch) angle += 2.0 * pi;
+    angle = std::max(angle, 0.0);
+  }
+  return arc_between(now_, wheel, incoming, outgoing, angle) +
+         wheel.extra_turns * wheel.perimeter();
+}
+
+std::vector<double> CableCompiler::start_lengths(const CableDef& def) const {
+  const int span_count = def.span_count();
+  const auto link_count = static_cast<int>(links_.size());
+  std::vector<double> lengths;
+  for (int k = 0; k < span_count; ++k) {
+    lengths.push_back(links_[at(k)].starts_lifted ? 0.0
+                      : def.rest_lengths.empty()  ? geometry_[at(k)].length
+                                                  : def.rest_lengths[at(k)]);
+  }
+  for (int i = 0; i < link_count; ++i) {
+    const LinkGeometry& link = links_[at(i)];
+    int incoming = i > 0 ? i - 1 : span_count - 1;
+    while (links_[at(incoming)].starts_lifted) {
+      incoming = incoming > 0 ? incoming - 1 : span_count - 1;
+    }
+    lengths.push_back(!link.wraps() || link.starts_lifted ? 0.0
+                      : std::isnan(link.given_stored_length)
+                          ? arc(i, geometry_[at(incoming)], geometry_[at(i)])
+                          : link.given_stored_length);
+  }
+  return lengths;
+}
+
+}  // namespace sheave

@@ -1,0 +1,82 @@
+#pragma once
+// From what a user says about cables to what the step needs, with every check that needs geometry; internal to the cable
+// library.
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "cable/cable_system.h"
+
+namespace sheave {
+
+/// Builds a CableSystem cable by cable and collects all faults.
+class CableCompiler {
+ public:
+  explicit CableCompiler(const BodySet& bodies)
+      : bodies_(bodies), state_(bodies.initial_state()), now_(bodies, state_, 1.0, 1) {}
+
+  void add(const CableDef& def);
+  Result<std::unique_ptr<CableSystem>> finish();
+
+ private:
+  void fail(const std::string& field, const std::string& message);
+  void check_settings(const CableDef& def);
+
+  // Links: cable/cable_compile_links.cpp.
+  void compile_links(const CableDef& def);
+  /// What depends on where in the cable a link stands.
+  void check_passage(const LinkGeometry& link, bool end, const std::string& field);
+  void check_massless(const LinkGeometry& link, bool end, const std::string& field);
+  void check_stored_length(const LinkGeometry& link, bool end, const std::string& field);
+  [[nodiscard]] std::string link_name(int link) const;
+
+  // Spans: cable/cable_compile_spans.cpp.
+  void compile_spans(const CableDef& def);
+  /// The next link that the cable touches at time 0; the ends of a cable always do.
+  [[nodiscard]] int next_touched(int link) const;
+  /// Planar if the geometry of the bodies' mobilities guarantees it for ever.
+  void choose_kind(SpanSetup& setup, const LinkGeometry& a, const LinkGeometry& b) const;
+  void check_span(const CableDef& def, int first, int second);
+  void explain_missing_tangent(int first, int second);
+  void check_rest_length(const CableDef& def, int span, const SpanGeometry& geometry);
+  /// Cable on the wheel between the incoming and the outgoing tangent.
+  [[nodiscard]] double arc(int link, const SpanGeometry& incoming,
+                           const SpanGeometry& outgoing) const;
+  [[nodiscard]] std::vector<double> start_lengths(const CableDef& def) const;
+
+  // Course and wraps: cable/cable_compile_course.cpp.
+  /// Whether all links stay in one plane for ever, so that any two of them can be joined by a planar span.
+  void find_plane(CompiledCable& cable) const;
+  [[nodiscard]] bool lies_in_plane(const Vector3& normal) const;
+  void find_candidates(const CableDef& def, CompiledCable& cable);
+  [[nodiscard]] bool place_candidate(const CompiledCable& cable, WrapCandidate& candidate) const;
+  void check_candidates(const CompiledCable& cable);
+  void set_course(CompiledCable& cable);
+  void append_places(CompiledCable& cable);
+  void store(const CableDef& def);
+
+  const BodySet& bodies_;
+  State state_;
+  Substep now_;
+  std::unique_ptr<CableSystem> system_{new CableSystem};
+  Errors errors_;
+  std::set<std::string> names_;
+  std::set<int> massless_wheels_;
+  std::map<int, double> bare_radii_;  ///< of drums with layers, by their index among all links
+  std::vector<double> rest_lengths_;
+  std::vector<double> stored_lengths_;
+  std::vector<std::int64_t> next_links_;
+  int planes_ = 0;  ///< places for wraps of all cables
+  // Of the cable that is being added.
+  int index_ = 0;
+  std::string path_;
+  std::string name_;
+  std::vector<LinkGeometry> links_;
+  std::vector<SpanSetup> spans_;
+  std::vector<SpanGeometry> geometry_;
+};
+
+}  // namespace sheave

@@ -1,0 +1,163 @@
+// The order in which a cable runs over its links. Links that it does not touch are left out: each link names the next one,
+// so putting in and taking out are local, any number of times in a substep. Span k always begins at link k; where that link
+// is not touched there is no such span.
+
+#include <algorithm>
+
+#include "cable/cable_system.h"
+#include "engine/index.h"
+
+namespace sheave {
+
+int CableSystem::span_before(const CompiledCable& cable, int link,
+                             const std::vector<SpanSetup>& spans) {
+  for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+    if (spans[at(k)].active && spans[at(k)].second == link) return k;
+  }
+  return -1;
+}
+
+int CableSystem::first_active_span(const CompiledCable& cable,
+                                   const std::vector<SpanSetup>& spans) {
+  for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+    if (spans[at(k)].active) return k;
+  }
+  return -1;
+}
+
+int CableSystem::next_span(const CompiledCable& cable, int span) const {
+  const int next = span_after(cable, spans_[at(span)].second);
+  const bool ends = !cable.closed && spans_[at(span)].second == cable.last_listed_link();
+  return ends ? cable.first_span : next;
+}
+
+void CableSystem::connect_spans(const FeatureState& own, const std::vector<LinkGeometry>& links,
+                                std::vector<SpanSetup>& spans) const {
+  for (std::size_t c = 0; c < cables_.size(); ++c) {
+    const CompiledCable& cable = cables_[c];
+    if (!cable.course_changes) continue;
+    const bool whole = own.integers[cut_index(static_cast<int>(c))] == 0;
+    for (int i = 0; i < cable.span_count; ++i) {
+      SpanSetup& setup = spans[at(cable.first_span + i)];
+      const auto next = static_cast<int>(own.integers[next_index(cable.first_link + i)]);
+      setup = span_definitions_[at(cable.first_span + i)];
+      setup.active = whole && next >= 0;
+      if (!setup.active || setup.second == cable.first_link + next) continue;
+      setup.second = cable.first_link + next;
+      const LinkGeometry& a = links[at(setup.first)];
+      const LinkGeometry& b = links[at(setup.second)];
+      const bool planar =
+          cable.planar && keeps_plane(cable, i, own) && keeps_plane(cable, next, own);
+      setup.kind = !a.wraps() && !b.wraps() ? SpanKind::straight
+                   : planar                 ? SpanKind::planar
+                                            : SpanKind::spatial;
+      setup.normal = cable.normal;
+      setup.first_sense = cable.senses[at(i)];
+      setup.second_sense = cable.senses[at(next)];
+      setup.outlined = a.outline || b.outline;
+    }
+  }
+}
+
+bool CableSystem::keeps_plane(const CompiledCable& cable, int link, const FeatureState& own) const {
+  // The listed links of a planar cable do.
+  if (link < cable.listed_links) return true;
+  const std::int64_t wrap = own.integers[wrap_index(cable.first_link + link)];
+  return wrap != 0 && cable.candidates[at(static_cast<int>(std::abs(wrap)) - 1)].planar;
+}
+
+void CableSystem::place_wraps(const BodySet& bodies, const FeatureState& own,
+                              std::vector<LinkGeometry>& links) const {
+  for (const CompiledCable& cable : cables_) {
+    for (int i = cable.listed_links; i < cable.link_count; ++i) {
+      const int index = cable.first_link + i;
+      LinkGeometry& link = links[at(index)];
+      link = definitions_[at(index)];
+      const std::int64_t wrap = own.integers[wrap_index(index)];
+      if (wrap == 0) continue;
+      const WrapCandidate& candidate = cable.candidates[at(static_cast<int>(std::abs(wrap)) - 1)];
+      if (candidate.planar) {
+        link = candidate.link;
+      } else {
+        const std::size_t start = plane_index(cable.first_plane + i - cable.listed_links);
+        const auto vector = [&](std::size_t k) {
+          return Vector3(own.reals[k], own.reals[k + 1], own.reals[k + 2]);
+        };
+        std::optional<LinkGeometry> cut =
+            wrap_link(bodies, candidate, {vector(start), vector(start + 3)});
+        if (cut) link = std::move(*cut);
+      }
+      link.side = wrap > 0 ? 1 : -1;
+      link.signed_radius = link.side * std::abs(link.signed_radius);
+      link.friction = cable.wrap_friction;
+    }
+  }
+}
+
+void CableSystem::insert_link(const CompiledCable& cable, int after, int link,
+                              FeatureState& own) const {
+  std::int64_t& next = own.integers[next_index(after)];
+  own.integers[next_index(link)] = next;
+  next = link - cable.first_link;
+}
+
+void CableSystem::remove_link(int before, int link, FeatureState& own) const {
+  own.integers[next_index(before)] = own.integers[next_index(link)];
+  own.integers[next_index(link)] = -1;
+  own.integers[wrap_index(link)] = 0;
+}
+
+void CableSystem::follow_course(const BodySet& bodies, const FeatureState& own) {
+  refresh(bodies, own, links_, spans_);
+  connected_for_ = own.integers;
+  planes_.assign(own.reals.begin() + static_cast<std::ptrdiff_t>(plane_index(0)), own.reals.end());
+}
+
+bool CableSystem::accepts(const FeatureState& state) const {
+  const auto integer = [&](std::size_t index) { return state.integers[index]; };
+  for (std::size_t c = 0; c < cables_.size(); ++c) {
+    const CompiledCable& cable = cables_[c];
+    const std::int64_t cut = integer(cut_index(static_cast<int>(c)));
+    if (cut < 0 || cut > cable.span_count) return false;
+    // The course names every link that is touched once, and from the first one it comes to the end of the cable.
+    int on_course = 0;
+    int first = -1;
+    const auto candidates = static_cast<std::int64_t>(cable.candidates.size());
+    for (int i = 0; i < cable.link_count; ++i) {
+      const int link = cable.first_link + i;
+      const std::int64_t next = integer(next_index(link));
+      const std::int64_t wrap = integer(wrap_index(link));
+      const std::int64_t mode = integer(mode_index(link));
+      const std::int64_t slip = integer(slip_state_index(link));
+      const bool last = !cable.closed && link == cable.last_listed_link();
+      if (next < -1 || next >= cable.link_count || (last && next >= 0)) return false;
+      if (mode < 0 || mode > passed_mode || slip < -1 || slip > 1) return false;
+      if (wrap < -candidates || wrap > candidates) return false;
+      const bool place = i >= cable.listed_links;
+      if (place ? (wrap != 0) != (next >= 0) : wrap != 0) return false;
+      if (!place && !last && (mode >= lifted_mode) != (next < 0)) return false;
+      if (mode >= lifted_mode && !definitions_[at(link)].lifts) return false;
+      if (next < 0 && !last) continue;
+      ++on_course;
+      if (first < 0) first = i;
+    }
+    int walked = 1;
+    int link = first;
+    for (; walked < on_course; ++walked) {
+      link = static_cast<int>(integer(next_index(cable.first_link + link)));
+      if (link < 0 || link == first) return false;
+    }
+    if (first < 0 || integer(next_index(cable.first_link + link)) != (cable.closed ? first : -1)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool CableSystem::follows(const FeatureState& own) const {
+  return own.integers == connected_for_ &&
+         std::equal(planes_.begin(), planes_.end(),
+                    own.reals.begin() + static_cast<std::ptrdiff_t>(plane_index(0)));
+}
+
+}  // namespace sheave
