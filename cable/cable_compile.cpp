@@ -48,6 +48,7 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
                                   [](const CompiledCable& cable) { return cable.course_changes; });
   s.references_.resize(spans);
   s.multipliers_.resize(spans);
+  s.was_taut_.resize(spans);
   s.fallbacks_.resize(spans);
   s.sides_.resize(spans);
   s.fed_.resize(spans);

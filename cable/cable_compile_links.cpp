@@ -95,8 +95,8 @@ void CableCompiler::check_stored_length(const LinkGeometry& link, bool end,
   }
 }
 
-std::string CableCompiler::link_name(int i) const {
-  return "link " + std::to_string(i) + " on \"" + bodies_.name(links_[at(i)].body) + "\"";
+std::string CableCompiler::link_name(int link) const {
+  return "link " + std::to_string(link) + " on \"" + bodies_.name(links_[at(link)].body) + "\"";
 }
 
 }  // namespace sheave

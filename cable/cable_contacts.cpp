@@ -67,8 +67,7 @@ void CableSystem::leave_all(const Substep& substep, const CompiledCable& cable,
     const int link = spans_[at(k)].second;
     const int following = next_span(cable, k);
     const bool left = links_[at(link)].lifts && changed_links_[at(link)] == 0 &&
-                      comes_off(substep, k, link, next) &&
-                      leave(substep, cable, link, next);
+                      comes_off(substep, k, link, next) && leave(substep, cable, link, next);
     // The span before a link that has been left now ends at the next one.
     if (!left) k = following;
     if (k == start && !left) break;
@@ -109,7 +108,8 @@ bool CableSystem::touch_on_span(const Substep& substep, int cable_index, int spa
   for (int walked = 1; walked < cable.listed_links; ++walked) {
     link = link == cable.last_listed_link() ? cable.first_link : link + 1;
     if (next.integers[mode_index(link)] < lifted_mode) break;
-    if (changed_links_[at(link)] == 0 && touch_listed(substep, cable, span, link, next)) return true;
+    if (changed_links_[at(link)] == 0 && touch_listed(substep, cable, span, link, next))
+      return true;
   }
   for (int c = 0; c < static_cast<int>(cable.candidates.size()); ++c) {
     if (touch_wrappable(substep, cable_index, span, c, next)) return true;
@@ -233,7 +233,7 @@ bool CableSystem::touch_wrappable(const Substep& substep, int cable_index, int s
     if (crowded.substeps++ == 0) crowded.first_time = substep.next.time;
     return false;
   }
-  next.integers[wrap_index(place)] = section->side * (candidate_index + 1);
+  next.integers[wrap_index(place)] = section->side > 0 ? candidate_index + 1 : -candidate_index - 1;
   if (plane) {
     const std::size_t start =
         plane_index(cable.first_plane + place - cable.first_link - cable.listed_links);

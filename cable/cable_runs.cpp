@@ -59,35 +59,6 @@ bool CableSystem::shared(int link) const {
   return links_[at(link)].frictionless() || slip_[at(link)] != 0;
 }
 
-template <class Visit>
-void CableSystem::for_each_run(const CompiledCable& cable, Visit visit) const {
-  int first = first_active_span(cable, spans_);
-  if (first < 0) return;
-  int left = 0;
-  for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
-    if (spans_[at(k)].active) ++left;
-  }
-  if (cable.closed) {
-    // Begin behind a link that cable does not pass; if there is none, the ring is one run.
-    for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
-      if (!spans_[at(k)].active || shared(spans_[at(k)].second)) continue;
-      first = next_span(cable, k);
-      break;
-    }
-  }
-  while (left > 0) {
-    Run run{first, 1};
-    int last = first;
-    while (run.count < left && shared(spans_[at(last)].second)) {
-      last = next_span(cable, last);
-      ++run.count;
-    }
-    visit(run);
-    left -= run.count;
-    first = next_span(cable, last);
-  }
-}
-
 double CableSystem::friction_exponent(const Substep& substep, int link,
                                       const SpanGeometry& incoming,
                                       const SpanGeometry& outgoing) const {
@@ -179,6 +150,44 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
     largest = std::max(largest, std::abs(increment));
   }
   return largest * denominator;
+}
+
+void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Run run,
+                                std::vector<Row>& rows) const {
+  const std::size_t start = rows.size();
+  double weight = 0.0;  // its logarithm
+  double heaviest = 0.0;
+  SpanGeometry last;
+  for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+    Row& row = rows.emplace_back();
+    const SpanGeometry span = evaluate(substep, k, row);
+    row.index = k;
+    row.active = was_taut_[at(k)] != 0;
+    row.tied = i > 0;
+    const int link = spans_[at(k)].first;
+    if (row.tied && !links_[at(link)].frictionless()) {
+      weight += slip_[at(link)] * friction_exponent(substep, link, last, span);
+      heaviest = std::max(heaviest, weight);
+    }
+    row.weight = weight;
+    last = span;
+  }
+  for (std::size_t i = start; i < rows.size(); ++i) {
+    rows[i].weight =
+        heaviest == 0.0 && rows[i].weight == 0.0 ? 1.0 : std::exp(rows[i].weight - heaviest);
+  }
+}
+
+bool CableSystem::revise(Substep& substep) {
+  bool changed = false;
+  for (const CompiledCable& cable : cables_) {
+    if (!cable.has_friction) continue;
+    const auto begin = slip_.begin() + cable.first_link;
+    revised_.assign(begin, begin + cable.link_count);
+    update_slip(substep, cable);
+    changed = changed || !std::equal(revised_.begin(), revised_.end(), begin);
+  }
+  return changed;
 }
 
 const std::vector<double>& CableSystem::run_spare(const Substep& substep,

@@ -28,6 +28,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const SpanSetup& setup = spans_[k];
     if (!setup.active) continue;
+    was_taut_[k] = state.reals[tension_index(static_cast<int>(k))] > 0.0 ? 1 : 0;
     const LinkGeometry& first = links_[at(setup.first)];
     const LinkGeometry& second = links_[at(setup.second)];
     references_[k] = span_reference(substep, setup, first, second, state.reals[k]);
@@ -88,9 +89,8 @@ double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
 }
 
 void CableSystem::linearise(Substep& substep, std::vector<Row>& rows) {
-  for (int k = 0; k < row_count(); ++k) {
-    Row& row = rows.emplace_back();
-    if (spans_[at(k)].active) evaluate(substep, k, row);
+  for (const CompiledCable& cable : cables_) {
+    for_each_run(cable, [&](Run run) { linearise_run(substep, cable, run, rows); });
   }
 }
 

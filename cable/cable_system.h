@@ -12,6 +12,7 @@
 #include "cable/span_row.h"
 #include "cable/wrap_candidate.h"
 #include "engine/constraint_batch.h"
+#include "engine/index.h"
 
 namespace sheave {
 
@@ -105,6 +106,8 @@ class CableSystem final : public ConstraintBatch {
   void begin(const Substep& substep, const FeatureState& state) override;
   double sweep(Substep& substep) override;
   void linearise(Substep& substep, std::vector<Row>& rows) override;
+  [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
+  bool revise(Substep& substep) override;
   void finish(Substep& substep, FeatureState& next) override;
   [[nodiscard]] double elastic_energy(const BodySet& bodies, const State& state,
                                       const FeatureState& own) const override;
@@ -172,6 +175,8 @@ class CableSystem final : public ConstraintBatch {
                                          const SpanGeometry& outgoing) const;
   double sweep_spans(Substep& substep, const CompiledCable& cable);
   double sweep_runs(Substep& substep, int cable_index);
+  void linearise_run(Substep& substep, const CompiledCable& cable, Run run,
+                     std::vector<Row>& rows) const;
   /// Evaluates the spans of a run; sums their gradients body by body and their values into `error`, and collects the
   /// logarithms of the weights k_i. Returns the largest of these.
   double evaluate_run(const Substep& substep, const CompiledCable& cable, Run run, double& error);
@@ -276,10 +281,12 @@ class CableSystem final : public ConstraintBatch {
   // Scratch of a substep, filled by begin().
   std::vector<SpanReference> references_;
   std::vector<double> multipliers_;
+  std::vector<char> was_taut_;  ///< per span, in the last substep
   std::vector<std::array<double, 2>>
       fed_;                ///< per span at its first and second link, in this substep [m]
   std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
   std::vector<int> pending_slip_;
+  std::vector<int> revised_;
   std::vector<int> sweeps_;             ///< per cable, in this substep
   std::vector<int> flips_;              ///< per link: how often that has changed in this substep
   std::vector<double> stored_lengths_;  ///< per link, at the start of the substep [m]
@@ -303,5 +310,34 @@ class CableSystem final : public ConstraintBatch {
   std::vector<Fallback> crowded_;  ///< per cable: wraps that found no place
   std::vector<CableEvent> events_;
 };
+
+template <class Visit>
+void CableSystem::for_each_run(const CompiledCable& cable, Visit visit) const {
+  int first = first_active_span(cable, spans_);
+  if (first < 0) return;
+  int left = 0;
+  for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+    if (spans_[at(k)].active) ++left;
+  }
+  if (cable.closed) {
+    // Begin behind a link that cable does not pass; if there is none, the ring is one run.
+    for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+      if (!spans_[at(k)].active || shared(spans_[at(k)].second)) continue;
+      first = next_span(cable, k);
+      break;
+    }
+  }
+  while (left > 0) {
+    Run run{first, 1};
+    int last = first;
+    while (run.count < left && shared(spans_[at(last)].second)) {
+      last = next_span(cable, last);
+      ++run.count;
+    }
+    visit(run);
+    left -= run.count;
+    first = next_span(cable, last);
+  }
+}
 
 }  // namespace sheave

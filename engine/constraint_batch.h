@@ -36,8 +36,13 @@ class ConstraintBatch {
   /// One Gauss-Seidel sweep: each row in order, re-evaluated at the current positions and solved.
   /// Returns the largest correction, as an error of a row [m or rad].
   virtual double sweep(Substep& substep) = 0;
-  /// Appends all rows at the current positions without moving anything.
+  /// Appends all rows at the current positions without moving anything; their multipliers are those of multipliers().
   virtual void linearise(Substep& substep, std::vector<Row>& rows) = 0;
+  /// The accumulated multipliers, which a row refers to by its index; a solver changes them with the positions.
+  [[nodiscard]] virtual std::span<double> multipliers() = 0;
+  /// Called when a solver of all rows at once has found multipliers: chooses anew between the states that rows do not
+  /// tell (a cable sticks or slides). Returns whether anything has changed.
+  virtual bool revise(Substep& /*substep*/) { return false; }
   /// Called when positions are final: writes the feature's state at the end of the substep.
   virtual void finish(Substep& substep, FeatureState& next) = 0;
   /// Elastic energy stored in the feature [J], between substeps.

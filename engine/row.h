@@ -59,9 +59,19 @@ struct Row {
   double upper = unbounded;
   int term_count = 0;
   std::array<RowTerm, max_terms> terms;
+  // Only solvers of all rows at once need these.
+  int index = 0;        ///< of its multiplier among those of its feature
+  bool active = false;  ///< whether its multiplier was off its bounds in the last substep
+  /// Whether it shares one unknown with the row before it, which may do the same: their values are added, and the
+  /// multiplier of each is its `weight` times the unknown. Bounds are those of the first.
+  bool tied = false;
+  double weight = 1.0;  ///< > 0
 
   /// Makes the row empty: no terms, rigid, bilateral, value 0.
   void clear() {
+    index = 0;
+    active = tied = false;
+    weight = 1.0;
     value = compliance = damping = 0.0;
     lower = -unbounded;
     upper = unbounded;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "engine/solvers/direct.h"
 #include "engine/solvers/gauss_seidel.h"
 #include "engine/stages.h"
 
@@ -40,8 +41,14 @@ std::vector<Stage> substep_stages(const Model& model,
   if (has_kinematic_bodies(model)) add("move kinematic bodies", move_kinematic_bodies);
   add("predict", predict);
   if (!features.empty()) {
-    add("solve by " + std::string(solver_names[static_cast<std::size_t>(model.step.solver)]),
-        [features](Substep& substep) { solve_gauss_seidel(substep, features); });
+    const std::string name(solver_names[static_cast<std::size_t>(model.step.solver)]);
+    if (model.step.solver == SolverKind::direct) {
+      add("solve by " + name, [features, solver = std::make_shared<DirectSolver>()](
+                                  Substep& substep) { solver->solve(substep, features); });
+    } else {
+      add("solve by " + name,
+          [features](Substep& substep) { solve_gauss_seidel(substep, features); });
+    }
   }
   add("derive velocities", derive_velocities);
   if (has_mounted_rotors(model)) add("place mounted rotors", place_mounted_rotors);

@@ -8,9 +8,12 @@ std::span<const Field> StepSettings::field_table() {
       field<&StepSettings::substeps>("substeps", "", between(1, 100000), optional,
                                      "substeps per step"),
       field<&StepSettings::iterations>("iterations", "", between(1, 1000000), optional,
-                                       "sweeps over all constraint rows per substep"),
-      choice_field<&StepSettings::solver>("solver", solver_names, optional,
-                                          "how the rows of a substep are solved"),
+                                       "sweeps over all constraint rows per substep; of the direct "
+                                       "solver, rounds at most"),
+      choice_field<&StepSettings::solver>(
+          "solver", solver_names, optional,
+          "how the rows of a substep are solved: one after the other "
+          "as in the paper, or all at once"),
       choice_field<&StepSettings::integrator>("integrator", integrator_names, optional,
                                               "how states are carried forward in time"),
   };

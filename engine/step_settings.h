@@ -8,8 +8,11 @@
 namespace sheave {
 
 /// How the constraint rows of a substep are solved.
-enum class SolverKind { gauss_seidel };
-inline constexpr std::array<std::string_view, 1> solver_names{"gauss-seidel"};
+enum class SolverKind {
+  gauss_seidel,  ///< row after row, as in the paper: engine/solvers/gauss_seidel.h
+  direct,        ///< all rows at once: engine/solvers/direct.h
+};
+inline constexpr std::array<std::string_view, 2> solver_names{"gauss-seidel", "direct"};
 
 /// How states are carried forward in time.
 enum class IntegratorKind { xpbd };
@@ -19,7 +22,7 @@ inline constexpr std::array<std::string_view, 1> integrator_names{"xpbd"};
 struct StepSettings {
   double dt = 1.0 / 60.0;  ///< time per step, one frame [s], > 0
   int substeps = 1;        ///< substeps per step, 1 ... 100 000; h = dt / substeps
-  int iterations = 10;     ///< sweeps over all rows per substep, 1 ... 1 000 000
+  int iterations = 10;     ///< sweeps over all rows per substep, or rounds at most; 1 ... 1 000 000
   SolverKind solver = SolverKind::gauss_seidel;
   IntegratorKind integrator = IntegratorKind::xpbd;
 

@@ -15,12 +15,18 @@ namespace sheave {
 struct StepStatistics {
   int rows = 0;                 ///< constraint rows solved per substep
   std::int64_t row_solves = 0;  ///< rows x iterations x substeps
-  /// Largest correction, as an error of a row, in the last sweep of a substep [m or rad]: how far
-  /// the solver was from convergence.
+  /// Largest correction, as an error of a row, in the last sweep or round of a substep [m or rad]: how far the solver was
+  /// from convergence.
   double last_correction = 0.0;
   /// How often a feature had to fall back on a substitute because its geometry has no solution (a
   /// span without a tangent); details are in the feature's report.
   int geometry_fallbacks = 0;
+  // Of the direct solver.
+  std::int64_t rounds = 0;  ///< of Newton's method
+  std::int64_t set_changes =
+      0;  ///< rows that began or ceased to act while the active set was sought
+  std::int64_t solver_fallbacks = 0;  ///< substeps left to Gauss-Seidel
+  int redundant_rows = 0;             ///< the most in one round
 };
 
 /// The working data of one substep. Stages read the state at its start and write into `moving`;

@@ -33,8 +33,9 @@ class GroundBatch final : public ConstraintBatch {
   }
   [[nodiscard]] int row_count() const override { return static_cast<int>(contacts_.size()); }
 
-  void begin(const Substep& substep, const FeatureState& /*state*/) override {
+  void begin(const Substep& substep, const FeatureState& state) override {
     std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
+    for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].pressed = state.reals[i] > 0.0;
     std::size_t next = 0;
     for (const Owner& owner : owners_) {
       points_.clear();
@@ -56,8 +57,15 @@ class GroundBatch final : public ConstraintBatch {
   }
 
   void linearise(Substep& substep, std::vector<Row>& rows) override {
-    for (const Contact& contact : contacts_) evaluate(substep, contact, rows.emplace_back());
+    int index = 0;
+    for (const Contact& contact : contacts_) {
+      Row& row = rows.emplace_back();
+      evaluate(substep, contact, row);
+      row.index = index++;
+      row.active = contact.pressed;
+    }
   }
+  [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
 
   void finish(Substep& substep, FeatureState& next) override {
     for (std::size_t i = 0; i < multipliers_.size(); ++i) {
@@ -73,7 +81,8 @@ class GroundBatch final : public ConstraintBatch {
  private:
   struct Contact {
     int body;
-    Vector3 point;  // own frame [m], set in begin()
+    Vector3 point;         // own frame [m], set in begin()
+    bool pressed = false;  // in the last substep
   };
   struct Owner {
     int body;
@@ -86,7 +95,7 @@ class GroundBatch final : public ConstraintBatch {
       owners_.push_back({body, &placed, bodies[body].center_of_mass});
       points_.clear();
       placed.shape->append_contact_points(Vector3::UnitX(), points_);
-      for (const Vector3& point : points_) contacts_.push_back({body, point});
+      for (const Vector3& point : points_) contacts_.push_back({body, point, false});
     }
   }
 

@@ -23,6 +23,7 @@ class JointBatch final : public ConstraintBatch {
   JointBatch(std::string name, std::vector<Kernel> joints)
       : name_(std::move(name)), joints_(std::move(joints)) {
     multipliers_.resize(joints_.size() * Kernel::row_count);
+    acted_.resize(multipliers_.size());
   }
 
   [[nodiscard]] std::string_view name() const override { return name_; }
@@ -31,8 +32,9 @@ class JointBatch final : public ConstraintBatch {
   }
   [[nodiscard]] int row_count() const override { return static_cast<int>(multipliers_.size()); }
 
-  void begin(const Substep& /*substep*/, const FeatureState& /*state*/) override {
+  void begin(const Substep& /*substep*/, const FeatureState& state) override {
     std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
+    for (std::size_t i = 0; i < multipliers_.size(); ++i) acted_[i] = state.reals[i] != 0.0 ? 1 : 0;
   }
 
   double sweep(Substep& substep) override {
@@ -50,12 +52,17 @@ class JointBatch final : public ConstraintBatch {
   }
 
   void linearise(Substep& substep, std::vector<Row>& rows) override {
+    int index = 0;
     for (const Kernel& joint : joints_) {
       for (int i = 0; i < Kernel::row_count; ++i) {
-        joint.evaluate(substep, i, rows.emplace_back());
+        Row& row = rows.emplace_back();
+        joint.evaluate(substep, i, row);
+        row.index = index++;
+        row.active = acted_[static_cast<std::size_t>(row.index)] != 0;
       }
     }
   }
+  [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
 
   void finish(Substep& substep, FeatureState& next) override {
     const double inverse_square = 1.0 / (substep.h * substep.h);
@@ -90,7 +97,9 @@ class JointBatch final : public ConstraintBatch {
  private:
   std::string name_;
   std::vector<Kernel> joints_;
-  std::vector<double> multipliers_;  // scratch of a substep
+  // Scratch of a substep.
+  std::vector<double> multipliers_;
+  std::vector<char> acted_;  // whether the row had a force in the last substep
 };
 
 }  // namespace sheave

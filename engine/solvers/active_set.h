@@ -1,0 +1,59 @@
+#pragma once
+// The linear complementarity problem of rows with bounds, by block pivoting.
+//
+// Find dl with  r = c + A dl  so that each unknown is free with r = 0, or at its lower bound with r >= 0, or at its
+// upper bound with r <= 0. Given which ones are free, that is a linear system. Afterwards those that break their
+// conditions change sides, all at once as long as their number falls, otherwise only the last of them: Murty's rule, which
+// ends for every positive definite A (Judice and Pires, "Block pivoting for strictly monotone LCPs", 1994). Started
+// from the set of the last substep it mostly ends at the first try.
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/solvers/sparse_ldlt.h"
+
+namespace sheave {
+
+/// A, c, and bounds of dl. A is symmetric unless `upper_values` differ from `values`.
+struct ComplementarityProblem {
+  int size = 0;
+  bool symmetric = true;
+  std::vector<double> diagonal;
+  std::vector<double> values;        ///< A(i, j) of the entries (i, j), i < j, of the pattern
+  std::vector<double> lower_values;  ///< A(j, i)
+  std::vector<double> constant;      ///< c
+  std::vector<double> lower;         ///< bounds of dl
+  std::vector<double> upper;
+  std::vector<char> free;  ///< which unknowns to begin with as free; the solution's afterwards
+};
+
+class ActiveSetSolver {
+ public:
+  /// Where A has entries off its diagonal.
+  void analyse(int size, std::span<const std::pair<int, int>> entries);
+  /// Returns false if no set was found in a number of tries that grows with the size, or if a matrix that is not
+  /// symmetric is singular.
+  bool solve(ComplementarityProblem& problem);
+
+  [[nodiscard]] std::span<const double> solution() const { return solution_; }
+  [[nodiscard]] int changes() const { return changes_; }  ///< of sides in the last solve()
+  [[nodiscard]] int dropped() const { return dropped_; }  ///< redundant rows in the last solve()
+
+ private:
+  bool solve_free(const ComplementarityProblem& problem);
+  bool solve_asymmetric(const ComplementarityProblem& problem);
+  void mark_violations(const ComplementarityProblem& problem);
+
+  std::vector<std::pair<int, int>> entries_;
+  SparseLdlt factor_;
+  std::vector<double> solution_;
+  std::vector<double> residual_;
+  std::vector<double> diagonal_;
+  std::vector<double> values_;
+  std::vector<int> violated_;
+  int changes_ = 0;
+  int dropped_ = 0;
+};
+
+}  // namespace sheave

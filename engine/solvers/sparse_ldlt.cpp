@@ -1,0 +1,157 @@
+#include "engine/solvers/sparse_ldlt.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
+
+#include "engine/index.h"
+
+namespace sheave {
+namespace {
+
+/// Minimum degree order: place of each unknown.
+std::vector<int> minimum_degree(int n, std::span<const std::pair<int, int>> entries) {
+  std::vector<Eigen::Triplet<double>> triplets;
+  for (const auto& [i, j] : entries) {
+    triplets.emplace_back(i, j, 1.0);
+    triplets.emplace_back(j, i, 1.0);
+  }
+  for (int i = 0; i < n; ++i) triplets.emplace_back(i, i, 1.0);
+  Eigen::SparseMatrix<double> pattern(n, n);
+  pattern.setFromTriplets(triplets.begin(), triplets.end());
+  Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order;
+  Eigen::AMDOrdering<int>()(pattern, order);
+  // Eigen gives which unknown comes at each place.
+  std::vector<int> place(at(n));
+  for (int k = 0; k < n; ++k) place[at(order.indices()[k])] = k;
+  return place;
+}
+
+}  // namespace
+
+int SparseLdlt::count_fill(std::span<const std::pair<int, int>> entries) {
+  const int n = size_;
+  // Columns of the upper triangle.
+  std::vector<int> counts(at(n) + 1, 0);
+  for (const auto& [i, j] : entries) ++counts[at(std::max(place_[at(i)], place_[at(j)])) + 1];
+  std::partial_sum(counts.begin(), counts.end(), counts.begin());
+  column_start_ = counts;
+  entry_row_.resize(entries.size());
+  entry_of_.resize(entries.size());
+  for (std::size_t e = 0; e < entries.size(); ++e) {
+    const int a = place_[at(entries[e].first)];
+    const int b = place_[at(entries[e].second)];
+    const int slot = counts[at(std::max(a, b))]++;
+    entry_row_[at(slot)] = std::min(a, b);
+    entry_of_[at(slot)] = static_cast<int>(e);
+  }
+  // Row k of L has an entry at each node on the ways in the tree from its entries of A up to k.
+  tree_.assign(at(n), -1);
+  mark_.assign(at(n), -1);
+  factor_count_.assign(at(n), 0);
+  int fill = 0;
+  for (int k = 0; k < n; ++k) {
+    mark_[at(k)] = k;
+    for (int p = column_start_[at(k)]; p < column_start_[at(k) + 1]; ++p) {
+      for (int i = entry_row_[at(p)]; mark_[at(i)] != k; i = tree_[at(i)]) {
+        if (tree_[at(i)] < 0) tree_[at(i)] = k;
+        mark_[at(i)] = k;
+        ++factor_count_[at(i)];
+        ++fill;
+      }
+    }
+  }
+  return fill;
+}
+
+void SparseLdlt::analyse(int n, std::span<const std::pair<int, int>> entries) {
+  size_ = n;
+  place_.resize(at(n));
+  std::iota(place_.begin(), place_.end(), 0);
+  int fill = count_fill(entries);
+  // A chain in its own order fills nothing; only what does is worth another order.
+  if (fill > static_cast<int>(entries.size())) {
+    const std::vector<int> natural = place_;
+    const int natural_fill = fill;
+    place_ = minimum_degree(n, entries);
+    fill = count_fill(entries);
+    if (fill >= natural_fill) {
+      place_ = natural;
+      fill = count_fill(entries);
+    }
+  }
+  factor_start_.assign(at(n) + 1, 0);
+  std::partial_sum(factor_count_.begin(), factor_count_.end(), factor_start_.begin() + 1);
+  row_of_.resize(at(fill));
+  factor_.resize(at(fill));
+  inverse_pivot_.resize(at(n));
+  work_.assign(at(n), 0.0);
+  path_.resize(at(n));
+}
+
+void SparseLdlt::factor(std::span<const double> diagonal, std::span<const double> values) {
+  const int n = size_;
+  dropped_ = 0;
+  std::fill(factor_count_.begin(), factor_count_.end(), 0);
+  std::fill(mark_.begin(), mark_.end(), -1);
+  for (int i = 0; i < n; ++i) inverse_pivot_[at(place_[at(i)])] = diagonal[at(i)];
+  for (int k = 0; k < n; ++k) {
+    int top = n;
+    mark_[at(k)] = k;
+    for (int p = column_start_[at(k)]; p < column_start_[at(k) + 1]; ++p) {
+      int i = entry_row_[at(p)];
+      work_[at(i)] += values[at(entry_of_[at(p)])];
+      int length = 0;
+      for (; mark_[at(i)] != k; i = tree_[at(i)]) {
+        path_[at(length++)] = i;
+        mark_[at(i)] = k;
+      }
+      while (length > 0) path_[at(--top)] = path_[at(--length)];
+    }
+    const double full = inverse_pivot_[at(k)];
+    double pivot = full;
+    for (; top < n; ++top) {
+      const int i = path_[at(top)];
+      const double y = work_[at(i)];
+      work_[at(i)] = 0.0;
+      const int end = factor_start_[at(i)] + factor_count_[at(i)];
+      for (int p = factor_start_[at(i)]; p < end; ++p) {
+        work_[at(row_of_[at(p)])] -= factor_[at(p)] * y;
+      }
+      const double entry = y * inverse_pivot_[at(i)];
+      pivot -= entry * y;
+      row_of_[at(end)] = k;
+      factor_[at(end)] = entry;
+      ++factor_count_[at(i)];
+    }
+    // Written so that NaN is dropped, too.
+    const bool kept = pivot > dropped_pivot * full;
+    if (!kept) ++dropped_;
+    inverse_pivot_[at(k)] = kept ? 1.0 / pivot : 0.0;
+  }
+}
+
+void SparseLdlt::solve(std::span<double> x) {
+  const int n = size_;
+  for (int i = 0; i < n; ++i) work_[at(place_[at(i)])] = x[at(i)];
+  for (int k = 0; k < n; ++k) {
+    const double y = work_[at(k)];
+    for (int p = factor_start_[at(k)]; p < factor_start_[at(k) + 1]; ++p) {
+      work_[at(row_of_[at(p)])] -= factor_[at(p)] * y;
+    }
+  }
+  for (int k = n - 1; k >= 0; --k) {
+    double y = work_[at(k)] * inverse_pivot_[at(k)];
+    for (int p = factor_start_[at(k)]; p < factor_start_[at(k) + 1]; ++p) {
+      y -= factor_[at(p)] * work_[at(row_of_[at(p)])];
+    }
+    // A dropped unknown is 0 whatever the others are.
+    work_[at(k)] = inverse_pivot_[at(k)] > 0.0 ? y : 0.0;
+  }
+  for (int i = 0; i < n; ++i) x[at(i)] = work_[at(place_[at(i)])];
+  std::fill(work_.begin(), work_.end(), 0.0);
+}
+
+}  // namespace sheave

@@ -1,0 +1,61 @@
+#pragma once
+// Factorisation A = L D L^T of a sparse symmetric positive semidefinite matrix, for constraint rows.
+//
+// Up-looking (Davis, "Direct Methods for Sparse Linear Systems", 2006, chapter 4): row k of L solves a triangular system
+// with the rows before it, and which of its entries are not zero follows from the elimination tree, found once per
+// pattern. A chain, such as the spans of a cable over wheels, has one entry per row: the cost is then that of a
+// tridiagonal solver.
+//
+// Redundant rows make A singular: a belt round two wheels, a frame with more joints than degrees of freedom. Their
+// pivots are what rounding leaves of zero. A pivot below `dropped_pivot` times the diagonal entry it started from is left
+// out: that unknown stays 0, and the others satisfy its equation too, if it can be satisfied.
+
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace sheave {
+
+class SparseLdlt {
+ public:
+  /// Relative size of a pivot that counts as 0. Rounding leaves some 1e-16 of the diagonal; a wheel of 1e-12 kg m2 in a
+  /// cable between kilograms still has 1e-10.
+  static constexpr double dropped_pivot = 1e-14;
+
+  /// Prepares for n x n matrices whose entries off the diagonal are at `entries`, (row, column) with row != column, each
+  /// pair once in either order. Chooses the order of elimination.
+  void analyse(int n, std::span<const std::pair<int, int>> entries);
+  /// Factors the matrix with this diagonal and these values of the entries given to analyse(), in their order.
+  void factor(std::span<const double> diagonal, std::span<const double> values);
+  /// Solves A x = b in place.
+  void solve(std::span<double> x);
+
+  [[nodiscard]] int size() const { return size_; }
+  [[nodiscard]] int dropped() const { return dropped_; }  ///< pivots left out in the last factor()
+  /// Entries of L below the diagonal: the cost of factor() and solve().
+  [[nodiscard]] int fill() const { return static_cast<int>(row_of_.size()); }
+
+ private:
+  [[nodiscard]] int count_fill(std::span<const std::pair<int, int>> entries);
+
+  int size_ = 0;
+  int dropped_ = 0;
+  std::vector<int> place_;  ///< of unknown i in the order of elimination
+  std::vector<int> tree_;   ///< parent in the elimination tree, -1 at a root
+  // The matrix above its diagonal, by columns, in the order of elimination.
+  std::vector<int> column_start_;
+  std::vector<int> entry_row_;
+  std::vector<int> entry_of_;  ///< which of the given values
+  // L below its diagonal, by columns.
+  std::vector<int> factor_start_;
+  std::vector<int> factor_count_;
+  std::vector<int> row_of_;
+  std::vector<double> factor_;
+  std::vector<double> inverse_pivot_;  ///< 0 where dropped
+  // Scratch of factor() and solve().
+  std::vector<double> work_;
+  std::vector<int> path_;
+  std::vector<int> mark_;
+};
+
+}  // namespace sheave
