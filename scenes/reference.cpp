@@ -35,8 +35,11 @@ What a check may name, and the columns of a CSV file:
 | `<body>.wx`, `.wy`, `.wz` | rad/s | angular velocity |
 | `<body>.angle` | rad | angle turned about the axis: planar bodies and rotors |
 | `<cable>.<span>.tension`, `.length`, `.rest_length` | N, m, m | of a free span, counted from 0 |
-| `<cable>.link<k>.stored_length` | m | cable on link k, counted from 0 |
+| `<cable>.link<k>.stored_length`, `.wrap_angle` | m, rad | cable on link k, counted from 0, and the angle it covers |
+| `<cable>.link<k>.slip` | m | cable that has slid over link k, forwards |
+| `<cable>.link<k>.entry_x` ... `.exit_z` | m | where the cable meets and leaves link k's body |
 | `<cable>.length_error` | | relative error of the length invariant |
+| `<cable>.total_length` | m | rest lengths and stored lengths together |
 | `energy.kinetic`, `.potential`, `.elastic`, `.total` | J | of the whole scene |
 )";
 
