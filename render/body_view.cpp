@@ -26,10 +26,8 @@ constexpr std::array<Color, 6> load_colors = {rgb(0x5d7fa3), rgb(0x7fa387), rgb(
 
 MeshShape mesh_of(std::vector<Vector3> vertices,
                   std::vector<std::array<std::uint32_t, 3>> triangles) {
-  auto mesh = std::make_shared<TriangleMesh>();
-  mesh->vertices = std::move(vertices);
-  mesh->triangles = std::move(triangles);
-  return {std::move(mesh)};
+  TriangleMesh mesh{std::move(vertices), std::move(triangles)};
+  return {std::make_shared<TriangleMesh>(std::move(mesh))};
 }
 
 MeshShape drawable_hull(const Polyhedron& polyhedron) {
@@ -152,6 +150,14 @@ class Builder {
     if (body.mount) add_cheeks(id, *body.mount, thickness);
   }
 
+  /// A cylinder that turns about another axle than its own; spokes would show the wrong one.
+  [[nodiscard]] static bool is_eccentric(const BodyDef& body, const PlacedShape& placed) {
+    if (body.mobility != Mobility::rotor) return false;
+    const Quaternion& turn = body.orientation;
+    const Vector3 axle = turn.conjugate() * body.axis.value_or(turn * Vector3::UnitZ());
+    return axle.normalized().cross(placed.position).norm() > 1e-3 * placed.shape->wheel_radius();
+  }
+
   /// The sheave to draw for a cylinder; nothing if it is just a cylinder.
   std::optional<SheaveShape> sheave_for(BodyId id, const BodyDef& body, const PlacedShape& placed,
                                         const Cylinder& cylinder) {
@@ -174,8 +180,8 @@ class Builder {
       }
     }
     if (rooms.empty() && body.mobility != Mobility::rotor) return std::nullopt;
-    // A groove for one cable is round; where several turns lie side by side it is as wide as the
-    // drum.
+    if (is_eccentric(body, placed)) return std::nullopt;
+    // One cable has a round groove; several turns side by side have one as wide as the drum.
     sheave.groove_width = 2.0 * offset;
     if (most_turns > 1.0)
       sheave.groove_width = std::max(sheave.groove_width, 0.8 * cylinder.length);
@@ -204,8 +210,7 @@ class Builder {
     }
   }
 
-  /// The point of a body's shapes (of boxes round them) nearest to a point; its origin if it has
-  /// none.
+  /// The point of a body's shapes (of boxes round them) nearest to a point, else its origin.
   [[nodiscard]] Vector3 nearest_point(BodyId id, const Vector3& point) const {
     const BodyDef& body = world_.model().bodies[static_cast<std::size_t>(id.index)];
     Vector3 nearest = world_.position(id);

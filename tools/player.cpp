@@ -96,4 +96,18 @@ RunOutcome play(const Scene& scene, std::span<const double> times, Progress& pro
                   [&] { return shutter.observe(simulation); });
 }
 
+std::vector<CableReport> reports_to_show(const Scene& scene, const Simulation& simulation) {
+  std::vector<CableReport> reports = simulation.cable_reports();
+  if (reports.empty() || simulation.world.state().time > 0.0) return reports;
+  Simulation ahead = make_simulation(scene);
+  if (!ahead.world.step().ok()) return reports;
+  const std::vector<CableReport> later = ahead.cable_reports();
+  for (std::size_t c = 0; c < reports.size(); ++c) {
+    for (std::size_t k = 0; k < reports[c].spans.size(); ++k) {
+      reports[c].spans[k].tension = later[c].spans[k].tension;
+    }
+  }
+  return reports;
+}
+
 }  // namespace sheave::tools

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "scenes/scene.h"
 #include "tools/simulate.h"
@@ -18,5 +19,10 @@ namespace sheave::tools {
 /// RunOutcome); then moments that were not reached are not shown.
 RunOutcome play(const Scene& scene, std::span<const double> times, Progress& progress,
                 const std::function<void(std::size_t, const Simulation&)>& show);
+
+/// The cables of a simulation that plays `scene`, for a picture. At the start no tension has been computed, and a taut
+/// cable would look slack; so the first step's tensions are shown there.
+[[nodiscard]] std::vector<CableReport> reports_to_show(const Scene& scene,
+                                                       const Simulation& simulation);
 
 }  // namespace sheave::tools

@@ -89,7 +89,7 @@ Look survey(const Scene& scene, const PictureOptions& options, std::span<const d
   render::ViewSurvey survey;
   const RunOutcome outcome =
       play(scene, times, progress, [&](std::size_t /*k*/, const Simulation& simulation) {
-        survey.add(simulation.world, simulation.cable_reports());
+        survey.add(simulation.world, reports_to_show(scene, simulation));
       });
   if (outcome.status == RunStatus::interrupted) {
     throw Failure(ExitCode::interrupted, "interrupted before anything was drawn");
@@ -144,7 +144,7 @@ ExitCode render_scene(const RenderOptions& options) {
   const RunOutcome outcome =
       play(scene, moments.times, progress, [&](std::size_t k, const Simulation& simulation) {
         const render::DrawList list =
-            look.builder.build(simulation.world, simulation.cable_reports());
+            look.builder.build(simulation.world, reports_to_show(scene, simulation));
         if (moments.is_frame(k)) outputs.add_frame(list, look.camera);
         if (k == moments.still) outputs.add_still(list, look.camera);
       });

@@ -79,6 +79,18 @@ TEST(ViewBuilder, DrawsWheelsThatHaveNoShape) {
   EXPECT_TRUE(validate(list).empty());
 }
 
+TEST(ViewBuilder, ACamIsAPlainDiscAndNotAWheelWithASecondAxle) {
+  test::Machine machine = shaped_atwood();
+  auto disc = std::make_shared<Cylinder>();
+  disc->radius = test::Atwood{}.radius;
+  machine.model.bodies[0].shapes = {{disc, {0.0, -0.1, 0.0}}, {disc, {0.0, 0.1, -0.3}}};
+  const Simulation s = test::start(machine);
+  const auto reports = s.cable_reports();
+  const DrawList list = ViewBuilder(s.world, reports).build(s.world, reports);
+  EXPECT_EQ(count<SheaveShape>(list), 0);
+  EXPECT_EQ(count<CylinderShape>(list), 2);
+}
+
 TEST(ViewBuilder, ChangesNothing) {
   Simulation s = test::start(shaped_atwood());
   const ViewBuilder builder(s.world, s.cable_reports());

@@ -12,6 +12,7 @@
 
 #include "tests/tools/process.h"
 #include "tests/tools/scenes.h"
+#include "tools/player.h"
 
 #if SHEAVE_HAS_RENDER
 
@@ -70,6 +71,23 @@ TEST(RenderCommand, WritesEveryOutputInOneGo) {
   if (have_ffmpeg()) {
     EXPECT_THAT(folder.entries(), ElementsAre("atwood.json", "film.mp4", "frames", "still.png"));
     EXPECT_EQ(read_file(folder.path("film.mp4")).substr(4, 4), "ftyp");
+  }
+}
+
+TEST(Player, ShowsTheFirstTensionsAtTheStart) {
+  const SceneResult scene = load_scene_text(atwood_scene, "atwood.json");
+  ASSERT_TRUE(scene);
+  Simulation simulation = tools::make_simulation(*scene);
+  const std::vector<CableReport> start = tools::reports_to_show(*scene, simulation);
+  EXPECT_EQ(start[0].spans[0].length, simulation.cable_reports()[0].spans[0].length);
+  EXPECT_EQ(simulation.world.state().time, 0.0);
+  ASSERT_TRUE(simulation.world.step().ok());
+  const std::vector<CableReport> later = simulation.cable_reports();
+  ASSERT_EQ(start[0].spans.size(), later[0].spans.size());
+  for (std::size_t k = 0; k < later[0].spans.size(); ++k) {
+    EXPECT_GT(start[0].spans[k].tension, 1.0);
+    EXPECT_EQ(start[0].spans[k].tension, later[0].spans[k].tension);
+    EXPECT_NE(start[0].spans[k].length, later[0].spans[k].length);
   }
 }
 
