@@ -1,0 +1,87 @@
+#include "engine/solvers/active_set.h"
+
+#include <limits>
+#include <random>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+namespace sheave {
+namespace {
+
+constexpr double no_bound = std::numeric_limits<double>::infinity();
+
+/// A random problem with lower, upper and no bounds; `skew` makes it asymmetric.
+struct RandomProblem {
+  ComplementarityProblem problem;
+  std::vector<std::pair<int, int>> entries;
+  Eigen::MatrixXd matrix;
+
+  RandomProblem(int n, double skew, std::mt19937& generator) {
+    std::uniform_real_distribution<double> value(-1.0, 1.0);
+    Eigen::MatrixXd b(n, n);
+    for (int i = 0; i < n * n; ++i) b(i / n, i % n) = value(generator);
+    matrix = b * b.transpose() + 0.5 * Eigen::MatrixXd::Identity(n, n);
+    for (int i = 0; i < n; ++i) {
+      for (int j = i + 1; j < n; ++j) {
+        const double part = skew * value(generator);
+        matrix(i, j) += part;  // x^T A x stays positive
+        matrix(j, i) -= part;
+        entries.emplace_back(i, j);
+        problem.values.push_back(matrix(i, j));
+        problem.lower_values.push_back(matrix(j, i));
+      }
+      problem.diagonal.push_back(matrix(i, i));
+      problem.constant.push_back(value(generator));
+      const int kind = i % 3;
+      problem.lower.push_back(kind == 0 ? -0.5 * std::abs(value(generator)) : -no_bound);
+      problem.upper.push_back(kind == 1 ? 0.5 * std::abs(value(generator)) : no_bound);
+      problem.free.push_back(static_cast<char>(value(generator) > 0.0 || kind == 2));
+    }
+    problem.size = n;
+    problem.symmetric = skew == 0.0;
+  }
+};
+
+TEST(ActiveSet, FindsMultipliersThatMeetAllConditions) {
+  std::mt19937 generator(3);
+  for (int trial = 0; trial < 300; ++trial) {
+    const double skew = trial % 2 == 0 ? 0.0 : 0.3;
+    RandomProblem random(1 + trial % 12, skew, generator);
+    ComplementarityProblem& p = random.problem;
+    ActiveSetSolver solver;
+    solver.analyse(p.size, random.entries);
+    ASSERT_TRUE(solver.solve(p));
+    Eigen::VectorXd x(p.size);
+    for (int i = 0; i < p.size; ++i) x[i] = solver.solution()[static_cast<std::size_t>(i)];
+    const Eigen::VectorXd c = Eigen::Map<Eigen::VectorXd>(p.constant.data(), p.size);
+    const Eigen::VectorXd r = random.matrix * x + c;
+    for (int i = 0; i < p.size; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      constexpr double rounding = 1e-10;  // condition numbers reach some 1e3
+      EXPECT_GE(x[i], p.lower[k] - rounding);
+      EXPECT_LE(x[i], p.upper[k] + rounding);
+      if (x[i] > p.lower[k] + rounding) {
+        EXPECT_LE(r[i], rounding);
+      }
+      if (x[i] < p.upper[k] - rounding) {
+        EXPECT_GE(r[i], -rounding);
+      }
+    }
+  }
+}
+
+TEST(ActiveSet, StartedFromTheSolutionNothingChanges) {
+  std::mt19937 generator(4);
+  RandomProblem random(10, 0.0, generator);
+  ActiveSetSolver solver;
+  solver.analyse(10, random.entries);
+  ASSERT_TRUE(solver.solve(random.problem));
+  const std::vector<char> found = random.problem.free;
+  ASSERT_TRUE(solver.solve(random.problem));
+  EXPECT_EQ(solver.changes(), 0);
+  EXPECT_EQ(random.problem.free, found);
+}
+
+}  // namespace
+}  // namespace sheave

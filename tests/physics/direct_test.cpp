@@ -1,0 +1,237 @@
+// The direct solver: closed forms where Gauss-Seidel is far from converged, and what is redundant.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cable/links/pinhole.h"
+#include "engine/joints/distance.h"
+#include "tests/support/builders.h"
+
+namespace sheave {
+namespace {
+
+using test::attach;
+using test::cable;
+using test::g;
+using test::left;
+using test::right;
+using test::roll;
+
+/// One substep of 1/60 s per step, at most `rounds` rounds.
+void use_direct(test::Machine& m, int rounds = 10) {
+  m.model.step = test::settings(1.0 / 60.0, 1, rounds);
+  m.model.step.solver = SolverKind::direct;
+}
+
+/// Acceleration of a body along y over the first `steps` steps, from its velocity.
+double acceleration(Simulation& s, BodyId body, int steps = 10) {
+  const double start = s.world.velocity(body).y();
+  for (int i = 0; i < steps; ++i) EXPECT_TRUE(s.world.step().ok());
+  return (s.world.velocity(body).y() - start) / (steps / 60.0);
+}
+
+TEST(Direct, WheelTrainsOfAnyLengthAreExactAtOneSubstep) {
+  for (const int wheels : {15, 63, 255, 1023}) {
+    const double inertia = 0.125;
+    test::Machine m = test::wheel_train(wheels, 1.0, 2.0, 0.5, inertia);
+    use_direct(m);
+    Simulation s = test::start(m);
+    // All rims run at one speed: (m2 - m1) g = (m1 + m2 + n J / r^2) a.
+    const double expected = g / (3.0 + wheels * inertia / 0.25);
+    const double a = -acceleration(s, {wheels + 1});
+    EXPECT_NEAR(a, expected, 1e-6 * expected) << wheels;
+    const StepReport report = s.world.step();
+    EXPECT_LE(report.statistics.rounds, 2) << wheels;
+    EXPECT_EQ(report.statistics.solver_fallbacks, 0);
+  }
+}
+
+TEST(Direct, LightWheelsAreAsExactAsHeavyOnes) {
+  for (const double inertia : {0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1.0, 1e6}) {
+    test::Tackle tackle{.strands = 4, .load = 8.0, .effort = 3.0};
+    test::Machine m = tackle.machine();
+    for (BodyDef& body : m.model.bodies) {
+      if (body.mobility == Mobility::rotor) body.spin_inertia = inertia;
+    }
+    tackle.inertia = inertia;
+    use_direct(m);
+    Simulation s = test::start(m);
+    const double expected = tackle.acceleration();
+    const double a = acceleration(s, test::Tackle::block);
+    // Heavy wheels leave little motion; what counts is the acceleration that the gravity of the weights would give.
+    const double scale = std::max(std::abs(expected), 1e-6 * g);
+    EXPECT_NEAR(a, expected, 1e-5 * scale) << inertia;
+  }
+}
+
+TEST(Direct, MassRatiosToABillion) {
+  for (const double ratio : {1.0, 1e3, 1e6, 1e9}) {
+    const test::Atwood atwood{.m1 = 1.0, .m2 = ratio, .inertia = 0.05, .hang = 10.0};
+    test::Machine m = atwood.machine();
+    use_direct(m);
+    Simulation s = test::start(m);
+    const double a = -acceleration(s, {2});
+    EXPECT_NEAR(a, atwood.acceleration(), 1e-9 * g + 1e-6 * atwood.acceleration()) << ratio;
+    const double tension = g + atwood.acceleration();
+    EXPECT_NEAR(s.cable_reports()[0].spans[0].tension, tension, 1e-5 * tension) << ratio;
+  }
+}
+
+TEST(Direct, ManyPinholesHaveOneTension) {
+  for (const int holes : {1, 5, 50}) {
+    test::Machine m;
+    m.model.gravity = test::down;
+    use_direct(m);
+    const BodyId a = m.model.add(test::weight("a", {0.0, -3.0, 0.0}, 1.0));
+    const BodyId b = m.model.add(test::weight("b", {0.1 * (holes - 1), -3.0, 0.0}, 2.0));
+    CableDef rope = cable("rope", {attach(a)});
+    for (int i = 0; i < holes; ++i) {
+      auto hole = std::make_shared<PinholeLink>();
+      hole->point = {0.1 * i, 0.05 * (i % 2), 0.0};
+      rope.links.push_back(hole);
+    }
+    rope.links.push_back(attach(b));
+    m.cables.push_back(rope);
+    Simulation s = test::start(m);
+    EXPECT_NEAR(acceleration(s, a), g / 3.0, 1e-6 * g) << holes;
+    const CableReport report = s.cable_reports()[0];
+    for (const SpanReport& span : report.spans) {
+      EXPECT_EQ(span.tension, report.spans[0].tension);
+      EXPECT_GE(span.rest_length, 0.0);
+    }
+  }
+}
+
+TEST(Direct, SlackAndTautAreFoundInOneSubstep) {
+  // Weights on a train of wheels, the second half of which is thrown up: its cable is slack at once, the other's taut.
+  test::Machine m = test::wheel_train(31, 1.0, 2.0, 0.5, 0.125);
+  use_direct(m);
+  m.model.bodies[32].velocity = {0.0, 5.0, 0.0};
+  Simulation s = test::start(m);
+  for (int i = 0; i < 120; ++i) {
+    const StepReport report = s.world.step();
+    ASSERT_TRUE(report.ok());
+    EXPECT_EQ(report.statistics.solver_fallbacks, 0);
+    const CableReport cable_report = s.cable_reports()[0];
+    for (const SpanReport& span : cable_report.spans) {
+      EXPECT_GE(span.tension, 0.0);
+      EXPECT_LT(span.length - span.rest_length, 1e-7);
+      // A span that pulls is taut. (Complementarity.)
+      EXPECT_TRUE(span.tension == 0.0 || span.rest_length - span.length < 1e-7);
+    }
+  }
+}
+
+TEST(Direct, ABeltOverFourWheelsIsRedundantAndRuns) {
+  test::Machine m;
+  m.model.gravity = test::down;
+  CableDef belt = cable("belt", {});
+  for (int i = 0; i < 4; ++i) {
+    const double x = i == 0 || i == 3 ? -1.0 : 1.0;
+    const BodyId id = m.model.add(test::wheel("w" + std::to_string(i), {x, i < 2 ? -1.0 : 1.0, 0.0},
+                                              0.1 * (i + 1), 0.01 * (i + 1)));
+    belt.links.push_back(roll(id, left));
+  }
+  m.model.bodies[0].torque = {0.0, 0.0, 1.0};
+  belt.closed = true;
+  m.cables.push_back(belt);
+  use_direct(m);
+  Simulation s = test::start(m);
+  StepReport report;
+  for (int i = 0; i < 60; ++i) {
+    report = s.world.step();
+    ASSERT_TRUE(report.ok());
+  }
+  // Rims run together: M / r0 = sum(J / r^2) a.
+  double inertia = 0.0;
+  for (int i = 0; i < 4; ++i) inertia += 0.01 * (i + 1) / std::pow(0.1 * (i + 1), 2);
+  const double a = 10.0 / inertia;
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_NEAR(s.world.angular_velocity({i}).z() * 0.1 * (i + 1), a, 1e-6 * a);
+  }
+  EXPECT_LT(report.statistics.last_correction, 1e-9);
+}
+
+TEST(Direct, AFrameWithMoreRodsThanItNeedsHangs) {
+  // Four balls that turn freely have 12 degrees of freedom; there are 6 rods between them and 8 to the ceiling.
+  test::Machine m;
+  m.model.gravity = test::down;
+  std::vector<BodyId> balls;
+  const std::vector<Vector3> places{
+      {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {0.3, -1.0, 0.3}};
+  for (const Vector3& place : places) {
+    balls.push_back(m.model.add(test::lump("ball" + std::to_string(balls.size()), place, 1.0)));
+  }
+  const auto rod = [&](BodyId a, const Vector3& from, BodyId b, const Vector3& to) {
+    auto joint = std::make_shared<DistanceJoint>();
+    joint->name = "rod" + std::to_string(m.model.joints.size());
+    joint->body_a = a;
+    joint->body_b = b;
+    joint->anchor_a = from;
+    joint->anchor_b = to;
+    m.model.joints.push_back(joint);
+  };
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = i + 1; j < 4; ++j) rod(balls[i], places[i], balls[j], places[j]);
+    const double turn = 1.3 * static_cast<double>(i);
+    const Vector3 aside(0.5 * std::cos(turn), 2.0, 0.5 * std::sin(turn));
+    rod(BodyId::world(), places[i] + aside, balls[i], places[i]);
+    rod(BodyId::world(), places[i] + Vector3(-aside.z(), 1.5, aside.x()), balls[i], places[i]);
+  }
+  use_direct(m);
+  Simulation s = test::start(m);
+  for (int i = 0; i < 120; ++i) {
+    const StepReport report = s.world.step();
+    ASSERT_TRUE(report.ok());
+    EXPECT_GT(report.statistics.redundant_rows, 0);
+    EXPECT_LT(report.statistics.last_correction, 1e-6);
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR((s.world.position(balls[i]) - places[i]).norm(), 0.0, 1e-6);
+  }
+}
+
+TEST(Direct, AgreesWithConvergedGaussSeidel) {
+  // A tackle whose free block sways: mounted rotors, an elastic cable with damping.
+  const test::Tackle tackle{.strands = 4, .effort = 3.0, .block_mobility = Mobility::free};
+  test::Machine m = tackle.machine();
+  m.model.step = test::settings(1.0 / 60.0, 1, 4000);
+  m.cables[0].axial_stiffness = 1e4;
+  m.cables[0].damping = 30.0;
+  m.model.bodies[0].angular_velocity = {0.05, 0.1, 0.2};
+  Simulation slow = test::start(m);
+  m.model.step.iterations = 10;
+  m.model.step.solver = SolverKind::direct;
+  Simulation fast = test::start(m);
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_TRUE(slow.world.step().ok());
+    ASSERT_TRUE(fast.world.step().ok());
+  }
+  // Both solve the same equations but for the gradients at which the multipliers of earlier rounds have acted.
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_NEAR((fast.world.position({i}) - slow.world.position({i})).norm(), 0.0, 1e-6);
+  }
+  for (int k = 0; k < 5; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const double tension = slow.cable_reports()[0].spans[at].tension;
+    EXPECT_NEAR(fast.cable_reports()[0].spans[at].tension, tension, 1e-4 * tension);
+  }
+}
+
+TEST(Direct, AStateWithItsActiveSetCanBeRestored) {
+  test::Machine m = test::wheel_train(15, 1.0, 2.0, 0.5, 0.125);
+  use_direct(m);
+  m.model.bodies[16].velocity = {0.0, 3.0, 0.0};
+  Simulation s = test::start(m);
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(s.world.step().ok());
+  const State saved = s.world.state();
+  for (int i = 0; i < 40; ++i) ASSERT_TRUE(s.world.step().ok());
+  Simulation other = test::start(m);
+  ASSERT_TRUE(other.world.restore(saved).empty());
+  for (int i = 0; i < 40; ++i) ASSERT_TRUE(other.world.step().ok());
+  EXPECT_EQ(hash(other.world.state()), hash(s.world.state()));
+}
+
+}  // namespace
+}  // namespace sheave
