@@ -57,6 +57,7 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row) c
   const LinkGeometry& second = links_[at(setup.second)];
   const SpanReference& reference = references_[at(span)];
   row.lower = 0.0;  // a cable pulls and never pushes
+  row.rate = first.feed_speed + second.feed_speed;
   const SpanGeometry geometry = cable.tangent_update == TangentUpdate::iteration
                                     ? evaluate_span(substep, setup, first, second, reference, row)
                                     : evaluate_span_frozen(substep, first, second, reference, row);

@@ -25,7 +25,7 @@ inline void add_link_force(const Substep& substep, Row& row, const LinkGeometry&
     return;
   }
   const MovingBody& body = substep.moving[at(link.body)];
-  if (!body.translates && !body.rotates) return;
+  if (!body.translates && !body.rotates && !body.prescribed) return;
   row.add(link.body, direction, cross(point - body.position, direction));
 }
 

@@ -36,6 +36,7 @@ struct MovingBody {
   Matrix3 inverse_inertia = Matrix3::Zero();  ///< [1/(kg m2)], world frame
   bool translates = false;                    ///< inverse_mass is not zero
   bool rotates = false;                       ///< inverse_inertia is not zero
+  bool prescribed = false;                    ///< moves as a function of time, whatever pulls at it
   bool tracks_orientation = true;             ///< `orientation` follows every correction
   Vector3 start_position = Vector3::Zero();   ///< position at the start of the substep [m]
 };
@@ -53,6 +54,7 @@ struct Row {
   static constexpr double unbounded = std::numeric_limits<double>::infinity();
 
   double value = 0.0;         ///< C [m or rad]
+  double rate = 0.0;          ///< change of C with time at rest: a feed [m/s or rad/s]
   double compliance = 0.0;    ///< a [m/N or rad/(N m)], >= 0
   double damping = 0.0;       ///< b [N s/m or N m s/rad], >= 0; acts only with compliance > 0
   double lower = -unbounded;  ///< bounds of the multiplier
@@ -72,7 +74,7 @@ struct Row {
     index = 0;
     active = tied = false;
     weight = 1.0;
-    value = compliance = damping = 0.0;
+    value = rate = compliance = damping = 0.0;
     lower = -unbounded;
     upper = unbounded;
     term_count = 0;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "engine/integrators/rattle.h"
 #include "engine/solvers/direct.h"
 #include "engine/solvers/gauss_seidel.h"
 #include "engine/stages.h"
@@ -33,25 +34,36 @@ std::vector<Stage> substep_stages(const Model& model,
     stages.push_back({std::move(name), std::move(run)});
   };
 
+  const bool rattle = model.step.integrator == IntegratorKind::rattle;
+  const bool moves_kinematic = has_kinematic_bodies(model);
+  const bool mounted = has_mounted_rotors(model);
+  const auto solver = std::make_shared<RattleSolver>(model.step.solver);
+
   for (std::size_t i = 0; i < features.size(); ++i) {
     ConstraintBatch& feature = *features[i];
     add("begin " + std::string(feature.name()),
         [&feature, i](Substep& substep) { feature.begin(substep, substep.start.features[i]); });
   }
-  if (has_kinematic_bodies(model)) add("move kinematic bodies", move_kinematic_bodies);
+  if (rattle) add("keep the start", [=](Substep& substep) { solver->begin(substep, features); });
+  if (moves_kinematic) add("move kinematic bodies", move_kinematic_bodies);
   add("predict", predict);
-  if (!features.empty()) {
-    const std::string name(solver_names[static_cast<std::size_t>(model.step.solver)]);
-    if (model.step.solver == SolverKind::direct) {
-      add("solve by " + name, [features, solver = std::make_shared<DirectSolver>()](
-                                  Substep& substep) { solver->solve(substep, features); });
-    } else {
-      add("solve by " + name,
-          [features](Substep& substep) { solve_gauss_seidel(substep, features); });
-    }
+  if (rattle) {
+    add("solve positions", [=](Substep& substep) { solver->solve_positions(substep, features); });
+  } else if (!features.empty() && model.step.solver == SolverKind::direct) {
+    add("solve directly", [features, direct = std::make_shared<DirectSolver>()](Substep& substep) {
+      direct->solve(substep, features);
+    });
+  } else if (!features.empty()) {
+    add("solve by Gauss-Seidel",
+        [features](Substep& substep) { solve_gauss_seidel(substep, features); });
   }
   add("derive velocities", derive_velocities);
-  if (has_mounted_rotors(model)) add("place mounted rotors", place_mounted_rotors);
+  if (rattle) add("correct gyroscopic velocities", correct_gyroscopic_velocities);
+  if (mounted) add("place mounted rotors", place_mounted_rotors);
+  if (rattle) {
+    add("second half of the loads", add_second_half_of_loads);
+    add("solve velocities", [=](Substep& substep) { solver->solve_velocities(substep, features); });
+  }
   for (std::size_t i = 0; i < features.size(); ++i) {
     ConstraintBatch& feature = *features[i];
     add("finish " + std::string(feature.name()),

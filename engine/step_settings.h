@@ -15,8 +15,11 @@ enum class SolverKind {
 inline constexpr std::array<std::string_view, 2> solver_names{"gauss-seidel", "direct"};
 
 /// How states are carried forward in time.
-enum class IntegratorKind { xpbd };
-inline constexpr std::array<std::string_view, 1> integrator_names{"xpbd"};
+enum class IntegratorKind {
+  xpbd,    ///< as in the paper, of first order: engine/integrators/xpbd.cpp
+  rattle,  ///< of second order, conserving energy: engine/integrators/rattle.h
+};
+inline constexpr std::array<std::string_view, 2> integrator_names{"xpbd", "rattle"};
 
 /// Accuracy against cost, chosen per scene.
 struct StepSettings {

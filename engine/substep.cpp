@@ -61,6 +61,7 @@ Substep::Substep(const BodySet& body_set, const State& state_at_start, double le
     body.rotates =
         mobility == Mobility::free || mobility == Mobility::planar ||
         (mobility == Mobility::rotor && !bodies[i].prescribed() && bodies[i].axis_inertia > 0.0);
+    body.prescribed = mobility == Mobility::kinematic || bodies[i].prescribed();
     body.tracks_orientation = mobility != Mobility::rotor;
     body.orientation = start.bodies[at(i)].orientation;
     if (bodies[i].mount < 0) set_inverse_masses(bodies[i], body);
@@ -84,6 +85,20 @@ void Substep::restart() {
       body.inverse_inertia = axis * axis.transpose() / properties.axis_inertia;
     }
     predicted_turn[at(i)].setZero();
+  }
+}
+
+void Substep::update_inertias() {
+  for (int i = 0; i < bodies.count(); ++i) {
+    const BodyProperties& properties = bodies[i];
+    MovingBody& body = moving[at(i)];
+    if (properties.mobility == Mobility::free && !properties.isotropic) {
+      set_inverse_masses(properties, body);
+    }
+    if (properties.mount >= 0 && properties.axis_inertia > 0.0) {
+      const Vector3 axis = moving[at(properties.mount)].orientation * properties.axis;
+      body.inverse_inertia = axis * axis.transpose() / properties.axis_inertia;
+    }
   }
 }
 

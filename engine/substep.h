@@ -25,8 +25,9 @@ struct StepStatistics {
   std::int64_t rounds = 0;  ///< of Newton's method
   std::int64_t set_changes =
       0;  ///< rows that began or ceased to act while the active set was sought
-  std::int64_t solver_fallbacks = 0;  ///< substeps left to Gauss-Seidel
-  int redundant_rows = 0;             ///< the most in one round
+  std::int64_t solver_fallbacks = 0;      ///< substeps left to Gauss-Seidel
+  int redundant_rows = 0;                 ///< the most in one round
+  std::int64_t integrator_fallbacks = 0;  ///< substeps of `rattle` that were left to `xpbd`
 };
 
 /// The working data of one substep. Stages read the state at its start and write into `moving`;
@@ -42,12 +43,16 @@ struct Substep {
   std::vector<Vector3> predicted_turn;  ///< [rad], without constraints
   State next;                           ///< the state at the end, written by the last stages
   StepStatistics statistics;
+  /// Share of the loads' impulse that predict() gives to the velocities: all of it, or the first half.
+  double load_share = 1.0;
 
   /// A substep of `bodies` from `state_at_start`; both must outlive it. Bodies are placed at the
   /// start, with their inverse mass and inertia there; nothing is predicted yet.
   Substep(const BodySet& body_set, const State& state_at_start, double length, int sweeps);
   /// Prepares for the next substep, which starts from the current content of `start`.
   void restart();
+  /// Takes the inverse inertias at the current orientations.
+  void update_inertias();
 
   // Where bodies are now, in the course of the substep. A rotor mounted on a carrier follows it.
 

@@ -16,62 +16,11 @@
 // aliases beyond half a turn per substep and does not conserve L.
 
 #include "engine/index.h"
+#include "engine/integrators/loads.h"
 #include "engine/stages.h"
 
 namespace sheave {
 namespace {
-
-/// World inertia of a free body with this orientation.
-Matrix3 world_inertia(const BodyProperties& body, const Quaternion& orientation, bool inverse) {
-  const Matrix3& own = inverse ? body.inverse_inertia : body.inertia;
-  if (body.isotropic) return own;
-  const Matrix3 rotation = orientation.toRotationMatrix();
-  return rotation * own * rotation.transpose();
-}
-
-/// Angular momentum of the rotors mounted on a body with this orientation.
-Vector3 rotor_momentum(const Substep& substep, const BodyProperties& carrier,
-                       const Quaternion& carrier_start, const Quaternion& orientation) {
-  Vector3 sum = Vector3::Zero();
-  for (const int i : carrier.mounted_rotors) {
-    const BodyProperties& rotor = substep.bodies[i];
-    const double spin =
-        (carrier_start * rotor.axis).dot(substep.start.bodies[at(i)].angular_velocity);
-    sum += rotor.axis_inertia * spin * (orientation * rotor.axis);
-  }
-  return sum;
-}
-
-/// Constant forces and torques on a body, about its centre of mass.
-struct Load {
-  Vector3 force;
-  Vector3 torque;
-};
-
-/// What acts on body `i` itself and what its mounted rotors pass on to it: their forces, which act
-/// at their centres, and their torques but for the part about the axle, which spins the rotor.
-Load load_on(const Substep& substep, int i) {
-  const BodyDef& own = substep.bodies.definition(i);
-  Load load{own.force, own.torque};
-  const Quaternion& orientation = substep.start.bodies[at(i)].orientation;
-  for (const int rotor : substep.bodies[i].mounted_rotors) {
-    const BodyDef& mounted = substep.bodies.definition(rotor);
-    const Vector3 axis = orientation * substep.bodies[rotor].axis;
-    load.force += mounted.force;
-    load.torque += (orientation * substep.bodies[rotor].mount_position).cross(mounted.force) +
-                   mounted.torque - axis * axis.dot(mounted.torque);
-  }
-  return load;
-}
-
-/// `velocity` without what rounding on tilted axes leaks into directions the mobility excludes; the
-/// leak would add up over the substeps.
-Vector3 allowed_velocity(const BodyProperties& body, const Vector3& velocity) {
-  const Vector3 along = body.axis * body.axis.dot(velocity);
-  if (body.mobility == Mobility::slider) return along;
-  if (body.mobility == Mobility::planar) return velocity - along;
-  return velocity;
-}
 
 /// Free rotation of a free body over the substep.
 void rotate_freely(Substep& substep, int i) {
@@ -79,11 +28,12 @@ void rotate_freely(Substep& substep, int i) {
   const BodyState& start = substep.start.bodies[at(i)];
   MovingBody& moving = substep.moving[at(i)];
   const double h = substep.h;
-  const Vector3 torque = load_on(substep, i).torque;
+  const Vector3 torque = load_on(substep, i, start.orientation).torque;
   Vector3 half_velocity;
   Vector3 end_velocity;
   if (body.isotropic && body.mounted_rotors.empty()) {
-    end_velocity = start.angular_velocity + h * (body.inverse_inertia * torque);
+    end_velocity =
+        start.angular_velocity + substep.load_share * h * (body.inverse_inertia * torque);
     half_velocity = end_velocity;
     moving.orientation = turned(start.orientation, h * half_velocity);
   } else {
@@ -96,8 +46,11 @@ void rotate_freely(Substep& substep, int i) {
     const Quaternion half = turned(start.orientation, 0.5 * h * start.angular_velocity);
     half_velocity = world_inertia(body, half, true) * (momentum + 0.5 * h * torque - rotors(half));
     moving.orientation = turned(start.orientation, h * half_velocity);
-    moving.inverse_inertia = world_inertia(body, moving.orientation, true);
-    end_velocity = moving.inverse_inertia * (momentum + h * torque - rotors(moving.orientation));
+    const Matrix3 inverse = world_inertia(body, moving.orientation, true);
+    end_velocity =
+        inverse * (momentum + substep.load_share * h * torque - rotors(moving.orientation));
+    // Multipliers of `rattle` act at the start.
+    if (substep.load_share == 1.0) moving.inverse_inertia = inverse;
   }
   moving.turn = h * half_velocity;
   substep.predicted[at(i)].angular_velocity = end_velocity;
@@ -107,9 +60,10 @@ void rotate_freely(Substep& substep, int i) {
 void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
   const BodyProperties& body = substep.bodies[i];
   MovingBody& moving = substep.moving[at(i)];
+  const BodyState& start = substep.start.bodies[at(i)];
   const double from = substep.start.time;
   const double to = substep.next.time;
-  double spin = axis.dot(substep.start.bodies[at(i)].angular_velocity);
+  double spin = axis.dot(start.angular_velocity);
   double angle = 0.0;
   if (body.drive == DriveKind::speed) {
     spin = body.drive_table.at(to);
@@ -119,8 +73,11 @@ void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
     spin = angle / substep.h;
   } else {
     if (body.axis_inertia > 0.0) {
-      double impulse = substep.h * axis.dot(load_on(substep, i).torque);
-      if (body.drive == DriveKind::torque) impulse += body.drive_table.integral(from, to);
+      double impulse =
+          substep.h * axis.dot(load_on(substep, i, start.orientation).torque) * substep.load_share;
+      if (body.drive == DriveKind::torque) {
+        impulse += body.drive_table.integral(from, from + substep.load_share * (to - from));
+      }
       spin += impulse / body.axis_inertia;
     }
     angle = substep.h * spin;
@@ -152,8 +109,10 @@ void predict(Substep& substep) {
     MovingBody& moving = substep.moving[at(i)];
     if (moving.translates) {
       // W M (v + h g + h f / m): the inverse mass matrix keeps what the mobility allows.
-      const Vector3 force = body.mass * substep.bodies.gravity() + load_on(substep, i).force;
-      const Vector3 velocity = start.velocity + h * times(moving.inverse_mass, force);
+      const Vector3 force =
+          body.mass * substep.bodies.gravity() + load_on(substep, i, start.orientation).force;
+      const Vector3 velocity =
+          start.velocity + substep.load_share * h * times(moving.inverse_mass, force);
       moving.position = start.position + h * velocity;
     }
     switch (body.mobility) {
@@ -229,6 +188,21 @@ void place_mounted_rotors(Substep& substep) {
     next.orientation =
         carrier.orientation * rotation_by(next.angle * rotor.axis) * rotor.start_orientation;
     next.velocity = carrier.velocity + carrier.angular_velocity.cross(offset);
+    next.angular_velocity =
+        carrier.angular_velocity - axis * axis.dot(carrier.angular_velocity) + spin * axis;
+  }
+}
+
+void follow_carriers(Substep& substep) {
+  for (int i = 0; i < substep.bodies.count(); ++i) {
+    const BodyProperties& rotor = substep.bodies[i];
+    if (rotor.mount < 0) continue;
+    const BodyState& carrier = substep.next.bodies[at(rotor.mount)];
+    BodyState& next = substep.next.bodies[at(i)];
+    const Vector3 axis = carrier.orientation * rotor.axis;
+    const double spin = axis.dot(next.angular_velocity);
+    next.velocity = carrier.velocity +
+                    carrier.angular_velocity.cross(carrier.orientation * rotor.mount_position);
     next.angular_velocity =
         carrier.angular_velocity - axis * axis.dot(carrier.angular_velocity) + spin * axis;
   }

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/SparseLU>
+#include <numeric>
 
 #include "engine/index.h"
 
@@ -12,6 +11,41 @@ namespace sheave {
 void ActiveSetSolver::analyse(int size, std::span<const std::pair<int, int>> entries) {
   entries_.assign(entries.begin(), entries.end());
   factor_.analyse(size, entries);
+  neighbour_start_.assign(at(size) + 1, 0);
+  for (const auto& [i, j] : entries_) {
+    ++neighbour_start_[at(i) + 1];
+    ++neighbour_start_[at(j) + 1];
+  }
+  std::partial_sum(neighbour_start_.begin(), neighbour_start_.end(), neighbour_start_.begin());
+  neighbours_.resize(2 * entries_.size());
+  std::vector<int> next = neighbour_start_;
+  for (std::size_t e = 0; e < entries_.size(); ++e) {
+    const auto [i, j] = entries_[e];
+    neighbours_[at(next[at(i)]++)] = {j, static_cast<int>(e), false};
+    neighbours_[at(next[at(j)]++)] = {i, static_cast<int>(e), true};
+  }
+}
+
+void ActiveSetSolver::relax(const ComplementarityProblem& problem, int sweeps) {
+  changes_ = dropped_ = 0;
+  solution_.assign(at(problem.size), 0.0);
+  for (std::size_t i = 0; i < solution_.size(); ++i) {
+    solution_[i] = std::clamp(0.0, problem.lower[i], problem.upper[i]);
+  }
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (std::size_t i = 0; i < solution_.size(); ++i) {
+      if (!(problem.diagonal[i] > 0.0)) continue;
+      double residual = problem.constant[i] + problem.diagonal[i] * solution_[i];
+      for (int p = neighbour_start_[i]; p < neighbour_start_[i + 1]; ++p) {
+        const Neighbour& neighbour = neighbours_[at(p)];
+        const bool below = neighbour.transposed && !problem.symmetric;
+        const std::vector<double>& values = below ? problem.lower_values : problem.values;
+        residual += values[at(neighbour.entry)] * solution_[at(neighbour.other)];
+      }
+      solution_[i] = std::clamp(solution_[i] - residual / problem.diagonal[i], problem.lower[i],
+                                problem.upper[i]);
+    }
+  }
 }
 
 bool ActiveSetSolver::solve(ComplementarityProblem& problem) {
@@ -21,7 +55,7 @@ bool ActiveSetSolver::solve(ComplementarityProblem& problem) {
   int left = patience;
   const int most_tries = 50 + 2 * problem.size;
   for (int tries = 0; tries < most_tries; ++tries) {
-    if (!solve_free(problem)) return false;
+    solve_free(problem);
     mark_violations(problem);
     if (violated_.empty()) return true;
     const auto count = static_cast<int>(violated_.size());
@@ -38,75 +72,54 @@ bool ActiveSetSolver::solve(ComplementarityProblem& problem) {
   return false;
 }
 
-bool ActiveSetSolver::solve_free(const ComplementarityProblem& problem) {
+void ActiveSetSolver::solve_free(const ComplementarityProblem& problem) {
   const std::size_t n = at(problem.size);
   solution_.resize(n);
-  residual_.assign(problem.constant.begin(), problem.constant.end());
   for (std::size_t i = 0; i < n; ++i) {
-    // Which bound a row is at follows from its sign: only one of them is finite, or the nearer one is meant.
+    // Which bound a row is at: only one of them is finite, or they are equal.
     const bool at_lower = std::isfinite(problem.lower[i]);
     solution_[i] = problem.free[i] != 0 ? 0.0 : at_lower ? problem.lower[i] : problem.upper[i];
   }
-  if (!problem.symmetric) {
-    if (!solve_asymmetric(problem)) return false;
-  } else {
-    diagonal_ = problem.diagonal;
-    values_ = problem.values;
-    std::vector<double>& rhs = residual_;
-    for (double& c : rhs) c = -c;
-    for (std::size_t e = 0; e < entries_.size(); ++e) {
-      const auto [i, j] = entries_[e];
-      const bool free_i = problem.free[at(i)] != 0;
-      const bool free_j = problem.free[at(j)] != 0;
-      if (free_i && free_j) continue;
-      if (free_i) rhs[at(i)] -= values_[e] * solution_[at(j)];
-      if (free_j) rhs[at(j)] -= values_[e] * solution_[at(i)];
-      values_[e] = 0.0;
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      if (problem.free[i] != 0) continue;
-      diagonal_[i] = 1.0;
-      rhs[i] = solution_[i];
-    }
-    factor_.factor(diagonal_, values_);
-    dropped_ = factor_.dropped();
-    factor_.solve(rhs);
-    solution_ = rhs;
+  diagonal_ = problem.diagonal;
+  values_ = problem.values;
+  if (!problem.symmetric) lower_values_ = problem.lower_values;
+  std::vector<double>& rhs = residual_;
+  rhs.resize(n);
+  for (std::size_t i = 0; i < n; ++i) rhs[i] = -problem.constant[i];
+  for (std::size_t e = 0; e < entries_.size(); ++e) {
+    const auto [i, j] = entries_[e];
+    const bool free_i = problem.free[at(i)] != 0;
+    const bool free_j = problem.free[at(j)] != 0;
+    if (free_i && free_j) continue;
+    const double below = problem.symmetric ? values_[e] : lower_values_[e];
+    if (free_i) rhs[at(i)] -= values_[e] * solution_[at(j)];
+    if (free_j) rhs[at(j)] -= below * solution_[at(i)];
+    values_[e] = 0.0;
+    if (!problem.symmetric) lower_values_[e] = 0.0;
   }
+  for (std::size_t i = 0; i < n; ++i) {
+    if (problem.free[i] != 0) continue;
+    diagonal_[i] = 1.0;
+    rhs[i] = solution_[i];
+  }
+  if (problem.symmetric) {
+    factor_.factor(diagonal_, values_);
+  } else {
+    factor_.factor(diagonal_, values_, lower_values_);
+  }
+  dropped_ = factor_.dropped();
+  factor_.solve(rhs);
+  solution_ = rhs;
   // r = c + A dl.
-  residual_.assign(problem.constant.begin(), problem.constant.end());
-  for (std::size_t i = 0; i < n; ++i) residual_[i] += problem.diagonal[i] * solution_[i];
+  for (std::size_t i = 0; i < n; ++i) {
+    residual_[i] = problem.constant[i] + problem.diagonal[i] * solution_[i];
+  }
   for (std::size_t e = 0; e < entries_.size(); ++e) {
     const auto [i, j] = entries_[e];
     residual_[at(i)] += problem.values[e] * solution_[at(j)];
     const double below = problem.symmetric ? problem.values[e] : problem.lower_values[e];
     residual_[at(j)] += below * solution_[at(i)];
   }
-  return true;
-}
-
-bool ActiveSetSolver::solve_asymmetric(const ComplementarityProblem& problem) {
-  const int n = problem.size;
-  Eigen::VectorXd rhs(n);
-  std::vector<Eigen::Triplet<double>> triplets;
-  for (int i = 0; i < n; ++i) {
-    const bool is_free = problem.free[at(i)] != 0;
-    triplets.emplace_back(i, i, is_free ? problem.diagonal[at(i)] : 1.0);
-    rhs[i] = is_free ? -problem.constant[at(i)] : solution_[at(i)];
-  }
-  for (std::size_t e = 0; e < entries_.size(); ++e) {
-    const auto [i, j] = entries_[e];
-    if (problem.free[at(i)] != 0) triplets.emplace_back(i, j, problem.values[e]);
-    if (problem.free[at(j)] != 0) triplets.emplace_back(j, i, problem.lower_values[e]);
-  }
-  Eigen::SparseMatrix<double> matrix(n, n);
-  matrix.setFromTriplets(triplets.begin(), triplets.end());
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> factor;
-  factor.compute(matrix);
-  if (factor.info() != Eigen::Success) return false;
-  const Eigen::VectorXd x = factor.solve(rhs);
-  for (int i = 0; i < n; ++i) solution_[at(i)] = x[i];
-  return x.allFinite();
 }
 
 void ActiveSetSolver::mark_violations(const ComplementarityProblem& problem) {
@@ -120,6 +133,7 @@ void ActiveSetSolver::mark_violations(const ComplementarityProblem& problem) {
   for (int i = 0; i < problem.size; ++i) {
     const std::size_t k = at(i);
     const double noise = rounding * largest;
+    if (problem.lower[k] == problem.upper[k]) continue;
     bool violated = false;
     if (problem.free[k] != 0) {
       const double slack = problem.diagonal[k] > 0.0 ? noise / problem.diagonal[k] : 0.0;

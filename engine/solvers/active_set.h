@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/solvers/sparse_ldlt.h"
+#include "engine/solvers/sparse_factor.h"
 
 namespace sheave {
 
@@ -23,7 +23,7 @@ struct ComplementarityProblem {
   std::vector<double> values;        ///< A(i, j) of the entries (i, j), i < j, of the pattern
   std::vector<double> lower_values;  ///< A(j, i)
   std::vector<double> constant;      ///< c
-  std::vector<double> lower;         ///< bounds of dl
+  std::vector<double> lower;         ///< bounds of dl; where they are equal, r can be anything
   std::vector<double> upper;
   std::vector<char> free;  ///< which unknowns to begin with as free; the solution's afterwards
 };
@@ -32,25 +32,36 @@ class ActiveSetSolver {
  public:
   /// Where A has entries off its diagonal.
   void analyse(int size, std::span<const std::pair<int, int>> entries);
-  /// Returns false if no set was found in a number of tries that grows with the size, or if a matrix that is not
-  /// symmetric is singular.
+  /// Returns false if no set was found in a number of tries that grows with the size.
   bool solve(ComplementarityProblem& problem);
+
+  /// Projected Gauss-Seidel from dl = 0 instead: sweeps over the unknowns in their order.
+  void relax(const ComplementarityProblem& problem, int sweeps);
 
   [[nodiscard]] std::span<const double> solution() const { return solution_; }
   [[nodiscard]] int changes() const { return changes_; }  ///< of sides in the last solve()
   [[nodiscard]] int dropped() const { return dropped_; }  ///< redundant rows in the last solve()
 
  private:
-  bool solve_free(const ComplementarityProblem& problem);
-  bool solve_asymmetric(const ComplementarityProblem& problem);
+  void solve_free(const ComplementarityProblem& problem);
   void mark_violations(const ComplementarityProblem& problem);
 
+  /// An entry of a row off the diagonal.
+  struct Neighbour {
+    int other = 0;
+    int entry = 0;
+    bool transposed = false;  ///< its value is the transposed one
+  };
+
   std::vector<std::pair<int, int>> entries_;
-  SparseLdlt factor_;
+  std::vector<int> neighbour_start_;
+  std::vector<Neighbour> neighbours_;
+  SparseFactor factor_;
   std::vector<double> solution_;
   std::vector<double> residual_;
   std::vector<double> diagonal_;
   std::vector<double> values_;
+  std::vector<double> lower_values_;
   std::vector<int> violated_;
   int changes_ = 0;
   int dropped_ = 0;

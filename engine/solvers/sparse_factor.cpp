@@ -1,4 +1,4 @@
-#include "engine/solvers/sparse_ldlt.h"
+#include "engine/solvers/sparse_factor.h"
 
 #include <algorithm>
 #include <numeric>
@@ -31,7 +31,7 @@ std::vector<int> minimum_degree(int n, std::span<const std::pair<int, int>> entr
 
 }  // namespace
 
-int SparseLdlt::count_fill(std::span<const std::pair<int, int>> entries) {
+int SparseFactor::count_fill(std::span<const std::pair<int, int>> entries) {
   const int n = size_;
   // Columns of the upper triangle.
   std::vector<int> counts(at(n) + 1, 0);
@@ -40,12 +40,14 @@ int SparseLdlt::count_fill(std::span<const std::pair<int, int>> entries) {
   column_start_ = counts;
   entry_row_.resize(entries.size());
   entry_of_.resize(entries.size());
+  turned_.resize(entries.size());
   for (std::size_t e = 0; e < entries.size(); ++e) {
     const int a = place_[at(entries[e].first)];
     const int b = place_[at(entries[e].second)];
     const int slot = counts[at(std::max(a, b))]++;
     entry_row_[at(slot)] = std::min(a, b);
     entry_of_[at(slot)] = static_cast<int>(e);
+    turned_[at(slot)] = a > b ? 1 : 0;
   }
   // Row k of L has an entry at each node on the ways in the tree from its entries of A up to k.
   tree_.assign(at(n), -1);
@@ -66,7 +68,7 @@ int SparseLdlt::count_fill(std::span<const std::pair<int, int>> entries) {
   return fill;
 }
 
-void SparseLdlt::analyse(int n, std::span<const std::pair<int, int>> entries) {
+void SparseFactor::analyse(int n, std::span<const std::pair<int, int>> entries) {
   size_ = n;
   place_.resize(at(n));
   std::iota(place_.begin(), place_.end(), 0);
@@ -91,28 +93,46 @@ void SparseLdlt::analyse(int n, std::span<const std::pair<int, int>> entries) {
   path_.resize(at(n));
 }
 
-void SparseLdlt::factor(std::span<const double> diagonal, std::span<const double> values) {
-  const int n = size_;
+int SparseFactor::scatter(int k, std::span<const double> values, const double* transposed_values) {
+  int top = size_;
+  mark_[at(k)] = k;
+  for (int p = column_start_[at(k)]; p < column_start_[at(k) + 1]; ++p) {
+    int i = entry_row_[at(p)];
+    const auto entry = at(entry_of_[at(p)]);
+    if (transposed_values == nullptr) {
+      work_[at(i)] += values[entry];
+    } else {
+      const bool turned = turned_[at(p)] != 0;
+      work_[at(i)] += turned ? transposed_values[entry] : values[entry];
+      lower_work_[at(i)] += turned ? values[entry] : transposed_values[entry];
+    }
+    int length = 0;
+    for (; mark_[at(i)] != k; i = tree_[at(i)]) {
+      path_[at(length++)] = i;
+      mark_[at(i)] = k;
+    }
+    while (length > 0) path_[at(--top)] = path_[at(--length)];
+  }
+  return top;
+}
+
+void SparseFactor::keep_pivot(int k, double pivot, double full) {
+  // Written so that NaN is dropped, too.
+  const bool kept = pivot > dropped_pivot * full;
+  if (!kept) ++dropped_;
+  inverse_pivot_[at(k)] = kept ? 1.0 / pivot : 0.0;
+}
+
+void SparseFactor::factor(std::span<const double> diagonal, std::span<const double> values) {
+  symmetric_ = true;
   dropped_ = 0;
   std::fill(factor_count_.begin(), factor_count_.end(), 0);
   std::fill(mark_.begin(), mark_.end(), -1);
-  for (int i = 0; i < n; ++i) inverse_pivot_[at(place_[at(i)])] = diagonal[at(i)];
-  for (int k = 0; k < n; ++k) {
-    int top = n;
-    mark_[at(k)] = k;
-    for (int p = column_start_[at(k)]; p < column_start_[at(k) + 1]; ++p) {
-      int i = entry_row_[at(p)];
-      work_[at(i)] += values[at(entry_of_[at(p)])];
-      int length = 0;
-      for (; mark_[at(i)] != k; i = tree_[at(i)]) {
-        path_[at(length++)] = i;
-        mark_[at(i)] = k;
-      }
-      while (length > 0) path_[at(--top)] = path_[at(--length)];
-    }
+  for (int i = 0; i < size_; ++i) inverse_pivot_[at(place_[at(i)])] = diagonal[at(i)];
+  for (int k = 0; k < size_; ++k) {
     const double full = inverse_pivot_[at(k)];
     double pivot = full;
-    for (; top < n; ++top) {
+    for (int top = scatter(k, values, nullptr); top < size_; ++top) {
       const int i = path_[at(top)];
       const double y = work_[at(i)];
       work_[at(i)] = 0.0;
@@ -126,31 +146,61 @@ void SparseLdlt::factor(std::span<const double> diagonal, std::span<const double
       factor_[at(end)] = entry;
       ++factor_count_[at(i)];
     }
-    // Written so that NaN is dropped, too.
-    const bool kept = pivot > dropped_pivot * full;
-    if (!kept) ++dropped_;
-    inverse_pivot_[at(k)] = kept ? 1.0 / pivot : 0.0;
+    keep_pivot(k, pivot, full);
   }
 }
 
-void SparseLdlt::solve(std::span<double> x) {
-  const int n = size_;
-  for (int i = 0; i < n; ++i) work_[at(place_[at(i)])] = x[at(i)];
-  for (int k = 0; k < n; ++k) {
+void SparseFactor::factor(std::span<const double> diagonal, std::span<const double> values,
+                          std::span<const double> transposed_values) {
+  symmetric_ = false;
+  dropped_ = 0;
+  upper_.resize(factor_.size());
+  lower_work_.resize(at(size_), 0.0);
+  std::fill(factor_count_.begin(), factor_count_.end(), 0);
+  std::fill(mark_.begin(), mark_.end(), -1);
+  for (int i = 0; i < size_; ++i) inverse_pivot_[at(place_[at(i)])] = diagonal[at(i)];
+  for (int k = 0; k < size_; ++k) {
+    const double full = inverse_pivot_[at(k)];
+    double pivot = full;
+    for (int top = scatter(k, values, transposed_values.data()); top < size_; ++top) {
+      const int i = path_[at(top)];
+      // D U of column k, and L D of row k.
+      const double y = work_[at(i)];
+      const double z = lower_work_[at(i)];
+      work_[at(i)] = lower_work_[at(i)] = 0.0;
+      const int end = factor_start_[at(i)] + factor_count_[at(i)];
+      for (int p = factor_start_[at(i)]; p < end; ++p) {
+        work_[at(row_of_[at(p)])] -= factor_[at(p)] * y;
+        lower_work_[at(row_of_[at(p)])] -= upper_[at(p)] * z;
+      }
+      pivot -= z * inverse_pivot_[at(i)] * y;
+      row_of_[at(end)] = k;
+      factor_[at(end)] = z * inverse_pivot_[at(i)];
+      upper_[at(end)] = y * inverse_pivot_[at(i)];
+      ++factor_count_[at(i)];
+    }
+    keep_pivot(k, pivot, full);
+  }
+}
+
+void SparseFactor::solve(std::span<double> x) {
+  const std::vector<double>& back = symmetric_ ? factor_ : upper_;
+  for (int i = 0; i < size_; ++i) work_[at(place_[at(i)])] = x[at(i)];
+  for (int k = 0; k < size_; ++k) {
     const double y = work_[at(k)];
     for (int p = factor_start_[at(k)]; p < factor_start_[at(k) + 1]; ++p) {
       work_[at(row_of_[at(p)])] -= factor_[at(p)] * y;
     }
   }
-  for (int k = n - 1; k >= 0; --k) {
+  for (int k = size_ - 1; k >= 0; --k) {
     double y = work_[at(k)] * inverse_pivot_[at(k)];
     for (int p = factor_start_[at(k)]; p < factor_start_[at(k) + 1]; ++p) {
-      y -= factor_[at(p)] * work_[at(row_of_[at(p)])];
+      y -= back[at(p)] * work_[at(row_of_[at(p)])];
     }
     // A dropped unknown is 0 whatever the others are.
     work_[at(k)] = inverse_pivot_[at(k)] > 0.0 ? y : 0.0;
   }
-  for (int i = 0; i < n; ++i) x[at(i)] = work_[at(place_[at(i)])];
+  for (int i = 0; i < size_; ++i) x[at(i)] = work_[at(place_[at(i)])];
   std::fill(work_.begin(), work_.end(), 0.0);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// Factorisation A = L D L^T of a sparse symmetric positive semidefinite matrix, for constraint rows.
+// Factorisation of a sparse matrix with a symmetric pattern, for constraint rows: A = L D L^T of a symmetric positive
+// semidefinite one, A = L D U of one that is nearly so (friction, gradients of two moments).
 //
 // Up-looking (Davis, "Direct Methods for Sparse Linear Systems", 2006, chapter 4): row k of L solves a triangular system
 // with the rows before it, and which of its entries are not zero follows from the elimination tree, found once per
@@ -16,7 +17,7 @@
 
 namespace sheave {
 
-class SparseLdlt {
+class SparseFactor {
  public:
   /// Relative size of a pivot that counts as 0. Rounding leaves some 1e-16 of the diagonal; a wheel of 1e-12 kg m2 in a
   /// cable between kilograms still has 1e-10.
@@ -25,8 +26,11 @@ class SparseLdlt {
   /// Prepares for n x n matrices whose entries off the diagonal are at `entries`, (row, column) with row != column, each
   /// pair once in either order. Chooses the order of elimination.
   void analyse(int n, std::span<const std::pair<int, int>> entries);
-  /// Factors the matrix with this diagonal and these values of the entries given to analyse(), in their order.
+  /// Factors the symmetric matrix with this diagonal and these values of the entries given to analyse(), in their order.
   void factor(std::span<const double> diagonal, std::span<const double> values);
+  /// Factors the matrix whose entry (i, j) of the pattern has the first value and (j, i) the second. Without pivoting.
+  void factor(std::span<const double> diagonal, std::span<const double> values,
+              std::span<const double> transposed_values);
   /// Solves A x = b in place.
   void solve(std::span<double> x);
 
@@ -37,6 +41,11 @@ class SparseLdlt {
 
  private:
   [[nodiscard]] int count_fill(std::span<const std::pair<int, int>> entries);
+  /// The places of row k of L that are not 0, in an order in which each depends on earlier ones only: path_ from the
+  /// returned place on. Scatters the entries of A above the diagonal into work_, and those below into lower_work_.
+  int scatter(int k, std::span<const double> values, const double* transposed_values);
+  /// Takes the pivot of row k, or drops it.
+  void keep_pivot(int k, double pivot, double full);
 
   int size_ = 0;
   int dropped_ = 0;
@@ -46,14 +55,19 @@ class SparseLdlt {
   std::vector<int> column_start_;
   std::vector<int> entry_row_;
   std::vector<int> entry_of_;  ///< which of the given values
+  std::vector<char>
+      turned_;  ///< whether that was given as (column, row) of the order of elimination
   // L below its diagonal, by columns.
   std::vector<int> factor_start_;
   std::vector<int> factor_count_;
   std::vector<int> row_of_;
   std::vector<double> factor_;
+  std::vector<double> upper_;  ///< U above its diagonal, by rows, with the pattern of L
+  bool symmetric_ = true;
   std::vector<double> inverse_pivot_;  ///< 0 where dropped
   // Scratch of factor() and solve().
   std::vector<double> work_;
+  std::vector<double> lower_work_;
   std::vector<int> path_;
   std::vector<int> mark_;
 };

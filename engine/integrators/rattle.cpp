@@ -1,0 +1,137 @@
+#include "engine/integrators/rattle.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/index.h"
+#include "engine/integrators/loads.h"
+#include "engine/solvers/gauss_seidel.h"
+#include "engine/stages.h"
+
+namespace sheave {
+namespace {
+
+bool left_to_xpbd(const Substep& substep) { return substep.load_share == 1.0; }
+
+}  // namespace
+
+void RattleSolver::begin(Substep& substep, Features features) {
+  substep.load_share = 0.5;
+  positions_.remember_start(substep, features);
+}
+
+bool RattleSolver::try_positions(Substep& substep, Features features) {
+  const double enough = DirectSolver::tolerance * substep.bodies.scale();
+  double first = 0.0;
+  double violated = 0.0;
+  bool revised = false;
+  for (int round = 0; round <= substep.iterations; ++round) {
+    if (!positions_.linearise(substep, features, RowSystem::Rule::midpoint)) return false;
+    violated = positions_.violation();
+    if (!std::isfinite(violated)) return false;
+    if (round == 0) first = violated;
+    if ((round > 0 && !revised && violated <= enough) || round == substep.iterations) break;
+    if (solver_ == SolverKind::direct) {
+      if (!positions_.solve(substep)) return false;
+    } else {
+      positions_.relax(substep, 1);
+    }
+    positions_.apply(substep, features);
+    revised = false;
+    for (const auto& feature : features) revised = feature->revise(substep) || revised;
+  }
+  substep.statistics.rows = positions_.row_count();
+  substep.statistics.last_correction = std::max(substep.statistics.last_correction, violated);
+  // Gauss-Seidel need not have converged; Newton's method that has not is lost.
+  return violated <= std::max(first, enough) &&
+         (solver_ != SolverKind::direct || violated <= 0.1 * first || violated <= enough);
+}
+
+void RattleSolver::solve_positions(Substep& substep, Features features) {
+  if (try_positions(substep, features)) return;
+  ++substep.statistics.integrator_fallbacks;
+  substep.load_share = 1.0;
+  substep.restart();
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    features[i]->begin(substep, substep.start.features[i]);
+  }
+  move_kinematic_bodies(substep);
+  predict(substep);
+  if (solver_ == SolverKind::direct) {
+    direct_.solve(substep, features);
+  } else {
+    solve_gauss_seidel(substep, features);
+  }
+}
+
+void RattleSolver::solve_velocities(Substep& substep, Features features) {
+  if (left_to_xpbd(substep)) return;
+  substep.update_inertias();
+  velocities_.linearise_velocities(substep, features);
+  if (solver_ != SolverKind::direct || !velocities_.solve(substep)) {
+    velocities_.relax(substep, substep.iterations);
+  }
+  velocities_.apply_impulses(substep, features);
+}
+
+void correct_gyroscopic_velocities(Substep& substep) {
+  if (left_to_xpbd(substep)) return;
+  const double h = substep.h;
+  for (int i = 0; i < substep.bodies.count(); ++i) {
+    const BodyProperties& body = substep.bodies[i];
+    if (body.mobility != Mobility::free || (body.isotropic && body.mounted_rotors.empty())) {
+      continue;
+    }
+    const BodyState& start = substep.start.bodies[at(i)];
+    BodyState& next = substep.next.bodies[at(i)];
+    // L after the first half of loads and constraints, which act at the start; it is constant from there on.
+    const Matrix3 inertia = world_inertia(body, start.orientation, false);
+    const Vector3 turned_by = substep.moving[at(i)].turn - substep.predicted_turn[at(i)];
+    Vector3 momentum = inertia * (start.angular_velocity + turned_by / h) +
+                       0.5 * h * load_on(substep, i, start.orientation).torque;
+    for (const int r : body.mounted_rotors) {
+      const BodyProperties& rotor = substep.bodies[r];
+      const Vector3 axis = start.orientation * rotor.axis;
+      const double change =
+          axis.dot(substep.moving[at(r)].turn - substep.predicted_turn[at(r)]) / h;
+      const double spin = axis.dot(substep.start.bodies[at(r)].angular_velocity);
+      momentum += rotor.axis_inertia *
+                  (spin * axis + change * axis - (spin + change) * (next.orientation * rotor.axis));
+    }
+    next.angular_velocity = world_inertia(body, next.orientation, true) * momentum;
+  }
+}
+
+void add_second_half_of_loads(Substep& substep) {
+  if (left_to_xpbd(substep)) return;
+  const double half = 0.5 * substep.h;
+  const double middle = 0.5 * (substep.start.time + substep.next.time);
+  for (int i = 0; i < substep.bodies.count(); ++i) {
+    const BodyProperties& body = substep.bodies[i];
+    const MovingBody& moving = substep.moving[at(i)];
+    BodyState& next = substep.next.bodies[at(i)];
+    if (!moving.translates && !moving.rotates) continue;
+    const Load load = load_on(substep, i, next.orientation);
+    if (moving.translates) {
+      const Vector3 force = body.mass * substep.bodies.gravity() + load.force;
+      next.velocity =
+          allowed_velocity(body, next.velocity + half * times(moving.inverse_mass, force));
+    }
+    if (!moving.rotates) continue;
+    if (body.mobility == Mobility::free) {
+      next.angular_velocity += half * (world_inertia(body, next.orientation, true) * load.torque);
+      continue;
+    }
+    const Vector3 axis = body.mount >= 0
+                             ? Vector3(substep.next.bodies[at(body.mount)].orientation * body.axis)
+                             : body.axis;
+    double impulse = half * axis.dot(load.torque);
+    if (body.drive == DriveKind::torque) {
+      impulse += body.drive_table.integral(middle, substep.next.time);
+    }
+    next.angular_velocity += impulse / body.axis_inertia * axis;
+  }
+  follow_carriers(substep);
+}
+
+}  // namespace sheave

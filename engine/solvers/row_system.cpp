@@ -1,0 +1,247 @@
+#include "engine/solvers/row_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/index.h"
+
+namespace sheave {
+
+void RowSystem::collect_rows(Substep& substep, Features features) {
+  rows_.clear();
+  feature_rows_.clear();
+  for (const auto& feature : features) {
+    feature_rows_.push_back(static_cast<int>(rows_.size()));
+    feature->linearise(substep, rows_);
+  }
+  feature_rows_.push_back(static_cast<int>(rows_.size()));
+  previous_.resize(rows_.size());
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    const std::span<const double> multipliers = features[f]->multipliers();
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      previous_[at(i)] = multipliers[at(rows_[at(i)].index)];
+    }
+  }
+}
+
+void RowSystem::remember_start(Substep& substep, Features features) {
+  collect_rows(substep, features);
+  start_rows_ = rows_;
+  start_responses_.resize(rows_.size());
+  start_places_.resize(features.size());
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    start_places_[f].assign(features[f]->multipliers().size(), -1);
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      start_places_[f][at(rows_[at(i)].index)] = i;
+    }
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    respond(start_rows_[i], substep.moving, start_responses_[i]);
+  }
+}
+
+bool RowSystem::match_start() {
+  start_values_.resize(rows_.size());
+  for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      const Row& row = rows_[at(i)];
+      const int place = start_places_[f][at(row.index)];
+      if (place < 0) return false;
+      const Row& start = start_rows_[at(place)];
+      if (start.term_count != row.term_count) return false;
+      for (std::size_t t = 0; t < at(row.term_count); ++t) {
+        if (start.terms[t].body != row.terms[t].body) return false;
+      }
+      start_values_[at(i)] = start.value;
+      responses_[at(i)] = start_responses_[at(place)];
+    }
+  }
+  return true;
+}
+
+bool RowSystem::linearise(Substep& substep, Features features, Rule rule) {
+  collect_rows(substep, features);
+  responses_.resize(rows_.size());
+  symmetric_rows_ = rule == Rule::backward;
+  if (rule == Rule::midpoint) {
+    if (!match_start()) return false;
+  } else {
+    for (std::size_t i = 0; i < rows_.size(); ++i) respond(rows_[i], substep.moving, responses_[i]);
+  }
+  make_groups();
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (rule == Rule::backward) {
+      set_backward(substep, g);
+    } else {
+      set_midpoint(substep, g);
+    }
+  }
+  settle_weights(substep);
+  return true;
+}
+
+void RowSystem::make_groups() {
+  groups_.clear();
+  group_of_.resize(rows_.size());
+  problem_.symmetric = symmetric_rows_;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (!rows_[i].tied) groups_.push_back({static_cast<int>(i), 0, 0.0, 1.0, false});
+    Group& group = groups_.back();
+    ++group.row_count;
+    group.elastic = group.elastic || rows_[i].compliance > 0.0;
+    group_of_[i] = static_cast<int>(groups_.size()) - 1;
+    // The heaviest row tells the unknown best.
+    if (rows_[i].weight == 1.0) group.multiplier = previous_[i];
+    problem_.symmetric = problem_.symmetric && rows_[i].weight == 1.0;
+  }
+  const std::size_t n = groups_.size();
+  problem_.size = static_cast<int>(n);
+  problem_.constant.assign(n, 0.0);
+  problem_.diagonal.assign(n, 0.0);
+  problem_.lower.resize(n);
+  problem_.upper.resize(n);
+  problem_.free.resize(n);
+  mismatch_.assign(rows_.size(), 0.0);
+}
+
+void RowSystem::set_bounds(std::size_t g, bool pushed, bool active) {
+  const Group& group = groups_[g];
+  const Row& first = rows_[at(group.first_row)];
+  problem_.lower[g] = first.lower - group.multiplier;
+  problem_.upper[g] = first.upper - group.multiplier;
+  const bool bilateral = !std::isfinite(first.lower) && !std::isfinite(first.upper);
+  problem_.free[g] = bilateral || active || pushed || group.multiplier != 0.0 ? 1 : 0;
+}
+
+void RowSystem::set_backward(const Substep& substep, std::size_t g) {
+  Group& group = groups_[g];
+  double value = 0.0;
+  double compliance = 0.0;
+  double softest = 0.0;
+  bool active = false;
+  for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
+    const Row& row = rows_[at(i)];
+    const double gamma = row.compliance * row.damping / substep.h;
+    value += row.value;
+    if (gamma > 0.0) value += gamma * substep_change(row, substep.moving);
+    compliance += row.weight * row.compliance / (substep.h * substep.h);
+    softest = std::max(softest, gamma);
+    active = active || row.active;
+  }
+  group.scale = 1.0 / (1.0 + softest);
+  problem_.diagonal[g] = group.scale * compliance;
+  problem_.constant[g] = group.scale * (value + compliance * group.multiplier);
+  const bool pushed = std::isfinite(rows_[at(group.first_row)].lower) ? value < 0.0 : value > 0.0;
+  set_bounds(g, pushed, active);
+}
+
+void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
+  Group& group = groups_[g];
+  const Row& first = rows_[at(group.first_row)];
+  double value = 0.0;
+  double start = 0.0;
+  double compliance = 0.0;
+  double gamma = 0.0;
+  bool active = false;
+  for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
+    const Row& row = rows_[at(i)];
+    value += row.value;
+    start += start_values_[at(i)];
+    compliance += row.weight * row.compliance * 4.0 / (substep.h * substep.h);
+    gamma = std::max(gamma, 2.0 * row.compliance * row.damping / substep.h);
+    active = active || row.active;
+  }
+  if (std::isfinite(first.lower)) start = std::min(start, 0.0);
+  if (std::isfinite(first.upper)) start = std::max(start, 0.0);
+  if (compliance > 0.0) value = (1.0 + gamma) * value + (1.0 - gamma) * start;
+  group.scale = 1.0 / (1.0 + gamma);
+  problem_.diagonal[g] = group.scale * compliance;
+  problem_.constant[g] = group.scale * (value + compliance * group.multiplier);
+  set_bounds(g, std::isfinite(first.lower) ? value < 0.0 : value > 0.0, active);
+}
+
+void RowSystem::add_motion(const Substep& substep, std::size_t row, double change) {
+  for (std::size_t t = 0; t < at(rows_[row].term_count); ++t) {
+    const MovingBody& body = substep.moving[at(rows_[row].terms[t].body)];
+    RowTerm& motion = motion_[at(rows_[row].terms[t].body)];
+    if (body.translates) motion.linear += change * responses_[row].linear[t];
+    if (body.rotates) motion.angular += change * responses_[row].angular[t];
+  }
+}
+
+void RowSystem::settle_weights(const Substep& substep) {
+  bool any = false;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    mismatch_[i] = rows_[i].weight * groups_[at(group_of_[i])].multiplier - previous_[i];
+    any = any || mismatch_[i] != 0.0;
+  }
+  if (!any) return;
+  // When a cable begins to slide its multipliers do not have their ratio yet; what that takes moves the bodies.
+  motion_.assign(substep.moving.size(), RowTerm{});
+  for (std::size_t i = 0; i < rows_.size(); ++i) add_motion(substep, i, mismatch_[i]);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    for (const RowTerm& term : rows_[i].active_terms()) {
+      const RowTerm& motion = motion_[at(term.body)];
+      problem_.constant[at(group_of_[i])] +=
+          dot(term.linear, motion.linear) + dot(term.angular, motion.angular);
+    }
+  }
+}
+
+double RowSystem::violation() const {
+  double worst = 0.0;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const double r = problem_.constant[g];
+    const bool at_lower = !(problem_.lower[g] < 0.0);
+    const bool at_upper = !(problem_.upper[g] > 0.0);
+    if ((at_lower && r > 0.0) || (at_upper && r < 0.0) || (at_lower && at_upper)) continue;
+    worst = std::max(worst, std::abs(r) / groups_[g].scale);
+  }
+  return worst;
+}
+
+bool RowSystem::solve(Substep& substep) {
+  find_pattern(substep);
+  assemble(substep);
+  const bool solved = active_set_.solve(problem_);
+  StepStatistics& statistics = substep.statistics;
+  ++statistics.rounds;
+  statistics.row_solves += static_cast<std::int64_t>(rows_.size());
+  statistics.set_changes += active_set_.changes();
+  statistics.redundant_rows = std::max(statistics.redundant_rows, active_set_.dropped());
+  return solved;
+}
+
+void RowSystem::relax(Substep& substep, int sweeps) {
+  find_pattern(substep);
+  assemble(substep);
+  active_set_.relax(problem_, sweeps);
+  substep.statistics.row_solves += static_cast<std::int64_t>(rows_.size()) * sweeps;
+}
+
+void RowSystem::apply(Substep& substep, Features features) {
+  motion_.assign(substep.moving.size(), RowTerm{});
+  const std::span<const double> change = active_set_.solution();
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    const std::span<double> multipliers = features[f]->multipliers();
+    for (int r = feature_rows_[f]; r < feature_rows_[f + 1]; ++r) {
+      const auto i = at(r);
+      const auto g = at(group_of_[i]);
+      const Row& first = rows_[at(groups_[g].first_row)];
+      add_motion(substep, i, rows_[i].weight * change[g] + mismatch_[i]);
+      // Set, not added to, so that rows with one unknown have one multiplier to the last bit.
+      const double unknown =
+          std::clamp(groups_[g].multiplier + change[g], first.lower, first.upper);
+      multipliers[at(rows_[i].index)] = rows_[i].weight * unknown;
+    }
+  }
+  for (std::size_t b = 0; b < motion_.size(); ++b) {
+    MovingBody& body = substep.moving[b];
+    if (body.translates) body.position += motion_[b].linear;
+    if (!body.rotates) continue;
+    body.turn += motion_[b].angular;
+    if (body.tracks_orientation) body.orientation = turned(body.orientation, motion_[b].angular);
+  }
+}
+
+}  // namespace sheave

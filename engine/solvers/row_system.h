@@ -1,0 +1,121 @@
+#pragma once
+// All rows of a substep as one linear problem: what one round of Newton's method solves.
+//
+// With the rows linearised at the current positions, C(x + dx) = C + J dx, motion dx = W K^T dl for a change dl of the
+// unknowns l, and compliance and damping by one of two rules, the unknowns l + dl satisfy
+//
+//   r = c + A dl = 0,   A = J W K^T + a',   c = S value + a' l,   a' = S sum of k a~
+//
+// where a row is free, and l + dl at its bound with r >= 0 (lower bound) or r <= 0 (upper) where it is not: a linear
+// complementarity problem (engine/solvers/active_set.h). Per row, with compliance a and damping b:
+//
+//   backward (XPBD, engine/row.h):  value = C + g C',              a~ = a / h^2,    g = a b / h,    S = 1 / (1 + g)
+//   midpoint:                       value = (1 + g) C + (1 - g) C0, a~ = 4 a / h^2,  g = 2 a b / h,  S = 1 / (1 + g)
+//
+// The second is a F + C = 0 with force and value at the middle of the substep, F = 2 l / h^2 and C0 the value at its
+// start: it conserves the energy of a linear spring for any step. A unilateral spring that was slack counts with C0 = 0:
+// the force then does less work than it stores, so no transition makes energy. Rigid rows have value = C.
+//
+// J and K are the gradients of the rows now and those along which multipliers act: the same for XPBD, those at the start
+// of the substep for `rattle`. Rows that share an unknown are added in J and weighted in K.
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/constraint_batch.h"
+#include "engine/solvers/active_set.h"
+#include "engine/substep.h"
+
+namespace sheave {
+
+using Features = std::span<const std::unique_ptr<ConstraintBatch>>;
+
+/// Rows, unknowns and matrix, with their scratch; what it keeps between substeps is only the pattern of the matrix.
+class RowSystem {
+ public:
+  enum class Rule { backward, midpoint };
+
+  /// Keeps the rows at the start of the substep, whose gradients the midpoint rule lets multipliers act along.
+  void remember_start(Substep& substep, Features features);
+  /// The problem at the current positions. False if a row touches other bodies than at the remembered start.
+  bool linearise(Substep& substep, Features features, Rule rule);
+  /// The problem of the velocities in substep.next, with K = J at the current positions: the impulses m [N s] for which
+  /// dC/dt = 0 (or >= 0) on rows that have acted or are closed. Springs have acted and get none.
+  void linearise_velocities(Substep& substep, Features features);
+
+  /// The largest violation [m or rad; m/s or rad/s] of what the problem asks for, before it is solved.
+  [[nodiscard]] double violation() const;
+  /// Finds the unknowns; false if no active set was found. Counts into the substep's statistics.
+  bool solve(Substep& substep);
+  /// Sweeps over the unknowns instead: projected Gauss-Seidel.
+  void relax(Substep& substep, int sweeps);
+  /// Moves the bodies and the multipliers.
+  void apply(Substep& substep, Features features);
+  /// Changes the velocities and adds h m to the multipliers, whose mean force over the substep is l / h^2 + m / h.
+  void apply_impulses(Substep& substep, Features features);
+
+  [[nodiscard]] int row_count() const { return static_cast<int>(rows_.size()); }
+
+ private:
+  /// Rows that share an unknown.
+  struct Group {
+    int first_row = 0;
+    int row_count = 0;
+    double multiplier = 0.0;  ///< l
+    double scale = 1.0;       ///< S
+    bool elastic = false;     ///< at least one of the rows has a compliance
+  };
+  /// A term of a row that touches a body which can move.
+  struct Touch {
+    int row = 0;
+    int term = 0;
+  };
+  /// What two touches of one body add to A.
+  struct Coupling {
+    int entry = 0;  ///< off the diagonal; < 0: on it, of the group -1 - entry
+    Touch first;    ///< of the group with the lower number
+    Touch second;
+  };
+
+  void collect_rows(Substep& substep, Features features);
+  bool match_start();
+  void make_groups();
+  void set_backward(const Substep& substep, std::size_t group);
+  void set_midpoint(const Substep& substep, std::size_t group);
+  void set_bounds(std::size_t group, bool pushed, bool active);
+  void settle_weights(const Substep& substep);
+  void find_pattern(const Substep& substep);
+  void assemble(const Substep& substep);
+  [[nodiscard]] double coupling(const Substep& substep, Touch gradient, Touch motion) const;
+  /// Adds the motion that `change` of row i's multiplier causes.
+  void add_motion(const Substep& substep, std::size_t row, double change);
+  void act_springs(Substep& substep);
+  void move_velocities(Substep& substep);
+  [[nodiscard]] double rate_of(const Substep& substep, const Row& row) const;
+
+  std::vector<Row> rows_;
+  std::vector<RowResponse> responses_;  ///< of K
+  std::vector<int> feature_rows_;       ///< first row of each feature, and their number
+  std::vector<double> previous_;        ///< per row its multiplier
+  std::vector<Row> start_rows_;
+  std::vector<RowResponse> start_responses_;
+  std::vector<std::vector<int>>
+      start_places_;                  ///< per feature and index of multiplier: the start's row
+  std::vector<double> start_values_;  ///< per row
+  std::vector<Group> groups_;
+  std::vector<int> group_of_;
+  std::vector<double> mismatch_;  ///< per row: weight times the unknown, less its multiplier
+  std::vector<RowTerm>
+      motion_;  ///< per body: displacement and turn, or their rates; `body` is not used
+  std::vector<int> signature_;  ///< of the pattern: per row its bodies and whether it is tied
+  std::vector<int> new_signature_;
+  std::vector<std::pair<int, int>> entries_;
+  std::vector<Coupling> couplings_;
+  bool symmetric_rows_ = true;  ///< K = J but for weights
+  ComplementarityProblem problem_;
+  ActiveSetSolver active_set_;
+};
+
+}  // namespace sheave

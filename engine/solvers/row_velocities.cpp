@@ -1,0 +1,93 @@
+// The velocity problem of engine/solvers/row_system.h: dC/dt = J v + the explicit change of C with time.
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/index.h"
+#include "engine/solvers/row_system.h"
+#include "engine/stages.h"
+
+namespace sheave {
+
+double RowSystem::rate_of(const Substep& substep, const Row& row) const {
+  double rate = row.rate;
+  for (const RowTerm& term : row.active_terms()) {
+    if (term.body == substep.bodies.count()) continue;
+    const BodyState& body = substep.next.bodies[at(term.body)];
+    rate += dot(term.linear, body.velocity) + dot(term.angular, body.angular_velocity);
+  }
+  return rate;
+}
+
+void RowSystem::linearise_velocities(Substep& substep, Features features) {
+  // Closer than this a row counts as closed: far below what a substep moves, far above what the solver leaves.
+  const double closed = 1e-8 * substep.bodies.scale();
+  collect_rows(substep, features);
+  responses_.resize(rows_.size());
+  symmetric_rows_ = true;
+  for (std::size_t i = 0; i < rows_.size(); ++i) respond(rows_[i], substep.moving, responses_[i]);
+  make_groups();
+  act_springs(substep);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    Group& group = groups_[g];
+    const Row& first = rows_[at(group.first_row)];
+    double value = 0.0;
+    double rate = 0.0;
+    for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
+      value += rows_[at(i)].value;
+      rate += rate_of(substep, rows_[at(i)]);
+    }
+    const bool acts = !group.elastic && (group.multiplier != 0.0 || std::abs(value) <= closed ||
+                                         (std::isfinite(first.lower) && value < 0.0) ||
+                                         (std::isfinite(first.upper) && value > 0.0));
+    const bool bilateral = !std::isfinite(first.lower) && !std::isfinite(first.upper);
+    problem_.constant[g] = rate;
+    problem_.lower[g] = acts ? std::min(first.lower, 0.0) : 0.0;
+    problem_.upper[g] = acts ? std::max(first.upper, 0.0) : 0.0;
+    problem_.free[g] = acts && (bilateral || group.multiplier != 0.0) ? 1 : 0;
+    group.multiplier = 0.0;  // of the impulse
+  }
+}
+
+void RowSystem::act_springs(Substep& substep) {
+  // Their force at the middle of the substep, F = 2 l / h^2, acts for the second half along the gradient of the end.
+  motion_.assign(substep.moving.size(), RowTerm{});
+  bool any = false;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (!groups_[at(group_of_[i])].elastic || previous_[i] == 0.0) continue;
+    add_motion(substep, i, previous_[i] / substep.h);
+    any = true;
+  }
+  if (any) move_velocities(substep);
+}
+
+void RowSystem::move_velocities(Substep& substep) {
+  const BodySet& bodies = substep.bodies;
+  for (int i = 0; i < bodies.count(); ++i) {
+    const MovingBody& moving = substep.moving[at(i)];
+    BodyState& next = substep.next.bodies[at(i)];
+    if (moving.translates) next.velocity += motion_[at(i)].linear;
+    // A mounted rotor's own part is its spin; follow_carriers() gives it the rest.
+    if (moving.rotates) next.angular_velocity += motion_[at(i)].angular;
+  }
+  follow_carriers(substep);
+}
+
+void RowSystem::apply_impulses(Substep& substep, Features features) {
+  motion_.assign(substep.moving.size(), RowTerm{});
+  const std::span<const double> impulses = active_set_.solution();
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    const std::span<double> multipliers = features[f]->multipliers();
+    for (int r = feature_rows_[f]; r < feature_rows_[f + 1]; ++r) {
+      const auto i = at(r);
+      const Group& group = groups_[at(group_of_[i])];
+      const double impulse =
+          group.elastic ? previous_[i] / substep.h : rows_[i].weight * impulses[at(group_of_[i])];
+      multipliers[at(rows_[i].index)] = previous_[i] + substep.h * impulse;
+      if (!group.elastic) add_motion(substep, i, impulse);
+    }
+  }
+  move_velocities(substep);
+}
+
+}  // namespace sheave
