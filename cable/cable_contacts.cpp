@@ -163,6 +163,8 @@ void CableSystem::touch(const Substep& substep, const CompiledCable& cable, int 
   if (!in.has_tangent || !out.has_tangent || !(in.length + out.length > 0.0)) return;
   const double angle = wrap_angle(substep, split.links[at(link)], in, out, 0.0);
   const double arc = arc_between(substep, split.links[at(link)], in, out, angle);
+  // From a skew outline's edge the tangents may turn against the winding, although the span cuts it.
+  if (arc < 0.0) return;
   double& rest_before = next.reals[rest_length_index(before)];
   // The span's outer ends move along their links, too, as its direction changes.
   const double whole = rest_before +
