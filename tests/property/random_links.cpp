@@ -186,11 +186,11 @@ std::shared_ptr<const LinkDef> LinkMaker::middle_link(const Place& place) {
   const double kind = random_.between(0.0, 1.0);
   if (kind < 0.2) return point_link(place, true);
   if (kind < 0.27) return point_link(place, false);
-  const bool lifted = traits_.lifted && random_.chance(0.08);
+  const bool lifted = traits_.lifted && place.open && random_.chance(0.08);
   Place here = place;
   // Well off the cable: a wheel that it cuts at time 0 would be wound on at once, all in one substep.
   const double side = place.winding == Winding::clockwise ? -1.0 : 1.0;
-  if (lifted) here.center += place.frame * Vector3(0.0, side * random_.between(0.6, 1.0), 0.0);
+  if (lifted) here.center += place.frame * Vector3(0.0, side * random_.between(1.2, 1.6), 0.0);
   auto link = std::static_pointer_cast<RollingLink>(wheel_link(here));
   if (traits_.friction && random_.chance(0.2)) link->friction = random_.between(0.0, 0.4);
   if (lifted) {

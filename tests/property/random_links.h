@@ -15,6 +15,7 @@ struct Place {
   Quaternion frame = Quaternion::Identity();  ///< its z axis is the normal of the cable's plane
   bool flat = true;                           ///< all links of the cable share the plane
   Winding winding = Winding::counter_clockwise;
+  bool open = true;  ///< of a cable with ends, which passes from left to right
 };
 
 /// Draws links and adds their bodies to a machine.

@@ -78,6 +78,7 @@ Machine draw(Random& random, const Traits& traits) {
     place.center = frame * stations[static_cast<std::size_t>(i)];
     place.frame = skew ? Quaternion(frame * rotation_by(random.vector(0.3))) : frame;
     place.flat = !skew;
+    place.open = !closed;
     place.winding = natural_winding(stations, closed, i);
     if (random.chance(0.2)) place.winding = random.chance(0.5) ? left : right;
     const bool end = !closed && (i == 0 || i + 1 == count);
