@@ -156,8 +156,10 @@ int touched_corner(const Substep& substep, const LinkGeometry& link, const Vecto
 }
 
 /// Finds the corners: each round turns the span about one end until it no longer cuts the other outline. Between convex
-/// outlines that do not overlap every turn goes the same way for the same end, so each corner is passed once at most
-/// and the rounds are bounded by the number of corners; if they are used up, the outlines overlap.
+/// outlines in one plane that do not overlap every turn goes the same way for the same end, so each corner is passed
+/// once at most and the rounds are bounded by the number of corners; if they are used up, the outlines overlap. In
+/// skew planes there may be no pair of corners that suits both views (for 0.3 % of random polygons tilted by up to
+/// 0.3 rad about each axis, 3 % at 1 rad); then the last pair stands and counts as no tangent.
 SpanGeometry outlined_span(const Substep& substep, const SpanSetup& setup,
                            const LinkGeometry& first, const LinkGeometry& second) {
   const Vector3 between = link_center(substep, second) - link_center(substep, first);

@@ -11,8 +11,8 @@
 
 #include "tests/property/campaign.h"
 #include "tests/property/limits.h"
-#include "tests/property/random.h"
 #include "tests/support/gradient_check.h"
+#include "tests/support/random.h"
 
 namespace sheave::test {
 namespace {

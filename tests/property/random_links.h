@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "tests/property/random.h"
 #include "tests/property/random_machine.h"
+#include "tests/support/random.h"
 
 namespace sheave::test {
 
