@@ -27,13 +27,57 @@ inline void add_link_force(const Substep& substep, Row& row, const LinkGeometry&
   row.add(link.body, direction, cross(point - body.position, direction));
 }
 
-/// Velocity of the link's centre at the start of the substep (of an outline: of its origin, which is near enough for a
-/// guess of the span's turn).
+/// Where the link's centre (of an outline: its origin, which is near enough for a guess) would be `time` after the start
+/// of the substep [m] if its body went on as it moves there.
+Vector3 center_after(const Substep& substep, const LinkGeometry& link, double time) {
+  if (link.carrier == substep.bodies.count()) return link.center;
+  const BodyState& carrier = substep.start.bodies[at(link.carrier)];
+  const Vector3 center = carrier.position + time * carrier.velocity;
+  if (link.centered) return center;
+  return center +
+         rotation_by(time * carrier.angular_velocity) * (carrier.orientation * link.center);
+}
+
+/// Velocity of the link's centre at the start of the substep.
 Vector3 start_velocity(const Substep& substep, const LinkGeometry& link) {
   if (link.carrier == substep.bodies.count()) return Vector3::Zero();
   const BodyState& carrier = substep.start.bodies[at(link.carrier)];
   if (link.centered) return carrier.velocity;
   return carrier.velocity + cross(carrier.angular_velocity, carrier.orientation * link.center);
+}
+
+/// Rotation of the link's carrier over the substep [rad].
+double carrier_rotation(const Substep& substep, const LinkGeometry& link) {
+  if (link.carrier == substep.bodies.count() || link.centered) return 0.0;
+  return substep.h * substep.start.bodies[at(link.carrier)].angular_velocity.norm();
+}
+
+/// Turn of the line between the links' centres over the substep about `normal` [rad], any number of times, if their
+/// bodies go on as they move at its start. `apart` is that line at the start.
+double expected_turn(const Substep& substep, const LinkGeometry& first, const LinkGeometry& second,
+                     const Vector3& apart, const Vector3& normal) {
+  const double distance_squared = dot(apart, apart);
+  if (!(distance_squared > 0.0)) return 0.0;
+  const Vector3 velocity = start_velocity(substep, second) - start_velocity(substep, first);
+  const double turn = substep.h * dot(normal, cross(apart, velocity)) / distance_squared;
+  if (std::abs(turn) < 1.0) return turn;
+  // One of them orbits the other, or passes it closely, which cannot turn the line by more than half a turn. So follow
+  // the line in steps of less than a radian of rotation.
+  constexpr double most_steps = 1e4;
+  const double rotation = carrier_rotation(substep, first) + carrier_rotation(substep, second);
+  const int steps = 1 + static_cast<int>(std::min(2.0 * rotation, most_steps));
+  const auto line = [&](int step) -> Vector3 {
+    const double time = substep.h * step / steps;
+    return center_after(substep, second, time) - center_after(substep, first, time);
+  };
+  double sum = 0.0;
+  Vector3 from = line(0);
+  for (int i = 1; i <= steps; ++i) {
+    const Vector3 to = line(i);
+    sum += std::atan2(dot(normal, cross(from, to)), dot(from, to));
+    from = to;
+  }
+  return sum;
 }
 
 /// Unit vector from the centre of `circle` to `point` on it.
@@ -216,12 +260,7 @@ SpanReference span_reference(const Substep& substep, const SpanSetup& setup,
     reference.direction = span.direction;
     const Vector3 apart = center_of(substep, second, span.second_corner) -
                           center_of(substep, first, span.first_corner);
-    const Vector3 velocity = start_velocity(substep, second) - start_velocity(substep, first);
-    const double distance_squared = dot(apart, apart);
-    if (distance_squared > 0.0) {
-      reference.expected_turn =
-          substep.h * dot(setup.normal, cross(apart, velocity)) / distance_squared;
-    }
+    reference.expected_turn = expected_turn(substep, first, second, apart, setup.normal);
     return reference;
   }
   const auto own_radial = [&](const LinkGeometry& link, int corner,
