@@ -339,8 +339,11 @@ Clearance clearance(const Substep& substep, const LinkGeometry& link, const Span
   const Vector3 corner = center_of(substep, link, touched_corner(substep, link, span.direction, 0));
   const Vector3 center = link_center(substep, link) - span.start;
   const double along = dot(span.direction, center);
+  // How thick the body is at the groove is not known; as far as its mean radius to either side counts as thick enough.
+  const double aside = std::abs(dot(normal, center - along * span.direction));
   return {link.side * dot(left, corner - span.start) - std::abs(link.signed_radius),
-          link.side * dot(left, center), along > 0.0 && along < span.length};
+          link.side * dot(left, center),
+          along > 0.0 && along < span.length && aside <= link.perimeter() / (2.0 * pi)};
 }
 
 double arc_between(const Substep& substep, const LinkGeometry& link, const SpanGeometry& incoming,

@@ -96,7 +96,8 @@ struct Clearance {
   /// From the outline to the span, on the side where the link's winding puts the cable [m]; < 0: the span cuts it.
   double distance = 0.0;
   double center_distance = 0.0;  ///< the same from the link's centre
-  bool between = false;          ///< whether the centre lies beside the span, not beyond its ends
+  bool between =
+      false;  ///< whether the span passes beside the body, not beyond its ends or far off its plane
 };
 [[nodiscard]] Clearance clearance(const Substep& substep, const LinkGeometry& link,
                                   const SpanGeometry& span);

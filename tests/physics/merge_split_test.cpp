@@ -204,5 +204,26 @@ TEST(MergeSplit, TouchingASkewOutlineNeverStoresLessThanNothing) {
   }
 }
 
+TEST(MergeSplit, ACableThatPassesFarOffTheWheelsPlaneDoesNotTouch) {
+  // The cable sinks past a peg of 0.1 m radius whose plane is z = 0, in that plane and off it.
+  for (const double z : {0.0, 0.05, 0.5, 3.0}) {
+    test::Machine m;
+    m.model.step = test::settings(0.005, 1, 10);
+    const BodyId post = m.model.add(peg("peg", Vector3::Zero(), 0.1));
+    BodyDef body = test::lump("carriage", {-1.0, 0.5, z}, 1.0);
+    body.mobility = Mobility::kinematic;
+    body.velocity = {0.0, -1.0, 0.0};
+    const BodyId carriage = m.model.add(body);
+    body.name = "other carriage";
+    body.position = {1.0, 0.5, z};
+    const BodyId other = m.model.add(body);
+    m.cables.push_back(cable("rope", {attach(carriage), passing(post, right), attach(other)}));
+    m.cables[0].compliance = 1e-4;
+    Simulation s = test::start(m);
+    for (int k = 0; k < 100; ++k) ASSERT_TRUE(s.world.step().ok());
+    EXPECT_EQ(s.cable_reports()[0].links[1].touched, z < 0.1) << z;
+  }
+}
+
 }  // namespace
 }  // namespace sheave
