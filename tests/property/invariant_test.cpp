@@ -68,6 +68,8 @@ constexpr Traits never_negative() {
 // substep's motion, but rows that fight each other can keep more, so what they are short of counts, too. A stored length
 // below 0 makes a hybrid end attach and the cable leave a wheel, at the end of the same substep. What is left is what
 // the course's change then moves along the neighbouring links: by the substep's motion times radius / span length.
+// A belt does not leave the last two links, whatever is stored on them, and is followed no longer when it has come to
+// them.
 TEST(Property, NoLengthIsNegative) {
   run_campaign("negative lengths", never_negative(), [](const Machine& random, std::uint64_t) {
     Machine machine = with_single_substeps(random);
@@ -81,6 +83,9 @@ TEST(Property, NoLengthIsNegative) {
       const double shortest = shortest_span(s);
       if (!(shortest > 0.05)) return worst;
       for (const CableReport& cable : s.cable_reports()) {
+        const auto touched = std::count_if(cable.links.begin(), cable.links.end(),
+                                           [](const LinkReport& link) { return link.touched; });
+        if (cable.closed && touched <= 2) return worst;
         for (const SpanReport& span : cable.spans) {
           worst.worsen(-span.rest_length, moved * (1.0 + 0.3 / shortest), "rest length");
         }

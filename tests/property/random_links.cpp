@@ -209,7 +209,8 @@ std::shared_ptr<const LinkDef> LinkMaker::end_link(const Place& place) {
   const double stored = random_.between(0.0, 1.0) * (random_.chance(0.5) ? 0.05 : 3.0);
   if (kind < 0.7 || !traits_.changing_ends) {
     auto link = roll(add_wheel(place, radius, false), place.winding);
-    link->stored_length = 5.0 + stored;  // a rolling end has no other end to come to
+    // It has no other end to come to: used up, it would go on with a negative stored length, which hybrid ends are for.
+    link->stored_length = 50.0 + stored;
     return link;
   }
   if (kind < 0.85) {
