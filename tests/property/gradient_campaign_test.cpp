@@ -1,10 +1,11 @@
 // Gradients of all rows of random machines against finite differences, at random configurations of random moments.
 //
 // Tolerance. Five-point differences with h = 1e-3 are wrong by h^4/30 f''''' and by the rounding of C, some 16 eps of
-// 10 m, over h. The fifth derivative of a distance l under motions of unit speed is at most 60/l^4 and of a tangent's
-// length the same with the tangent's length, so with the shortest span l: 2e-12/l^4 + 4e-11; one power of ten
+// the lengths and places that make it up (10 m at least), over h. The fifth derivative of a distance l under motions of unit speed is at most 60/l^4 and of a tangent's
+// length the same with the tangent's length, so with the shortest span l: 2e-12/l^4 + 4e-12 size; one power of ten
 // more for the several terms of skew spans and of a body with an arm.
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -16,6 +17,18 @@
 
 namespace sheave::test {
 namespace {
+
+/// Largest number that a cable's rows are made of [m].
+double size_of(const Simulation& simulation) {
+  double size = 10.0;
+  for (const CableReport& cable : simulation.cable_reports()) {
+    for (const SpanReport& span : cable.spans) {
+      size = std::max({size, span.start.norm(), span.end.norm(), std::abs(span.rest_length)});
+    }
+    for (const LinkReport& link : cable.links) size = std::max(size, link.center.norm());
+  }
+  return size;
+}
 
 Finding gradient_finding(const Machine& machine, std::uint64_t seed, double angle) {
   Simulation s = start(machine);
@@ -33,8 +46,8 @@ Finding gradient_finding(const Machine& machine, std::uint64_t seed, double angl
   batch.begin(substep, world.state().features.back());
   displace(substep, distance, angle, static_cast<unsigned>(seed));
   const GradientCheck check = check_gradients(substep, batch, true);
-  return {check.compared > 0, check.error, 10.0 * (2e-12 / std::pow(shortest, 4) + 4e-11),
-          check.worst};
+  return {check.compared > 0, check.error,
+          10.0 * (2e-12 / std::pow(shortest, 4) + 4e-12 * size_of(s)), check.worst};
 }
 
 // A drum's radius is that of the start of the substep (cable/cable_ends.cpp), so with layers its rows miss by

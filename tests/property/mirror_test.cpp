@@ -96,15 +96,20 @@ std::vector<double> sensitivity(const Machine& machine, int steps, double change
 
 // With outlines and with hybrid ends, whose attachments are kept as angles, the value of each row is rounded
 // differently, by some 16 eps of the size of the machine in each of a substep's sweeps. What that comes to is measured:
-// the same machine with rest lengths changed by 1e-9 m. Errors of later substeps grow less than those of the first.
+// the same machine with rest lengths changed by 1e-12 m. Errors of later substeps grow less than those of the first.
+// A machine that makes a million times as much of the change is about to pass a dead centre, where rounding decides
+// which way it goes; it is followed no further.
 TEST(Property, MirrorImageOfOutlinesAndChangingEndsMovesAlike) {
   run_campaign("mirror image", {}, [](const Machine& random, std::uint64_t) {
     const Machine machine = with_single_substeps(random);
-    constexpr int steps = 20;
-    const std::vector<double> growth = sensitivity(machine, steps, 1e-9);
+    constexpr int most_steps = 20;
+    const std::vector<double> growth = sensitivity(machine, most_steps, 1e-12);
+    const auto steps =
+        std::find_if(growth.begin(), growth.end(), [](double factor) { return factor > 1e6; }) -
+        growth.begin();
     const double size = start(machine).world.bodies().scale() + 1.0;
     const double rounding = 16.0 * eps * size * machine.model.step.iterations;
-    return mirror_finding(machine, steps, [&](int i) {
+    return mirror_finding(machine, static_cast<int>(steps), [&](int i) {
       return (i + 1) * rounding * growth[static_cast<std::size_t>(i)];
     });
   });
