@@ -157,6 +157,20 @@ void add_skew_terms(const Substep& substep, const LinkGeometry& first, const Lin
   }
 }
 
+/// Without a tangent the length stays 0 and the span's direction is perpendicular to the line between the centres. That
+/// line turns by motion / distance, which moves cable by q times that: q / d times what the force of 1 at the
+/// tangent points stands for. The rest of it acts at the centres; at d = q, where the tangent ends, there is none.
+void add_turning_terms(const Substep& substep, const SpanSetup& setup, const LinkGeometry& first,
+                       const LinkGeometry& second, const SpanGeometry& span, Row& row) {
+  const Vector3 first_center = center_of(substep, first, 0);
+  const Vector3 second_center = center_of(substep, second, 0);
+  const double distance = (second_center - first_center).norm();
+  if (!(distance > 0.0)) return;
+  const double more = std::abs(setup.second_radius - setup.first_radius) / distance - 1.0;
+  add_link_force(substep, row, first, first_center, more * span.direction);
+  add_link_force(substep, row, second, second_center, -more * span.direction);
+}
+
 }  // namespace
 
 LinkCircle circle_of(const Substep& substep, const LinkGeometry& link, int corner) {
@@ -393,6 +407,9 @@ SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
   add_link_force(substep, row, second, span.end, -span.direction);
   if (setup.kind == SpanKind::spatial && span.has_tangent && span.length > 0.0) {
     add_skew_terms(substep, first, second, span, row);
+  }
+  if (setup.kind == SpanKind::planar && !span.has_tangent && !setup.outlined) {
+    add_turning_terms(substep, setup, first, second, span, row);
   }
   return span;
 }

@@ -11,7 +11,8 @@
 // and nothing drifts.
 //
 // Gradient, coplanar: moving the tangent points along the circles changes l and L alike, so only
-// the material points count (envelope theorem): grad C = +u at the start, -u at the end.
+// the material points count (envelope theorem): grad C = +u at the start, -u at the end. (Where there is no tangent, the
+// centres count, too; see add_turning_terms.)
 //
 // Gradient, different planes: at the end of a span on a wheel, the span's direction u and the
 // wheel's tangent t = o n x e (o = sign q) need not agree, and moving the tangent point by
