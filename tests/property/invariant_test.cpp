@@ -28,24 +28,36 @@ double longest_length(const CableReport& cable) {
   return longest;
 }
 
+bool driven(const Machine& machine) {
+  const std::vector<BodyDef>& bodies = machine.model.bodies;
+  return std::any_of(bodies.begin(), bodies.end(),
+                     [](const BodyDef& body) { return body.mobility == Mobility::kinematic; });
+}
+
 // Exact means up to 8 times the cable, where 53 bits end. Kinematic bodies can tear a rigid cable and spin its wheels
 // without limit; once lengths, or what a substep moves, are beyond half of that, each of the some 16 sums of a substep
 // may round by eps of the longest.
 //
 // A machine is followed until a span has no tangent, because wheels that overlap are no machine; what is asked of them
 // is in degenerate_test.cpp.
+// Nor can a solver satisfy a rigid cable between bodies of which one is driven away and nothing can follow. At the dead
+// centre, where a pull no longer turns the wheel that holds the other end, each correction turns it the more, until
+// the run ends with a report that it diverged. So a run may end if a cable was torn by a hundredth before.
 TEST(Property, LengthIsConservedAndStatesAreFinite) {
   run_campaign("length invariant", {}, [](const Machine& machine, std::uint64_t) {
     Simulation s = start(with_single_substeps(machine));
     Finding worst;
     double rounding = 0.0;
+    double stretch = 0.0;
     const double whole = s.cable_reports()[0].total_length;
     for (int i = 0; i < 5 * invariant_steps; ++i) {
       const State before = s.world.state();
       const StepReport report = s.world.step();
       if (!s.cables->tangent_warnings().empty()) return worst;
+      if (!report.ok() && driven(machine) && stretch > 0.01) return worst;
       if (!report.ok()) return Finding{true, 1.0, 0.0, report.divergence->message};
       const CableReport cable = s.cable_reports()[0];
+      stretch = std::max(stretch, cable.max_stretch);
       const double longest = std::max(longest_length(cable), motion_bound(s.world, before));
       if (longest > 4.0 * whole) rounding += 16.0 * eps * longest / whole;
       worst.worsen(std::abs(cable.length_error), rounding,
