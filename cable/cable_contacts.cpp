@@ -223,7 +223,7 @@ bool CableSystem::touch_wrappable(const Substep& substep, int cable_index, int s
   const Vector3 normal = substep.orientation(section->carrier) * section->normal;
   section->side = dot(normal, before.moment) > 0.0 ? 1 : -1;
   section->signed_radius = section->side * std::abs(section->signed_radius);
-  if (!clearance(substep, *section, line).cuts(*section)) return false;
+  if (!swept && !clearance(substep, *section, line).cuts(*section)) return false;
 
   int place = cable.first_link + cable.listed_links;
   const int end = cable.first_link + cable.link_count;
@@ -259,12 +259,14 @@ bool CableSystem::split(const Substep& substep, const CompiledCable& cable, int 
   const LinkGeometry& wheel = links_[at(link)];
   const bool tangents = in.has_tangent && out.has_tangent && in.length + out.length > 0.0;
   const double angle = tangents ? wrap_angle(substep, wheel, in, out, 0.0) : 0.0;
-  if (!tangents || (link > cable.last_listed_link() && !(angle > 0.0))) {
+  const double way = tangents ? arc_between(substep, wheel, in, out, angle) : 0.0;
+  // From a skew outline's edge the tangents may turn against the winding, although the span cuts it.
+  if (!tangents || way < 0.0 || (link > cable.last_listed_link() && !(angle > 0.0))) {
     remove_link(first, link, next);
     follow_course(substep.bodies, next);
     return false;
   }
-  const double arc = cable.quantised(arc_between(substep, wheel, in, out, angle));
+  const double arc = cable.quantised(way);
   double& rest_before = next.reals[rest_length_index(span)];
   // The span's outer ends move along their links, too, as its direction changes.
   const double available = rest_before +

@@ -120,6 +120,7 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   // Weights relative to the heaviest, so that no number of turns overflows.
   double numerator = -error;
   double denominator = 0.0;
+  double parts = 0.0;  // the same without what cancels between the spans
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     const Row& row = run_rows_[at(i)];
     double& weight = run_weights_[at(i)];
@@ -128,8 +129,16 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
     for (const RowTerm& term : row.active_terms()) {
       const MovingBody& body = substep.moving[at(term.body)];
       const RowTerm& sum = run_gradient_[at(term.body)];
-      if (body.translates) yield += dot(sum.linear, times(body.inverse_mass, term.linear));
-      if (body.rotates) yield += dot(sum.angular, times(body.inverse_inertia, term.angular));
+      if (body.translates) {
+        const Vector3 moved = times(body.inverse_mass, term.linear);
+        yield += dot(sum.linear, moved);
+        parts += weight * dot(term.linear, moved);
+      }
+      if (body.rotates) {
+        const Vector3 moved = times(body.inverse_inertia, term.angular);
+        yield += dot(sum.angular, moved);
+        parts += weight * dot(term.angular, moved);
+      }
     }
     numerator += yield * multipliers_[at(k)];
     denominator += weight * (yield + row.compliance * inverse_square);
@@ -137,7 +146,9 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   for (std::size_t i = 0; i < count; ++i) {
     for (const RowTerm& term : run_rows_[i].active_terms()) run_gradient_[at(term.body)] = {};
   }
-  if (!(denominator > 0.0)) return 0.0;
+  // Where nothing but wheels that the cable slides over can move, rounding is left of w; it is no yield.
+  constexpr double cancelled = 64.0 * std::numeric_limits<double>::epsilon();
+  if (!(denominator > cancelled * parts)) return 0.0;
   const double multiplier = std::max(numerator / denominator, 0.0);
   double largest = 0.0;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {

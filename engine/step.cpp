@@ -50,11 +50,11 @@ std::vector<Stage> substep_stages(const Model& model,
   if (rattle) {
     add("solve positions", [=](Substep& substep) { solver->solve_positions(substep, features); });
   } else if (!features.empty() && model.step.solver == SolverKind::direct) {
-    add("solve directly", [features, direct = std::make_shared<DirectSolver>()](Substep& substep) {
+    add("solve by direct", [features, direct = std::make_shared<DirectSolver>()](Substep& substep) {
       direct->solve(substep, features);
     });
   } else if (!features.empty()) {
-    add("solve by Gauss-Seidel",
+    add("solve by gauss-seidel",
         [features](Substep& substep) { solve_gauss_seidel(substep, features); });
   }
   add("derive velocities", derive_velocities);

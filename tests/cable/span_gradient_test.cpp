@@ -4,6 +4,8 @@
 // wheels have one more source of rounding: skew planes are solved by iteration to 4e-15 of the
 // size, which the step 1e-3 turns into 4e-12.
 
+#include <tuple>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/builders.h"
@@ -206,6 +208,28 @@ TEST(SpanGradient, FrozenTangentPoints) {
                attach(BodyId::world(), {2.8, 1.1, 0.1})},
               TangentUpdate::substep);
   expect_exact(b.check(0.1, 0.4));
+}
+
+TEST(SpanGradient, PlanarWithoutATangent) {
+  // Wheels that come to overlap during the substep: crossed, nested, and a point inside a wheel.
+  for (const auto& [first, second, r2] :
+       {std::tuple{left, right, 0.25}, {right, left, 0.25}, {left, left, 0.02}}) {
+    Bodies b;
+    const BodyId a = b.add(planar(free_wheel("a", {0.0, 0.0, 0.0}, 0.4)));
+    const BodyId c = b.add(planar(free_wheel("c", {1.5, 0.4, 0.0}, r2)));
+    auto one = spool(a, first);
+    auto two = spool(c, second);
+    one->center = Vector3(0.05, 0.02, 0.0);
+    one->radius = 0.4;
+    b.add_cable({one, two});
+    Simulation simulation = test::start(b.machine);
+    World& world = simulation.world;
+    Substep substep(world.bodies(), world.state(), 0.01, 1);
+    ConstraintBatch& batch = *world.features().back();
+    batch.begin(substep, world.state().features.back());
+    substep.moving[1].position = {0.2, 0.1, 0.0};
+    expect_exact(test::check_gradients(substep, batch));
+  }
 }
 
 }  // namespace

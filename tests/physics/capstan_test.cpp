@@ -182,5 +182,33 @@ TEST(Capstan, WithoutFrictionTheWheelStandsStill) {
   EXPECT_NEAR(-s.world.velocity({2}).y(), 0.5 * g / 3.0, 1e-9);
 }
 
+TEST(Capstan, StaysFiniteWhereNothingButTheWheelCanMove) {
+  // Sliding over the wheel turns it but gives no cable, so what pulls a rigid cable apart here cannot be met.
+  for (int i = 0; i < 20; ++i) {
+    test::Machine m;
+    m.model.gravity = test::down;
+    m.model.step = test::settings(0.01, 4, 10);
+    const BodyId pulley = m.model.add(test::wheel("wheel", {0.0, 0.0, 0.0}, 0.2, 0.01));
+    BodyDef drive = test::lump("drive", {1.1, -0.7 + 0.05 * i, 0.0}, 1.0);
+    drive.mobility = Mobility::kinematic;
+    drive.velocity = {0.5, -0.3, 0.0};
+    const BodyId away = m.model.add(drive);
+    auto wheel = roll(pulley, right);
+    wheel->friction = 0.07;
+    m.cables.push_back(
+        cable("rope", {attach(BodyId::world(), {-1.3, -0.4, 0.0}), wheel, attach(away)}));
+    Simulation s = test::start(m);
+    for (int k = 0; k < 50; ++k) {
+      ASSERT_TRUE(s.world.step().ok());
+      const CableReport report = s.cable_reports()[0];
+      // The cable is torn by the drive's way and no more.
+      ASSERT_LT(std::abs(report.spans[0].rest_length - report.spans[0].length), 0.5);
+      ASSERT_LT(std::abs(report.spans[1].rest_length - report.spans[1].length), 0.5);
+      ASSERT_LT(report.spans[0].tension, 1e9);
+      ASSERT_LT(s.world.angular_velocity(pulley).norm(), 1e3);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sheave

@@ -172,5 +172,34 @@ TEST(LengthInvariant, BeltAtSeveralTurnsPerSubstepDrivesTheFollower) {
   }
 }
 
+// Not a machine any more, but the cable must not be wound on by whole turns that nothing made: the line between the
+// centres turns by less than half a turn, however fast it turns as they pass.
+TEST(LengthInvariant, WheelsThatPassThroughEachOtherMakeNoTurns) {
+  constexpr double r1 = 0.3;
+  constexpr double r2 = 0.2;
+  for (int i = 0; i < 40; ++i) {
+    test::Machine machine;
+    machine.model.step = test::settings(0.01, 1, 1);
+    BodyDef still = test::wheel("still", Vector3::Zero(), r1, 0.01);
+    BodyDef passing = test::wheel("passing", {-1.001 + 1e-3 * i, 1e-3, 0.0}, r2, 0.01);
+    still.mobility = passing.mobility = Mobility::kinematic;
+    passing.velocity = {2.0, 0.0, 0.0};
+    const BodyId a = machine.model.add(still);
+    const BodyId b = machine.model.add(passing);
+    auto first = roll(a, left);
+    auto second = roll(b, right);
+    first->stored_length = second->stored_length = 5.0;
+    machine.cables.push_back(cable("rope", {first, second}));
+    Simulation s = test::start(machine);
+    double before = s.cable_reports()[0].spans[0].rest_length;
+    for (int k = 0; k < 100; ++k) {
+      ASSERT_TRUE(s.world.step().ok());
+      const double rest_length = s.cable_reports()[0].spans[0].rest_length;
+      ASSERT_LT(std::abs(rest_length - before), pi * (r1 + r2)) << i << ", step " << k;
+      before = rest_length;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sheave

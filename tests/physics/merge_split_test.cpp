@@ -183,5 +183,57 @@ TEST(MergeSplit, TenThousandRandomEventsLoseNoLength) {
   }
 }
 
+TEST(MergeSplit, TouchingASkewOutlineNeverStoresLessThanNothing) {
+  // Boxes that tumble up through a cable out of their planes; in these cases the tangents from the corners that they
+  // touch with once went back over an edge.
+  std::mt19937 random;
+  const auto number = [&](double size) {
+    return size * (static_cast<double>(random()) / 2147483648.0 - 1.0);
+  };
+  for (const unsigned seed : {1U, 119U, 223U, 282U, 907U, 1136U, 1968U}) {
+    random.seed(seed);
+    test::Machine m;
+    m.model.step = test::settings(0.005, 1, 10);
+    BodyDef body = test::lump("box", {0.0, -0.5, 0.0}, 1.0);
+    body.mobility = Mobility::kinematic;
+    body.orientation = rotation_by({number(0.5), number(0.5), number(0.5)});
+    body.velocity = {0.0, 1.0, 0.0};
+    body.angular_velocity = {number(2.0), number(2.0), number(2.0)};
+    const BodyId box = m.model.add(body);
+    const BodyId post = m.model.add(peg("post", {1.0, 0.1, number(0.3)}, 0.01));
+    m.cables.push_back(cable("rope", {attach(BodyId::world(), {-1.0, 0.0, number(0.3)}),
+                                      passing(box, right), attach(post)}));
+    m.cables[0].compliance = 1e-4;
+    Simulation s = test::start(m);
+    for (int k = 0; k < 150; ++k) {
+      ASSERT_TRUE(s.world.step().ok());
+      // A whole edge of the box would be 0.3 m.
+      ASSERT_GT(s.cable_reports()[0].links[1].stored_length, -0.1) << seed << ", step " << k;
+    }
+    EXPECT_FALSE(s.cables->events().empty());
+  }
+}
+
+TEST(MergeSplit, ACableThatPassesFarOffTheWheelsPlaneDoesNotTouch) {
+  // The cable sinks past a peg of 0.1 m radius whose plane is z = 0, in that plane and off it.
+  for (const double z : {0.0, 0.05, 0.5, 3.0}) {
+    test::Machine m;
+    m.model.step = test::settings(0.005, 1, 10);
+    const BodyId post = m.model.add(peg("peg", Vector3::Zero(), 0.1));
+    BodyDef body = test::lump("carriage", {-1.0, 0.5, z}, 1.0);
+    body.mobility = Mobility::kinematic;
+    body.velocity = {0.0, -1.0, 0.0};
+    const BodyId carriage = m.model.add(body);
+    body.name = "other carriage";
+    body.position = {1.0, 0.5, z};
+    const BodyId other = m.model.add(body);
+    m.cables.push_back(cable("rope", {attach(carriage), passing(post, right), attach(other)}));
+    m.cables[0].compliance = 1e-4;
+    Simulation s = test::start(m);
+    for (int k = 0; k < 100; ++k) ASSERT_TRUE(s.world.step().ok());
+    EXPECT_EQ(s.cable_reports()[0].links[1].touched, z < 0.1) << z;
+  }
+}
+
 }  // namespace
 }  // namespace sheave

@@ -22,7 +22,11 @@ struct GradientCheck {
 /// Motions follow the conventions of engine/row.h: a rotation d turns `orientation` by d and adds d
 /// to `turn`. A rotor has its `turn` only; a mounted one's is its absolute spin about its carrier's
 /// axle, so it changes along that axle and stays when the carrier is rotated.
-[[nodiscard]] GradientCheck check_gradients(Substep& substep, ConstraintBatch& batch);
+///
+/// A cable that goes over to another corner of an outline has a kink in its gradient. With `kinks` a derivative counts
+/// as right if the differences to one side of the place alone say so.
+[[nodiscard]] GradientCheck check_gradients(Substep& substep, ConstraintBatch& batch,
+                                            bool kinks = false);
 
 /// Moves every moving body by a fixed pseudo-random amount: translations up to `distance` [m],
 /// rotations up to `angle` [rad] per axis.

@@ -1,0 +1,57 @@
+#pragma once
+// Where a span touches a link; internal to the geometry of spans.
+
+#include "cable/span_row.h"
+#include "engine/index.h"
+
+namespace sheave {
+
+/// Centre of the link's circle now; bodies that hold it at their centre of mass need no rotation.
+inline Vector3 center_of(const Substep& substep, const LinkGeometry& link, int corner) {
+  if (link.outline) return substep.point(link.carrier, link.outline->corners[at(corner)]);
+  const bool on_mounted_rotor = link.mounted && link.carrier == link.body;
+  if (link.centered && !on_mounted_rotor) return substep.moving[at(link.carrier)].position;
+  return substep.point(link.carrier, link.center);
+}
+
+/// Unit vector from the centre of `circle` to `point` on it.
+inline Vector3 radial(const LinkCircle& circle, const Vector3& point) {
+  return (point - circle.center) / std::abs(circle.signed_radius);
+}
+
+/// Outward unit normal at the contact of a span with its link, in the link's plane. On a circle the tangent point tells
+/// it; a corner of an outline may have no radius, but there the direction does.
+inline Vector3 contact_normal(const Substep& substep, const LinkGeometry& link, int corner,
+                              const Vector3& point, const Vector3& direction) {
+  if (!link.outline) return radial(circle_of(substep, link), point);
+  const Vector3 normal = substep.orientation(link.carrier) * link.normal;
+  const Vector3 outward = -link.side * cross(normal, direction);
+  const double length = outward.norm();
+  return length > 0.0 ? Vector3(outward / length)
+                      : radial({center_of(substep, link, corner), normal, 1.0}, point);
+}
+
+/// What a drum takes on beyond radius times angle when it is wound by `angle` [rad], because it gets thicker: the
+/// integral of pitch angle / 2 pi.
+inline double layer_gain(const LinkGeometry& link, double angle) {
+  return link.layer_pitch * angle * angle / (4.0 * pi);
+}
+
+/// Cable that a relative turn of the tangent point puts onto a circle, or the way along an outline, counter-clockwise.
+inline double way_along(const LinkGeometry& link, double relative_turn, int start_corner,
+                        double start_angle, int corner) {
+  if (!link.outline) return std::abs(link.signed_radius) * relative_turn;
+  return link.outline->curve.distance(corner, start_angle + relative_turn) -
+         link.outline->curve.distance(start_corner, start_angle);
+}
+
+/// The corner of the link's outline that a span along `direction` touches.
+inline int touched_corner(const Substep& substep, const LinkGeometry& link,
+                          const Vector3& direction, int near) {
+  if (!link.outline) return 0;
+  const Vector3 along = substep.orientation(link.carrier).conjugate() * direction;
+  return link.outline->curve.support(link.side * link.outline->y.dot(along),
+                                     -link.side * link.outline->x.dot(along), near);
+}
+
+}  // namespace sheave

@@ -1,0 +1,31 @@
+#pragma once
+// One property over many seeds.
+//
+// SHEAVE_CASES says how many seeds (default: 100, fewer in slow builds), SHEAVE_SEED the first one, so
+//   SHEAVE_SEED=4711 SHEAVE_CASES=1 build/release/tests/test_property --gtest_filter='*Mirror*'
+// repeats one case. With either, a line of results is printed.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "tests/property/random_machine.h"
+
+namespace sheave::test {
+
+/// What a property found on one machine.
+struct Finding {
+  bool checked = true;  ///< false: the case says nothing about this property
+  double value = 0.0;   ///< what was measured
+  double limit = 0.0;   ///< and what it may be; a value that is not a number fails
+  std::string what;     ///< where it was worst
+  [[nodiscard]] bool holds() const { return value <= limit; }
+  /// Takes over a worse finding, by the share of the limit that is used.
+  void worsen(double new_value, double new_limit, const std::string& where);
+};
+
+/// Runs `check` on the machines of many seeds. Every failure fails the test and names its seed and its machine.
+void run_campaign(const std::string& property, const Traits& traits,
+                  const std::function<Finding(const Machine&, std::uint64_t seed)>& check);
+
+}  // namespace sheave::test
