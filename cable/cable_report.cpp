@@ -85,6 +85,10 @@ LinkReport CableSystem::link_report(const CableView& view, int index, int incomi
   if (incoming >= 0) report.entry = report.exit = view.ends[at(incoming)].end;
   if (outgoing >= 0) report.exit = view.ends[at(outgoing)].start;
   if (incoming < 0) report.entry = report.exit;
+  if (link.slides && incoming >= 0 && outgoing >= 0) {
+    report.wrap_angle = wrap_angle(now, link, view.ends[at(incoming)], view.ends[at(outgoing)],
+                                   report.stored_length);
+  }
   if (link.outline) {
     const int entry_corner = incoming >= 0 ? view.ends[at(incoming)].second_corner : -1;
     const int exit_corner = outgoing >= 0 ? view.ends[at(outgoing)].first_corner : -1;

@@ -28,7 +28,8 @@ struct LinkReport {
   /// the last point of the stored cable. Empty for circles and points.
   std::vector<Vector3> path;
   double stored_length = 0.0;  ///< cable on the body [m]
-  /// Stored length in turns of the link's perimeter, as an angle [rad]; any number of turns.
+  /// Stored length in turns of the link's perimeter, as an angle [rad]; any number of turns. Of a pinhole the angle by
+  /// which the cable's direction changes there, 0 ... pi.
   double wrap_angle = 0.0;
   /// Cable that has slid over the link towards the next span since time 0 [m]; what rolled with a wheel is not counted.
   double slip = 0.0;

@@ -8,7 +8,7 @@
 namespace sheave {
 namespace {
 
-/// The shape that a wheel on the body would use (cable/links/wheel.h), if any.
+/// The shape that a wheel on the body would use (cable/links/wheel_link.h), if any.
 const PlacedShape* first_wheel(const std::vector<PlacedShape>& shapes) {
   const auto wheel = std::find_if(shapes.begin(), shapes.end(), [](const PlacedShape& placed) {
     return placed.shape->wheel_radius() > 0.0;

@@ -9,6 +9,8 @@
 //     return table;
 //   }
 
+#include <algorithm>
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -77,23 +79,21 @@ template <class Class, class Member>
 Member member_of(Member Class::*);
 }  // namespace detail
 
-/// A table row for the member `Member` (not an enumeration).
-template <auto Member>
+/// A table row for the member `Member` (not an enumeration) of `Class`, which may have it from a base.
+template <auto Member, class Class = decltype(detail::class_of(Member))>
 [[nodiscard]] constexpr Field field(std::string_view name, std::string_view unit, Range range,
                                     Presence presence, std::string_view meaning) {
-  using Class = decltype(detail::class_of(Member));
   return {name, unit, range, presence, meaning, {}, [](void* object) -> FieldSlot {
             return &(static_cast<Class*>(object)->*Member);
           }};
 }
 
-/// A table row for the enumeration member `Member`, whose values are 0, 1, ... in the order of
-/// `choices`.
-template <auto Member>
+/// A table row for the enumeration member `Member` of `Class`, whose values are 0, 1, ... in the
+/// order of `choices`.
+template <auto Member, class Class = decltype(detail::class_of(Member))>
 [[nodiscard]] constexpr Field choice_field(std::string_view name,
                                            std::span<const std::string_view> choices,
                                            Presence presence, std::string_view meaning) {
-  using Class = decltype(detail::class_of(Member));
   using Enumeration = decltype(detail::member_of(Member));
   return {name, "", {}, presence, meaning, choices, [](void* object) -> FieldSlot {
             return ChoiceSlot{object,
@@ -104,6 +104,15 @@ template <auto Member>
                                 static_cast<Class*>(o)->*Member = static_cast<Enumeration>(index);
                               }};
           }};
+}
+
+/// The rows of `first`, then those of `second`.
+template <std::size_t First, std::size_t Second>
+[[nodiscard]] constexpr std::array<Field, First + Second> joined(
+    const std::array<Field, First>& first, const std::array<Field, Second>& second) {
+  std::array<Field, First + Second> table;
+  std::copy(second.begin(), second.end(), std::copy(first.begin(), first.end(), table.begin()));
+  return table;
 }
 
 /// What a registry knows of one type that derives from `Base` (a shape, a joint, a cable link).

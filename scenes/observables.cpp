@@ -35,7 +35,7 @@ constexpr std::array<Quantity, 3> span_quantities{{
 }};
 constexpr std::array<Quantity, 9> link_quantities{{
     {"stored_length", "m", "cable on link k, counted from 0"},
-    {"wrap_angle", "rad", "the angle that it covers"},
+    {"wrap_angle", "rad", "the angle that it covers; of a pinhole the angle of deflection"},
     {"slip", "m", "cable that has slid over the link, forwards"},
     {"entry_x", "m", "where the cable meets the link"},
     {"entry_y", "m", "the same"},

@@ -1,25 +1,19 @@
 #pragma once
 
-#include <optional>
-
-#include "cable/link.h"
+#include "cable/links/wheel_link.h"
 
 namespace sheave {
 
 /// A cable end wound onto a wheel as long as there is cable on it. Used up, it is fixed to the point of the rim where it
 /// ends; when the wheel or the span turns so far that the cable would pass through the wheel, it is wound
 /// up again, to either side (paper, section 4.1).
-class HybridLink final : public LinkDef {
+class HybridLink final : public WheelLink {
  public:
-  Winding winding = Winding::counter_clockwise;  ///< as if the cable ran on beyond its end
-  std::optional<Vector3> center;                 ///< as of RollingLink
-  std::optional<Vector3> normal;
-  std::optional<double> radius;
   double stored_length = 0.0;  ///< cable on the wheel at time 0 [m], >= 0
 
   static constexpr std::string_view type_name = "hybrid";
   static constexpr std::string_view type_meaning =
-      "an end of the cable is wound onto a wheel until it is used up, then fixed to its rim";
+      "an end of the cable is wound onto a round wheel until it is used up, then fixed to its rim";
   static std::span<const Field> field_table();
 
   [[nodiscard]] std::string_view type() const override { return type_name; }

@@ -2,21 +2,14 @@
 
 #include <optional>
 
-#include "cable/link.h"
+#include "cable/links/wheel_link.h"
 
 namespace sheave {
 
 /// The cable runs over a wheel without slipping. At the end of an open cable it is wound onto the
 /// wheel, which then needs a stored length.
-class RollingLink final : public LinkDef {
+class RollingLink final : public WheelLink {
  public:
-  Winding winding = Winding::counter_clockwise;
-  /// [m], body frame; default: the centre of the body's first wheel-like shape
-  std::optional<Vector3> center;
-  /// Normal of the cable's plane, body frame, any length but 0; default: that shape's z axis
-  std::optional<Vector3> normal;
-  /// [m], > 0; default: that shape's radius
-  std::optional<double> radius;
   /// Cable on the wheel at time 0 [m], >= 0; default: the arc between the tangents. Required at the
   /// end of an open cable, where there is no second tangent.
   std::optional<double> stored_length;

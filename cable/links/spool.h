@@ -1,20 +1,14 @@
 #pragma once
 
-#include <optional>
-
-#include "cable/link.h"
+#include "cable/links/wheel_link.h"
 
 namespace sheave {
 
 /// A cable end wound onto a drum: the cable is paid out and taken in as the drum turns, any number of turns. With a layer
 /// pitch p each turn lies on the one before, so the drum's radius grows: with r = r0 + p turns the stored
 /// length is the integral of r over the angle, hence r^2 = r0^2 + p s / pi.
-class SpoolLink final : public LinkDef {
+class SpoolLink final : public WheelLink {
  public:
-  Winding winding = Winding::counter_clockwise;  ///< as if the cable ran on beyond its end
-  std::optional<Vector3> center;                 ///< as of RollingLink
-  std::optional<Vector3> normal;
-  std::optional<double> radius;
   double stored_length = 0.0;  ///< cable on the drum at time 0 [m], >= 0
   double layer_pitch = 0.0;    ///< growth of the radius per turn [m], >= 0
 

@@ -131,6 +131,39 @@ TEST(FieldSlot, WritesToTheGivenObjectOnly) {
   EXPECT_EQ(two.number, 1.5);
 }
 
+struct Before {
+  double before = 0.5;
+};
+/// Its part that is a Sample does not lie at its own address.
+struct Extended : Before, Sample {
+  double own = 3.5;
+};
+
+TEST(FieldSlot, ReachesAMemberThatComesFromABase) {
+  Extended extended;
+  void* object = &extended;
+  const Field number =
+      field<&Sample::number, Extended>("number", "m", any_number(), optional, "a number");
+  EXPECT_EQ(std::get<double*>(number.slot(object)), &extended.number);
+  const Field mode =
+      choice_field<&Sample::mode, Extended>("mode", Sample::modes, optional, "a choice");
+  const ChoiceSlot slot = std::get<ChoiceSlot>(mode.slot(object));
+  slot.set(slot.object, 2);
+  EXPECT_EQ(extended.mode, Mode::fast);
+  EXPECT_EQ(slot.get(slot.object), 2);
+}
+
+TEST(FieldTable, JoinsInOrder) {
+  constexpr std::array table =
+      joined(std::array{field<&Sample::count>("count", "", any_number(), optional, "a count")},
+             std::array{field<&Sample::flag>("flag", "", {}, optional, "a flag"),
+                        field<&Sample::text>("text", "", {}, optional, "a text")});
+  ASSERT_EQ(table.size(), 3U);
+  EXPECT_EQ(table[0].name, "count");
+  EXPECT_EQ(table[1].name, "flag");
+  EXPECT_EQ(table[2].name, "text");
+}
+
 TEST(FieldTable, KeepsWhatItWasGiven) {
   const std::span<const Field> table = Sample::field_table();
   ASSERT_EQ(table.size(), 3U);

@@ -51,6 +51,19 @@ TEST(CablePath, RunsRoundTheRightSideOfTheWheel) {
   EXPECT_EQ(tubes[0].points.back().color, sample(ColorMap::tension, 0.5));
 }
 
+TEST(CablePath, APointHasNoWindingsWhateverItsDeflection) {
+  CableReport cable = over_a_wheel(0);
+  LinkReport& hole = cable.links[1];
+  hole.radius = hole.stored_length = 0.0;
+  hole.winding = 0;
+  hole.center = hole.entry = hole.exit = cable.spans[0].end = cable.spans[1].start = {0, 1, 0};
+  hole.wrap_angle = 2.0;
+  const CableStyle style{.radius = 0.02, .tension_max = 10.0, .winding_room = {0, 0.5, 0}};
+  const std::vector<Tube> tubes = cable_tubes(cable, style);
+  ASSERT_EQ(tubes.size(), 2U);
+  for (const Tube& tube : tubes) EXPECT_NEAR(length_of(tube), std::sqrt(10.0), 1e-12);
+}
+
 TEST(CablePath, SeveralTurnsLieSideBySide) {
   CableStyle style{.radius = 0.02, .tension_max = 10.0, .winding_room = {0, 0.5, 0}};
   const std::vector<Tube> tubes = cable_tubes(over_a_wheel(3), style);

@@ -1,4 +1,4 @@
-#include "cable/links/wheel.h"
+#include "cable/links/wheel_link.h"
 
 #include "engine/index.h"
 
@@ -68,9 +68,7 @@ Result<LinkOutline> section_outline(const BodySet& bodies, int body, const Vecto
 
 }  // namespace
 
-Result<LinkGeometry> place_wheel(const WheelPlacement& placement, const BodySet& bodies,
-                                 const std::string& path) {
-  const auto& [body, winding, center, normal, radius] = placement;
+Result<LinkGeometry> WheelLink::place(const BodySet& bodies, const std::string& path) const {
   const int index = bodies.index(body);
   const PlacedShape* wheel = wheel_shape(bodies, index);
   const PlacedShape* shape = wheel;

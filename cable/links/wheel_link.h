@@ -1,0 +1,54 @@
+#pragma once
+// What the links that run along a body have in common: where the cable's plane cuts it, and which way round the cable
+// runs.
+
+#include <optional>
+
+#include "cable/link.h"
+
+namespace sheave {
+
+/// A link on a wheel or along an outline; the link types that derive from it add what the cable does there.
+class WheelLink : public LinkDef {
+ public:
+  /// At the end of a cable: as if the cable ran on beyond it.
+  Winding winding = Winding::counter_clockwise;
+  /// [m], body frame; default: the centre of the body's first wheel-like shape, or of its first shape
+  std::optional<Vector3> center;
+  /// Normal of the cable's plane, body frame, any length but 0; default: that shape's z axis
+  std::optional<Vector3> normal;
+  /// [m], > 0; default: that shape's radius, or without a wheel-like shape no circle but an outline
+  std::optional<double> radius;
+
+ protected:
+  /// A circle if a radius is given or the body has a wheel-like shape whose section is one, otherwise the hull of the
+  /// section of all its shapes; on the body itself, also if that is a mounted rotor. Errors have the
+  /// prefix `path`.
+  [[nodiscard]] Result<LinkGeometry> place(const BodySet& bodies, const std::string& path) const;
+};
+
+/// The first rows of the field table of `Link`, which derives from WheelLink.
+template <class Link>
+[[nodiscard]] constexpr std::array<Field, 4> wheel_fields() {
+  return {
+      choice_field<&WheelLink::winding, Link>(
+          "winding", winding_names, required,
+          "which way the cable runs round the wheel, seen against the plane's normal"),
+      field<&WheelLink::center, Link>("center", "m", any_number(), optional,
+                                      "centre of the wheel, body frame; default: the centre of the "
+                                      "body's first wheel-like shape, or of its first shape"),
+      field<&WheelLink::normal, Link>("normal", "", any_number(), optional,
+                                      "normal of the cable's plane, body frame; default: that "
+                                      "shape's z axis"),
+      field<&WheelLink::radius, Link>(
+          "radius", "m", above(0.0), optional,
+          "of a circular wheel; default: that shape's radius, or without a wheel-like shape "
+          "the hull of the section of all the body's shapes with the plane"),
+  };
+}
+
+/// A wheel whose centre lies on the axle of a mounted rotor gets it and its plane fixed to the carrier, which saves
+/// following the rotor's own angle.
+void carry_by_axle(const BodySet& bodies, LinkGeometry& link);
+
+}  // namespace sheave
