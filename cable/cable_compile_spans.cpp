@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "cable/cable_compiler.h"
 #include "engine/index.h"

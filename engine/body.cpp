@@ -42,6 +42,11 @@ std::span<const Field> BodyDef::field_table() {
       field<&BodyDef::force>("force", "N", any_number(), optional,
                              "constant, at the centre of mass"),
       field<&BodyDef::torque>("torque", "N m", any_number(), optional, "constant"),
+      field<&BodyDef::damping>("damping", "N s/m", at_least(0.0), optional,
+                               "drag: force per velocity; free, planar and slider bodies"),
+      field<&BodyDef::angular_damping>(
+          "angular_damping", "N m s/rad", at_least(0.0), optional,
+          "torque per angular velocity; free and planar bodies and rotors on fixed axles"),
       field<&BodyDef::oscillation>("oscillation", "m", any_number(), optional,
                                    "kinematic: amplitude A of the motion position + velocity t + "
                                    "A (sin(2 pi f t + p) - sin p)"),

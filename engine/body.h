@@ -61,6 +61,11 @@ struct BodyDef {
   std::vector<double> drive_values;  ///< [rad/s, rad or N m]
   Vector3 force = Vector3::Zero();   ///< constant, at the centre of mass [N]
   Vector3 torque = Vector3::Zero();  ///< constant [N m]
+  /// Drag at the centre of mass, -damping times its velocity [N s/m], >= 0; free, planar and slider bodies.
+  double damping = 0.0;
+  /// Torque -angular_damping times the angular velocity [N m s/rad], >= 0: free and planar bodies, and the bearings of rotors
+  /// on fixed axles.
+  double angular_damping = 0.0;
   /// kinematic only: the position is position + velocity t + oscillation (sin(2 pi f t + p) - sin
   /// p) and the body turns with angular_velocity.
   Vector3 oscillation = Vector3::Zero();  ///< amplitude [m]

@@ -30,6 +30,7 @@ class BodyCheck {
     if (moves()) check_mass();
     check_drive();
     check_wrappable();
+    check_damping();
   }
 
  private:
@@ -119,6 +120,22 @@ class BodyCheck {
         (body_.oscillation.norm() > 0.0 || body_.oscillation_frequency > 0.0)) {
       fail("/oscillation",
            "only a kinematic body follows an oscillation; mobility is " + mobility_name());
+    }
+  }
+
+  void check_damping() {
+    const bool translates = is(Mobility::free) || is(Mobility::planar) || is(Mobility::slider);
+    if (body_.damping > 0.0 && !translates) {
+      fail("/damping",
+           "only free, planar and slider bodies can have drag; mobility is " + mobility_name());
+    }
+    if (!(body_.angular_damping > 0.0)) return;
+    const bool bearing = is(Mobility::rotor) && !body_.mount && body_.spin_inertia != 0.0;
+    if (!is(Mobility::free) && !is(Mobility::planar) && !bearing) {
+      fail("/angular_damping",
+           "only free and planar bodies and rotors with inertia on fixed axles can have it; "
+           "mobility is " +
+               mobility_name());
     }
   }
 

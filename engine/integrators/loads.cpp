@@ -1,5 +1,9 @@
 #include "engine/integrators/loads.h"
 
+#include <cmath>
+
+#include <Eigen/LU>
+
 #include "engine/index.h"
 
 namespace sheave {
@@ -41,6 +45,19 @@ Vector3 allowed_velocity(const BodyProperties& body, const Vector3& velocity) {
   if (body.mobility == Mobility::slider) return along;
   if (body.mobility == Mobility::planar) return velocity - along;
   return velocity;
+}
+
+Decay decay(double rate, double time) {
+  if (rate == 0.0) return {1.0, time};
+  return {std::exp(-rate * time), -std::expm1(-rate * time) / rate};
+}
+
+Vector3 damped_rotation(const BodyDef& body, const Matrix3& inertia,
+                        const Vector3& angular_velocity, double time) {
+  if (body.angular_damping == 0.0) return angular_velocity;
+  // I dw = -c w dt: (I + c t / 2) w' = (I - c t / 2) w.
+  const Matrix3 half = 0.5 * time * body.angular_damping * Matrix3::Identity();
+  return (inertia + half).inverse() * ((inertia - half) * angular_velocity);
 }
 
 }  // namespace sheave

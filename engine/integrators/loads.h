@@ -29,4 +29,18 @@ struct Load {
 /// over the substeps.
 [[nodiscard]] Vector3 allowed_velocity(const BodyProperties& body, const Vector3& velocity);
 
+/// What drag makes of a velocity in some time: v -> keep v + gain a under a constant acceleration a [1, s]. Exact, so a
+/// falling body's velocity does not depend on the step.
+struct Decay {
+  double keep = 1.0;
+  double gain = 0.0;
+};
+/// `rate` is the drag's coefficient over the mass, or over the moment of inertia [1/s].
+[[nodiscard]] Decay decay(double rate, double time);
+
+/// The same for the angular velocity of a free body whose moments of inertia differ, without torque: implicit midpoint,
+/// of second order and stable for any drag.
+[[nodiscard]] Vector3 damped_rotation(const BodyDef& body, const Matrix3& inertia,
+                                      const Vector3& angular_velocity, double time);
+
 }  // namespace sheave

@@ -87,7 +87,9 @@ void correct_gyroscopic_velocities(Substep& substep) {
     // L after the first half of loads and constraints, which act at the start; it is constant from there on.
     const Matrix3 inertia = world_inertia(body, start.orientation, false);
     const Vector3 turned_by = substep.moving[at(i)].turn - substep.predicted_turn[at(i)];
-    Vector3 momentum = inertia * (start.angular_velocity + turned_by / h) +
+    const Vector3 damped =
+        damped_rotation(substep.bodies.definition(i), inertia, start.angular_velocity, 0.5 * h);
+    Vector3 momentum = inertia * (damped + turned_by / h) +
                        0.5 * h * load_on(substep, i, start.orientation).torque;
     for (const int r : body.mounted_rotors) {
       const BodyProperties& rotor = substep.bodies[r];
@@ -111,11 +113,13 @@ void add_second_half_of_loads(Substep& substep) {
     const MovingBody& moving = substep.moving[at(i)];
     BodyState& next = substep.next.bodies[at(i)];
     if (!moving.translates && !moving.rotates) continue;
+    const BodyDef& definition = substep.bodies.definition(i);
     const Load load = load_on(substep, i, next.orientation);
     if (moving.translates) {
       const Vector3 force = body.mass * substep.bodies.gravity() + load.force;
+      const auto [keep, gain] = decay(definition.damping / body.mass, half);
       next.velocity =
-          allowed_velocity(body, next.velocity + half * times(moving.inverse_mass, force));
+          allowed_velocity(body, keep * next.velocity + gain * times(moving.inverse_mass, force));
     }
     if (!moving.rotates) continue;
     if (body.mobility == Mobility::free) {
@@ -125,11 +129,13 @@ void add_second_half_of_loads(Substep& substep) {
     const Vector3 axis = body.mount >= 0
                              ? Vector3(substep.next.bodies[at(body.mount)].orientation * body.axis)
                              : body.axis;
-    double impulse = half * axis.dot(load.torque);
+    const auto [keep, gain] = decay(definition.angular_damping / body.axis_inertia, half);
+    double change = gain * axis.dot(load.torque) / body.axis_inertia +
+                    (keep - 1.0) * axis.dot(next.angular_velocity);
     if (body.drive == DriveKind::torque) {
-      impulse += body.drive_table.integral(middle, substep.next.time);
+      change += body.drive_table.integral(middle, substep.next.time) / body.axis_inertia;
     }
-    next.angular_velocity += impulse / body.axis_inertia * axis;
+    next.angular_velocity += change * axis;
   }
   follow_carriers(substep);
 }

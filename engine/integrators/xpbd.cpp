@@ -32,18 +32,20 @@ void rotate_freely(Substep& substep, int i) {
   Vector3 half_velocity;
   Vector3 end_velocity;
   if (body.isotropic && body.mounted_rotors.empty()) {
-    end_velocity =
-        start.angular_velocity + substep.load_share * h * (body.inverse_inertia * torque);
+    const double rate = substep.bodies.definition(i).angular_damping * body.inverse_inertia(0, 0);
+    const auto [keep, gain] = decay(rate, substep.load_share * h);
+    end_velocity = keep * start.angular_velocity + gain * (body.inverse_inertia * torque);
     half_velocity = end_velocity;
     moving.orientation = turned(start.orientation, h * half_velocity);
   } else {
     const auto rotors = [&](const Quaternion& q) {
       return rotor_momentum(substep, body, start.orientation, q);
     };
-    const Vector3 momentum =
-        world_inertia(body, start.orientation, false) * start.angular_velocity +
-        rotors(start.orientation);
-    const Quaternion half = turned(start.orientation, 0.5 * h * start.angular_velocity);
+    const Matrix3 inertia = world_inertia(body, start.orientation, false);
+    const Vector3 velocity = damped_rotation(substep.bodies.definition(i), inertia,
+                                             start.angular_velocity, substep.load_share * h);
+    const Vector3 momentum = inertia * velocity + rotors(start.orientation);
+    const Quaternion half = turned(start.orientation, 0.5 * h * velocity);
     half_velocity = world_inertia(body, half, true) * (momentum + 0.5 * h * torque - rotors(half));
     moving.orientation = turned(start.orientation, h * half_velocity);
     const Matrix3 inverse = world_inertia(body, moving.orientation, true);
@@ -73,12 +75,15 @@ void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
     spin = angle / substep.h;
   } else {
     if (body.axis_inertia > 0.0) {
-      double impulse =
-          substep.h * axis.dot(load_on(substep, i, start.orientation).torque) * substep.load_share;
+      const double inertia = body.axis_inertia;
+      const double torque = axis.dot(load_on(substep, i, start.orientation).torque);
+      const auto [keep, gain] = decay(substep.bodies.definition(i).angular_damping / inertia,
+                                      substep.load_share * substep.h);
+      spin = keep * spin + gain * torque / inertia;
       if (body.drive == DriveKind::torque) {
-        impulse += body.drive_table.integral(from, from + substep.load_share * (to - from));
+        const double middle = from + substep.load_share * (to - from);
+        spin += body.drive_table.integral(from, middle) / inertia;
       }
-      spin += impulse / body.axis_inertia;
     }
     angle = substep.h * spin;
   }
@@ -111,8 +116,9 @@ void predict(Substep& substep) {
       // W M (v + h g + h f / m): the inverse mass matrix keeps what the mobility allows.
       const Vector3 force =
           body.mass * substep.bodies.gravity() + load_on(substep, i, start.orientation).force;
-      const Vector3 velocity =
-          start.velocity + substep.load_share * h * times(moving.inverse_mass, force);
+      const auto [keep, gain] =
+          decay(substep.bodies.definition(i).damping / body.mass, substep.load_share * h);
+      const Vector3 velocity = keep * start.velocity + gain * times(moving.inverse_mass, force);
       moving.position = start.position + h * velocity;
     }
     switch (body.mobility) {
