@@ -86,4 +86,27 @@ inline const std::string overlap_scene = R"json({
 }
 )json";
 
+/// A cable whose ends go up and down 4 times a second, and each time wind it round a post above it for a moment.
+inline const std::string wrap_scene = R"json({
+  "format": "sheave-scene/1",
+  "gravity": [0, 0, 0],
+  "duration": 2.1,
+  "step": {"dt": 0.01, "solver": "direct"},
+  "bodies": [
+    {"name": "left", "mobility": "kinematic", "position": [-1, 0, 0], "oscillation": [0, 0.3, 0],
+     "oscillation_frequency": 4},
+    {"name": "right", "mobility": "kinematic", "position": [1, 0, 0], "oscillation": [0, 0.3, 0],
+     "oscillation_frequency": 4},
+    {"name": "post", "mobility": "static", "wrappable": true, "position": [0, 0.3, 0],
+     "shape": {"type": "cylinder", "radius": 0.2, "length": 0.2}}
+  ],
+  "cables": [
+    {"name": "rope", "axial_stiffness": 1000, "links": [
+      {"type": "attachment", "body": "left"},
+      {"type": "attachment", "body": "right"}
+    ]}
+  ]
+}
+)json";
+
 }  // namespace sheave::test
