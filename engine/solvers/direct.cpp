@@ -34,6 +34,8 @@ void DirectSolver::solve(Substep& substep,
     }
     apply(substep, features);
     revised = false;
+    // What the last round finds would have no round to act in; the features decide it for the next substep.
+    if (round + 1 == substep.iterations) break;
     for (const auto& feature : features) revised = feature->revise(substep) || revised;
   }
   statistics.rows = static_cast<int>(rows_.size());
