@@ -284,6 +284,21 @@ TEST(RunCommand, StatisticsOfTheDirectSolver) {
               HasSubstr("2 rows: 1 rounds per substep, 0 substeps left to Gauss-Seidel"));
 }
 
+TEST(RunCommand, SubstepsThatTheDirectSolverGaveUpAreAWarning) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("redundant.json", redundant_scene);
+  const json summary = run_json({scene});
+  const int given_up = summary["statistics"]["solver_fallbacks"].get<int>();
+  ASSERT_GT(given_up, 1) << "of a solver that can do this scene, look for another one";
+  ASSERT_EQ(summary["warnings"].size(), 1U);
+  EXPECT_EQ(summary["warnings"][0]["kind"], "solver_fallback");
+  const ProcessResult result = run_sheave({"run", scene});
+  EXPECT_EQ(result.exit_code, 0);
+  const std::string count = std::to_string(given_up) + " substeps";
+  EXPECT_THAT(result.err, HasSubstr(count + " and left them to Gauss-Seidel"));
+  EXPECT_THAT(result.out, HasSubstr(count + " left to Gauss-Seidel"));
+}
+
 TEST(RunCommand, ReadsASceneFromStandardInput) {
   const ProcessResult result = run_sheave({"run", "-", "--json"}, {.input = atwood_scene});
   EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -109,4 +109,28 @@ inline const std::string wrap_scene = R"json({
 }
 )json";
 
+/// A cable that slides over a post with friction makes the direct solver's matrix asymmetric, and a crate that lands on four
+/// corners makes it singular: together more than that solver can do.
+inline const std::string redundant_scene = R"json({
+  "format": "sheave-scene/1",
+  "gravity": [0, -10, 0],
+  "duration": 0.5,
+  "step": {"dt": 0.01, "solver": "direct"},
+  "ground": {"point": [0, -10, 0]},
+  "bodies": [
+    {"name": "post", "mobility": "static", "shape": {"type": "cylinder", "radius": 0.5, "length": 0.1}},
+    {"name": "light", "mobility": "slider", "axis": [0, 1, 0], "position": [-0.5, -2, 0], "mass": 1},
+    {"name": "heavy", "mobility": "slider", "axis": [0, 1, 0], "position": [0.5, -2, 0], "mass": 3},
+    {"name": "crate", "position": [3, -9.5, 0.1], "mass": 1, "shape": {"type": "box", "size": [0.7, 0.6, 0.9]}}
+  ],
+  "cables": [
+    {"name": "rope", "links": [
+      {"type": "attachment", "body": "light"},
+      {"type": "rolling", "body": "post", "winding": "clockwise", "friction": 0.1},
+      {"type": "attachment", "body": "heavy"}
+    ]}
+  ]
+}
+)json";
+
 }  // namespace sheave::test
