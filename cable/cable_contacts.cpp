@@ -105,7 +105,7 @@ bool CableSystem::touch_on_span(const Substep& substep, int cable_index, int spa
   const CompiledCable& cable = cables_[at(cable_index)];
   // Listed links that have been left have kept their place between the same listed neighbours.
   int link = listed_before(cable, span);
-  for (int walked = 1; walked < cable.listed_links; ++walked) {
+  for (int walked = 1; walked <= cable.listed_links; ++walked) {
     link = link == cable.last_listed_link() ? cable.first_link : link + 1;
     if (next.integers[mode_index(link)] < lifted_mode) break;
     if (changed_links_[at(link)] == 0 && touch_listed(substep, cable, span, link, next))
@@ -119,10 +119,11 @@ bool CableSystem::touch_on_span(const Substep& substep, int cable_index, int spa
 
 int CableSystem::listed_before(const CompiledCable& cable, int span) const {
   int link = spans_[at(span)].first;
-  while (link > cable.last_listed_link()) {
+  for (int walked = 0; walked < cable.span_count && link > cable.last_listed_link(); ++walked) {
     link = spans_[at(span_before(cable, link, spans_))].first;
   }
-  return link;
+  // A belt can have left all of them, so that each may lie at any span.
+  return std::min(link, cable.last_listed_link());
 }
 
 double CableSystem::shift_contact(const Substep& substep, const CompiledCable& cable,
