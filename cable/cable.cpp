@@ -8,7 +8,9 @@ std::span<const Field> CableDef::field_table() {
       field<&CableDef::closed>("closed", "", {}, optional,
                                "a last span joins the last link and the first: a belt"),
       field<&CableDef::compliance>("compliance", "m/N", at_least(0.0), optional,
-                                   "of each span; 0 (default) is rigid; excludes axial_stiffness"),
+                                   "of each span whatever its length, also of those that a touched "
+                                   "body divides; 0 (default) is "
+                                   "rigid; excludes axial_stiffness"),
       field<&CableDef::axial_stiffness>(
           "axial_stiffness", "N", above(0.0), optional,
           "EA of the cable's material; a span then has the compliance rest length / EA"),

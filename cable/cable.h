@@ -21,7 +21,8 @@ inline constexpr std::array<std::string_view, 2> tangent_update_names{"iteration
 struct CableDef {
   std::string name;     ///< unique among the cables
   bool closed = false;  ///< a last span joins the last link and the first: a belt
-  /// Of each span [m/N], >= 0, 0 is rigid. Excludes axial_stiffness.
+  /// Of each span [m/N], >= 0, 0 is rigid. Excludes axial_stiffness. As in the paper a span has it whatever its length,
+  /// so a cable that touches a body and is divided becomes softer; a material's does not.
   std::optional<double> compliance;
   /// Of the cable's material, EA [N], > 0: a span then has the compliance rest length / EA.
   std::optional<double> axial_stiffness;

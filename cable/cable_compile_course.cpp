@@ -53,6 +53,13 @@ void CableCompiler::find_candidates(const CableDef& def, CompiledCable& cable) {
   }
 }
 
+bool CableCompiler::any_wrappable() const {
+  for (int body = 0; body < bodies_.count(); ++body) {
+    if (bodies_.definition(body).wrappable) return true;
+  }
+  return false;
+}
+
 bool CableCompiler::place_candidate(const CompiledCable& cable, WrapCandidate& candidate) const {
   if (!cable.planar || !bodies_.stays_in_plane(candidate.body, cable.normal)) return true;
   const Quaternion to_own = now_.orientation(candidate.body).conjugate();

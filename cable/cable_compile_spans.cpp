@@ -81,7 +81,9 @@ void CableCompiler::check_span(const CableDef& def, int first, int second) {
   const std::string field = "/links/" + std::to_string(second);
   const std::string pair = link_name(first) + " and " + link_name(second);
   if (!a.wraps() && !b.wraps()) {
-    if (a.body == b.body && !a.passes() && !b.passes())
+    // Between points of the world it waits for what comes against it.
+    const bool waits = a.body == bodies_.count() && def.most_wraps > 0 && any_wrappable();
+    if (a.body == b.body && !a.passes() && !b.passes() && !waits)
       fail(field, pair +
                       " are points of one body; the span between them "
                       "would do nothing");

@@ -52,6 +52,7 @@ class CableCompiler {
   void find_plane(CompiledCable& cable) const;
   [[nodiscard]] bool lies_in_plane(const Vector3& normal) const;
   void find_candidates(const CableDef& def, CompiledCable& cable);
+  [[nodiscard]] bool any_wrappable() const;
   [[nodiscard]] bool place_candidate(const CompiledCable& cable, WrapCandidate& candidate) const;
   void check_candidates(const CompiledCable& cable);
   void set_course(CompiledCable& cable);

@@ -8,8 +8,8 @@
 // Touch (split): a span cuts the outline of a lifted link from the side on which the link's winding puts it, or that of a
 // wrappable body from the side on which the span was before (cable/wrap_candidate.h). The span becomes two with an arc s
 // between them, s being the angle between the tangents; the rest length that remains, L - s, is shared in proportion to the
-// lengths, so both spans have the strain, hence the tension, that the one had. Chord and arc differ in the third order of
-// the angle, so what C jumps by is far below the motion of a substep.
+// lengths, so both spans have the strain that the one had, and with a material's stiffness the tension. Chord and arc
+// differ in the third order of the angle, so what C jumps by is far below the motion of a substep.
 //
 // A lifted link remembers whether the cable is on its winding's side: if it has been carried past to the other side, it
 // must come back and clear of the outline before it can touch, or it would be wound on all at once.
@@ -105,7 +105,7 @@ bool CableSystem::touch_on_span(const Substep& substep, int cable_index, int spa
   const CompiledCable& cable = cables_[at(cable_index)];
   // Listed links that have been left have kept their place between the same listed neighbours.
   int link = listed_before(cable, span);
-  for (int walked = 1; walked < cable.listed_links; ++walked) {
+  for (int walked = 1; walked <= cable.listed_links; ++walked) {
     link = link == cable.last_listed_link() ? cable.first_link : link + 1;
     if (next.integers[mode_index(link)] < lifted_mode) break;
     if (changed_links_[at(link)] == 0 && touch_listed(substep, cable, span, link, next))
@@ -119,10 +119,11 @@ bool CableSystem::touch_on_span(const Substep& substep, int cable_index, int spa
 
 int CableSystem::listed_before(const CompiledCable& cable, int span) const {
   int link = spans_[at(span)].first;
-  while (link > cable.last_listed_link()) {
+  for (int walked = 0; walked < cable.span_count && link > cable.last_listed_link(); ++walked) {
     link = spans_[at(span_before(cable, link, spans_))].first;
   }
-  return link;
+  // A belt can have left all of them, so that each may lie at any span.
+  return std::min(link, cable.last_listed_link());
 }
 
 double CableSystem::shift_contact(const Substep& substep, const CompiledCable& cable,
@@ -153,6 +154,7 @@ bool CableSystem::leave(const Substep& substep, const CompiledCable& cable, int 
     next.integers[mode_index(link)] = lifted_mode;
   } else {
     left_bodies_.push_back(links_[at(link)].body);
+    forget_plane(cable, link, next);
     next.reals[slip_index(link)] = 0.0;
   }
   slip_[at(link)] = 0;  // it will stick when it touches again
@@ -243,7 +245,16 @@ bool CableSystem::touch_wrappable(const Substep& substep, int cable_index, int s
     }
   }
   sides_[at(span_after(cable, place))] = sides_[at(span)];
-  return split(substep, cable, span, place, next);
+  if (split(substep, cable, span, place, next)) return true;
+  // An unused place leaves no trace in the state.
+  if (plane) forget_plane(cable, place, next);
+  return false;
+}
+
+void CableSystem::forget_plane(const CompiledCable& cable, int place, FeatureState& own) const {
+  const std::size_t start =
+      plane_index(cable.first_plane + place - cable.first_link - cable.listed_links);
+  std::fill_n(own.reals.begin() + static_cast<std::ptrdiff_t>(start), 6, 0.0);
 }
 
 bool CableSystem::split(const Substep& substep, const CompiledCable& cable, int span, int link,

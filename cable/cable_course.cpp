@@ -48,9 +48,9 @@ void CableSystem::connect_spans(const FeatureState& own, const std::vector<LinkG
       const LinkGeometry& b = links[at(setup.second)];
       const bool planar =
           cable.planar && keeps_plane(cable, i, own) && keeps_plane(cable, next, own);
-      setup.kind = !a.wraps() && !b.wraps() ? SpanKind::straight
-                   : planar                 ? SpanKind::planar
-                                            : SpanKind::spatial;
+      // A hybrid end that is a point now can be wound within the substep.
+      const bool points = !a.wraps() && !a.hybrid && !b.wraps() && !b.hybrid;
+      setup.kind = points ? SpanKind::straight : planar ? SpanKind::planar : SpanKind::spatial;
       setup.normal = cable.normal;
       setup.first_sense = cable.senses[at(i)];
       setup.second_sense = cable.senses[at(next)];

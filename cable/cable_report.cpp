@@ -101,8 +101,10 @@ void CableSystem::append_wraps(const CableView& view, const CompiledCable& cable
                                CableReport& report) const {
   if (cable.candidates.empty()) return;
   const int start = first_active_span(cable, view.current.spans);
+  if (start < 0) return;
   int after = 0;
-  int incoming = -1;
+  // Of an open cable there is none; a belt that has left all its listed links begins with a wrap.
+  int incoming = span_before(cable, view.current.spans[at(start)].first, view.current.spans);
   for (int walked = 0, k = start; walked <= cable.span_count && k >= 0; ++walked) {
     const SpanSetup& setup = view.current.spans[at(k)];
     if (setup.first <= cable.last_listed_link()) {

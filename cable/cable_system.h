@@ -241,6 +241,7 @@ class CableSystem final : public ConstraintBatch {
                     FeatureState& next);
   bool touch_wrappable(const Substep& substep, int cable, int span, int candidate,
                        FeatureState& next);
+  void forget_plane(const CompiledCable& cable, int place, FeatureState& own) const;
   bool split(const Substep& substep, const CompiledCable& cable, int span, int link,
              FeatureState& next);
   void record(const Substep& substep, const CompiledCable& cable, int link, CableEvent::Kind kind);

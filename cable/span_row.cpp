@@ -33,7 +33,14 @@ Vector3 center_after(const Substep& substep, const LinkGeometry& link, double ti
          rotation_by(time * carrier.angular_velocity) * (carrier.orientation * link.center);
 }
 
-/// Velocity of the link's centre at the start of the substep.
+/// Whether both ends of a span move with one rigid body, so that nothing changes its length. What rounding leaves of its
+/// gradient would have to pull with 1e16 times its error.
+bool on_one_body(const LinkGeometry& first, const LinkGeometry& second) {
+  return first.body == second.body && first.carrier == first.body && second.carrier == second.body;
+}
+
+/// Velocity of the link's centre at the start of the substep (of an outline: of its origin, which is near enough for a
+/// guess of the span's turn).
 Vector3 start_velocity(const Substep& substep, const LinkGeometry& link) {
   if (link.carrier == substep.bodies.count()) return Vector3::Zero();
   const BodyState& carrier = substep.start.bodies[at(link.carrier)];
@@ -289,6 +296,7 @@ SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
   const SpanGeometry span = span_geometry_now(substep, setup, first, second);
   const SpanTransport transport = span_transport(substep, setup, first, second, reference, span);
   row.value = reference.rest_length + transport.from_first + transport.from_second - span.length;
+  if (on_one_body(first, second)) return span;
   add_link_force(substep, row, first, span.start, span.direction);
   add_link_force(substep, row, second, span.end, -span.direction);
   if (setup.kind == SpanKind::spatial && span.has_tangent && span.length > 0.0) {
@@ -306,6 +314,7 @@ SpanGeometry evaluate_span_frozen(const Substep& substep, const LinkGeometry& fi
   const SpanGeometry span = straight_span(substep.point(first.body, reference.first_point),
                                           substep.point(second.body, reference.second_point));
   row.value = reference.rest_length - span.length;
+  if (on_one_body(first, second)) return span;
   add_link_force(substep, row, first, span.start, span.direction);
   add_link_force(substep, row, second, span.end, -span.direction);
   return span;

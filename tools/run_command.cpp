@@ -134,7 +134,9 @@ ExitCode run(const RunOptions& options) {
     state_file->write(to_bytes(simulation.world.state()));
     state_file->commit();
   }
-  for (Warning& warning : collect_warnings(simulation)) warnings.push_back(std::move(warning));
+  for (Warning& warning : collect_warnings(simulation, outcome.statistics)) {
+    warnings.push_back(std::move(warning));
+  }
   const RunSummary summary{options.scene.path,
                            scene,
                            simulation,

@@ -15,10 +15,10 @@ bool RunSummary::checks_passed() const {
                      [](const CheckResult& check) { return check.passed; });
 }
 
-std::vector<Warning> collect_warnings(const Simulation& simulation) {
-  std::vector<Warning> warnings;
-  if (simulation.cables == nullptr) return warnings;
-  for (const CableSystem::TangentWarning& warning : simulation.cables->tangent_warnings()) {
+namespace {
+
+void append_cable_warnings(const CableSystem& cables, std::vector<Warning>& warnings) {
+  for (const CableSystem::TangentWarning& warning : cables.tangent_warnings()) {
     std::string span = warning.span < 0 ? fmt::format("{} behind a wrap", warning.cable)
                                         : fmt::format("{}.{}", warning.cable, warning.span);
     std::string message = fmt::format(
@@ -27,12 +27,28 @@ std::vector<Warning> collect_warnings(const Simulation& simulation) {
         span, warning.substeps, number_text(warning.first_time));
     warnings.push_back({"no_tangent", std::move(span), std::move(message)});
   }
-  for (const CableSystem::WrapWarning& warning : simulation.cables->wrap_warnings()) {
+  for (const CableSystem::WrapWarning& warning : cables.wrap_warnings()) {
     std::string message = fmt::format(
         "cable {} found no place for another wrap in {} substeps, first at {} s, and went through "
         "the body; raise its most_wraps",
         warning.cable, warning.substeps, number_text(warning.first_time));
     warnings.push_back({"too_many_wraps", warning.cable, std::move(message)});
+  }
+}
+
+}  // namespace
+
+std::vector<Warning> collect_warnings(const Simulation& simulation,
+                                      const RunStatistics& statistics) {
+  std::vector<Warning> warnings;
+  if (simulation.cables != nullptr) append_cable_warnings(*simulation.cables, warnings);
+  if (statistics.solver_fallbacks > 0) {
+    std::string message = fmt::format(
+        "the direct solver did not find which rows act in {} {} and left {} to Gauss-Seidel "
+        "sweeps, so that precision is theirs there",
+        statistics.solver_fallbacks, statistics.solver_fallbacks == 1 ? "substep" : "substeps",
+        statistics.solver_fallbacks == 1 ? "it" : "them");
+    warnings.push_back({"solver_fallback", "", std::move(message)});
   }
   return warnings;
 }

@@ -14,7 +14,7 @@ namespace sheave::tools {
 
 /// Something the user should know although the run went on.
 struct Warning {
-  std::string kind;     ///< for programs: "no_tangent", "no_checks", ...
+  std::string kind;     ///< for programs: "no_tangent", "solver_fallback", ...
   std::string subject;  ///< column-like name of what it is about, e.g. "rope.2"; may be empty
   std::string message;  ///< one sentence
 };
@@ -33,8 +33,10 @@ struct RunSummary {
   [[nodiscard]] bool checks_passed() const;
 };
 
-/// Warnings about the course of a run: spans that had no tangent.
-[[nodiscard]] std::vector<Warning> collect_warnings(const Simulation& simulation);
+/// Warnings about the course of a run: spans that had no tangent, wraps that found no place, substeps that the direct
+/// solver left to the other one.
+[[nodiscard]] std::vector<Warning> collect_warnings(const Simulation& simulation,
+                                                    const RunStatistics& statistics);
 
 /// One JSON object in one line, keys as in the documentation. Numbers that are not finite or not
 /// known are null.

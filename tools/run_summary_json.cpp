@@ -34,7 +34,11 @@ Json statistics(const RunStatistics& statistics) {
   return {{"rows", statistics.rows},
           {"row_solves", statistics.row_solves},
           {"last_correction", statistics.last_correction},
-          {"geometry_fallbacks", statistics.geometry_fallbacks}};
+          {"geometry_fallbacks", statistics.geometry_fallbacks},
+          {"rounds", statistics.rounds},
+          {"set_changes", statistics.set_changes},
+          {"solver_fallbacks", statistics.solver_fallbacks},
+          {"redundant_rows", statistics.redundant_rows}};
 }
 
 Json json(const SpanReport& span, bool known) {

@@ -10,10 +10,25 @@ namespace {
 
 // Longer lists are for programs.
 constexpr std::size_t max_rows = 24;
+constexpr std::size_t max_events = 10;
 
-std::string omitted(std::size_t count, const char* what) {
-  if (count <= max_rows) return "";
-  return fmt::format("  ... and {} more {}; --json tells all\n", count - max_rows, what);
+std::string omitted(std::size_t count, const char* what, std::size_t shown = max_rows) {
+  if (count <= shown) return "";
+  return fmt::format("  ... and {} more {}; --json tells all\n", count - shown, what);
+}
+
+/// How the direct solver fared; nothing of the other solver, whose work is known beforehand.
+std::string direct_solver(const RunSummary& summary) {
+  const RunOutcome& outcome = summary.outcome;
+  const StepSettings& step = summary.scene.model.step;
+  // Of a step that diverged nobody knows how many substeps it had.
+  if (step.solver != SolverKind::direct || outcome.steps == 0 || outcome.divergence) return "";
+  const RunStatistics& statistics = outcome.statistics;
+  const double substeps = static_cast<double>(outcome.steps) * step.substeps;
+  return fmt::format(
+      "{} rows: {} rounds per substep, {} substeps left to Gauss-Seidel, at most {} redundant\n",
+      statistics.rows, short_number(static_cast<double>(statistics.rounds) / substeps),
+      statistics.solver_fallbacks, statistics.redundant_rows);
 }
 
 std::string head(const RunSummary& summary) {
@@ -31,6 +46,7 @@ std::string head(const RunSummary& summary) {
                       step.substeps, step.iterations,
                       solver_names[static_cast<std::size_t>(step.solver)],
                       integrator_names[static_cast<std::size_t>(step.integrator)]);
+  text += direct_solver(summary);
   if (outcome.divergence) text += outcome.divergence->message + "\n";
   return text;
 }
@@ -49,22 +65,47 @@ std::string bodies(const World& world) {
   return "\n" + table.text() + omitted(count, "bodies");
 }
 
+const std::string& body_name(const RunSummary& summary, BodyId id) {
+  return summary.simulation.world.model().bodies[static_cast<std::size_t>(id.index)].name;
+}
+
 std::string cables(const RunSummary& summary) {
   TextTable table({"span", "tension [N]", "length [m]", "rest length [m]"}, 1);
   const bool known = summary.simulation.world.state().steps > 0;
   const std::vector<CableReport> reports = summary.simulation.cable_reports();
   std::size_t count = 0;
+  const auto add = [&](std::string name, const SpanReport& span) {
+    if (++count > max_rows) return;
+    table.add({std::move(name), known ? short_number(span.tension) : "unknown",
+               short_number(span.length), short_number(span.rest_length)});
+  };
   for (const CableReport& report : reports) {
+    std::size_t wrap = 0;
     for (std::size_t k = 0; k < report.spans.size(); ++k) {
-      if (++count > max_rows) continue;
-      const SpanReport& span = report.spans[k];
-      table.add({fmt::format("{}.{}", report.name, k),
-                 known ? short_number(span.tension) : "unknown", short_number(span.length),
-                 short_number(span.rest_length)});
+      add(fmt::format("{}.{}", report.name, k), report.spans[k]);
+      // Spans that begin at a wrap.
+      for (; wrap < report.wraps.size() && report.wraps[wrap].after == static_cast<int>(k);
+           ++wrap) {
+        const WrapReport& on = report.wraps[wrap];
+        add(fmt::format("{}, on \"{}\"", report.name, body_name(summary, on.link.body)), on.span);
+      }
     }
   }
   if (count == 0) return "";
   return "\n" + table.text() + omitted(count, "spans");
+}
+
+std::string events(const RunSummary& summary) {
+  if (summary.simulation.cables == nullptr) return "";
+  const std::vector<CableEvent>& events = summary.simulation.cables->events();
+  if (events.empty()) return "";
+  TextTable table({"time [s]", "cable", "body", "event"}, 4);
+  for (std::size_t i = 0; i < std::min(events.size(), max_events); ++i) {
+    const CableEvent& event = events[i];
+    table.add({short_number(event.time), event.cable, event.body.empty() ? "world" : event.body,
+               std::string(cable_event_names[static_cast<std::size_t>(event.kind)])});
+  }
+  return "\n" + table.text() + omitted(events.size(), "events", max_events);
 }
 
 std::string invariants(const RunSummary& summary) {
@@ -99,8 +140,8 @@ std::string checks_text(const std::vector<CheckResult>& checks) {
 }
 
 std::string to_text(const RunSummary& summary) {
-  std::string text =
-      head(summary) + bodies(summary.simulation.world) + cables(summary) + invariants(summary);
+  std::string text = head(summary) + bodies(summary.simulation.world) + cables(summary) +
+                     events(summary) + invariants(summary);
   if (summary.checked) text += "\n" + checks_text(summary.checks);
   return text;
 }

@@ -22,6 +22,10 @@ void accumulate(const StepStatistics& step, RunStatistics& total) {
   total.last_correction = std::max(total.last_correction, step.last_correction);
   total.geometry_fallbacks += step.geometry_fallbacks;
   total.row_solves += step.row_solves;
+  total.rounds += step.rounds;
+  total.set_changes += step.set_changes;
+  total.solver_fallbacks += step.solver_fallbacks;
+  total.redundant_rows = std::max(total.redundant_rows, step.redundant_rows);
 }
 
 }  // namespace

@@ -123,7 +123,16 @@ void add_second_half_of_loads(Substep& substep) {
     }
     if (!moving.rotates) continue;
     if (body.mobility == Mobility::free) {
-      next.angular_velocity += half * (world_inertia(body, next.orientation, true) * load.torque);
+      const Vector3 turning = world_inertia(body, next.orientation, true) * load.torque;
+      if (body.isotropic) {
+        const auto [keep, gain] =
+            decay(definition.angular_damping * body.inverse_inertia(0, 0), half);
+        next.angular_velocity = keep * next.angular_velocity + gain * turning;
+      } else {
+        const Matrix3 inertia = world_inertia(body, next.orientation, false);
+        next.angular_velocity =
+            damped_rotation(definition, inertia, next.angular_velocity, half) + half * turning;
+      }
       continue;
     }
     const Vector3 axis = body.mount >= 0

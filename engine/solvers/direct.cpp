@@ -11,16 +11,22 @@ void DirectSolver::solve(Substep& substep, Features features) {
   double violated = 0.0;
   bool revised = false;
   for (int round = 0; round < substep.iterations; ++round) {
+    const double before = violated;
     system_.linearise(substep, features, RowSystem::Rule::backward);
     violated = system_.violation();
     if (round > 0 && !revised && violated <= enough) break;
+    // Rows that nothing can satisfy, between driven bodies, stay violated however many rounds there are.
+    if (round > 2 && !revised && violated > stagnation * before) break;
     if (!system_.solve(substep)) {
+      substep.statistics.rows = system_.row_count();
       ++substep.statistics.solver_fallbacks;
       solve_gauss_seidel(substep, features);
       return;
     }
     system_.apply(substep, features);
     revised = false;
+    // What the last round finds would have no round to act in; the features decide it for the next substep.
+    if (round + 1 == substep.iterations) break;
     for (const auto& feature : features) revised = feature->revise(substep) || revised;
   }
   substep.statistics.rows = system_.row_count();

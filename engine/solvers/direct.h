@@ -14,6 +14,8 @@ class DirectSolver {
  public:
   /// Violation at which a round is the last one, relative to the scene's size.
   static constexpr double tolerance = 1e-10;
+  /// A round that leaves more than this share of the violation is the last one, too.
+  static constexpr double stagnation = 0.9;
 
   void solve(Substep& substep, Features features);
 

@@ -1,5 +1,6 @@
 // The matrix of engine/solvers/row_system.h: which rows couple, found once per pattern, and by how much.
 
+#include <cmath>
 #include <map>
 
 #include "engine/index.h"
@@ -61,6 +62,19 @@ void RowSystem::assemble(const Substep& substep) {
   // The factor 1 + g that damping gives a row's gradient is that of its group's S, so A has neither. (Where it differs
   // within a group A is not exact; r still is, so another round or two find the same solution.)
   problem_.values.assign(entries_.size(), 0.0);
+  // What rounding leaves where the rows of a group cancel (nothing but a wheel that the cable slides over can move) is no
+  // yield: such a group keeps its unknown.
+  own_yield_.assign(groups_.size(), 0.0);
+  for (const Coupling& c : couplings_) {
+    if (c.first.row != c.second.row || c.first.term != c.second.term) continue;
+    own_yield_[at(group_of_[at(c.first.row)])] += std::abs(coupling(substep, c.first, c.first));
+  }
+  const auto drop_cancelled = [&] {
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+      constexpr double rounding = 1e-13;
+      if (problem_.diagonal[g] < rounding * own_yield_[g]) problem_.diagonal[g] = 0.0;
+    }
+  };
   if (problem_.symmetric) {
     for (const Coupling& c : couplings_) {
       const double value = coupling(substep, c.first, c.second);
@@ -71,6 +85,7 @@ void RowSystem::assemble(const Substep& substep) {
         problem_.diagonal[at(-1 - c.entry)] += c.first.row == c.second.row ? value : 2.0 * value;
       }
     }
+    drop_cancelled();
     return;
   }
   problem_.lower_values.assign(entries_.size(), 0.0);
@@ -88,6 +103,7 @@ void RowSystem::assemble(const Substep& substep) {
       if (c.first.row != c.second.row) diagonal += weighted(c.second, c.first);
     }
   }
+  drop_cancelled();
 }
 
 }  // namespace sheave

@@ -113,7 +113,8 @@ class RowSystem {
   std::vector<int> new_signature_;
   std::vector<std::pair<int, int>> entries_;
   std::vector<Coupling> couplings_;
-  bool symmetric_rows_ = true;  ///< K = J but for weights
+  std::vector<double> own_yield_;  ///< per group: w of its rows, one by one
+  bool symmetric_rows_ = true;     ///< K = J but for weights
   ComplementarityProblem problem_;
   ActiveSetSolver active_set_;
 };

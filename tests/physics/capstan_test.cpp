@@ -210,5 +210,21 @@ TEST(Capstan, StaysFiniteWhereNothingButTheWheelCanMove) {
   }
 }
 
+TEST(Capstan, WithOneRoundItSlidesOneStepLater) {
+  // Whether it slides is decided after a round, so a single one leaves the decision to the next step.
+  for (const SolverKind solver : {SolverKind::gauss_seidel, SolverKind::direct}) {
+    const Capstan capstan{.weight = 2.0};
+    test::Machine m = capstan.machine();
+    m.model.step.iterations = 1;
+    m.model.step.solver = solver;
+    Simulation s = test::start(m);
+    test::run(s.world, Capstan::time);
+    const double q = std::exp(capstan.friction * capstan.angle);
+    const double a = (2.0 - q) * g / (2.0 + q);
+    EXPECT_NEAR(-s.world.velocity(Capstan::weight_id).y(), a * (Capstan::time - m.model.step.dt),
+                1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace sheave

@@ -113,7 +113,7 @@ TEST(MergeSplit, AHybridEndBehindALiftedWheelChangesLikeAnyOther) {
   m.model.gravity = test::down;
   m.model.step = test::settings(0.005, 1, 20);
   const BodyId wheel = m.model.add(test::wheel("wheel", Vector3::Zero(), 0.2, 0.02));
-  const BodyId post = m.model.add(peg("peg", {0.5, -0.3, 0.0}, 0.05));
+  const BodyId post = m.model.add(peg("peg", {0.9, -0.3, 0.0}, 0.05));
   const BodyId weight = m.model.add(test::weight("weight", {0.2, -0.5, 0.0}, 1.0));
   auto end = std::make_shared<HybridLink>();
   end->body = wheel;
@@ -131,6 +131,15 @@ TEST(MergeSplit, AHybridEndBehindALiftedWheelChangesLikeAnyOther) {
   EXPECT_EQ(report.links[2].stored_length, 0.0);
   EXPECT_NEAR(report.spans[0].rest_length, 1.0, 1e-12);
   EXPECT_EQ(report.length_error, 0.0);
+  // Wound up again, with the peg still passed by, it moves as if there were no peg.
+  m.cables[0].links.erase(m.cables[0].links.begin() + 1);
+  Simulation without = test::start(m);
+  test::run(without.world, 2.0);
+  test::run(s.world, 2.0);
+  EXPECT_GE(s.cables->events().size(), 5U);
+  EXPECT_EQ(s.cables->events()[1].kind, CableEvent::Kind::wind);
+  EXPECT_EQ(s.cables->events().size(), without.cables->events().size());
+  EXPECT_NEAR((s.world.position(weight) - without.world.position(weight)).norm(), 0.0, 1e-9);
 }
 
 /// Cables through fields of six pegs, above or below the straight line; one end of each shakes up and down, so that it

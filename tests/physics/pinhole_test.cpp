@@ -218,6 +218,32 @@ TEST(MasslessWheel, HoldsItsCableWhenItIsDriven) {
   EXPECT_NEAR(report.spans[1].tension, 2.0 * g, 1e-6 * g);
 }
 
+TEST(Pinhole, ASpanWithBothEndsOnOneBodyPullsAtNothing) {
+  // A tendon's last stretch: from its end through a hole with friction in the same bone. The bone moves as if the tendon
+  // ended at the hole.
+  for (const SolverKind solver : {SolverKind::gauss_seidel, SolverKind::direct}) {
+    test::Machine m;
+    m.model.gravity = test::down;
+    m.model.step = test::settings(0.01, 1, 20);
+    m.model.step.solver = solver;
+    BodyDef lump = test::lump("bone", {0.1, 0.2, 0.3}, 1.0);
+    lump.angular_velocity = {1.0, 2.0, 3.0};
+    const BodyId bone = m.model.add(lump);
+    const Vector3 place(0.1, 0.05, -0.07);
+    const auto anchor = attach(BodyId::world(), {0.3, 2.0, 0.1});
+    m.cables.push_back(
+        cable("tendon", {attach(bone, {-0.1, 0.0, 0.1}), hole(bone, place, 0.3), anchor}));
+    Simulation s = test::start(m);
+    m.cables[0] = cable("tendon", {attach(bone, place), anchor});
+    Simulation shorter = test::start(m);
+    for (int i = 0; i < 100; ++i) {
+      ASSERT_TRUE(s.world.step().ok());
+      ASSERT_TRUE(shorter.world.step().ok());
+      ASSERT_LT((s.world.position(bone) - shorter.world.position(bone)).norm(), 1e-9) << i;
+    }
+  }
+}
+
 TEST(MasslessWheel, TurnsWithItsCable) {
   for (const double inertia : {0.0, 0.05}) {
     test::Machine m = test::Atwood{.m1 = 1.0, .m2 = 2.0}.machine();

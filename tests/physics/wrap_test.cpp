@@ -377,5 +377,40 @@ TEST(Wrap, RandomContactsLoseNoLength) {
   }
 }
 
+TEST(Wrap, ABeltCanLeaveAllItsListedWheels) {
+  // Two posts in a belt part and stretch it; the wheels that it ran over pass each other between its two sides.
+  test::Machine m;
+  m.model.gravity = Vector3::Zero();
+  m.model.step = test::settings(0.005, 1, 50);
+  const auto add = [&](const char* name, double radius, const Vector3& position,
+                       const Vector3& velocity, bool wrappable) {
+    BodyDef body = obstacle(name, cylinder(radius), position);
+    body.mobility = Mobility::kinematic;
+    body.velocity = velocity;
+    body.wrappable = wrappable;
+    return m.model.add(body);
+  };
+  const BodyId a = add("a", 0.2, {-1.0, 0.0, 0.0}, {0.4, 0.0, 0.0}, false);
+  const BodyId b = add("b", 0.2, {1.0, 0.0, 0.0}, {-0.4, 0.0, 0.0}, false);
+  add("upper", 0.15, {-0.4, 0.0, 0.0}, {0.0, 1.0, 0.0}, true);
+  add("lower", 0.15, {0.4, 0.0, 0.0}, {0.0, -1.0, 0.0}, true);
+  CableDef belt = cable("belt", {roll(a, left), roll(b, left)});
+  belt.closed = true;
+  belt.axial_stiffness = 1000.0;
+  m.cables.push_back(belt);
+  Simulation s = test::start(m);
+  int alone = 0;
+  for (int i = 0; i < 600; ++i) {
+    ASSERT_TRUE(s.world.step().ok());
+    const CableReport report = s.cable_reports()[0];
+    EXPECT_NEAR(report.length_error, 0.0, 1e-14);
+    if (report.links[0].touched || report.links[1].touched) continue;
+    ++alone;
+    ASSERT_EQ(report.wraps.size(), 2U);
+    EXPECT_NEAR(report.wraps[0].span.tension, report.wraps[1].span.tension, 1e-6);
+  }
+  EXPECT_GT(alone, 0);
+}
+
 }  // namespace
 }  // namespace sheave

@@ -249,6 +249,49 @@ TEST(RunCommand, ASpanWithoutTangentIsAWarningWithItsName) {
   EXPECT_THAT(result.err, HasSubstr("rope.1"));
 }
 
+TEST(RunCommand, TheTextShowsWrapsAndTheFirstEvents) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("wrap.json", wrap_scene);
+  const ProcessResult result = run_sheave({"run", scene});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("rope.0 "));
+  EXPECT_THAT(result.out, HasSubstr("rope, on \"post\" "));
+  EXPECT_THAT(result.out, HasSubstr("0.02      rope   post  touch"));
+  const json summary = run_json({scene});
+  ASSERT_GT(summary["events"].size(), 11U);
+  EXPECT_THAT(result.out, HasSubstr("... and " + std::to_string(summary["events"].size() - 10) +
+                                    " more events; --json tells all"));
+  // Before the cable touches anything there is neither.
+  const ProcessResult start = run_sheave({"run", scene, "--steps", "1"});
+  EXPECT_THAT(start.out, Not(HasSubstr("post\" ")));
+  EXPECT_THAT(start.out, Not(HasSubstr("event")));
+}
+
+TEST(RunCommand, StatisticsOfTheDirectSolver) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const json swept = run_json({scene});
+  EXPECT_EQ(swept["statistics"]["rounds"], 0);
+  EXPECT_THAT(run_sheave({"run", scene}).out, Not(HasSubstr("per substep")));
+  const json direct = run_json({scene, "--solver", "direct"});
+  EXPECT_GE(direct["statistics"]["rounds"], 100);
+  EXPECT_EQ(direct["statistics"]["row_solves"], 2 * direct["statistics"]["rounds"].get<int>());
+  EXPECT_EQ(direct["statistics"]["solver_fallbacks"], 0);
+  EXPECT_EQ(direct["statistics"]["redundant_rows"], 0);
+  EXPECT_TRUE(direct["statistics"]["set_changes"].is_number());
+  EXPECT_TRUE(direct["warnings"].empty());
+  EXPECT_THAT(run_sheave({"run", scene, "--solver", "direct"}).out,
+              HasSubstr("2 rows: 1 rounds per substep, 0 substeps left to Gauss-Seidel"));
+}
+
+TEST(RunCommand, RedundantRowsAreCountedAndNoneIsGivenUp) {
+  const TemporaryFolder folder;
+  const json summary = run_json({folder.write("redundant.json", redundant_scene)});
+  EXPECT_EQ(summary["statistics"]["solver_fallbacks"], 0);
+  EXPECT_GT(summary["statistics"]["redundant_rows"], 0);
+  EXPECT_TRUE(summary["warnings"].empty());
+}
+
 TEST(RunCommand, ReadsASceneFromStandardInput) {
   const ProcessResult result = run_sheave({"run", "-", "--json"}, {.input = atwood_scene});
   EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -86,4 +86,51 @@ inline const std::string overlap_scene = R"json({
 }
 )json";
 
+/// A cable whose ends go up and down 4 times a second, and each time wind it round a post above it for a moment.
+inline const std::string wrap_scene = R"json({
+  "format": "sheave-scene/1",
+  "gravity": [0, 0, 0],
+  "duration": 2.1,
+  "step": {"dt": 0.01, "solver": "direct"},
+  "bodies": [
+    {"name": "left", "mobility": "kinematic", "position": [-1, 0, 0], "oscillation": [0, 0.3, 0],
+     "oscillation_frequency": 4},
+    {"name": "right", "mobility": "kinematic", "position": [1, 0, 0], "oscillation": [0, 0.3, 0],
+     "oscillation_frequency": 4},
+    {"name": "post", "mobility": "static", "wrappable": true, "position": [0, 0.3, 0],
+     "shape": {"type": "cylinder", "radius": 0.2, "length": 0.2}}
+  ],
+  "cables": [
+    {"name": "rope", "axial_stiffness": 1000, "links": [
+      {"type": "attachment", "body": "left"},
+      {"type": "attachment", "body": "right"}
+    ]}
+  ]
+}
+)json";
+
+/// A cable that slides over a post with friction makes the direct solver's matrix asymmetric, and a crate that lands on four
+/// corners makes it singular.
+inline const std::string redundant_scene = R"json({
+  "format": "sheave-scene/1",
+  "gravity": [0, -10, 0],
+  "duration": 0.5,
+  "step": {"dt": 0.01, "solver": "direct"},
+  "ground": {"point": [0, -10, 0]},
+  "bodies": [
+    {"name": "post", "mobility": "static", "shape": {"type": "cylinder", "radius": 0.5, "length": 0.1}},
+    {"name": "light", "mobility": "slider", "axis": [0, 1, 0], "position": [-0.5, -2, 0], "mass": 1},
+    {"name": "heavy", "mobility": "slider", "axis": [0, 1, 0], "position": [0.5, -2, 0], "mass": 3},
+    {"name": "crate", "position": [3, -9.5, 0.1], "mass": 1, "shape": {"type": "box", "size": [0.7, 0.6, 0.9]}}
+  ],
+  "cables": [
+    {"name": "rope", "links": [
+      {"type": "attachment", "body": "light"},
+      {"type": "rolling", "body": "post", "winding": "clockwise", "friction": 0.1},
+      {"type": "attachment", "body": "heavy"}
+    ]}
+  ]
+}
+)json";
+
 }  // namespace sheave::test
