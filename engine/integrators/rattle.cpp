@@ -26,7 +26,8 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   double violated = 0.0;
   bool revised = false;
   for (int round = 0; round <= substep.iterations; ++round) {
-    if (!positions_.linearise(substep, features, RowSystem::Rule::midpoint)) return false;
+    if (!positions_.linearise(substep, features, RowSystem::Rule::midpoint, round == 0))
+      return false;
     violated = positions_.violation();
     if (!std::isfinite(violated)) return false;
     if (round == 0) first = violated;

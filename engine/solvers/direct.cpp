@@ -12,7 +12,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
   bool revised = false;
   for (int round = 0; round < substep.iterations; ++round) {
     const double before = violated;
-    system_.linearise(substep, features, RowSystem::Rule::backward);
+    system_.linearise(substep, features, RowSystem::Rule::backward, round == 0);
     violated = system_.violation();
     if (round > 0 && !revised && violated <= enough) break;
     // Rows that nothing can satisfy, between driven bodies, stay violated however many rounds there are.

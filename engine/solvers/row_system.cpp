@@ -59,7 +59,7 @@ bool RowSystem::match_start() {
   return true;
 }
 
-bool RowSystem::linearise(Substep& substep, Features features, Rule rule) {
+bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool first_round) {
   collect_rows(substep, features);
   responses_.resize(rows_.size());
   symmetric_rows_ = rule == Rule::backward;
@@ -76,7 +76,11 @@ bool RowSystem::linearise(Substep& substep, Features features, Rule rule) {
       set_midpoint(substep, g);
     }
   }
-  settle_weights(substep);
+  if (first_round) {
+    remember_prediction(substep);
+  } else {
+    settle(substep);
+  }
   return true;
 }
 
@@ -101,7 +105,6 @@ void RowSystem::make_groups() {
   problem_.lower.resize(n);
   problem_.upper.resize(n);
   problem_.free.resize(n);
-  mismatch_.assign(rows_.size(), 0.0);
 }
 
 void RowSystem::set_bounds(std::size_t g, bool pushed, bool active) {
@@ -169,16 +172,26 @@ void RowSystem::add_motion(const Substep& substep, std::size_t row, double chang
   }
 }
 
-void RowSystem::settle_weights(const Substep& substep) {
-  bool any = false;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    mismatch_[i] = rows_[i].weight * groups_[at(group_of_[i])].multiplier - previous_[i];
-    any = any || mismatch_[i] != 0.0;
+void RowSystem::remember_prediction(const Substep& substep) {
+  predicted_.resize(substep.moving.size());
+  for (std::size_t b = 0; b < predicted_.size(); ++b) {
+    const MovingBody& body = substep.moving[b];
+    predicted_[b] = {body.position, body.orientation, body.turn};
   }
-  if (!any) return;
-  // When a cable begins to slide its multipliers do not have their ratio yet; what that takes moves the bodies.
+}
+
+void RowSystem::settle(const Substep& substep) {
+  // From where the bodies are to where the multipliers of now put them along the gradients of now.
   motion_.assign(substep.moving.size(), RowTerm{});
-  for (std::size_t i = 0; i < rows_.size(); ++i) add_motion(substep, i, mismatch_[i]);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const double multiplier = rows_[i].weight * groups_[at(group_of_[i])].multiplier;
+    if (multiplier != 0.0) add_motion(substep, i, multiplier);
+  }
+  for (std::size_t b = 0; b < motion_.size(); ++b) {
+    const MovingBody& body = substep.moving[b];
+    if (body.translates) motion_[b].linear += predicted_[b].position - body.position;
+    if (body.rotates) motion_[b].angular += predicted_[b].turn - body.turn;
+  }
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     for (const RowTerm& term : rows_[i].active_terms()) {
       const RowTerm& motion = motion_[at(term.body)];
@@ -228,19 +241,20 @@ void RowSystem::apply(Substep& substep, Features features) {
       const auto i = at(r);
       const auto g = at(group_of_[i]);
       const Row& first = rows_[at(groups_[g].first_row)];
-      add_motion(substep, i, rows_[i].weight * change[g] + mismatch_[i]);
-      // Set, not added to, so that rows with one unknown have one multiplier to the last bit.
       const double unknown =
           std::clamp(groups_[g].multiplier + change[g], first.lower, first.upper);
-      multipliers[at(rows_[i].index)] = rows_[i].weight * unknown;
+      const double multiplier = rows_[i].weight * unknown;
+      multipliers[at(rows_[i].index)] = multiplier;
+      if (multiplier != 0.0) add_motion(substep, i, multiplier);
     }
   }
   for (std::size_t b = 0; b < motion_.size(); ++b) {
     MovingBody& body = substep.moving[b];
-    if (body.translates) body.position += motion_[b].linear;
+    const Pose& from = predicted_[b];
+    if (body.translates) body.position = from.position + motion_[b].linear;
     if (!body.rotates) continue;
-    body.turn += motion_[b].angular;
-    if (body.tracks_orientation) body.orientation = turned(body.orientation, motion_[b].angular);
+    body.turn = from.turn + motion_[b].angular;
+    if (body.tracks_orientation) body.orientation = turned(from.orientation, motion_[b].angular);
   }
 }
 

@@ -220,7 +220,7 @@ TEST(MasslessWheel, HoldsItsCableWhenItIsDriven) {
 
 TEST(Pinhole, ASpanWithBothEndsOnOneBodyPullsAtNothing) {
   // A tendon's last stretch: from its end through a hole with friction in the same bone. The bone moves as if the tendon
-  // ended at the hole.
+  // ended at the hole, but for what rounds leave: 1e-10 of the 2 m of the scene in each of 100 steps.
   for (const SolverKind solver : {SolverKind::gauss_seidel, SolverKind::direct}) {
     test::Machine m;
     m.model.gravity = test::down;
@@ -239,7 +239,7 @@ TEST(Pinhole, ASpanWithBothEndsOnOneBodyPullsAtNothing) {
     for (int i = 0; i < 100; ++i) {
       ASSERT_TRUE(s.world.step().ok());
       ASSERT_TRUE(shorter.world.step().ok());
-      ASSERT_LT((s.world.position(bone) - shorter.world.position(bone)).norm(), 1e-9) << i;
+      ASSERT_LT((s.world.position(bone) - shorter.world.position(bone)).norm(), 2e-8) << i;
     }
   }
 }
