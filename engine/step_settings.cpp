@@ -12,10 +12,15 @@ std::span<const Field> StepSettings::field_table() {
                                        "solver, rounds at most"),
       choice_field<&StepSettings::solver>(
           "solver", solver_names, optional,
-          "how the rows of a substep are solved: one after the other "
-          "as in the paper, or all at once"),
-      choice_field<&StepSettings::integrator>("integrator", integrator_names, optional,
-                                              "how states are carried forward in time"),
+          "gauss-seidel: row after row as in the paper, rough unless there are many iterations; "
+          "direct: all rows at once, "
+          "for more than a few wheels, light wheels, large mass ratios or wherever numbers count "
+          "(bench/SOLVERS.md)"),
+      choice_field<&StepSettings::integrator>(
+          "integrator", integrator_names, optional,
+          "xpbd: the paper's, of first order, damps motion the more the larger the step; rattle: "
+          "of second order, keeps "
+          "energy"),
   };
   return table;
 }

@@ -116,6 +116,13 @@ int SparseFactor::scatter(int k, std::span<const double> values, const double* t
   return top;
 }
 
+void SparseFactor::begin_factor(std::span<const double> diagonal) {
+  dropped_ = 0;
+  std::fill(factor_count_.begin(), factor_count_.end(), 0);
+  std::fill(mark_.begin(), mark_.end(), -1);
+  for (int i = 0; i < size_; ++i) inverse_pivot_[at(place_[at(i)])] = diagonal[at(i)];
+}
+
 void SparseFactor::keep_pivot(int k, double pivot, double full) {
   // Written so that NaN is dropped, too.
   const bool kept = pivot > dropped_pivot * full;
@@ -125,10 +132,7 @@ void SparseFactor::keep_pivot(int k, double pivot, double full) {
 
 void SparseFactor::factor(std::span<const double> diagonal, std::span<const double> values) {
   symmetric_ = true;
-  dropped_ = 0;
-  std::fill(factor_count_.begin(), factor_count_.end(), 0);
-  std::fill(mark_.begin(), mark_.end(), -1);
-  for (int i = 0; i < size_; ++i) inverse_pivot_[at(place_[at(i)])] = diagonal[at(i)];
+  begin_factor(diagonal);
   for (int k = 0; k < size_; ++k) {
     const double full = inverse_pivot_[at(k)];
     double pivot = full;
@@ -153,12 +157,9 @@ void SparseFactor::factor(std::span<const double> diagonal, std::span<const doub
 void SparseFactor::factor(std::span<const double> diagonal, std::span<const double> values,
                           std::span<const double> transposed_values) {
   symmetric_ = false;
-  dropped_ = 0;
   upper_.resize(factor_.size());
   lower_work_.resize(at(size_), 0.0);
-  std::fill(factor_count_.begin(), factor_count_.end(), 0);
-  std::fill(mark_.begin(), mark_.end(), -1);
-  for (int i = 0; i < size_; ++i) inverse_pivot_[at(place_[at(i)])] = diagonal[at(i)];
+  begin_factor(diagonal);
   for (int k = 0; k < size_; ++k) {
     const double full = inverse_pivot_[at(k)];
     double pivot = full;

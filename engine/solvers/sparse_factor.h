@@ -44,6 +44,7 @@ class SparseFactor {
   /// The places of row k of L that are not 0, in an order in which each depends on earlier ones only: path_ from the
   /// returned place on. Scatters the entries of A above the diagonal into work_, and those below into lower_work_.
   int scatter(int k, std::span<const double> values, const double* transposed_values);
+  void begin_factor(std::span<const double> diagonal);
   /// Takes the pivot of row k, or drops it.
   void keep_pivot(int k, double pivot, double full);
 
