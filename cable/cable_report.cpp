@@ -181,9 +181,11 @@ std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State&
   const Substep now(bodies, state, 1.0, 1);
   const Geometry current = geometry_for(bodies, own);
   std::vector<SpanGeometry> ends(spans_.size());
+  std::vector<int> incoming(links_.size(), -1);  // span that ends at the link
   for (int k = 0; k < row_count(); ++k) {
     const SpanSetup& setup = current.spans[at(k)];
     if (!setup.active) continue;
+    incoming[at(setup.second)] = k;
     ends[at(k)] =
         span_geometry(now, setup, current.links[at(setup.first)], current.links[at(setup.second)]);
   }
@@ -201,8 +203,7 @@ std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State&
       const int outgoing = i < cable.span_count && current.spans[at(cable.first_span + i)].active
                                ? cable.first_span + i
                                : -1;
-      report.links.push_back(
-          link_report(view, link, span_before(cable, link, current.spans), outgoing));
+      report.links.push_back(link_report(view, link, incoming[at(link)], outgoing));
       report.links.back().type = cable.link_types[at(i)];
       if (i >= cable.listed_spans) continue;
       const int k = cable.first_span + i;
