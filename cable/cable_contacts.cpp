@@ -78,8 +78,9 @@ bool CableSystem::comes_off(const Substep& substep, int span, int link,
                             const FeatureState& next) const {
   const double stored = next.reals[stored_length_index(link)];
   const LinkGeometry& wheel = links_[at(link)];
-  if (stored < 0.0 || !wheel.outline) return stored < 0.0;
-  // At a corner there is no length, but an angle.
+  const bool in_space = spans_[at(span)].kind == SpanKind::spatial;
+  if (!wheel.outline || (stored < 0.0 && !in_space)) return stored < 0.0;
+  // At a corner there is no length, but an angle. (In space the length is not quite that of the edges, either.)
   if (stored > 0.5 * wheel.perimeter()) return false;
   const SpanSetup& setup = spans_[at(span)];
   const int after = span_after(cables_[at(setup.cable)], link);

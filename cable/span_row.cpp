@@ -97,6 +97,31 @@ double relative_turn(const Substep& substep, const LinkGeometry& link, const Vec
   return relative_to_carrier - (normal.dot(substep.moving[at(link.body)].turn) - carrier_turn);
 }
 
+/// By how much less than its edges the span changes when its contact moves from one corner to another while its far end,
+/// `far_end` in the carrier's own frame, is out of the outline's plane [m, with the sign of the way `along`]. Where the
+/// contact changes corner the span, seen along the plane, lies along the edge e; with d from the nearer corner to the far
+/// end and z out of the plane its length changes by sqrt((d + e)^2 + z^2) - sqrt(d^2 + z^2), which is e for z = 0. The
+/// stored length counts that, not e, so that the row's value has no jump, which would make energy; after windings at
+/// different tilts it is not quite the length of the edges. The far end is that of the start of the substep, so that
+/// what is lost depends on the corners only and the row's gradient stays exact.
+double tilt_loss(const LinkGeometry& link, int from, int to, double along, const Vector3& far_end) {
+  if (from == to) return 0.0;
+  const int count = link.outline->curve.corner_count();
+  const int step = along > 0.0 ? 1 : count - 1;
+  double loss = 0.0;
+  for (int corner = from; corner != to;) {
+    const int next = (corner + step) % count;
+    const Vector3 a = far_end - link.outline->corners[at(corner)];
+    const Vector3 b = far_end - link.outline->corners[at(next)];
+    const double z = dot(link.normal, a);
+    const double edge = (a - b).norm();
+    const double d = std::min((a - z * link.normal).norm(), (b - z * link.normal).norm());
+    loss += edge - (std::hypot(d + edge, z) - std::hypot(d, z));
+    corner = next;
+  }
+  return along > 0.0 ? loss : -loss;
+}
+
 /// The forces along e1 and e2 that the moving tangent points of skew planes add to the row.
 void add_skew_terms(const Substep& substep, const LinkGeometry& first, const LinkGeometry& second,
                     const SpanGeometry& span, Row& row) {
@@ -229,6 +254,11 @@ SpanReference span_reference(const Substep& substep, const SpanSetup& setup,
     return substep.orientation(link.carrier).conjugate() *
            contact_normal(substep, link, corner, point, span.direction);
   };
+  const auto own_point = [&](const LinkGeometry& link, const Vector3& point) -> Vector3 {
+    return substep.orientation(link.carrier).conjugate() * (point - substep.position(link.carrier));
+  };
+  if (first.outline) reference.first_far = own_point(first, span.end);
+  if (second.outline) reference.second_far = own_point(second, span.start);
   reference.first_radial = own_radial(first, span.first_corner, span.start);
   reference.second_radial = own_radial(second, span.second_corner, span.end);
   return reference;
@@ -267,22 +297,28 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
     }
     case SpanKind::spatial: {
       const auto way = [&](const LinkGeometry& link, const Vector3& start_radial, int start_corner,
-                           double start_angle, int corner, const Vector3& point) {
+                           double start_angle, int corner, const Vector3& point,
+                           const Vector3& far_end) {
         const Vector3 outward = contact_normal(substep, link, corner, point, geometry.direction);
         const double turn = relative_turn(substep, link, start_radial, outward);
         // `side` makes the gain of either end a loss of the span.
         const double gain = &link == &first ? layer_gain(link, turn) : -layer_gain(link, turn);
-        return way_along(link, turn, start_corner, start_angle, corner) + link.side * gain;
+        const double along = way_along(link, turn, start_corner, start_angle, corner);
+        const double loss =
+            link.outline ? tilt_loss(link, start_corner, corner, along, far_end) : 0.0;
+        return along - loss + link.side * gain;
       };
       if (first.wraps()) {
         transport.from_first =
             -first.side * way(first, reference.first_radial, reference.first_corner,
-                              reference.first_angle, geometry.first_corner, geometry.start);
+                              reference.first_angle, geometry.first_corner, geometry.start,
+                              reference.first_far);
       }
       if (second.wraps()) {
         transport.from_second =
             second.side * way(second, reference.second_radial, reference.second_corner,
-                              reference.second_angle, geometry.second_corner, geometry.end);
+                              reference.second_angle, geometry.second_corner, geometry.end,
+                              reference.second_far);
       }
       break;
     }

@@ -69,6 +69,9 @@ struct SpanReference {
   int second_corner = 0;
   double first_angle = 0.0;  ///< outlines: normal angle at the start [rad], carrier's own frame
   double second_angle = 0.0;
+  Vector3 first_far =
+      Vector3::Zero();  ///< spatial outlines: the span's other end at the start, own frame
+  Vector3 second_far = Vector3::Zero();   ///< of the carrier
   Vector3 first_point = Vector3::Zero();  ///< tangent_update substep: own frame of the body
   Vector3 second_point = Vector3::Zero();
 };

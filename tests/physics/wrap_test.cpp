@@ -15,9 +15,7 @@ namespace {
 
 using test::attach;
 using test::cable;
-using test::g;
 using test::left;
-using test::right;
 using test::roll;
 
 BodyDef obstacle(std::string name, std::shared_ptr<const Shape> shape, const Vector3& position) {
@@ -259,6 +257,42 @@ TEST(Wrap, FrictionOfAWrapIsTheCapstans) {
   EXPECT_GT(wrap.link.slip, 0.01);
 }
 
+TEST(Wrap, ATumblingBoxGainsNoEnergyFromTheCableThatCatchesIt) {
+  for (const SolverKind solver : {SolverKind::gauss_seidel, SolverKind::direct}) {
+    test::Machine m;
+    m.model.gravity = test::down;
+    m.model.step = test::settings(0.0025, 1, 100);
+    m.model.step.solver = solver;
+    BodyDef thing;
+    thing.name = "box";
+    thing.position = {0.02, 1.0, 0.0};
+    thing.mass = 2.0;
+    thing.wrappable = true;
+    thing.angular_velocity = {0.1, 0.0, 2.0};
+    PlacedShape placed;
+    placed.shape = box({0.4, 0.3, 1.0});
+    thing.shapes.push_back(placed);
+    m.model.add(thing);
+    m.cables.push_back(cable("rope", {attach(BodyId::world(), {-1.0, 0.5, 0.0}),
+                                      attach(BodyId::world(), {1.0, 0.5, 0.0})}));
+    m.cables[0].rest_lengths = {2.3};
+    Simulation s = test::start(m);
+    const double start = s.world.energy().total();
+    double before = start;
+    double rise = 0.0;
+    for (int i = 0; i < 600; ++i) {
+      ASSERT_TRUE(s.world.step().ok());
+      const double now = s.world.energy().total();
+      rise = std::max(rise, now - before);
+      before = now;
+    }
+    EXPECT_FALSE(s.cables->events().empty());
+    EXPECT_LT(rise, 1e-3 * start) << "in one step";
+    EXPECT_LT(before, start);
+    EXPECT_EQ(s.cable_reports()[0].length_error, 0.0);
+  }
+}
+
 TEST(Wrap, MoreWrapsThanThereArePlacesForAreReported) {
   std::vector<BodyDef> posts;
   for (int i = 0; i < 4; ++i) {
@@ -365,7 +399,9 @@ TEST(Wrap, RandomContactsLoseNoLength) {
             s.cables->events().begin(), s.cables->events().end(), [&](const CableEvent& event) {
               return event.body == body && event.time == s.world.state().time;
             });
-        EXPECT_TRUE(wrap.link.stored_length >= 0.0 || fresh) << body;
+        // Round the corner of a box, in a plane tilted by at most 0.6 m in 1.7 m, an edge of 8 cm counts 5 mm less.
+        const double tilt = depth > 0.0 ? 0.005 : 0.0;
+        EXPECT_TRUE(wrap.link.stored_length >= -tilt || fresh) << body;
       }
     }
     EXPECT_EQ(worst, 0.0);
