@@ -57,7 +57,7 @@ struct Row {
   double rate = 0.0;          ///< change of C with time at rest: a feed [m/s or rad/s]
   double compliance = 0.0;    ///< a [m/N or rad/(N m)], >= 0
   double damping = 0.0;       ///< b [N s/m or N m s/rad], >= 0; acts only with compliance > 0
-  double lower = -unbounded;  ///< bounds of the multiplier
+  double lower = -unbounded;  ///< bounds of the multiplier: force x h^2
   double upper = unbounded;
   int term_count = 0;
   std::array<RowTerm, max_terms> terms;

@@ -63,6 +63,7 @@ bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool f
   collect_rows(substep, features);
   responses_.resize(rows_.size());
   symmetric_rows_ = rule == Rule::backward;
+  bound_share_ = rule == Rule::backward ? 1.0 : 0.5;
   if (rule == Rule::midpoint) {
     if (!match_start()) return false;
   } else {
@@ -110,8 +111,8 @@ void RowSystem::make_groups() {
 void RowSystem::set_bounds(std::size_t g, bool pushed, bool active) {
   const Group& group = groups_[g];
   const Row& first = rows_[at(group.first_row)];
-  problem_.lower[g] = first.lower - group.multiplier;
-  problem_.upper[g] = first.upper - group.multiplier;
+  problem_.lower[g] = bound_share_ * first.lower - group.multiplier;
+  problem_.upper[g] = bound_share_ * first.upper - group.multiplier;
   const bool bilateral = !std::isfinite(first.lower) && !std::isfinite(first.upper);
   problem_.free[g] = bilateral || active || pushed || group.multiplier != 0.0 ? 1 : 0;
 }
@@ -241,8 +242,8 @@ void RowSystem::apply(Substep& substep, Features features) {
       const auto i = at(r);
       const auto g = at(group_of_[i]);
       const Row& first = rows_[at(groups_[g].first_row)];
-      const double unknown =
-          std::clamp(groups_[g].multiplier + change[g], first.lower, first.upper);
+      const double unknown = std::clamp(groups_[g].multiplier + change[g],
+                                        bound_share_ * first.lower, bound_share_ * first.upper);
       const double multiplier = rows_[i].weight * unknown;
       multipliers[at(rows_[i].index)] = multiplier;
       if (multiplier != 0.0) add_motion(substep, i, multiplier);

@@ -16,6 +16,9 @@
 // start: it conserves the energy of a linear spring for any step. A unilateral spring that was slack counts with C0 = 0:
 // the force then does less work than it stores, so no transition makes energy. Rigid rows have value = C.
 //
+// Bounds of a row are those of force x h^2. The midpoint rule acts with F = 2 l / h^2 for half a substep and so has half of
+// them, and an impulse m of the velocities, for the other half, has the bounds over 2 h.
+//
 // J and K are the gradients of the rows now and those along which multipliers act: the same for XPBD, those at the start
 // of the substep for `rattle`. Rows that share an unknown are added in J and weighted in K.
 //
@@ -127,6 +130,7 @@ class RowSystem {
   std::vector<Coupling> couplings_;
   std::vector<double> own_yield_;  ///< per group: w of its rows, one by one
   bool symmetric_rows_ = true;     ///< K = J but for weights
+  double bound_share_ = 1.0;       ///< of the rows' bounds, in the rule at work
   ComplementarityProblem problem_;
   ActiveSetSolver active_set_;
 };

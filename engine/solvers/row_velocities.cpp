@@ -22,6 +22,8 @@ double RowSystem::rate_of(const Substep& substep, const Row& row) const {
 void RowSystem::linearise_velocities(Substep& substep, Features features) {
   // Closer than this a row counts as closed: far below what a substep moves, far above what the solver leaves.
   const double closed = 1e-8 * substep.bodies.scale();
+  const double share =
+      0.5 / substep.h;  // of the bounds, for an impulse in the second half of the substep
   collect_rows(substep, features);
   responses_.resize(rows_.size());
   symmetric_rows_ = true;
@@ -42,8 +44,8 @@ void RowSystem::linearise_velocities(Substep& substep, Features features) {
                                          (std::isfinite(first.upper) && value > 0.0));
     const bool bilateral = !std::isfinite(first.lower) && !std::isfinite(first.upper);
     problem_.constant[g] = rate;
-    problem_.lower[g] = acts ? std::min(first.lower, 0.0) : 0.0;
-    problem_.upper[g] = acts ? std::max(first.upper, 0.0) : 0.0;
+    problem_.lower[g] = acts ? share * first.lower : 0.0;
+    problem_.upper[g] = acts ? share * first.upper : 0.0;
     problem_.free[g] = acts && (bilateral || group.multiplier != 0.0) ? 1 : 0;
     group.multiplier = 0.0;  // of the impulse
   }
