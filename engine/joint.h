@@ -3,6 +3,7 @@
 // engine/joint_registry.cpp.
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "engine/body_id.h"
@@ -22,8 +23,12 @@ class JointDef {
   std::string name;  ///< unique among the joints of the model
   BodyId body_a;     ///< default: the world
   BodyId body_b;     ///< required, differs from body_a
+  /// The joint breaks at the end of the substep in which its mean force or torque on body_b, about its anchor, exceeds
+  /// these; it then does nothing any more.
+  std::optional<double> breaking_force;   ///< [N], > 0
+  std::optional<double> breaking_torque;  ///< [N m], > 0
 
-  /// name, body_a and body_b.
+  /// What all joints have.
   static std::span<const Field> common_field_table();
   [[nodiscard]] virtual std::string_view type() const = 0;  ///< key in the registry, e.g. "hinge"
   [[nodiscard]] virtual const void* settings() const = 0;   ///< this, as its own type
@@ -38,6 +43,10 @@ class JointDef {
   JointDef(const JointDef&) = default;
   JointDef& operator=(const JointDef&) = default;
 };
+
+/// Appends an error if `axis`, at `path`, of the joint with this name has no direction.
+void check_direction(const Vector3& axis, const std::string& joint, const std::string& path,
+                     Errors& errors);
 
 /// All joint types, in the order of the documentation; batches run in this order.
 [[nodiscard]] std::span<const TypeEntry<JointDef>> joint_types();

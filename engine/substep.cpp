@@ -8,13 +8,21 @@
 
 #include "engine/substep.h"
 
+#include <cmath>
+
 #include "engine/index.h"
 
 namespace sheave {
 namespace {
 
-/// Inverse mass and inverse inertia in the world frame of a body with this orientation.
-void set_inverse_masses(const BodyProperties& properties, MovingBody& body) {
+/// The share of an impulse during `time` [s] that drag with this rate [1/s] leaves at the end: that of a constant force.
+double left_by_drag(double rate, double time) {
+  const double x = rate * time;
+  return x > 0.0 ? -std::expm1(-x) / x : 1.0;
+}
+
+/// Inverse mass and inverse inertia in the world frame of a body with this orientation, without drag.
+void set_undamped(const BodyProperties& properties, MovingBody& body) {
   const Vector3& axis = properties.axis;
   const Matrix3 along = axis * axis.transpose();
   switch (properties.mobility) {
@@ -45,6 +53,32 @@ void set_inverse_masses(const BodyProperties& properties, MovingBody& body) {
   }
 }
 
+/// The same with drag during `time`. What constraints do is subject to it as loads are (engine/integrators/loads.h), or
+/// they would not balance at rest. (Free bodies with different moments of inertia have their drag before both.)
+void set_inverse_masses(const BodySet& bodies, int i, double time, MovingBody& body) {
+  const BodyProperties& properties = bodies[i];
+  set_undamped(properties, body);
+  const BodyDef& definition = bodies.definition(i);
+  if (definition.damping > 0.0) {
+    body.inverse_mass *= left_by_drag(definition.damping / properties.mass, time);
+  }
+  if (definition.angular_damping == 0.0) return;
+  if (properties.mobility != Mobility::free) {
+    body.inverse_inertia *=
+        left_by_drag(definition.angular_damping / properties.axis_inertia, time);
+  } else if (properties.isotropic) {
+    body.inverse_inertia *=
+        left_by_drag(definition.angular_damping * properties.inverse_inertia(0, 0), time);
+  }
+}
+
+/// Whether they differ from substep to substep.
+bool inverse_masses_change(const BodySet& bodies, int i) {
+  const BodyDef& definition = bodies.definition(i);
+  return bodies[i].mount < 0 && ((bodies[i].mobility == Mobility::free && !bodies[i].isotropic) ||
+                                 definition.damping > 0.0 || definition.angular_damping > 0.0);
+}
+
 }  // namespace
 
 Substep::Substep(const BodySet& body_set, const State& state_at_start, double length, int sweeps)
@@ -64,12 +98,13 @@ Substep::Substep(const BodySet& body_set, const State& state_at_start, double le
     body.prescribed = mobility == Mobility::kinematic || bodies[i].prescribed();
     body.tracks_orientation = mobility != Mobility::rotor;
     body.orientation = start.bodies[at(i)].orientation;
-    if (bodies[i].mount < 0) set_inverse_masses(bodies[i], body);
+    if (bodies[i].mount < 0) set_inverse_masses(bodies, i, h, body);
   }
   restart();
 }
 
 void Substep::restart() {
+  time = start.time;
   for (int i = 0; i < bodies.count(); ++i) {
     const BodyState& from = start.bodies[at(i)];
     MovingBody& body = moving[at(i)];
@@ -77,9 +112,7 @@ void Substep::restart() {
     body.orientation = from.orientation;
     body.turn.setZero();
     const BodyProperties& properties = bodies[i];
-    if (properties.mobility == Mobility::free && !properties.isotropic) {
-      set_inverse_masses(properties, body);
-    }
+    if (inverse_masses_change(bodies, i)) set_inverse_masses(bodies, i, load_share * h, body);
     if (properties.mount >= 0 && properties.axis_inertia > 0.0) {
       const Vector3 axis = start.bodies[at(properties.mount)].orientation * properties.axis;
       body.inverse_inertia = axis * axis.transpose() / properties.axis_inertia;
@@ -92,9 +125,7 @@ void Substep::update_inertias() {
   for (int i = 0; i < bodies.count(); ++i) {
     const BodyProperties& properties = bodies[i];
     MovingBody& body = moving[at(i)];
-    if (properties.mobility == Mobility::free && !properties.isotropic) {
-      set_inverse_masses(properties, body);
-    }
+    if (inverse_masses_change(bodies, i)) set_inverse_masses(bodies, i, load_share * h, body);
     if (properties.mount >= 0 && properties.axis_inertia > 0.0) {
       const Vector3 axis = moving[at(properties.mount)].orientation * properties.axis;
       body.inverse_inertia = axis * axis.transpose() / properties.axis_inertia;

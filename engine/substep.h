@@ -38,6 +38,8 @@ struct Substep {
   const State& start;  ///< state at the start of the substep
   double h;            ///< length [s]
   int iterations;
+  double time =
+      0.0;  ///< of the positions in `moving`: the start's, from the prediction on the end's [s]
   std::vector<MovingBody> moving;    ///< bodies.count() + 1; the world comes last and never moves
   std::vector<BodyState> predicted;  ///< velocities, and poses, without constraints
   std::vector<Vector3> predicted_turn;  ///< [rad], without constraints
@@ -51,7 +53,12 @@ struct Substep {
   Substep(const BodySet& body_set, const State& state_at_start, double length, int sweeps);
   /// Prepares for the next substep, which starts from the current content of `start`.
   void restart();
-  /// Takes the inverse inertias at the current orientations.
+  /// The compliance of a row whose force shall be -damping dC/dt, if its value is the change of C since the start of the
+  /// substep: what acts, by the integrator's rule (engine/solvers/row_system.h), is minus value over compliance, or half.
+  [[nodiscard]] double damper_compliance(double damping) const {
+    return (load_share == 1.0 ? h : 0.5 * h) / damping;
+  }
+  /// Takes the inverse masses and inertias at the current orientations, with the drag during load_share x h.
   void update_inertias();
 
   // Where bodies are now, in the course of the substep. A rotor mounted on a carrier follows it.

@@ -14,6 +14,13 @@ double TimeTable::at(double time) const {
   return values[i - 1] + share * (values[i] - values[i - 1]);
 }
 
+double TimeTable::rate(double time) const {
+  if (times.empty() || time <= times.front() || time > times.back()) return 0.0;
+  const auto after = std::lower_bound(times.begin(), times.end(), time);
+  const auto i = static_cast<std::size_t>(after - times.begin());
+  return (values[i] - values[i - 1]) / (times[i] - times[i - 1]);
+}
+
 double TimeTable::integral(double from, double to) const {
   // Trapezia between the corners are exact for a function that is linear there.
   double sum = 0.0;

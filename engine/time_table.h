@@ -13,6 +13,8 @@ struct TimeTable {
 
   [[nodiscard]] bool empty() const { return values.empty(); }
   [[nodiscard]] double at(double time) const;
+  /// Slope [per s]; at a corner that of the piece which ends there.
+  [[nodiscard]] double rate(double time) const;
   /// Integral from `from` to `to` [s], from <= to; exact.
   [[nodiscard]] double integral(double from, double to) const;
 };

@@ -30,7 +30,7 @@ struct Load {
 [[nodiscard]] Vector3 allowed_velocity(const BodyProperties& body, const Vector3& velocity);
 
 /// What drag makes of a velocity in some time: v -> keep v + gain a under a constant acceleration a [1, s]. Exact, so a
-/// falling body's velocity does not depend on the step.
+/// falling body's velocity does not depend on the step. Substep::moving has it in the inverse masses, as gain / time.
 struct Decay {
   double keep = 1.0;
   double gain = 0.0;

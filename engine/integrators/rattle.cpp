@@ -17,6 +17,7 @@ bool left_to_xpbd(const Substep& substep) { return substep.load_share == 1.0; }
 
 void RattleSolver::begin(Substep& substep, Features features) {
   substep.load_share = 0.5;
+  substep.update_inertias();
   positions_.remember_start(substep, features);
 }
 
@@ -118,9 +119,9 @@ void add_second_half_of_loads(Substep& substep) {
     const Load load = load_on(substep, i, next.orientation);
     if (moving.translates) {
       const Vector3 force = body.mass * substep.bodies.gravity() + load.force;
-      const auto [keep, gain] = decay(definition.damping / body.mass, half);
+      const double keep = decay(definition.damping / body.mass, half).keep;
       next.velocity =
-          allowed_velocity(body, keep * next.velocity + gain * times(moving.inverse_mass, force));
+          allowed_velocity(body, keep * next.velocity + half * times(moving.inverse_mass, force));
     }
     if (!moving.rotates) continue;
     if (body.mobility == Mobility::free) {
@@ -143,7 +144,8 @@ void add_second_half_of_loads(Substep& substep) {
     double change = gain * axis.dot(load.torque) / body.axis_inertia +
                     (keep - 1.0) * axis.dot(next.angular_velocity);
     if (body.drive == DriveKind::torque) {
-      change += body.drive_table.integral(middle, substep.next.time) / body.axis_inertia;
+      change +=
+          gain / half * body.drive_table.integral(middle, substep.next.time) / body.axis_inertia;
     }
     next.angular_velocity += change * axis;
   }

@@ -82,7 +82,8 @@ void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
       spin = keep * spin + gain * torque / inertia;
       if (body.drive == DriveKind::torque) {
         const double middle = from + substep.load_share * (to - from);
-        spin += body.drive_table.integral(from, middle) / inertia;
+        // The mean torque is subject to drag like the constant one.
+        spin += gain / (middle - from) * body.drive_table.integral(from, middle) / inertia;
       }
     }
     angle = substep.h * spin;
@@ -108,17 +109,18 @@ void move_kinematic_bodies(Substep& substep) {
 
 void predict(Substep& substep) {
   const double h = substep.h;
+  substep.time = substep.next.time;
   for (int i = 0; i < substep.bodies.count(); ++i) {
     const BodyProperties& body = substep.bodies[i];
     const BodyState& start = substep.start.bodies[at(i)];
     MovingBody& moving = substep.moving[at(i)];
     if (moving.translates) {
-      // W M (v + h g + h f / m): the inverse mass matrix keeps what the mobility allows.
+      // W M (v + h g + h f / m): the inverse mass matrix keeps what the mobility allows and drag leaves.
       const Vector3 force =
           body.mass * substep.bodies.gravity() + load_on(substep, i, start.orientation).force;
-      const auto [keep, gain] =
-          decay(substep.bodies.definition(i).damping / body.mass, substep.load_share * h);
-      const Vector3 velocity = keep * start.velocity + gain * times(moving.inverse_mass, force);
+      const double time = substep.load_share * h;
+      const double keep = decay(substep.bodies.definition(i).damping / body.mass, time).keep;
+      const Vector3 velocity = keep * start.velocity + time * times(moving.inverse_mass, force);
       moving.position = start.position + h * velocity;
     }
     switch (body.mobility) {

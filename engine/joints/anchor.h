@@ -26,13 +26,24 @@ struct Anchor {
   }
 };
 
-/// Adds to `row` the gradient of direction . (p_a - p_b), where p_a and p_b are the points of the
-/// two bodies that are at `at_a` and `at_b` now, for a fixed direction.
-inline void add_relative_translation(const Substep& substep, Row& row, int body_a, int body_b,
-                                     const Vector3& at_a, const Vector3& at_b,
-                                     const Vector3& direction) {
-  substep.add_force(row, body_a, at_a, direction);
-  substep.add_force(row, body_b, at_b, -direction);
+/// A frame whose z axis has the direction of `axis`.
+[[nodiscard]] inline Quaternion frame_along(const Vector3& axis) {
+  return Quaternion(Quaternion::FromTwoVectors(Vector3::UnitZ(), axis.normalized()));
 }
+
+/// The two anchors of a joint: the same point and frame at time 0.
+struct AnchorPair {
+  Anchor a;
+  Anchor b;
+
+  [[nodiscard]] static AnchorPair at_start(const BodySet& bodies, BodyId body_a, BodyId body_b,
+                                           const Vector3& world_point,
+                                           const Quaternion& frame = Quaternion::Identity()) {
+    return {Anchor::at_start(bodies, body_a, world_point, frame),
+            Anchor::at_start(bodies, body_b, world_point, frame)};
+  }
+  [[nodiscard]] int anchor_body() const { return b.body; }
+  [[nodiscard]] Vector3 anchor(const Substep& substep) const { return b.position(substep); }
+};
 
 }  // namespace sheave

@@ -1,49 +1,129 @@
-// Three rows: C_k = e_k . (p_a - p_b) with the world axes e_k; gradient e_k at p_a, -e_k at p_b.
+// Locks: the anchors coincide. Coordinates: the twist (angle_about in lock_rows.h); the swing s of B's axis b from A's a,
+// s = atan2(|a x b|, a . b), which a rotation d of B changes by d . n, n = a x b / |a x b|; and, for friction and damping,
+// the rotations about three directions, of which the first is that of the relative angular velocity at the start, so
+// that dry friction is the same against any rotation.
 
 #include "engine/joints/ball.h"
 
-#include <array>
-
-#include "engine/joints/anchor.h"
 #include "engine/joints/joint_batch.h"
-#include "engine/joints/point_rows.h"
+#include "engine/joints/lock_rows.h"
 
 namespace sheave {
 namespace {
 
-struct BallKernel {
-  static constexpr int row_count = 3;
-  Anchor a;
-  Anchor b;
+struct BallKernel : AnchorPair {
+  static constexpr int lock_count = 3;
+  static constexpr std::array<JointCoordinateInfo, 5> coordinates{{{"twist", true},
+                                                                   {"swing", false},
+                                                                   {"turn0", true, true},
+                                                                   {"turn1", true, true},
+                                                                   {"turn2", true, true}}};
+  enum : int { twist, swing, first_turn };
   double compliance = 0.0;
 
-  void evaluate(const Substep& substep, int index, Row& row) const {
-    evaluate_point_row(substep, a, b, index, row);
-    row.compliance = compliance;
+  [[nodiscard]] bool elastic() const { return compliance > 0.0; }
+  void lock(int index, JointTerms& terms) const {
+    lock_point(a, b, index, terms);
+    terms.set_compliance(compliance);
+  }
+  void coordinate(int index, JointTerms& terms) const {
+    if (index == twist) {
+      angle_about(a, b, terms);
+    } else if (index == swing) {
+      measure_swing(terms);
+    } else {
+      const Vector3 direction = turning_frame(terms.substep()) * Vector3::Unit(index - first_turn);
+      terms.add_torque(a.body, -direction);
+      terms.add_torque(b.body, direction);
+    }
+  }
+  void measure_swing(JointTerms& terms) const {
+    const Vector3 own = a.orientation(terms.substep()) * Vector3::UnitZ();
+    const Vector3 other = b.orientation(terms.substep()) * Vector3::UnitZ();
+    const Vector3 across = own.cross(other);
+    const double sine = across.norm();
+    terms.set_value(std::atan2(sine, own.dot(other)));
+    // Parallel axes swing apart in any direction.
+    const Vector3 normal = sine > 0.0 ? Vector3(across / sine) : any_perpendicular(own);
+    terms.add_torque(a.body, -normal);
+    terms.add_torque(b.body, normal);
+  }
+  /// A frame whose x axis is that of the relative rotation at the start of the substep.
+  [[nodiscard]] Quaternion turning_frame(const Substep& substep) const {
+    const auto velocity = [&](int body) -> Vector3 {
+      return body < substep.bodies.count() ? substep.start.bodies[at(body)].angular_velocity
+                                           : Vector3(Vector3::Zero());
+    };
+    const Vector3 relative = velocity(b.body) - velocity(a.body);
+    const double speed = relative.norm();
+    if (!(speed > 0.0)) return Quaternion::Identity();
+    return Quaternion(Quaternion::FromTwoVectors(Vector3::UnitX(), relative / speed));
   }
 };
 
 }  // namespace
 
 std::span<const Field> BallJoint::field_table() {
-  static const std::array table{
-      field<&BallJoint::anchor>("anchor", "m", any_number(), required,
-                                "common point, world frame at time 0"),
-      field<&BallJoint::compliance>("compliance", "m/N", at_least(0.0), optional,
-                                    "of each direction; 0 (default) is rigid"),
-  };
+  static const std::vector<Field> table = joined(
+      {{field<&BallJoint::anchor>("anchor", "m", any_number(), required,
+                                  "common point, world frame at time 0"),
+        field<&BallJoint::axis>("axis", "", any_number(), optional,
+                                "direction that swing and twist refer to, world frame at time 0"),
+        field<&BallJoint::compliance>("compliance", "m/N", at_least(0.0), optional,
+                                      "of each direction; 0 (default) is rigid"),
+        field<&BallJoint::swing_limit>(
+            "swing_limit", "rad", {0.0, pi, false, false}, optional,
+            "the most the axes of the bodies may differ (default: anything)"),
+        field<&BallJoint::swing_limit_compliance>("swing_limit_compliance", "rad/(N m)",
+                                                  at_least(0.0), optional,
+                                                  "of that stop; 0 (default) is rigid"),
+        field<&BallJoint::damping>("damping", "N m s/rad", at_least(0.0), optional,
+                                   "viscous friction against any relative rotation"),
+        field<&BallJoint::friction>("friction", "N m", at_least(0.0), optional,
+                                    "dry friction against any relative rotation")},
+       coordinate_fields<BallJoint, &BallJoint::twist>(CoordinateKind::rotation, "twist_",
+                                                       "the twist of body_b about the axis")});
   return table;
+}
+
+Errors BallJoint::validate(const BodySet& bodies, const std::string& path) const {
+  Errors errors = JointDef::validate(bodies, path);
+  if (axis) check_direction(*axis, name, path + "/axis", errors);
+  if (!axis && (swing_limit || twist.acts())) {
+    errors.push_back(
+        {path + "/axis", "joint \"" + name + "\": swing and twist need an axis to refer to"});
+  }
+  if (swing_limit_compliance > 0.0 && !swing_limit) {
+    errors.push_back({path + "/swing_limit_compliance",
+                      "joint \"" + name + "\": there is no stop; give swing_limit"});
+  }
+  check_coordinate(twist, name, path, "twist_", errors);
+  return errors;
 }
 
 std::unique_ptr<ConstraintBatch> BallJoint::make_batch(
     const BodySet& bodies, std::span<const JointDef* const> joints) const {
-  std::vector<BallKernel> kernels;
+  std::vector<JointParts<BallKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const BallJoint&>(*def);
-    kernels.push_back({Anchor::at_start(bodies, joint.body_a, joint.anchor),
-                       Anchor::at_start(bodies, joint.body_b, joint.anchor), joint.compliance});
+    const Quaternion frame = frame_along(joint.axis.value_or(Vector3::UnitZ()));
+    JointParts<BallKernel> part{
+        {AnchorPair::at_start(bodies, joint.body_a, joint.body_b, joint.anchor, frame),
+         joint.compliance},
+        {}};
+    JointCoordinate swing;
+    swing.upper = joint.swing_limit;
+    swing.limit_compliance = joint.swing_limit_compliance;
+    JointCoordinate turn;
+    turn.damping = joint.damping;
+    turn.friction = joint.friction;
+    append_effects(joint.twist, BallKernel::twist, part.effects);
+    append_effects(swing, BallKernel::swing, part.effects);
+    for (int k = 0; k < 3; ++k) append_effects(turn, BallKernel::first_turn + k, part.effects);
+    part.counts_coordinates = joint.axis.has_value() || !part.effects.empty();
+    parts.push_back(std::move(part));
   }
-  return std::make_unique<JointBatch<BallKernel>>("ball joints", std::move(kernels));
+  return std::make_unique<JointBatch<BallKernel>>("ball joints", bodies, joints, std::move(parts));
 }
 
 }  // namespace sheave

@@ -1,22 +1,34 @@
 #pragma once
 
 #include "engine/joint.h"
+#include "engine/joints/coordinate.h"
 
 namespace sheave {
 
-/// Keeps two points of two bodies together.
+/// Keeps two points of two bodies together. The relative rotation can be limited in two parts: the swing of the axis,
+/// and the twist about it.
 class BallJoint final : public JointDef {
  public:
   Vector3 anchor = Vector3::Zero();  ///< common point, world frame at time 0 [m]
-  double compliance = 0.0;           ///< of each direction [m/N], >= 0
+  /// Direction, world frame at time 0, that swing and twist refer to; any length but 0.
+  std::optional<Vector3> axis;
+  double compliance = 0.0;  ///< of each direction [m/N], >= 0
+  std::optional<double>
+      swing_limit;  ///< the axes of the bodies make at most this angle [rad], > 0, < pi
+  double swing_limit_compliance = 0.0;  ///< [rad/(N m)], >= 0
+  JointCoordinate
+      twist;  ///< of body_b about the axis of body_a [rad]; from a swing of pi on undefined
+  double damping = 0.0;   ///< torque per relative angular velocity, any axis [N m s/rad], >= 0
+  double friction = 0.0;  ///< dry friction against any relative rotation [N m], >= 0
 
   static constexpr std::string_view type_name = "ball";
   static constexpr std::string_view type_meaning =
-      "keeps two points of two bodies together; they turn freely about it";
+      "keeps two points of two bodies together; they turn about it, freely or within limits";
   static std::span<const Field> field_table();
 
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] Errors validate(const BodySet& bodies, const std::string& path) const override;
   [[nodiscard]] std::unique_ptr<ConstraintBatch> make_batch(
       const BodySet& bodies, std::span<const JointDef* const> joints) const override;
 };

@@ -3,15 +3,17 @@
 #include <optional>
 
 #include "engine/joint.h"
+#include "engine/joints/coordinate.h"
 
 namespace sheave {
 
 /// Which distances a distance joint permits.
-enum class DistanceLimit { exactly, at_most, at_least };
-inline constexpr std::array<std::string_view, 3> distance_limit_names{"exactly", "at-most",
-                                                                      "at-least"};
+enum class DistanceLimit { exactly, at_most, at_least, none };
+inline constexpr std::array<std::string_view, 4> distance_limit_names{"exactly", "at-most",
+                                                                      "at-least", "none"};
 
-/// Keeps two points of two bodies at a distance: a massless rod, a string or a bumper.
+/// Keeps two points of two bodies at a distance: a massless rod, a string or a bumper. With the limit `none` it is what acts
+/// along the line between them: a dashpot, an actuator.
 class DistanceJoint final : public JointDef {
  public:
   Vector3 anchor_a = Vector3::Zero();  ///< on body a, world frame at time 0 [m]
@@ -19,11 +21,14 @@ class DistanceJoint final : public JointDef {
   std::optional<double> length;        ///< [m], > 0; default: the distance at time 0
   DistanceLimit limit = DistanceLimit::exactly;
   double compliance = 0.0;  ///< [m/N], >= 0
-  double damping = 0.0;     ///< [N s/m], >= 0; needs compliance
+  double damping = 0.0;     ///< [N s/m], >= 0; not for rigid ones
+  /// Of the distance, 0 at time 0 [m]. Its spring and damping are `compliance` and `damping` above.
+  JointCoordinate extension;
 
   static constexpr std::string_view type_name = "distance";
   static constexpr std::string_view type_meaning =
-      "keeps two points at a distance: a rod, a string or a bumper, rigid or elastic";
+      "keeps two points at a distance: a rod, a string or a bumper, rigid or elastic; or an "
+      "actuator";
   static std::span<const Field> field_table();
 
   [[nodiscard]] std::string_view type() const override { return type_name; }

@@ -1,73 +1,72 @@
-// Rows 0-2: the anchors coincide (point_rows.h). Rows 3-4: the axis a of body A is perpendicular to
-// two directions p of body B that are perpendicular to B's axis, C = a . p. Rotations change it by
-//   dC = (d_a x a) . p + a . (d_b x p) = (a x p) . (d_a - d_b).
+// Locks: the anchors coincide; A's axis is perpendicular to two directions of B that are perpendicular to B's axis
+// (lock_rows.h). Coordinate: the angle about the axis.
 
 #include "engine/joints/hinge.h"
 
-#include <array>
-
 #include "engine/joints/joint_batch.h"
-#include "engine/joints/point_rows.h"
+#include "engine/joints/lock_rows.h"
 
 namespace sheave {
 namespace {
 
-struct HingeKernel {
-  static constexpr int row_count = 5;
-  Anchor a;  // frame: z is the axis
-  Anchor b;
+struct HingeKernel : AnchorPair {  // z of the frame is the axis
+  static constexpr int lock_count = 5;
+  static constexpr std::array<JointCoordinateInfo, 1> coordinates{{{"angle", true}}};
   double compliance = 0.0;
+  double angular_compliance = 0.0;
 
-  void evaluate(const Substep& substep, int index, Row& row) const {
+  [[nodiscard]] bool elastic() const { return compliance > 0.0 || angular_compliance > 0.0; }
+  void lock(int index, JointTerms& terms) const {
     if (index < 3) {
-      evaluate_point_row(substep, a, b, index, row);
-      row.compliance = compliance;
-      return;
+      lock_point(a, b, index, terms);
+      terms.set_compliance(compliance);
+    } else {
+      lock_perpendicular(a, 2, b, index - 3, terms);
+      terms.set_compliance(angular_compliance);
     }
-    const Vector3 axis = a.orientation(substep) * Vector3::UnitZ();
-    const Vector3 across = b.orientation(substep) * Vector3::Unit(index - 3);
-    row.value = axis.dot(across);
-    const Vector3 gradient = axis.cross(across);
-    substep.add_torque(row, a.body, gradient);
-    substep.add_torque(row, b.body, -gradient);
   }
+  void coordinate(int /*index*/, JointTerms& terms) const { angle_about(a, b, terms); }
 };
 
 }  // namespace
 
 std::span<const Field> HingeJoint::field_table() {
-  static const std::array table{
-      field<&HingeJoint::anchor>("anchor", "m", any_number(), required,
-                                 "a point of the axis, world frame at time 0"),
-      field<&HingeJoint::axis>("axis", "", any_number(), required,
-                               "direction of the axis, world frame at time 0"),
-      field<&HingeJoint::compliance>("compliance", "m/N", at_least(0.0), optional,
-                                     "of each direction of translation; 0 (default) is rigid"),
-  };
+  static const std::vector<Field> table = joined(
+      {{field<&HingeJoint::anchor>("anchor", "m", any_number(), required,
+                                   "a point of the axis, world frame at time 0"),
+        field<&HingeJoint::axis>("axis", "", any_number(), required,
+                                 "direction of the axis, world frame at time 0"),
+        field<&HingeJoint::compliance>("compliance", "m/N", at_least(0.0), optional,
+                                       "of each direction of translation; 0 (default) is rigid"),
+        field<&HingeJoint::angular_compliance>("angular_compliance", "rad/(N m)", at_least(0.0),
+                                               optional,
+                                               "of tilting the axis; 0 (default) is rigid")},
+       coordinate_fields<HingeJoint, &HingeJoint::angle>(CoordinateKind::rotation, "",
+                                                         "the angle of body_b against body_a")});
   return table;
 }
 
 Errors HingeJoint::validate(const BodySet& bodies, const std::string& path) const {
   Errors errors = JointDef::validate(bodies, path);
-  if (!(axis.norm() > 1e-12)) {
-    errors.push_back({path + "/axis", "joint \"" + name +
-                                          "\": the axis must have a direction; its "
-                                          "length is 0"});
-  }
+  check_direction(axis, name, path + "/axis", errors);
+  check_coordinate(angle, name, path, "", errors);
   return errors;
 }
 
 std::unique_ptr<ConstraintBatch> HingeJoint::make_batch(
     const BodySet& bodies, std::span<const JointDef* const> joints) const {
-  std::vector<HingeKernel> kernels;
+  std::vector<JointParts<HingeKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const HingeJoint&>(*def);
-    const Quaternion frame = Quaternion::FromTwoVectors(Vector3::UnitZ(), joint.axis.normalized());
-    kernels.push_back({Anchor::at_start(bodies, joint.body_a, joint.anchor, frame),
-                       Anchor::at_start(bodies, joint.body_b, joint.anchor, frame),
-                       joint.compliance});
+    JointParts<HingeKernel> part{{AnchorPair::at_start(bodies, joint.body_a, joint.body_b,
+                                                       joint.anchor, frame_along(joint.axis)),
+                                  joint.compliance, joint.angular_compliance},
+                                 {}};
+    append_effects(joint.angle, 0, part.effects);
+    parts.push_back(std::move(part));
   }
-  return std::make_unique<JointBatch<HingeKernel>>("hinge joints", std::move(kernels));
+  return std::make_unique<JointBatch<HingeKernel>>("hinge joints", bodies, joints,
+                                                   std::move(parts));
 }
 
 }  // namespace sheave

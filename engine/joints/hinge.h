@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/joint.h"
+#include "engine/joints/coordinate.h"
 
 namespace sheave {
 
@@ -9,7 +10,9 @@ class HingeJoint final : public JointDef {
  public:
   Vector3 anchor = Vector3::Zero();  ///< a point of the axis, world frame at time 0 [m]
   Vector3 axis = Vector3::UnitZ();   ///< direction, world frame at time 0; any length but 0
-  double compliance = 0.0;           ///< of each direction of translation [m/N], >= 0
+  double compliance = 0.0;           ///< of each locked translation [m/N], >= 0
+  double angular_compliance = 0.0;   ///< of each locked rotation [rad/(N m)], >= 0
+  JointCoordinate angle;             ///< of body_b against body_a about the axis [rad], 0 at time 0
 
   static constexpr std::string_view type_name = "hinge";
   static constexpr std::string_view type_meaning =

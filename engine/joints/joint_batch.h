@@ -2,49 +2,106 @@
 // The loop that all joint types share. A joint type supplies a kernel, one object per joint:
 //
 //   struct Kernel {
-//     static constexpr int row_count;                                  // rows per joint
-//     void evaluate(const Substep&, int row, Row& row) const;          // C, gradient, bounds
+//     static constexpr int lock_count;                              // rows that keep bodies from moving
+//     static constexpr std::array<JointCoordinateInfo, n> coordinates;  // free coordinates
+//     int anchor_body() const;  Vector3 anchor(const Substep&) const;   // where body_b is held, for reports
+//     bool elastic() const;                                         // whether a lock has compliance
+//     void lock(int index, JointTerms&) const;                      // C, gradient, compliance, bounds
+//     void coordinate(int index, JointTerms&) const;                // value, gradient; an angle up to whole turns
 //   };
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
-#include "engine/constraint_batch.h"
-#include "engine/substep.h"
+#include "engine/index.h"
+#include "engine/joint.h"
+#include "engine/joint_report.h"
+#include "engine/joints/joint_effect.h"
+#include "engine/joints/joint_terms.h"
 
 namespace sheave {
 
-/// All joints of one type. State: reals = generalised force per row [N or N m], joint by joint, of
-/// the last substep, along the row's gradient.
+struct JointCoordinateInfo {
+  std::string_view name;
+  bool angle = false;
+  /// It has a rate but is no function of the pose (a rotation about a direction that moves): it is the sum of its changes.
+  bool only_changes = false;
+};
+
+/// A joint with what acts along its coordinates.
 template <class Kernel>
-class JointBatch final : public ConstraintBatch {
+struct JointParts {
+  Kernel kernel;
+  std::vector<JointEffect> effects;
+  bool counts_coordinates = true;  ///< whether the state has their values; effects need them
+};
+
+/// All joints of one type. State, reals: generalised force per row [N or N m] of the last substep along the row's gradient,
+/// locks and effects joint by joint; then the coordinates [m or rad] of the joints that count them, angles with all
+/// turns; then when each joint broke [s], -1 for one that has not.
+template <class Kernel>
+class JointBatch final : public JointFeature {
  public:
-  JointBatch(std::string name, std::vector<Kernel> joints)
-      : name_(std::move(name)), joints_(std::move(joints)) {
-    multipliers_.resize(joints_.size() * Kernel::row_count);
+  JointBatch(std::string name, const BodySet& bodies, std::span<const JointDef* const> definitions,
+             std::vector<JointParts<Kernel>> joints)
+      : name_(std::move(name)) {
+    int row = 0;
+    int coordinate = 0;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      Joint joint{joints[j].kernel, row, static_cast<int>(effects_.size()),
+                  static_cast<int>(joints[j].effects.size()),
+                  joints[j].counts_coordinates ? coordinate : -1};
+      const JointDef& definition = *definitions[j];
+      row += Kernel::lock_count + joint.effect_count;
+      if (joint.first_coordinate >= 0) coordinate += coordinate_count;
+      joint.restricted =
+          is_restricted(bodies, definition.body_a) || is_restricted(bodies, definition.body_b);
+      elastic_ = elastic_ || joint.kernel.elastic() ||
+                 std::any_of(joints[j].effects.begin(), joints[j].effects.end(),
+                             [](const JointEffect& e) { return e.elastic(); });
+      effects_.insert(effects_.end(), joints[j].effects.begin(), joints[j].effects.end());
+      names_.push_back(definition.name);
+      limits_.push_back({definition.breaking_force, definition.breaking_torque});
+      breakable_ = breakable_ || definition.breaking_force || definition.breaking_torque;
+      joints_.push_back(joint);
+    }
+    multipliers_.resize(at(row));
     acted_.resize(multipliers_.size());
+    starts_.resize(at(coordinate));
+    intact_.assign(joints_.size(), 1);
   }
 
   [[nodiscard]] std::string_view name() const override { return name_; }
   [[nodiscard]] FeatureState initial_state() const override {
-    return {std::vector<double>(multipliers_.size(), 0.0), {}};
+    FeatureState state;
+    state.reals.assign(multipliers_.size() + starts_.size() + joints_.size(), 0.0);
+    std::fill(state.reals.end() - static_cast<std::ptrdiff_t>(joints_.size()), state.reals.end(),
+              -1.0);
+    return state;
   }
   [[nodiscard]] int row_count() const override { return static_cast<int>(multipliers_.size()); }
 
   void begin(const Substep& /*substep*/, const FeatureState& state) override {
     std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
     for (std::size_t i = 0; i < multipliers_.size(); ++i) acted_[i] = state.reals[i] != 0.0 ? 1 : 0;
+    const auto coordinates = state.reals.begin() + static_cast<std::ptrdiff_t>(acted_.size());
+    std::copy_n(coordinates, starts_.size(), starts_.begin());
+    if (!breakable_) return;
+    for (std::size_t j = 0; j < joints_.size(); ++j) intact_[j] = broken_at(state, j) < 0.0;
   }
 
   double sweep(Substep& substep) override {
     double correction = 0.0;
-    auto multiplier = multipliers_.begin();
     Row row;
-    for (const Kernel& joint : joints_) {
-      for (int i = 0; i < Kernel::row_count; ++i) {
-        row.clear();
-        joint.evaluate(substep, i, row);
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      if (intact_[j] == 0) continue;
+      const Joint& joint = joints_[j];
+      auto multiplier = multipliers_.begin() + joint.first_row;
+      for (int i = 0; i < Kernel::lock_count + joint.effect_count; ++i) {
+        evaluate(substep, joint, i, row);
         correction = std::max(correction, solve_row(row, substep.h, *multiplier++, substep.moving));
       }
     }
@@ -52,13 +109,14 @@ class JointBatch final : public ConstraintBatch {
   }
 
   void linearise(Substep& substep, std::vector<Row>& rows) override {
-    int index = 0;
-    for (const Kernel& joint : joints_) {
-      for (int i = 0; i < Kernel::row_count; ++i) {
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      if (intact_[j] == 0) continue;
+      const Joint& joint = joints_[j];
+      for (int i = 0; i < Kernel::lock_count + joint.effect_count; ++i) {
         Row& row = rows.emplace_back();
-        joint.evaluate(substep, i, row);
-        row.index = index++;
-        row.active = acted_[static_cast<std::size_t>(row.index)] != 0;
+        evaluate(substep, joint, i, row);
+        row.index = joint.first_row + i;
+        row.active = acted_[at(row.index)] != 0;
       }
     }
   }
@@ -69,37 +127,207 @@ class JointBatch final : public ConstraintBatch {
     for (std::size_t i = 0; i < multipliers_.size(); ++i) {
       next.reals[i] = multipliers_[i] * inverse_square;
     }
+    Row row;
+    for (const Joint& joint : joints_) {
+      if (joint.first_coordinate < 0) continue;
+      for (int k = 0; k < coordinate_count; ++k) {
+        row.clear();
+        next.reals[multipliers_.size() + at(joint.first_coordinate + k)] =
+            measure(substep, joint, k, starts_, row);
+      }
+    }
+    if (breakable_) break_joints(substep, next);
   }
 
   [[nodiscard]] double elastic_energy(const BodySet& bodies, const State& state,
-                                      const FeatureState& /*own*/) const override {
-    if (std::none_of(joints_.begin(), joints_.end(),
-                     [](const Kernel& joint) { return joint.compliance > 0.0; })) {
-      return 0.0;
-    }
+                                      const FeatureState& own) const override {
+    if (!elastic_) return 0.0;
     const Substep now(bodies, state, 1.0, 1);
     double energy = 0.0;
     Row row;
-    for (const Kernel& joint : joints_) {
-      for (int i = 0; i < Kernel::row_count; ++i) {
-        row.clear();
-        joint.evaluate(now, i, row);
-        const bool active =
-            !(row.value > 0.0 && row.lower == 0.0) && !(row.value < 0.0 && row.upper == 0.0);
-        if (row.compliance > 0.0 && active) {
-          energy += 0.5 * row.value * row.value / row.compliance;
-        }
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      if (broken_at(own, j) >= 0.0) continue;
+      const Joint& joint = joints_[j];
+      for (int i = 0; i < Kernel::lock_count + joint.effect_count; ++i) {
+        if (i >= Kernel::lock_count && !effect(joint, i).elastic()) continue;
+        evaluate_at(now, joint, i, coordinates(own), row);
+        const bool slack =
+            (row.value > 0.0 && row.lower == 0.0) || (row.value < 0.0 && row.upper == 0.0);
+        if (row.compliance > 0.0 && !slack) energy += 0.5 * row.value * row.value / row.compliance;
       }
     }
     return energy;
   }
 
+  void append_reports(const BodySet& bodies, const State& state, const FeatureState& own,
+                      std::vector<JointReport>& reports) const override {
+    const Substep now(bodies, state, 1.0, 1);
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const Joint& joint = joints_[j];
+      JointReport report;
+      report.name = names_[j];
+      if (broken_at(own, j) >= 0.0) report.broken_at = broken_at(own, j);
+      const Wrench wrench = reaction(now, joint, own);
+      report.force = wrench.force;
+      report.torque = wrench.torque;
+      if (joint.first_coordinate >= 0) append_coordinates(now, joint, own, report);
+      reports.push_back(std::move(report));
+    }
+  }
+
  private:
+  static constexpr int coordinate_count = static_cast<int>(Kernel::coordinates.size());
+  struct Joint {
+    Kernel kernel;
+    int first_row = 0;
+    int first_effect = 0;
+    int effect_count = 0;
+    int first_coordinate = -1;  // < 0: none are counted
+    bool restricted = false;    // whether a body has a restricted mobility
+  };
+  struct BreakingLimits {
+    std::optional<double> force;
+    std::optional<double> torque;
+  };
+
+  static bool is_restricted(const BodySet& bodies, BodyId body) {
+    if (body.is_world()) return false;
+    const Mobility mobility = bodies[bodies.index(body)].mobility;
+    return mobility == Mobility::planar || mobility == Mobility::slider ||
+           mobility == Mobility::rotor;
+  }
+  [[nodiscard]] const JointEffect& effect(const Joint& joint, int row) const {
+    return effects_[at(joint.first_effect + row - Kernel::lock_count)];
+  }
+  [[nodiscard]] std::span<const double> coordinates(const FeatureState& state) const {
+    return std::span(state.reals).subspan(multipliers_.size(), starts_.size());
+  }
+  [[nodiscard]] double broken_at(const FeatureState& state, std::size_t joint) const {
+    return state.reals[multipliers_.size() + starts_.size() + joint];
+  }
+
+  /// Value of a coordinate, and its gradient into `row`; `starts` are the values at the start of the substep.
+  double measure(const Substep& substep, const Joint& joint, int k, std::span<const double> starts,
+                 Row& row) const {
+    if constexpr (coordinate_count == 0) {
+      return 0.0;
+    } else {
+      JointTerms terms(substep, row);
+      joint.kernel.coordinate(k, terms);
+      const JointCoordinateInfo& info = Kernel::coordinates[at(k)];
+      if (!info.angle && !info.only_changes) return row.value;
+      const double expected =
+          starts[at(joint.first_coordinate + k)] + substep_change(row, substep.moving);
+      if (info.only_changes) return expected;
+      // Whole turns: those next to what the motion of the substep makes of the start.
+      return row.value + 2.0 * pi * std::round((expected - row.value) / (2.0 * pi));
+    }
+  }
+
+  void evaluate_at(const Substep& substep, const Joint& joint, int i,
+                   std::span<const double> starts, Row& row) const {
+    row.clear();
+    if (i < Kernel::lock_count) {
+      JointTerms terms(substep, row);
+      joint.kernel.lock(i, terms);
+      return;
+    }
+    const JointEffect& acting = effect(joint, i);
+    double value = measure(substep, joint, acting.coordinate, starts, row);
+    if (acting.second >= 0) value = add_second(substep, joint, acting, starts, value, row);
+    set_effect(acting, substep, value, starts[at(joint.first_coordinate + acting.coordinate)], row);
+  }
+  /// Makes `row`, of the first coordinate, that of the sum of two; returns the sum.
+  double add_second(const Substep& substep, const Joint& joint, const JointEffect& acting,
+                    std::span<const double> starts, double first, Row& row) const {
+    for (RowTerm& term : std::span(row.terms).first(at(row.term_count))) {
+      term.linear *= acting.factor;
+      term.angular *= acting.factor;
+    }
+    Row other;
+    const double second = measure(substep, joint, acting.second, starts, other);
+    for (const RowTerm& term : other.active_terms()) {
+      row.add(term.body, acting.second_factor * term.linear, acting.second_factor * term.angular);
+    }
+    return acting.factor * first + acting.second_factor * second;
+  }
+  void evaluate(const Substep& substep, const Joint& joint, int i, Row& row) const {
+    evaluate_at(substep, joint, i, starts_, row);
+    if (joint.restricted) drop_rounding(row, substep.moving);
+  }
+
+  /// What the joint does to body_b with the forces in `state`.
+  [[nodiscard]] Wrench reaction(const Substep& substep, const Joint& joint,
+                                const FeatureState& state) const {
+    Wrench wrench;
+    wrench.about = joint.kernel.anchor(substep);
+    for (int i = 0; i < Kernel::lock_count + joint.effect_count; ++i) {
+      const double force = state.reals[at(joint.first_row + i)];
+      if (force == 0.0) continue;
+      Row row;
+      const auto on_b = [&](double scale) {
+        return JointTerms(substep, row, joint.kernel.anchor_body(), scale, wrench);
+      };
+      if (i < Kernel::lock_count) {
+        JointTerms terms = on_b(force);
+        joint.kernel.lock(i, terms);
+      } else if constexpr (coordinate_count > 0) {
+        const JointEffect& acting = effect(joint, i);
+        JointTerms first = on_b(acting.factor * force);
+        joint.kernel.coordinate(acting.coordinate, first);
+        if (acting.second < 0) continue;
+        JointTerms second = on_b(acting.second_factor * force);
+        joint.kernel.coordinate(acting.second, second);
+      }
+    }
+    return wrench;
+  }
+
+  void break_joints(const Substep& substep, FeatureState& next) const {
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const BreakingLimits& limit = limits_[j];
+      if (intact_[j] == 0 || (!limit.force && !limit.torque)) continue;
+      const Wrench wrench = reaction(substep, joints_[j], next);
+      if ((limit.force && wrench.force.norm() > *limit.force) ||
+          (limit.torque && wrench.torque.norm() > *limit.torque)) {
+        next.reals[multipliers_.size() + starts_.size() + j] = substep.next.time;
+      }
+    }
+  }
+
+  void append_coordinates(const Substep& now, const Joint& joint, const FeatureState& own,
+                          JointReport& report) const {
+    for (int k = 0; k < coordinate_count; ++k) {
+      JointCoordinateReport coordinate{Kernel::coordinates[at(k)].name,
+                                       Kernel::coordinates[at(k)].angle};
+      Row row;
+      coordinate.value = measure(now, joint, k, coordinates(own), row);
+      for (const RowTerm& term : row.active_terms()) {
+        if (term.body >= now.bodies.count()) continue;
+        const BodyState& body = now.start.bodies[at(term.body)];
+        coordinate.rate += term.linear.dot(body.velocity) + term.angular.dot(body.angular_velocity);
+      }
+      for (int i = Kernel::lock_count; i < Kernel::lock_count + joint.effect_count; ++i) {
+        const JointEffect& acting = effect(joint, i);
+        if (acting.coordinate != k || !acting.is_drive()) continue;
+        coordinate.drive_force = own.reals[at(joint.first_row + i)];
+      }
+      report.coordinates.push_back(coordinate);
+    }
+  }
+
   std::string name_;
-  std::vector<Kernel> joints_;
+  std::vector<Joint> joints_;
+  std::vector<JointEffect> effects_;
+  std::vector<std::string> names_;
+  std::vector<BreakingLimits> limits_;
+  bool breakable_ = false;
+  bool elastic_ = false;
   // Scratch of a substep.
   std::vector<double> multipliers_;
-  std::vector<char> acted_;  // whether the row had a force in the last substep
+  std::vector<char> acted_;     // whether the row had a force in the last substep
+  std::vector<double> starts_;  // of the coordinates
+  std::vector<char> intact_;
 };
 
 }  // namespace sheave

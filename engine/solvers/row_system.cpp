@@ -114,7 +114,9 @@ void RowSystem::set_bounds(std::size_t g, bool pushed, bool active) {
   problem_.lower[g] = bound_share_ * first.lower - group.multiplier;
   problem_.upper[g] = bound_share_ * first.upper - group.multiplier;
   const bool bilateral = !std::isfinite(first.lower) && !std::isfinite(first.upper);
-  problem_.free[g] = bilateral || active || pushed || group.multiplier != 0.0 ? 1 : 0;
+  // A multiplier that is given (a force) is never to be found.
+  const bool given = first.lower == first.upper;
+  problem_.free[g] = !given && (bilateral || active || pushed || group.multiplier != 0.0) ? 1 : 0;
 }
 
 void RowSystem::set_backward(const Substep& substep, std::size_t g) {
@@ -155,8 +157,8 @@ void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
     gamma = std::max(gamma, 2.0 * row.compliance * row.damping / substep.h);
     active = active || row.active;
   }
-  if (std::isfinite(first.lower)) start = std::min(start, 0.0);
-  if (std::isfinite(first.upper)) start = std::max(start, 0.0);
+  if (first.lower == 0.0) start = std::min(start, 0.0);
+  if (first.upper == 0.0) start = std::max(start, 0.0);
   if (compliance > 0.0) value = (1.0 + gamma) * value + (1.0 - gamma) * start;
   group.scale = 1.0 / (1.0 + gamma);
   problem_.diagonal[g] = group.scale * compliance;

@@ -46,7 +46,8 @@ void RowSystem::linearise_velocities(Substep& substep, Features features) {
     problem_.constant[g] = rate;
     problem_.lower[g] = acts ? share * first.lower : 0.0;
     problem_.upper[g] = acts ? share * first.upper : 0.0;
-    problem_.free[g] = acts && (bilateral || group.multiplier != 0.0) ? 1 : 0;
+    problem_.free[g] =
+        acts && first.lower != first.upper && (bilateral || group.multiplier != 0.0) ? 1 : 0;
     group.multiplier = 0.0;  // of the impulse
   }
 }

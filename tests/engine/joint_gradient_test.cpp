@@ -12,9 +12,15 @@
 #include <gtest/gtest.h>
 
 #include "engine/joints/ball.h"
+#include "engine/joints/cylindrical.h"
 #include "engine/joints/distance.h"
 #include "engine/joints/fixed.h"
+#include "engine/joints/gear.h"
 #include "engine/joints/hinge.h"
+#include "engine/joints/plane.h"
+#include "engine/joints/rack.h"
+#include "engine/joints/slider.h"
+#include "engine/joints/universal.h"
 #include "engine/shapes/box.h"
 #include "tests/support/builders.h"
 #include "tests/support/gradient_check.h"
@@ -62,20 +68,76 @@ Model general_bodies() {
   return model;
 }
 
+/// What makes a coordinate's gradient show: a spring, whose row has the coordinate as its value.
+JointCoordinate with_spring() {
+  JointCoordinate coordinate;
+  coordinate.stiffness = 2.0;
+  coordinate.rest = 0.1;
+  return coordinate;
+}
+
+const Vector3 place{0.45, 0.15, 0.25};
+const Vector3 direction{0.6, -0.3, 1.0};
+
+void configure(DistanceJoint& joint) {
+  joint.anchor_a = place;
+  joint.anchor_b = place + Vector3(0.6, -0.2, 0.9);
+  joint.extension = with_spring();
+}
+void configure(BallJoint& joint) {
+  joint.anchor = place;
+  joint.axis = direction;
+  joint.swing_limit = 0.2;
+  joint.twist = with_spring();
+}
+void configure(HingeJoint& joint) {
+  joint.anchor = place;
+  joint.axis = direction;
+  joint.angle = with_spring();
+}
+void configure(SliderJoint& joint) {
+  joint.anchor = place;
+  joint.axis = direction;
+  joint.travel = with_spring();
+}
+void configure(CylindricalJoint& joint) {
+  joint.anchor = place;
+  joint.axis = direction;
+  joint.travel = with_spring();
+  joint.angle = with_spring();
+}
+void configure(UniversalJoint& joint) {
+  joint.anchor = place;
+  joint.axis_a = direction;
+  joint.axis_b = direction.cross(Vector3(0.1, 0.7, 0.4));
+  joint.angle_a = with_spring();
+  joint.angle_b = with_spring();
+}
+void configure(PlaneJoint& joint) {
+  joint.anchor = place;
+  joint.normal = direction;
+  joint.angle = with_spring();
+}
+void configure(FixedJoint& joint) { joint.anchor = place; }
+void configure(GearJoint& joint) {
+  joint.axis_a = direction;
+  joint.axis_b = Vector3(-0.2, 0.9, 0.4);
+  joint.ratio = -1.7;
+}
+void configure(RackJoint& joint) {
+  joint.anchor = place;
+  joint.axis = direction;
+  joint.direction = Vector3(-0.2, 0.9, 0.4);
+  joint.radius = 0.6;
+}
+
 template <class Joint>
 std::shared_ptr<Joint> make_joint(const std::string& name, BodyId a, BodyId b) {
   auto joint = std::make_shared<Joint>();
   joint->name = name;
   joint->body_a = a;
   joint->body_b = b;
-  const Vector3 at{0.45, 0.15, 0.25};
-  if constexpr (std::is_same_v<Joint, DistanceJoint>) {
-    joint->anchor_a = at;
-    joint->anchor_b = at + Vector3(0.6, -0.2, 0.9);
-  } else {
-    joint->anchor = at;
-  }
-  if constexpr (std::is_same_v<Joint, HingeJoint>) joint->axis = Vector3(0.6, -0.3, 1.0);
+  configure(*joint);
   return joint;
 }
 
@@ -89,7 +151,15 @@ void add_joints(Model& model, bool mounted) {
   const std::vector<std::pair<BodyId, BodyId>> rotors{{{2}, {3}}, {{2}, {1}}, {world, {2}},
                                                       {{2}, {0}}, {{4}, {3}}, {{3}, {5}}};
   for (const auto& [a, b] : mounted ? rotors : plain) {
-    model.joints.push_back(make_joint<Joint>("joint" + std::to_string(model.joints.size()), a, b));
+    // Gears and racks turn a body against the world.
+    constexpr bool couples = std::is_same_v<Joint, GearJoint> || std::is_same_v<Joint, RackJoint>;
+    if (couples && (a == world || b == world)) continue;
+    auto joint = make_joint<Joint>("joint" + std::to_string(model.joints.size()), a, b);
+    // Axes that are parallel, as at the start, swing apart with a kink.
+    if constexpr (std::is_same_v<Joint, BallJoint>) {
+      if (mounted) joint->swing_limit.reset();
+    }
+    model.joints.push_back(joint);
   }
 }
 
@@ -104,7 +174,9 @@ test::GradientCheck check(const Model& model, double distance, double angle) {
 
 template <class Joint>
 class JointGradient : public ::testing::Test {};
-using JointTypes = ::testing::Types<DistanceJoint, BallJoint, HingeJoint, FixedJoint>;
+using JointTypes =
+    ::testing::Types<DistanceJoint, BallJoint, HingeJoint, SliderJoint, CylindricalJoint,
+                     UniversalJoint, PlaneJoint, FixedJoint, GearJoint, RackJoint>;
 TYPED_TEST_SUITE(JointGradient, JointTypes);
 
 TYPED_TEST(JointGradient, IsExactAfterLargeMotionsOfTheSubstep) {
@@ -133,6 +205,43 @@ TYPED_TEST(JointGradient, OfMountedRotorsErrsInProportionToTheTurnOfTheSubstep) 
   const double fine = check(model, 0.2, 1e-3).error;
   EXPECT_LT(coarse, 2e-2);
   EXPECT_LT(fine, 2e-3);
+}
+
+TEST(JointGradient, OfFrictionIsExactAtTheStart) {
+  // Its coordinates are sums of changes, which have a gradient as rates have one.
+  Model model = general_bodies();
+  model.bodies[0].velocity = {0.4, 0.3, -0.6};
+  auto ball = make_joint<BallJoint>("ball", {0}, {1});
+  ball->friction = 1.0;
+  ball->swing_limit.reset();  // a kink at the start
+  model.joints.push_back(ball);
+  const test::GradientCheck of_ball = check(model, 0.0, 0.0);
+  EXPECT_GT(of_ball.compared, 60);
+  EXPECT_LT(of_ball.error, tolerance) << of_ball.worst;
+  auto plane = make_joint<PlaneJoint>("plane", {0}, {1});
+  plane->friction = 1.0;
+  model.joints = {plane};
+  const test::GradientCheck of_plane = check(model, 0.0, 0.0);
+  EXPECT_GT(of_plane.compared, 60);
+  // The lever arm moves with the body, and its change times the motion of 1e-3 is of second order: it cancels in
+  // symmetric differences but for rounding.
+  EXPECT_LT(of_plane.error, tolerance) << of_plane.worst;
+}
+
+TEST(JointGradient, OfAGearInACarrierIsExact) {
+  Model model = general_bodies();
+  auto gear = make_joint<GearJoint>("gear", {0}, {1});
+  gear->carrier = {5};
+  model.joints = {gear};
+  const test::GradientCheck of_gear = check(model, 0.2, 0.3);
+  EXPECT_GT(of_gear.compared, 10);
+  EXPECT_LT(of_gear.error, tolerance) << of_gear.worst;
+  auto rack = make_joint<RackJoint>("rack", {1}, {6});
+  rack->carrier = {0};
+  model.joints = {rack};
+  const test::GradientCheck of_rack = check(model, 0.2, 0.3);
+  EXPECT_GT(of_rack.compared, 10);
+  EXPECT_LT(of_rack.error, tolerance) << of_rack.worst;
 }
 
 TEST(GroundGradient, IsExactForEveryContactPoint) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cable/simulation.h"
+#include "engine/joints/universal.h"
 
 namespace sheave::test {
 namespace {
@@ -32,11 +33,11 @@ class RandomFields {
     return q.normalized();
   }
 
-  /// Fills a random half of the optional fields and all required ones.
-  void fill(std::span<const Field> fields, void* object, int bodies) {
+  /// Fills one of `rarity` of the optional fields and all required ones.
+  void fill(std::span<const Field> fields, void* object, int bodies, int rarity = 2) {
     for (const Field& field : fields) {
       if (field.name == "name") continue;
-      if (field.presence == Presence::optional && pick(2) == 0) continue;
+      if (field.presence == Presence::optional && pick(rarity) != 0) continue;
       std::visit(Fill{*this, field, bodies}, field.slot(object));
     }
   }
@@ -82,7 +83,7 @@ class RandomScene {
     random_.fill(Scene::field_table(), &scene_, 0);
     random_.fill(StepSettings::field_table(), &scene_.model.step, 0);
     for (int i = 0; i < 12; ++i) attempt([&] { add_body(); });
-    for (int i = 0; i < 12; ++i) attempt([&] { add_joint(); });
+    for (int i = 0; i < 40; ++i) attempt([&] { add_joint(); });
     for (int i = 0; i < 12; ++i) attempt([&] { add_cable(); });
     attempt([&] { fill(GroundDef::field_table(), &scene_.model.ground.emplace()); });
     for (int i = 0; i < 4 && !scene_.camera; ++i) {
@@ -105,11 +106,11 @@ class RandomScene {
 
   /// A new object of a random type of a registry.
   template <class Base>
-  std::shared_ptr<Base> make(std::span<const TypeEntry<Base>> types) {
+  std::shared_ptr<Base> make(std::span<const TypeEntry<Base>> types, int rarity = 2) {
     const auto& type =
         types[static_cast<std::size_t>(random_.pick(static_cast<int>(types.size())))];
     std::shared_ptr<Base> object = type.make();
-    fill(type.fields(), const_cast<void*>(object->settings()));
+    random_.fill(type.fields(), const_cast<void*>(object->settings()), bodies(), rarity);
     return object;
   }
 
@@ -140,7 +141,11 @@ class RandomScene {
     scene_.model.bodies.push_back(std::move(body));
   }
   void add_joint() {
-    auto joint = make(joint_types());
+    // Few at a time: most settings of a joint's coordinates need or exclude others.
+    auto joint = make(joint_types(), 8);
+    if (auto* cross = dynamic_cast<UniversalJoint*>(joint.get())) {
+      cross->axis_b = cross->axis_a.cross(cross->axis_b);
+    }
     fill(JointDef::common_field_table(), joint.get());
     joint->name = name("joint");
     scene_.model.joints.push_back(std::move(joint));

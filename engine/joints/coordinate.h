@@ -1,0 +1,146 @@
+#pragma once
+// What acts along a free coordinate of a joint: the angle of a hinge, the travel of a slider.
+//
+// A joint type has a member of type JointCoordinate per free coordinate and adds coordinate_fields() to its table.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/field.h"
+#include "engine/result.h"
+#include "engine/time_signal.h"
+
+namespace sheave {
+
+/// What the drive of a coordinate prescribes.
+enum class CoordinateDrive { none, position, speed, force };
+inline constexpr std::array<std::string_view, 4> translation_drive_names{"none", "position",
+                                                                         "speed", "force"};
+inline constexpr std::array<std::string_view, 4> rotation_drive_names{"none", "angle", "speed",
+                                                                      "torque"};
+enum class CoordinateKind { translation, rotation };
+
+/// Settings; "force" is a torque and "m" is rad if the coordinate is an angle. All of them may act together.
+struct JointCoordinate {
+  std::optional<double> lower;    ///< the coordinate stays at or above this [m]
+  std::optional<double> upper;    ///< ... and at or below this [m]
+  double limit_compliance = 0.0;  ///< of both stops [m/N], >= 0
+  double stiffness = 0.0;         ///< of a spring that pulls the coordinate to `rest` [N/m], >= 0
+  double rest = 0.0;              ///< [m]
+  double damping = 0.0;           ///< force per speed against the motion [N s/m], >= 0
+  double friction = 0.0;          ///< dry friction: it takes more than this force to move [N], >= 0
+  CoordinateDrive drive = CoordinateDrive::none;
+  std::vector<double> drive_times;    ///< [s], increasing; as many as values, or none
+  std::vector<double> drive_values;   ///< [m, m/s or N], linear in between
+  double drive_amplitude = 0.0;       ///< of a sine that is added to the values
+  double drive_frequency = 0.0;       ///< of it [Hz], >= 0
+  double drive_phase = 0.0;           ///< of it [rad]
+  std::optional<double> drive_limit;  ///< the largest force the drive has [N], > 0
+  double drive_compliance = 0.0;      ///< position drives: gives by this much per force [m/N], >= 0
+
+  [[nodiscard]] TimeSignal signal() const {
+    return {{drive_times, drive_values}, drive_amplitude, drive_frequency, drive_phase};
+  }
+  /// Whether anything acts.
+  [[nodiscard]] bool acts() const;
+};
+
+/// Appends what is wrong beyond the ranges of the fields. `path` is that of the joint, `prefix` that of the fields'
+/// names, `joint` its name.
+void check_coordinate(const JointCoordinate& coordinate, const std::string& joint,
+                      const std::string& path, const std::string& prefix, Errors& errors);
+
+namespace detail {
+
+struct CoordinateUnits {
+  std::string_view value, compliance, stiffness, damping, force, drive;
+};
+inline constexpr CoordinateUnits translation_units{"m", "m/N", "N/m", "N s/m", "N", "m, m/s or N"};
+inline constexpr CoordinateUnits rotation_units{"rad",       "rad/(N m)", "N m/rad",
+                                                "N m s/rad", "N m",       "rad, rad/s or N m"};
+
+template <class Class, JointCoordinate Class::*Coordinate, auto Member>
+FieldSlot coordinate_slot(void* object) {
+  return &((static_cast<Class*>(object)->*Coordinate).*Member);
+}
+template <class Class, JointCoordinate Class::*Coordinate>
+FieldSlot coordinate_drive_slot(void* object) {
+  return ChoiceSlot{
+      &(static_cast<Class*>(object)->*Coordinate),
+      [](const void* o) { return static_cast<int>(static_cast<const JointCoordinate*>(o)->drive); },
+      [](void* o, int index) {
+        static_cast<JointCoordinate*>(o)->drive = static_cast<CoordinateDrive>(index);
+      }};
+}
+
+}  // namespace detail
+
+/// The fields of the coordinate `Coordinate` of the joint type `Class`, whose names begin with `prefix`, which must be
+/// the same in every call for that coordinate. `what` tells it in the documentation, e.g. "the angle".
+template <class Class, JointCoordinate Class::*Coordinate>
+[[nodiscard]] std::vector<Field> coordinate_fields(CoordinateKind kind, const std::string& prefix,
+                                                   const std::string& what) {
+  using C = JointCoordinate;
+  // Fields refer to their texts.
+  static const std::array<std::string, 15> name = [&] {
+    std::array<std::string, 15> names{
+        "lower",       "upper",        "limit_compliance", "stiffness",
+        "rest",        "damping",      "friction",         "drive",
+        "drive_times", "drive_values", "drive_amplitude",  "drive_frequency",
+        "drive_phase", "drive_limit",  "drive_compliance"};
+    for (std::string& text : names) text = prefix + text;
+    return names;
+  }();
+  static const std::array<std::string, 3> meaning{
+      "stops " + what + " from below (default: no stop)",
+      "stops " + what + " from above (default: no stop)", "of a spring along " + what};
+  const bool turns = kind == CoordinateKind::rotation;
+  const detail::CoordinateUnits unit = turns ? detail::rotation_units : detail::translation_units;
+  const std::span<const std::string_view> drives =
+      turns ? std::span(rotation_drive_names) : std::span(translation_drive_names);
+  const auto row = [](const std::string& key, std::string_view of, Range range,
+                      std::string_view text, FieldSlot (*slot)(void*)) {
+    return Field{key, of, range, optional, text, {}, slot};
+  };
+#define SHEAVE_SLOT(member) (&detail::coordinate_slot<Class, Coordinate, &C::member>)
+  return {
+      row(name[0], unit.value, any_number(), meaning[0], SHEAVE_SLOT(lower)),
+      row(name[1], unit.value, any_number(), meaning[1], SHEAVE_SLOT(upper)),
+      row(name[2], unit.compliance, at_least(0.0), "of the stops; 0 (default) is rigid",
+          SHEAVE_SLOT(limit_compliance)),
+      row(name[3], unit.stiffness, at_least(0.0), meaning[2], SHEAVE_SLOT(stiffness)),
+      row(name[4], unit.value, any_number(), "where the spring is relaxed", SHEAVE_SLOT(rest)),
+      row(name[5], unit.damping, at_least(0.0), "viscous friction", SHEAVE_SLOT(damping)),
+      row(name[6], unit.force, at_least(0.0), "dry friction, of bearings or guides",
+          SHEAVE_SLOT(friction)),
+      Field{name[7],
+            "",
+            {},
+            optional,
+            "what the drive's values prescribe",
+            drives,
+            &detail::coordinate_drive_slot<Class, Coordinate>},
+      row(name[8], "s", any_number(),
+          "increasing times of the values, linear in between; none for a constant",
+          SHEAVE_SLOT(drive_times)),
+      row(name[9], unit.drive, any_number(), "values of the drive, one per time",
+          SHEAVE_SLOT(drive_values)),
+      row(name[10], unit.drive, any_number(), "of a sine added to the values",
+          SHEAVE_SLOT(drive_amplitude)),
+      row(name[11], "Hz", at_least(0.0), "of the sine", SHEAVE_SLOT(drive_frequency)),
+      row(name[12], "rad", any_number(), "of the sine at time 0", SHEAVE_SLOT(drive_phase)),
+      row(name[13], unit.force, above(0.0), "the most the drive can do (default: anything)",
+          SHEAVE_SLOT(drive_limit)),
+      row(name[14], unit.compliance, at_least(0.0),
+          "how far a drive to a position gives; 0 (default) is rigid",
+          SHEAVE_SLOT(drive_compliance)),
+  };
+#undef SHEAVE_SLOT
+}
+
+/// All rows of `tables`, one after the other.
+[[nodiscard]] std::vector<Field> joined(std::initializer_list<std::vector<Field>> tables);
+
+}  // namespace sheave

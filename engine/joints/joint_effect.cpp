@@ -1,0 +1,96 @@
+#include "engine/joints/joint_effect.h"
+
+namespace sheave {
+
+void append_effects(const JointCoordinate& settings, int coordinate,
+                    std::vector<JointEffect>& effects) {
+  using Kind = JointEffect::Kind;
+  const auto add = [&](Kind kind) -> JointEffect& {
+    effects.push_back({.kind = kind, .coordinate = coordinate, .signal = {}});
+    return effects.back();
+  };
+  if (settings.stiffness > 0.0) {
+    JointEffect& spring = add(Kind::spring);
+    spring.at = settings.rest;
+    spring.compliance = 1.0 / settings.stiffness;
+    spring.damping = settings.damping;
+  } else if (settings.damping > 0.0) {
+    add(Kind::damper).damping = settings.damping;
+  }
+  switch (settings.drive) {
+    case CoordinateDrive::none:
+      break;
+    case CoordinateDrive::position:
+      add(Kind::position).compliance = settings.drive_compliance;
+      break;
+    case CoordinateDrive::speed:
+      add(Kind::speed);
+      break;
+    case CoordinateDrive::force:
+      add(Kind::force);
+      break;
+  }
+  if (settings.drive != CoordinateDrive::none) {
+    effects.back().limit = settings.drive_limit.value_or(Row::unbounded);
+    effects.back().signal = settings.signal();
+  }
+  if (settings.friction > 0.0) add(Kind::friction).limit = settings.friction;
+  for (const auto& [stop, kind] :
+       {std::pair{settings.lower, Kind::lower}, std::pair{settings.upper, Kind::upper}}) {
+    if (!stop) continue;
+    JointEffect& effect = add(kind);
+    effect.at = *stop;
+    effect.compliance = settings.limit_compliance;
+  }
+}
+
+void set_effect(const JointEffect& effect, const Substep& substep, double now, double start,
+                Row& row) {
+  using Kind = JointEffect::Kind;
+  const double from = substep.start.time;
+  const double to = substep.time;
+  const double square = substep.h * substep.h;
+  row.compliance = effect.compliance;
+  row.upper = effect.limit * square;
+  row.lower = -row.upper;
+  switch (effect.kind) {
+    case Kind::lower:
+      row.value = now - effect.at;
+      row.lower = 0.0;
+      break;
+    case Kind::upper:
+      row.value = now - effect.at;
+      row.upper = 0.0;
+      break;
+    case Kind::coupling:
+      row.value = now;
+      break;
+    case Kind::spring:
+      row.value = now - effect.at;
+      row.damping = effect.damping;
+      break;
+    case Kind::damper:
+      row.value = now - start;
+      row.compliance = substep.damper_compliance(effect.damping);
+      break;
+    case Kind::friction:
+      row.value = now - start;
+      break;
+    case Kind::position:
+      row.value = now - effect.signal.at(to);
+      row.rate = -effect.signal.rate(to);
+      break;
+    case Kind::speed:
+      row.value = now - start - effect.signal.integral(from, to);
+      row.rate = -effect.signal.at(to);
+      break;
+    case Kind::force: {
+      const double end = substep.next.time;
+      row.value = now - start;
+      row.lower = row.upper = effect.signal.integral(from, end) / (end - from) * square;
+      break;
+    }
+  }
+}
+
+}  // namespace sheave

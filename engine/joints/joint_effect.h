@@ -1,0 +1,55 @@
+#pragma once
+// Rows that act along a free coordinate c of a joint, all with its gradient (engine/joints/coordinate.h).
+//
+//   lower stop       C = c - lower >= 0           multiplier in [0, inf)
+//   upper stop       C = c - upper <= 0           multiplier in (-inf, 0]
+//   spring           C = c - rest                 compliance 1 / stiffness, with the damping
+//   damper           C = c - c0                   a row without memory: force = -damping dc/dt
+//   dry friction     C = c - c0                   |force| <= friction: it holds what it can
+//   drive, position  C = c - p(t)                 |force| <= limit
+//   drive, speed     C = c - c0 - integral of v   |force| <= limit
+//   drive, force     the multiplier has equal bounds: the mean of F over the substep
+//   coupling         C = c                        of two coordinates: c = factor c1 + second factor c2
+//
+// c0 is the coordinate at the start of the substep. A drive that reaches its limit lags behind and stalls.
+
+#include <string>
+#include <vector>
+
+#include "engine/joints/coordinate.h"
+#include "engine/row.h"
+#include "engine/substep.h"
+
+namespace sheave {
+
+struct JointEffect {
+  enum class Kind { lower, upper, spring, damper, friction, position, speed, force, coupling };
+  Kind kind = Kind::lower;
+  int coordinate = 0;  ///< of the joint
+  int second = -1;     ///< another coordinate, if c is a sum of two
+  double factor = 1.0;
+  double second_factor = 0.0;
+  double at = 0.0;                ///< stop or rest [m or rad]
+  double compliance = 0.0;        ///< [m/N or rad/(N m)]
+  double damping = 0.0;           ///< [N s/m or N m s/rad]
+  double limit = Row::unbounded;  ///< of the force [N or N m]
+  TimeSignal signal;              ///< of drives
+
+  [[nodiscard]] bool is_drive() const {
+    return kind == Kind::position || kind == Kind::speed || kind == Kind::force;
+  }
+  /// Whether it stores energy when it is deflected.
+  [[nodiscard]] bool elastic() const {
+    return compliance > 0.0 && kind != Kind::damper && kind != Kind::friction;
+  }
+};
+
+/// Appends what `settings` ask for along the coordinate of this number.
+void append_effects(const JointCoordinate& settings, int coordinate,
+                    std::vector<JointEffect>& effects);
+
+/// Completes `row`, which has the gradient of c, whose value is `now` and was `start` at the start.
+void set_effect(const JointEffect& effect, const Substep& substep, double now, double start,
+                Row& row);
+
+}  // namespace sheave

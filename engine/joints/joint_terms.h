@@ -1,0 +1,73 @@
+#pragma once
+
+#include "engine/substep.h"
+
+namespace sheave {
+
+/// Makes those parts of the gradient 0 that are but rounding to the body's mobility: a row across the axis of a slider has
+/// 1e-17 along it, which would be enough for the row to hold the body.
+inline void drop_rounding(Row& row, std::span<const MovingBody> bodies) {
+  const auto keep = [](const Matrix3& inverse, Vector3& gradient) {
+    constexpr double rounding = 1e-12;
+    const double full = inverse.trace() * gradient.norm();
+    if (times(inverse, gradient).norm() <= rounding * full) gradient.setZero();
+  };
+  for (RowTerm& term : std::span(row.terms).first(static_cast<std::size_t>(row.term_count))) {
+    const MovingBody& body = bodies[static_cast<std::size_t>(term.body)];
+    keep(body.inverse_mass, term.linear);
+    keep(body.inverse_inertia, term.angular);
+  }
+}
+
+/// A force and a torque about `about`, both in the world frame.
+struct Wrench {
+  Vector3 force = Vector3::Zero();   ///< [N]
+  Vector3 torque = Vector3::Zero();  ///< [N m]
+  Vector3 about = Vector3::Zero();   ///< [m]
+};
+
+/// Takes what a unit multiplier of a joint's row does to the bodies: as the gradient of the row, and, if asked, as the wrench
+/// on one of them.
+class JointTerms {
+ public:
+  JointTerms(const Substep& substep, Row& row) : substep_(substep), row_(row) {}
+  /// Adds what acts on `body`, times `scale`, to `wrench` instead of the row.
+  JointTerms(const Substep& substep, Row& row, int body, double scale, Wrench& wrench)
+      : substep_(substep), row_(row), watched_(body), scale_(scale), wrench_(&wrench) {}
+
+  [[nodiscard]] const Substep& substep() const { return substep_; }
+  void set_value(double value) { row_.value = value; }
+  void set_compliance(double compliance) { row_.compliance = compliance; }
+  void set_damping(double damping) { row_.damping = damping; }
+  void set_bounds(double lower, double upper) {
+    row_.lower = lower;
+    row_.upper = upper;
+  }
+
+  /// A force along `direction` at the world point `at`.
+  void add_force(int body, const Vector3& at, const Vector3& direction) {
+    if (wrench_ == nullptr) {
+      // The world never moves and would only take up room in the row.
+      if (body < substep_.bodies.count()) substep_.add_force(row_, body, at, direction);
+    } else if (body == watched_) {
+      wrench_->force += scale_ * direction;
+      wrench_->torque += scale_ * cross(at - wrench_->about, direction);
+    }
+  }
+  void add_torque(int body, const Vector3& direction) {
+    if (wrench_ == nullptr) {
+      if (body < substep_.bodies.count()) substep_.add_torque(row_, body, direction);
+    } else if (body == watched_) {
+      wrench_->torque += scale_ * direction;
+    }
+  }
+
+ private:
+  const Substep& substep_;
+  Row& row_;
+  int watched_ = -1;
+  double scale_ = 1.0;
+  Wrench* wrench_ = nullptr;
+};
+
+}  // namespace sheave
