@@ -1,9 +1,9 @@
 // Bodies that a cable leaves and touches again (paper, section 4.2).
 //
-// Leave (merge): the stored length of a rolling link between the ends falls below 0, or at the corner of an outline, which
-// stores none, the angle by which the cable is bent round it. The spans before and after it become
-// one, with the rest length L1 + L2 + s; s is negative, and leaving it out would make cable. A listed link is lifted, a wrap
-// on a wrappable body is gone.
+// Leave (merge): the stored length of a rolling link between the ends falls below 0, or at the corner of an outline,
+// which stores none, the angle by which the cable is bent round it. The spans before and after it become one, with the
+// rest length L1 + L2 + s; s is negative, and leaving it out would make cable. A listed link is lifted, a wrap on a
+// wrappable body is gone.
 //
 // Touch (split): a span cuts the outline of a lifted link from the side on which the link's winding puts it, or that of a
 // wrappable body from the side on which the span was before (cable/wrap_candidate.h). The span becomes two with an arc s
@@ -14,9 +14,9 @@
 // A lifted link remembers whether the cable is on its winding's side: if it has been carried past to the other side, it
 // must come back and clear of the outline before it can touch, or it would be wound on all at once.
 //
-// Leaving comes first, then touching, then leaving where a touch has taken the cable off a neighbour, each along the cable;
-// what has left or touched does nothing else in the same substep. So there is at most one event per link and substep, and their order is the same in every run. A span does not touch the bodies
-// that its own two links are on.
+// Leaving comes first, then touching, then leaving where a touch has taken the cable off a neighbour, each along the
+// cable; what has left or touched does nothing else in the same substep. So there is at most one event per link and
+// substep, and their order is the same in every run. A span does not touch the bodies that its own two links are on.
 
 #include <algorithm>
 #include <cmath>

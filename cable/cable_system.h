@@ -197,6 +197,9 @@ class CableSystem final : public ConstraintBatch {
     std::vector<SpanSetup> spans;
   };
   [[nodiscard]] Geometry geometry_for(const BodySet& bodies, const FeatureState& own) const;
+  /// A span whose link `index` were attached at `angle` of its rim.
+  [[nodiscard]] SpanGeometry attached_span(const Substep& substep, int index, int span,
+                                           double angle) const;
   void change_ends(const Substep& substep, FeatureState& next);
   void change_end(const Substep& substep, const CompiledCable& cable, int index, int span,
                   bool first, FeatureState& next);

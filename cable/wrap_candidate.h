@@ -36,8 +36,8 @@ struct WrapCandidate {
   Vector3 center = Vector3::Zero();  ///< of its form, own frame [m]
   double reach = 0.0;                ///< of its form from the centre [m]
   std::vector<WrapAxis> axes;        ///< empty: a form without an axis
-  bool planar =
-      false;  ///< the wrap's plane is the cable's for ever, `link` the wrap wound counter-clockwise
+  /// The wrap's plane is the cable's for ever, and `link` the wrap wound counter-clockwise.
+  bool planar = false;
   LinkGeometry link;
 };
 

@@ -21,11 +21,13 @@ struct StepStatistics {
   /// How often a feature had to fall back on a substitute because its geometry has no solution (a
   /// span without a tangent); details are in the feature's report.
   int geometry_fallbacks = 0;
-  // Of the direct solver.
-  std::int64_t rounds = 0;  ///< of Newton's method
-  std::int64_t set_changes =
-      0;  ///< rows that began or ceased to act while the active set was sought
-  std::int64_t solver_fallbacks = 0;      ///< substeps left to Gauss-Seidel
+  // Of the direct solver and of `rattle`.
+  /// Linear problems solved, or swept over by Gauss-Seidel: Newton's rounds, and the velocities of `rattle`.
+  std::int64_t rounds = 0;
+  /// Rows that began or ceased to act while the active set was sought.
+  std::int64_t set_changes = 0;
+  /// Substeps left to Gauss-Seidel because no active set was found, for positions or for velocities.
+  std::int64_t solver_fallbacks = 0;
   int redundant_rows = 0;                 ///< the most in one round
   std::int64_t integrator_fallbacks = 0;  ///< substeps of `rattle` that were left to `xpbd`
 };

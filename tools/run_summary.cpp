@@ -50,6 +50,15 @@ std::vector<Warning> collect_warnings(const Simulation& simulation,
         statistics.solver_fallbacks == 1 ? "it" : "them");
     warnings.push_back({"solver_fallback", "", std::move(message)});
   }
+  if (statistics.integrator_fallbacks > 0) {
+    std::string message = fmt::format(
+        "things moved too far in {} {} for rattle, which left {} to xpbd and its damping; more "
+        "substeps avoid that",
+        statistics.integrator_fallbacks,
+        statistics.integrator_fallbacks == 1 ? "substep" : "substeps",
+        statistics.integrator_fallbacks == 1 ? "it" : "them");
+    warnings.push_back({"integrator_fallback", "", std::move(message)});
+  }
   return warnings;
 }
 

@@ -38,7 +38,8 @@ Json statistics(const RunStatistics& statistics) {
           {"rounds", statistics.rounds},
           {"set_changes", statistics.set_changes},
           {"solver_fallbacks", statistics.solver_fallbacks},
-          {"redundant_rows", statistics.redundant_rows}};
+          {"redundant_rows", statistics.redundant_rows},
+          {"integrator_fallbacks", statistics.integrator_fallbacks}};
 }
 
 Json json(const SpanReport& span, bool known) {

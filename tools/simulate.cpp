@@ -26,6 +26,7 @@ void accumulate(const StepStatistics& step, RunStatistics& total) {
   total.set_changes += step.set_changes;
   total.solver_fallbacks += step.solver_fallbacks;
   total.redundant_rows = std::max(total.redundant_rows, step.redundant_rows);
+  total.integrator_fallbacks += step.integrator_fallbacks;
 }
 
 }  // namespace

@@ -22,11 +22,12 @@ struct RunStatistics {
   std::int64_t row_solves = 0;
   double last_correction = 0.0;  ///< the largest of all steps [m or rad]
   std::int64_t geometry_fallbacks = 0;
-  // Of the direct solver.
+  // Of the direct solver and of `rattle`.
   std::int64_t rounds = 0;
   std::int64_t set_changes = 0;
-  std::int64_t solver_fallbacks = 0;  ///< substeps left to Gauss-Seidel
-  int redundant_rows = 0;             ///< the most in one round
+  std::int64_t solver_fallbacks = 0;      ///< substeps left to Gauss-Seidel
+  int redundant_rows = 0;                 ///< the most in one round
+  std::int64_t integrator_fallbacks = 0;  ///< substeps of `rattle` left to `xpbd`
 };
 
 /// What a run came to.

@@ -26,6 +26,8 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   double first = 0.0;
   double violated = 0.0;
   bool revised = false;
+  // One linearisation more than rounds: whether x1 is a solution or the substep must be left to xpbd is decided by what
+  // the last round has left, which only the rows at x1 tell.
   for (int round = 0; round <= substep.iterations; ++round) {
     if (!positions_.linearise(substep, features, RowSystem::Rule::midpoint, round == 0))
       return false;
@@ -40,6 +42,8 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
     }
     positions_.apply(substep, features);
     revised = false;
+    // What the last round finds would have no round to act in; the features decide it for the next substep.
+    if (round + 1 == substep.iterations) continue;
     for (const auto& feature : features) revised = feature->revise(substep) || revised;
   }
   substep.statistics.rows = positions_.row_count();
@@ -70,7 +74,9 @@ void RattleSolver::solve_velocities(Substep& substep, Features features) {
   if (left_to_xpbd(substep)) return;
   substep.update_inertias();
   velocities_.linearise_velocities(substep, features);
-  if (solver_ != SolverKind::direct || !velocities_.solve(substep)) {
+  const bool direct = solver_ == SolverKind::direct;
+  if (!direct || !velocities_.solve(substep)) {
+    if (direct) ++substep.statistics.solver_fallbacks;
     velocities_.relax(substep, substep.iterations);
   }
   velocities_.apply_impulses(substep, features);

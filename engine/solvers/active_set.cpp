@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "engine/index.h"
@@ -137,26 +138,36 @@ void ActiveSetSolver::solve_free(const ComplementarityProblem& problem) {
   }
 }
 
-void ActiveSetSolver::mark_violations(const ComplementarityProblem& problem) {
-  // What rounding leaves of an equation is no violation.
+double ActiveSetSolver::noise(const ComplementarityProblem& problem, std::size_t i) const {
+  // Per row: rows of one problem may be in metres and in radians, of a part of 1e-6 m and of a crane.
   constexpr double rounding = 1e-13;
-  double largest = 0.0;
-  for (std::size_t i = 0; i < at(problem.size); ++i) {
-    largest = std::max(largest, std::abs(problem.constant[i]));
+  double terms = std::abs(problem.constant[i]) + std::abs(problem.diagonal[i] * solution_[i]);
+  for (int p = neighbour_start_[i]; p < neighbour_start_[i + 1]; ++p) {
+    const Neighbour& neighbour = neighbours_[at(p)];
+    const bool below = neighbour.transposed && !problem.symmetric;
+    const std::vector<double>& values = below ? problem.lower_values : problem.values;
+    terms += std::abs(values[at(neighbour.entry)] * solution_[at(neighbour.other)]);
   }
+  return rounding * terms;
+}
+
+void ActiveSetSolver::mark_violations(const ComplementarityProblem& problem) {
   violated_.clear();
   for (int i = 0; i < problem.size; ++i) {
     const std::size_t k = at(i);
-    const double noise = rounding * largest;
     if (problem.lower[k] == problem.upper[k]) continue;
-    bool violated = false;
+    // By how much the row's condition is broken, in the unit of c; what rounding leaves is no violation.
+    double broken = 0.0;
     if (problem.free[k] == 1) {
-      const double slack = problem.diagonal[k] > 0.0 ? noise / problem.diagonal[k] : 0.0;
-      violated = solution_[k] < problem.lower[k] - slack || solution_[k] > problem.upper[k] + slack;
+      const double outside =
+          std::max(problem.lower[k] - solution_[k], solution_[k] - problem.upper[k]);
+      broken = outside > 0.0 && !(problem.diagonal[k] > 0.0)
+                   ? std::numeric_limits<double>::infinity()
+                   : outside * problem.diagonal[k];
     } else {
-      violated = is_at_lower(problem, k) ? residual_[k] < -noise : residual_[k] > noise;
+      broken = is_at_lower(problem, k) ? -residual_[k] : residual_[k];
     }
-    if (violated) violated_.push_back(i);
+    if (broken > 0.0 && broken > noise(problem, k)) violated_.push_back(i);
   }
 }
 

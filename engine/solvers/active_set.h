@@ -48,6 +48,8 @@ class ActiveSetSolver {
  private:
   void solve_free(const ComplementarityProblem& problem);
   void mark_violations(const ComplementarityProblem& problem);
+  /// What rounding leaves of row i's equation [unit of c].
+  [[nodiscard]] double noise(const ComplementarityProblem& problem, std::size_t i) const;
 
   /// An entry of a row off the diagonal.
   struct Neighbour {

@@ -89,6 +89,7 @@ void RowSystem::make_groups() {
   groups_.clear();
   group_of_.resize(rows_.size());
   problem_.symmetric = symmetric_rows_;
+  double heaviest = 0.0;  // of the group's rows so far
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!rows_[i].tied) groups_.push_back({static_cast<int>(i), 0, 0.0, 1.0, false});
     Group& group = groups_.back();
@@ -96,7 +97,10 @@ void RowSystem::make_groups() {
     group.elastic = group.elastic || rows_[i].compliance > 0.0;
     group_of_[i] = static_cast<int>(groups_.size()) - 1;
     // The heaviest row tells the unknown best.
-    if (rows_[i].weight == 1.0) group.multiplier = previous_[i];
+    if (group.row_count == 1 || rows_[i].weight > heaviest) {
+      heaviest = rows_[i].weight;
+      group.multiplier = previous_[i] / heaviest;
+    }
     problem_.symmetric = problem_.symmetric && rows_[i].weight == 1.0;
   }
   const std::size_t n = groups_.size();
@@ -232,6 +236,7 @@ void RowSystem::relax(Substep& substep, int sweeps) {
   find_pattern(substep);
   assemble(substep);
   active_set_.relax(problem_, sweeps);
+  ++substep.statistics.rounds;
   substep.statistics.row_solves += static_cast<std::int64_t>(rows_.size()) * sweeps;
 }
 

@@ -76,10 +76,11 @@ class RowSystem {
     double scale = 1.0;       ///< S
     bool elastic = false;     ///< at least one of the rows has a compliance
   };
+  /// Where a body is predicted to be.
   struct Pose {
-    Vector3 position = Vector3::Zero();
+    Vector3 position = Vector3::Zero();  ///< [m]
     Quaternion orientation = Quaternion::Identity();
-    Vector3 turn = Vector3::Zero();
+    Vector3 turn = Vector3::Zero();  ///< since the start of the substep [rad]
   };
   /// A term of a row that touches a body which can move.
   struct Touch {
@@ -116,15 +117,16 @@ class RowSystem {
   std::vector<double> previous_;        ///< per row its multiplier
   std::vector<Row> start_rows_;
   std::vector<RowResponse> start_responses_;
-  std::vector<std::vector<int>>
-      start_places_;                  ///< per feature and index of multiplier: the start's row
+  /// Per feature and index of multiplier: the row at the start, -1 if there was none.
+  std::vector<std::vector<int>> start_places_;
   std::vector<double> start_values_;  ///< per row
   std::vector<Group> groups_;
   std::vector<int> group_of_;
   std::vector<Pose> predicted_;  ///< per body: without constraints
-  std::vector<RowTerm>
-      motion_;  ///< per body: displacement and turn, or their rates; `body` is not used
-  std::vector<int> signature_;  ///< of the pattern: per row its bodies and whether it is tied
+  /// Per body: displacement and turn, or their rates; `body` is not used.
+  std::vector<RowTerm> motion_;
+  /// Of the pattern: per row its bodies and whether it is tied.
+  std::vector<int> signature_;
   std::vector<int> new_signature_;
   std::vector<std::pair<int, int>> entries_;
   std::vector<Coupling> couplings_;

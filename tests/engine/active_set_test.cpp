@@ -83,5 +83,27 @@ TEST(ActiveSet, StartedFromTheSolutionNothingChanges) {
   EXPECT_EQ(random.problem.free, found);
 }
 
+TEST(ActiveSet, EachRowHasItsOwnScale) {
+  // A joint that turns by a radian in a substep, and beside it, nothing between them, a span in a machine of a micrometre
+  // that is too long by 1e-14 m. The span must be pulled back however large the other number is.
+  ComplementarityProblem p;
+  p.size = 2;
+  p.diagonal = {10.0, 1e3};
+  p.constant = {1.0, -1e-14};
+  p.lower = {-no_bound, 0.0};
+  p.upper = {no_bound, no_bound};
+  p.free = {1, 0};
+  ActiveSetSolver solver;
+  solver.analyse(2, {});
+  ASSERT_TRUE(solver.solve(p));
+  EXPECT_DOUBLE_EQ(solver.solution()[0], -0.1);
+  EXPECT_DOUBLE_EQ(solver.solution()[1], 1e-17);
+  // And lets go when it is as much too short.
+  p.constant[1] = 1e-14;
+  p.free[1] = 1;
+  ASSERT_TRUE(solver.solve(p));
+  EXPECT_EQ(solver.solution()[1], 0.0);
+}
+
 }  // namespace
 }  // namespace sheave

@@ -7,7 +7,6 @@
 
 #include "engine/joints/ball.h"
 #include "engine/joints/distance.h"
-#include "engine/joints/hinge.h"
 #include "tests/support/builders.h"
 
 namespace sheave {
@@ -71,31 +70,13 @@ std::vector<double> position_of(const Simulation& s, BodyId body) {
   return {x.x(), x.y(), x.z()};
 }
 
-/// A weight of 1 kg on a cable that unwinds from a fixed round post: its path is the involute.
-test::Machine involute() {
-  test::Machine m;
-  m.model.gravity = Vector3::Zero();
-  BodyDef post = test::wheel("post", Vector3::Zero(), 0.2, 1.0);
-  post.mobility = Mobility::fixed;
-  post.axis.reset();
-  const BodyId fixed = m.model.add(post);
-  BodyDef ball = test::lump("ball", {0.2, -1.0, 0.0}, 1.0);
-  ball.mobility = Mobility::planar;
-  ball.velocity = {1.0, 0.0, 0.0};
-  const BodyId weight = m.model.add(ball);
-  auto end = roll(fixed, right);
-  end->stored_length = 3.0;
-  m.cables.push_back(cable("rope", {end, attach(weight)}));
-  return m;
-}
-
 TEST(Rattle, PendulumOnACable) {
   const test::Machine m = test::cable_pendulum(1.0, 1.0, 1.0);
   expect_orders(m, 0.02, 1.0, [](const Simulation& s) { return position_of(s, {0}); });
 }
 
 TEST(Rattle, CableThatUnwinds) {
-  const test::Machine m = involute();
+  const test::Machine m = test::involute();
   const auto probe = [](const Simulation& s) { return position_of(s, {1}); };
   expect_orders(m, 0.02, 1.0, probe);
   // Speed is constant, since the cable pulls across the path; l dl = r v dt gives the length.
@@ -142,22 +123,8 @@ TEST(Rattle, TensionAtTheMiddleOfTheStep) {
 }
 
 TEST(Rattle, HingedChainInSpace) {
-  test::Machine m;
-  m.model.gravity = test::down;
-  BodyId last = BodyId::world();
-  for (int i = 0; i < 3; ++i) {
-    const BodyId next =
-        m.model.add(test::lump("part" + std::to_string(i), {0.3 + 0.6 * i, 0.0, 0.0}, 1.0));
-    auto hinge = std::make_shared<HingeJoint>();
-    hinge->name = "hinge" + std::to_string(i);
-    hinge->body_a = last;
-    hinge->body_b = next;
-    hinge->anchor = {0.6 * i, 0.0, 0.0};
-    hinge->axis = Vector3(0.1, i == 1 ? 1.0 : 0.2, i == 1 ? 0.1 : 1.0);
-    m.model.joints.push_back(hinge);
-    last = next;
-  }
-  expect_orders(m, 0.01, 0.4, [](const Simulation& s) { return position_of(s, {2}); });
+  expect_orders(test::hinged_chain(), 0.01, 0.4,
+                [](const Simulation& s) { return position_of(s, {2}); });
 }
 
 TEST(Rattle, TorqueFreeTop) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/joints/hinge.h"
 #include "engine/shapes/box.h"
 #include "engine/shapes/cylinder.h"
 
@@ -181,6 +182,42 @@ Machine cable_pendulum(double mass, double length, double angle) {
   BodyDef bob = lump("bob", length * Vector3(std::sin(angle), -std::cos(angle), 0.0), mass);
   m.model.add(bob);
   m.cables.push_back(cable("rope", {attach(BodyId::world()), attach({0})}));
+  return m;
+}
+
+Machine involute() {
+  Machine m;
+  m.model.gravity = Vector3::Zero();
+  BodyDef post = wheel("post", Vector3::Zero(), 0.2, 1.0);
+  post.mobility = Mobility::fixed;
+  post.axis.reset();
+  const BodyId fixed = m.model.add(post);
+  BodyDef ball = lump("ball", {0.2, -1.0, 0.0}, 1.0);
+  ball.mobility = Mobility::planar;
+  ball.velocity = {1.0, 0.0, 0.0};
+  const BodyId weight = m.model.add(ball);
+  auto end = roll(fixed, right);
+  end->stored_length = 3.0;
+  m.cables.push_back(cable("rope", {end, attach(weight)}));
+  return m;
+}
+
+Machine hinged_chain() {
+  Machine m;
+  m.model.gravity = down;
+  BodyId last = BodyId::world();
+  for (int i = 0; i < 3; ++i) {
+    const BodyId next =
+        m.model.add(lump("part" + std::to_string(i), {0.3 + 0.6 * i, 0.0, 0.0}, 1.0));
+    auto hinge = std::make_shared<HingeJoint>();
+    hinge->name = "hinge" + std::to_string(i);
+    hinge->body_a = last;
+    hinge->body_b = next;
+    hinge->anchor = {0.6 * i, 0.0, 0.0};
+    hinge->axis = Vector3(0.1, i == 1 ? 1.0 : 0.2, i == 1 ? 0.1 : 1.0);
+    m.model.joints.push_back(hinge);
+    last = next;
+  }
   return m;
 }
 

@@ -267,6 +267,25 @@ TEST(RunCommand, TheTextShowsWrapsAndTheFirstEvents) {
   EXPECT_THAT(start.out, Not(HasSubstr("event")));
 }
 
+TEST(RunCommand, SubstepsThatRattleLeavesToXpbdAreToldAndWarnedOf) {
+  // A weight on a cable of 1 m that runs 3 m in one step: no gradient of the start leads it back.
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("swing.json", R"json({
+    "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 1,
+    "step": {"dt": 0.1, "solver": "direct", "integrator": "rattle"},
+    "bodies": [{"name": "bob", "mobility": "planar", "position": [0, -1, 0], "velocity": [30, 0, 0],
+                "mass": 1, "shape": {"type": "sphere", "radius": 0.1}}],
+    "cables": [{"name": "rope", "links": [
+      {"type": "attachment", "body": "world"}, {"type": "attachment", "body": "bob"}]}]})json");
+  const json fast = run_json({scene});
+  EXPECT_GT(fast["statistics"]["integrator_fallbacks"], 0);
+  ASSERT_EQ(fast["warnings"].size(), 1U);
+  EXPECT_EQ(fast["warnings"][0]["kind"], "integrator_fallback");
+  const json slow = run_json({scene, "--substeps", "100"});
+  EXPECT_EQ(slow["statistics"]["integrator_fallbacks"], 0);
+  EXPECT_TRUE(slow["warnings"].empty());
+}
+
 TEST(RunCommand, StatisticsOfTheDirectSolver) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
