@@ -54,6 +54,38 @@ struct BlockAndTackleOptions {
 /// An error, with the option's name as its path, if an option is out of range.
 [[nodiscard]] Result<Scene> generate_block_and_tackle(const BlockAndTackleOptions& options);
 
+/// One cable along a three-dimensional Hilbert curve, with a wheel wherever the curve turns: a motor's drum winds it up at
+/// one end, a weight hangs at the other (figures 1 and 18 of the paper).
+struct HilbertOptions {
+  int order = 2;            ///< of the curve, through 8^order points; 1 ... 5
+  double spacing = 1.0;     ///< of the curve's points [m], > 0
+  double radius = 0.2;      ///< of each wheel [m], > 0, less than spacing / 4
+  double wheel_mass = 0.2;  ///< of each, a solid disc [kg], > 0
+  double drag = 0.001;      ///< of each wheel's bearing [N m s/rad], >= 0
+  double load = 2.0;        ///< the weight [kg], > 0
+  double slack = 0.0;       ///< length of each span beyond the distance it bridges [m], >= 0
+  double motor = 0.5;       ///< speed at which the drum winds cable up [m/s], > 0
+  double ramp = 0.5;        ///< time in which it gets there [s], > 0; it begins after 0.5 s
+  double gravity = 10.0;    ///< downwards [m/s2], > 0
+  double duration = 0.0;    ///< [s]; 0: until the weight has been lifted for 1.5 s
+  double dt = 1.0 / 60.0;   ///< [s], > 0
+  int substeps = 1;         ///< 1 ... 100 000
+  int iterations = 10;      ///< rounds of the direct solver at most
+
+  static constexpr double start = 0.5;  ///< of the motor [s]
+
+  static std::span<const Field> field_table();
+  [[nodiscard]] double rise() const { return motor / ramp; }  ///< of its speed [m/s2]
+  /// Cable that the drum has wound up at a time [m].
+  [[nodiscard]] double wound(double time) const;
+  /// When it has wound up that length [s].
+  [[nodiscard]] double time_of(double length) const;
+};
+/// An error, with the option's name as its path, if an option is out of range.
+[[nodiscard]] Result<Scene> generate_hilbert(const HilbertOptions& options);
+/// The points of the curve, in units of their spacing: 8^order of them, neighbours one apart; the last step is -y.
+[[nodiscard]] std::vector<Vector3> hilbert_curve(int order);
+
 /// One kind of generated scene, for programs that choose it by name.
 struct GeneratorKind {
   std::string_view name;                    ///< "wheel-train", ...
@@ -72,5 +104,10 @@ struct GeneratorSetting {
 /// Generates a scene by the name of its kind. Errors have the option's name as their pointer.
 [[nodiscard]] SceneResult generate_scene(std::string_view kind,
                                          const std::vector<GeneratorSetting>& settings);
+/// The command that generates it, as a comment for the head of a scene file.
+[[nodiscard]] std::string generator_comment(std::string_view kind,
+                                            const std::vector<GeneratorSetting>& settings);
+/// The command line's option for a field of the options: "--wheel-mass" for wheel_mass.
+[[nodiscard]] std::string generator_option(std::string_view field);
 
 }  // namespace sheave

@@ -1,6 +1,5 @@
 // sheave generate: scenes made by rules. Kinds and their options come from scenes/generators.h.
 
-#include <algorithm>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -22,13 +21,6 @@ struct KindOptions {
   std::vector<std::string> values;  // one per field of the kind; empty: not given
   std::string out = "-";
 };
-
-/// "--wheel-mass" for the field wheel_mass.
-std::string option_name(std::string_view field) {
-  std::string name = "--" + std::string(field);
-  std::replace(name.begin(), name.end(), '_', '-');
-  return name;
-}
 
 std::string default_text(const FieldSlot& slot) {
   if (const auto* real = std::get_if<double*>(&slot)) return number_text(**real);
@@ -55,15 +47,16 @@ ExitCode generate(const KindOptions& options, const GeneratorKind& kind) {
     std::string text;
     for (const SceneError& error : result.errors) {
       if (!text.empty()) text += '\n';
-      text += error.pointer.empty()
-                  ? ""
-                  : option_name(error.pointer.substr(error.pointer.front() == '/' ? 1 : 0)) + ": ";
+      text +=
+          error.pointer.empty()
+              ? ""
+              : generator_option(error.pointer.substr(error.pointer.front() == '/' ? 1 : 0)) + ": ";
       if (!error.value.empty()) text += "value " + error.value + ": ";
       text += error.message;
     }
     throw Failure(ExitCode::usage, text);
   }
-  const std::string text = write_scene(*result);
+  const std::string text = generator_comment(options.kind, settings) + write_scene(*result);
   if (options.out == "-") {
     print(text);
   } else {
@@ -80,7 +73,8 @@ std::shared_ptr<KindOptions> declare_kind(CLI::App& app, const GeneratorKind& ki
   options->values.resize(kind.fields().size());
   for (std::size_t i = 0; i < kind.fields().size(); ++i) {
     const Field& field = kind.fields()[i];
-    sub->add_option(option_name(field.name), options->values[i], meaning(field, defaults.get()))
+    sub->add_option(generator_option(field.name), options->values[i],
+                    meaning(field, defaults.get()))
         ->option_text("X");
   }
   sub->add_option("-o,--out", options->out, "file to write; default: standard output")
@@ -95,6 +89,7 @@ Action declare_generate(CLI::App& app) {
   app.footer(R"(Examples:
   sheave generate wheel-train --wheels 64 --out train.json
   sheave generate block-and-tackle --parts 6 | sheave run - --check
+  sheave generate hilbert --order 3 | sheave render - --still hilbert.png --at 1
 
 See sheave generate KIND --help for the options of each kind.)");
   std::vector<std::shared_ptr<KindOptions>> all;

@@ -46,11 +46,15 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
     if (round + 1 == substep.iterations) continue;
     for (const auto& feature : features) revised = feature->revise(substep) || revised;
   }
-  substep.statistics.rows = positions_.row_count();
-  substep.statistics.last_correction = std::max(substep.statistics.last_correction, violated);
   // Gauss-Seidel need not have converged; Newton's method that has not is lost.
-  return violated <= std::max(first, enough) &&
-         (solver_ != SolverKind::direct || violated <= 0.1 * first || violated <= enough);
+  const bool found =
+      violated <= std::max(first, enough) &&
+      (solver_ != SolverKind::direct || violated <= 0.1 * first || violated <= enough);
+  if (found) {
+    substep.statistics.rows = positions_.row_count();
+    substep.statistics.last_correction = std::max(substep.statistics.last_correction, violated);
+  }
+  return found;
 }
 
 void RattleSolver::solve_positions(Substep& substep, Features features) {

@@ -67,7 +67,14 @@ bool ActiveSetSolver::solve(ComplementarityProblem& problem) {
   for (int tries = 0; tries < most_tries; ++tries) {
     solve_free(problem);
     mark_violations(problem);
-    if (violated_.empty()) return true;
+    if (violated_.empty()) {
+      const int blocking = blocking_unknown(problem);
+      if (blocking < 0) return true;
+      problem.free[at(blocking)] = 0;
+      ++changes_;
+      fewest = problem.size + 1;
+      continue;
+    }
     const auto count = static_cast<int>(violated_.size());
     if (count < fewest) {
       fewest = count;
@@ -136,6 +143,54 @@ void ActiveSetSolver::solve_free(const ComplementarityProblem& problem) {
     const double below = problem.symmetric ? problem.values[e] : problem.lower_values[e];
     residual_[at(j)] += below * solution_[at(i)];
   }
+}
+
+int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem) {
+  if (dropped_ == 0) return -1;
+  // Residuals of redundant rows that agree are rounding, more than that of a row of its own; what is overlooked here is
+  // larger against the constants of the next round.
+  constexpr double agreement = 1e-9;
+  double largest = 0.0;
+  for (const double constant : problem.constant) largest = std::max(largest, std::abs(constant));
+  for (int j = 0; j < problem.size; ++j) {
+    if (problem.free[at(j)] != 1 || !factor_.is_dropped(j)) continue;
+    if (!(std::abs(residual_[at(j)]) > agreement * largest)) continue;
+    // A z = 0 with z_j = 1; rows that are not free have the equation z = 0.
+    null_vector_.assign(at(problem.size), 0.0);
+    for (int p = neighbour_start_[at(j)]; p < neighbour_start_[at(j) + 1]; ++p) {
+      const Neighbour& neighbour = neighbours_[at(p)];
+      if (problem.free[at(neighbour.other)] != 1) continue;
+      // Of column j: the entry's place in row j is (j, other), its mirror image (other, j).
+      const bool below = !neighbour.transposed && !problem.symmetric;
+      const std::vector<double>& values = below ? problem.lower_values : problem.values;
+      null_vector_[at(neighbour.other)] = -values[at(neighbour.entry)];
+    }
+    factor_.solve(null_vector_);
+    null_vector_[at(j)] = 1.0;
+    const int blocking = first_blocked(problem, j, residual_[at(j)] < 0.0 ? 1.0 : -1.0);
+    if (blocking >= 0) return blocking;
+  }
+  return -1;
+}
+
+int ActiveSetSolver::first_blocked(const ComplementarityProblem& problem, int redundant,
+                                   double direction) const {
+  // Components that are rounding do not move.
+  constexpr double still = 1e-9;
+  int blocked = -1;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < problem.size; ++i) {
+    const double rate = direction * null_vector_[at(i)];
+    if (problem.free[at(i)] != 1 || !(std::abs(rate) > still)) continue;
+    const double bound = rate < 0.0 ? problem.lower[at(i)] : problem.upper[at(i)];
+    const double way = (bound - solution_[at(i)]) / rate;
+    // Of unknowns that are blocked alike the redundant one itself stays free, which is what it needs.
+    if (way < nearest || (way == nearest && blocked == redundant)) {
+      nearest = way;
+      blocked = i;
+    }
+  }
+  return blocked;
 }
 
 double ActiveSetSolver::noise(const ComplementarityProblem& problem, std::size_t i) const {

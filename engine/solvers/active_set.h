@@ -6,6 +6,11 @@
 // conditions change sides, all at once as long as their number falls, otherwise only the last of them: Murty's rule, which
 // ends for every positive definite A (Judice and Pires, "Block pivoting for strictly monotone LCPs", 1994). Started
 // from the set of the last substep it mostly ends at the first try.
+//
+// Where A is singular, a free unknown can be redundant (its pivot is dropped) and yet contradict the others: a cable lifts a
+// weight that the floor's rows still hold down. Along the null vector z with z_j = 1 of the redundant unknown j no residual
+// changes, so dl + t z is as good a solution for every t; t goes the way that r_j wants until the first unknown meets its
+// bound, and that one is no longer free. If none does, nothing can satisfy the row.
 
 #include <span>
 #include <utility>
@@ -50,6 +55,10 @@ class ActiveSetSolver {
   void mark_violations(const ComplementarityProblem& problem);
   /// What rounding leaves of row i's equation [unit of c].
   [[nodiscard]] double noise(const ComplementarityProblem& problem, std::size_t i) const;
+  /// The free unknown that has to go to its bound so that a redundant one is satisfied; -1: there is none.
+  [[nodiscard]] int blocking_unknown(const ComplementarityProblem& problem);
+  [[nodiscard]] int first_blocked(const ComplementarityProblem& problem, int redundant,
+                                  double direction) const;
 
   /// An entry of a row off the diagonal.
   struct Neighbour {
@@ -68,6 +77,7 @@ class ActiveSetSolver {
   std::vector<double> values_;
   std::vector<double> lower_values_;
   std::vector<int> violated_;
+  std::vector<double> null_vector_;
   int changes_ = 0;
   int dropped_ = 0;
 };

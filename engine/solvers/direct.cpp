@@ -10,13 +10,18 @@ void DirectSolver::solve(Substep& substep, Features features) {
   const double enough = tolerance * substep.bodies.scale();
   double violated = 0.0;
   bool revised = false;
+  bool adding_up = false;
   for (int round = 0; round < substep.iterations; ++round) {
     const double before = violated;
-    system_.linearise(substep, features, RowSystem::Rule::backward, round == 0);
+    system_.linearise(substep, features, RowSystem::Rule::backward, round == 0 || adding_up);
     violated = system_.violation();
     if (round > 0 && !revised && violated <= enough) break;
     // Rows that nothing can satisfy, between driven bodies, stay violated however many rounds there are.
-    if (round > 2 && !revised && violated > stagnation * before) break;
+    if (round > 2 && adding_up && !revised && violated > stagnation * before) break;
+    if (round > 1 && !adding_up && !revised && violated > slow * before) {
+      adding_up = true;
+      system_.linearise(substep, features, RowSystem::Rule::backward, true);
+    }
     if (!system_.solve(substep)) {
       substep.statistics.rows = system_.row_count();
       ++substep.statistics.solver_fallbacks;

@@ -5,6 +5,10 @@
 // motion of one substep bends the constraints by, the next one the square of it. Rounds end when no row is violated by
 // more than `tolerance` times the scene's size, at the latest after `iterations` of them. If no active set is found the
 // substep goes on with Gauss-Seidel, and is counted.
+//
+// At first each round starts again from the prediction, with the gradients of the last one, so that what rests has its
+// static forces. Where bodies swing too far within a substep for that, the rounds stop converging, and corrections are added
+// up instead: a chain of light links under a heavy ball, whose links swing across it by more than a radian per substep.
 
 #include "engine/solvers/row_system.h"
 
@@ -16,6 +20,9 @@ class DirectSolver {
   static constexpr double tolerance = 1e-10;
   /// A round that leaves more than this share of the violation is the last one, too.
   static constexpr double stagnation = 0.9;
+  /// Rounds that shrink the violation by less than this are no fixed-point iteration worth going on with: from then on
+  /// corrections are added up (engine/solvers/row_system.h).
+  static constexpr double slow = 0.5;
 
   void solve(Substep& substep, Features features);
 

@@ -59,7 +59,7 @@ bool RowSystem::match_start() {
   return true;
 }
 
-bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool first_round) {
+bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool from_here) {
   collect_rows(substep, features);
   responses_.resize(rows_.size());
   symmetric_rows_ = rule == Rule::backward;
@@ -77,8 +77,9 @@ bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool f
       set_midpoint(substep, g);
     }
   }
-  if (first_round) {
-    remember_prediction(substep);
+  from_here_ = from_here;
+  if (from_here) {
+    remember_origin(substep);
   } else {
     settle(substep);
   }
@@ -179,11 +180,11 @@ void RowSystem::add_motion(const Substep& substep, std::size_t row, double chang
   }
 }
 
-void RowSystem::remember_prediction(const Substep& substep) {
-  predicted_.resize(substep.moving.size());
-  for (std::size_t b = 0; b < predicted_.size(); ++b) {
+void RowSystem::remember_origin(const Substep& substep) {
+  origin_.resize(substep.moving.size());
+  for (std::size_t b = 0; b < origin_.size(); ++b) {
     const MovingBody& body = substep.moving[b];
-    predicted_[b] = {body.position, body.orientation, body.turn};
+    origin_[b] = {body.position, body.orientation, body.turn};
   }
 }
 
@@ -196,8 +197,8 @@ void RowSystem::settle(const Substep& substep) {
   }
   for (std::size_t b = 0; b < motion_.size(); ++b) {
     const MovingBody& body = substep.moving[b];
-    if (body.translates) motion_[b].linear += predicted_[b].position - body.position;
-    if (body.rotates) motion_[b].angular += predicted_[b].turn - body.turn;
+    if (body.translates) motion_[b].linear += origin_[b].position - body.position;
+    if (body.rotates) motion_[b].angular += origin_[b].turn - body.turn;
   }
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     for (const RowTerm& term : rows_[i].active_terms()) {
@@ -253,12 +254,13 @@ void RowSystem::apply(Substep& substep, Features features) {
                                         bound_share_ * first.lower, bound_share_ * first.upper);
       const double multiplier = rows_[i].weight * unknown;
       multipliers[at(rows_[i].index)] = multiplier;
-      if (multiplier != 0.0) add_motion(substep, i, multiplier);
+      const double gain = from_here_ ? multiplier - previous_[i] : multiplier;
+      if (gain != 0.0) add_motion(substep, i, gain);
     }
   }
   for (std::size_t b = 0; b < motion_.size(); ++b) {
     MovingBody& body = substep.moving[b];
-    const Pose& from = predicted_[b];
+    const Pose& from = origin_[b];
     if (body.translates) body.position = from.position + motion_[b].linear;
     if (!body.rotates) continue;
     body.turn = from.turn + motion_[b].angular;

@@ -25,7 +25,10 @@
 // Every round puts the bodies at x* + W K^T l from the predicted x* anew, so K is that of the last round throughout, and
 // c has J (x* + W K^T l - x) besides. XPBD then ends where implicit Euler does, with the gradients of the end: what rests
 // has exactly its static forces. (Corrections added up along the gradients of each round would keep those of x*, which is
-// off by g h^2 and tensions with it, by 1e-4 in a crane of 8 m at 1/120 s.)
+// off by g h^2 and tensions with it, by 1e-4 in a crane of 8 m at 1/120 s.) That is a fixed point in K: its error shrinks by
+// h^2 F / (m L) per round, with the force F of a row that turns a body m over the length L, the square of what the body's
+// swing at F does in a substep. Where that is no small number, corrections can be added up instead (`from_here`): Newton's
+// method on C alone, which converges however fast the bodies swing, with gradients between those of x* and of the end.
 
 #include <memory>
 #include <span>
@@ -47,9 +50,10 @@ class RowSystem {
 
   /// Keeps the rows at the start of the substep, whose gradients the midpoint rule lets multipliers act along.
   void remember_start(Substep& substep, Features features);
-  /// The problem at the current positions, which in the first round are the predicted ones. False if a row touches other
-  /// bodies than at the remembered start.
-  bool linearise(Substep& substep, Features features, Rule rule, bool first_round);
+  /// The problem at the current positions. `from_here`: bodies will move from these positions by what the unknowns gain;
+  /// otherwise from those of the last call with it. In the first round, with multipliers of 0 at the predicted positions,
+  /// it must be set. False if a row touches other bodies than at the remembered start.
+  bool linearise(Substep& substep, Features features, Rule rule, bool from_here);
   /// The problem of the velocities in substep.next, with K = J at the current positions: the impulses m [N s] for which
   /// dC/dt = 0 (or >= 0) on rows that have acted or are closed. Springs have acted and get none.
   void linearise_velocities(Substep& substep, Features features);
@@ -100,7 +104,7 @@ class RowSystem {
   void set_backward(const Substep& substep, std::size_t group);
   void set_midpoint(const Substep& substep, std::size_t group);
   void set_bounds(std::size_t group, bool pushed, bool active);
-  void remember_prediction(const Substep& substep);
+  void remember_origin(const Substep& substep);
   void settle(const Substep& substep);
   void find_pattern(const Substep& substep);
   void assemble(const Substep& substep);
@@ -122,7 +126,8 @@ class RowSystem {
   std::vector<double> start_values_;  ///< per row
   std::vector<Group> groups_;
   std::vector<int> group_of_;
-  std::vector<Pose> predicted_;  ///< per body: without constraints
+  std::vector<Pose> origin_;  ///< per body: where it moves from, in the first round its prediction
+  bool from_here_ = true;
   /// Per body: displacement and turn, or their rates; `body` is not used.
   std::vector<RowTerm> motion_;
   /// Of the pattern: per row its bodies and whether it is tied.

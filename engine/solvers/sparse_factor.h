@@ -36,6 +36,10 @@ class SparseFactor {
 
   [[nodiscard]] int size() const { return size_; }
   [[nodiscard]] int dropped() const { return dropped_; }  ///< pivots left out in the last factor()
+  /// Whether unknown i is one of them.
+  [[nodiscard]] bool is_dropped(int i) const {
+    return !(inverse_pivot_[static_cast<std::size_t>(place_[static_cast<std::size_t>(i)])] > 0.0);
+  }
   /// Entries of L below the diagonal: the cost of factor() and solve().
   [[nodiscard]] int fill() const { return static_cast<int>(row_of_.size()); }
 

@@ -1,5 +1,7 @@
 // The kinds of generated scenes: one line each, and choosing among them by name.
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "scenes/field_reader.h"
@@ -34,6 +36,8 @@ std::span<const GeneratorKind> generator_kinds() {
           "wheel-train", "one cable over a row of wheels, with a weight at each end"),
       kind<BlockAndTackleOptions, &generate_block_and_tackle>(
           "block-and-tackle", "a load on several parts of one rope, and the effort at its end"),
+      kind<HilbertOptions, &generate_hilbert>(
+          "hilbert", "one cable along a Hilbert curve in space, a wheel at every turn, a motor"),
   };
   return kinds;
 }
@@ -77,6 +81,21 @@ SceneResult generate_scene(std::string_view kind, const std::vector<GeneratorSet
   const Result<Scene> scene = chosen->generate(options.get());
   if (!scene) return failure(origin, scene.errors());
   return {*scene, {}, SceneStatus::ok};
+}
+
+std::string generator_option(std::string_view field) {
+  std::string name = "--" + std::string(field);
+  std::replace(name.begin(), name.end(), '_', '-');
+  return name;
+}
+
+std::string generator_comment(std::string_view kind,
+                              const std::vector<GeneratorSetting>& settings) {
+  std::string text = fmt::format("// sheave generate {}", kind);
+  for (const GeneratorSetting& setting : settings) {
+    text += fmt::format(" {} {}", generator_option(setting.option), setting.value);
+  }
+  return text + "\n";
 }
 
 }  // namespace sheave

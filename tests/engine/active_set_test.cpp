@@ -105,5 +105,44 @@ TEST(ActiveSet, EachRowHasItsOwnScale) {
   EXPECT_EQ(solver.solution()[1], 0.0);
 }
 
+// One coordinate, pushed up by all rows alike: A is a matrix of ones, of rank 1. The last row asks for more than the others, so
+// it alone pushes; whichever rows are free to begin with, and in whichever order they are eliminated.
+TEST(ActiveSet, ARedundantRowThatContradictsTheOthersReleasesThem) {
+  for (const int n : {2, 3, 5}) {
+    for (const double skew : {0.0, 1e-3}) {
+      for (int asking = 0; asking < n; ++asking) {
+        for (int set = 0; set < 1 << n; ++set) {
+          ComplementarityProblem p;
+          p.size = n;
+          p.symmetric = skew == 0.0;
+          std::vector<std::pair<int, int>> entries;
+          for (int i = 0; i < n; ++i) {
+            p.diagonal.push_back(1.0);
+            p.constant.push_back(i == asking ? -0.5 : -0.01 * i);
+            p.lower.push_back(0.0);
+            p.upper.push_back(no_bound);
+            p.free.push_back(static_cast<char>((set >> i) & 1));
+            for (int j = i + 1; j < n; ++j) entries.emplace_back(i, j);
+          }
+          // Gradients as of two moments: A(i, j) = 1 + skew for i < j, 1 - skew below.
+          p.values.assign(entries.size(), 1.0 + skew);
+          p.lower_values.assign(entries.size(), 1.0 - skew);
+          ActiveSetSolver solver;
+          solver.analyse(n, entries);
+          ASSERT_TRUE(solver.solve(p));
+          double sum = 0.0;
+          for (int i = 0; i < n; ++i) {
+            const double x = solver.solution()[static_cast<std::size_t>(i)];
+            EXPECT_GE(x, -1e-13);
+            sum += x;
+          }
+          // A sum of 0.5 satisfies the asking row; with the skew, within 2 skew of it.
+          EXPECT_NEAR(sum, 0.5, 1e-12 + 2.0 * skew) << n << ' ' << asking << ' ' << set;
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sheave

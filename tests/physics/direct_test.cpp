@@ -6,6 +6,7 @@
 
 #include "cable/links/pinhole.h"
 #include "engine/joints/distance.h"
+#include "engine/shapes/box.h"
 #include "tests/support/builders.h"
 
 namespace sheave {
@@ -231,6 +232,39 @@ TEST(Direct, AStateWithItsActiveSetCanBeRestored) {
   ASSERT_TRUE(other.world.restore(saved).empty());
   for (int i = 0; i < 40; ++i) ASSERT_TRUE(other.world.step().ok());
   EXPECT_EQ(hash(other.world.state()), hash(s.world.state()));
+}
+
+// A box stands on its four lower corners, whose rows and the cable's all move it along one axis. A winch pulls at v from the
+// start; the cable was loose by s, so the box leaves the floor at t = s / v and has then risen by v t - s.
+TEST(Direct, AWinchLiftsABoxOffTheFloor) {
+  const double v = 0.3;
+  const double s = 0.12;
+  for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
+    for (const Mobility mobility : {Mobility::slider, Mobility::free}) {
+      test::Machine m;
+      m.model.gravity = test::down;
+      m.model.step = test::settings(1.0 / 60.0, 1, 10);
+      m.model.step.solver = SolverKind::direct;
+      m.model.step.integrator = integrator;
+      m.model.ground = GroundDef{};
+      BodyDef box = test::lump("box", {0.0, 0.15, 0.0}, 3.0);
+      box.mobility = mobility;
+      if (mobility == Mobility::slider) box.axis = Vector3::UnitY();
+      auto shape = std::make_shared<Box>();
+      shape->size = Vector3::Constant(0.3);
+      box.shapes = {{shape}};
+      m.model.add(box);
+      auto winch = test::attach(BodyId{}, {0.0, 2.0, 0.0});
+      winch->feed_speed = -v;
+      m.cables = {test::cable("rope", {winch, test::attach({0}, {0.0, 0.15, 0.0})})};
+      m.cables[0].rest_lengths = {1.7 + s};
+      Simulation simulation = test::start(m);
+      test::run(simulation.world, 1.0);
+      // Rows are solved to 1e-10 of the scene's size, here some metres.
+      EXPECT_NEAR(simulation.world.position({0}).y(), 0.15 + v * 1.0 - s, 1e-9);
+      EXPECT_NEAR(simulation.cable_reports()[0].spans[0].tension, 3.0 * g, 1e-6 * 3.0 * g);
+    }
+  }
 }
 
 }  // namespace

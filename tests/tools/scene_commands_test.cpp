@@ -68,7 +68,8 @@ TEST(GenerateCommand, RoundTripThroughValidateAndRun) {
   const TemporaryFolder folder;
   for (const std::vector<std::string>& options :
        {std::vector<std::string>{"wheel-train", "--wheels", "5"},
-        {"block-and-tackle", "--parts", "2"}}) {
+        {"block-and-tackle", "--parts", "2"},
+        {"hilbert", "--order", "1"}}) {
     const std::string scene = folder.path(options[0] + ".json");
     const ProcessResult made =
         run_sheave({"generate", options[0], options[1], options[2], "--out", scene});
