@@ -25,8 +25,11 @@ struct StepStatistics {
   std::int64_t rounds = 0;  ///< of Newton's method
   std::int64_t set_changes =
       0;  ///< rows that began or ceased to act while the active set was sought
-  std::int64_t solver_fallbacks = 0;      ///< substeps left to Gauss-Seidel
-  int redundant_rows = 0;                 ///< the most in one round
+  std::int64_t solver_fallbacks = 0;  ///< substeps left to Gauss-Seidel
+  int redundant_rows = 0;             ///< the most in one round
+  // Of contacts between bodies.
+  int contacts = 0;  ///< the most points in one substep, those about to touch among them
+  double deepest_overlap = 0.0;           ///< [m]
   std::int64_t integrator_fallbacks = 0;  ///< substeps of `rattle` that were left to `xpbd`
 };
 

@@ -8,6 +8,15 @@
 
 namespace sheave {
 
+namespace {
+
+/// Which bound an unknown that is not free is at.
+bool is_at_lower(const ComplementarityProblem& problem, std::size_t i) {
+  return std::isfinite(problem.lower[i]) && problem.free[i] != ComplementarityProblem::at_upper;
+}
+
+}  // namespace
+
 void ActiveSetSolver::analyse(int size, std::span<const std::pair<int, int>> entries) {
   entries_.assign(entries.begin(), entries.end());
   factor_.analyse(size, entries);
@@ -66,7 +75,14 @@ bool ActiveSetSolver::solve(ComplementarityProblem& problem) {
       --left;
     }
     if (left < 0) violated_ = {violated_.back()};
-    for (const int i : violated_) problem.free[at(i)] = problem.free[at(i)] == 0 ? 1 : 0;
+    for (const int i : violated_) {
+      char& side = problem.free[at(i)];
+      if (side != 1) {
+        side = 1;
+      } else {
+        side = solution_[at(i)] < problem.lower[at(i)] ? 0 : ComplementarityProblem::at_upper;
+      }
+    }
     changes_ += static_cast<int>(violated_.size());
   }
   return false;
@@ -76,9 +92,8 @@ void ActiveSetSolver::solve_free(const ComplementarityProblem& problem) {
   const std::size_t n = at(problem.size);
   solution_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    // Which bound a row is at: only one of them is finite, or they are equal.
-    const bool at_lower = std::isfinite(problem.lower[i]);
-    solution_[i] = problem.free[i] != 0 ? 0.0 : at_lower ? problem.lower[i] : problem.upper[i];
+    const bool at_lower = is_at_lower(problem, i);
+    solution_[i] = problem.free[i] == 1 ? 0.0 : at_lower ? problem.lower[i] : problem.upper[i];
   }
   diagonal_ = problem.diagonal;
   values_ = problem.values;
@@ -88,8 +103,8 @@ void ActiveSetSolver::solve_free(const ComplementarityProblem& problem) {
   for (std::size_t i = 0; i < n; ++i) rhs[i] = -problem.constant[i];
   for (std::size_t e = 0; e < entries_.size(); ++e) {
     const auto [i, j] = entries_[e];
-    const bool free_i = problem.free[at(i)] != 0;
-    const bool free_j = problem.free[at(j)] != 0;
+    const bool free_i = problem.free[at(i)] == 1;
+    const bool free_j = problem.free[at(j)] == 1;
     if (free_i && free_j) continue;
     const double below = problem.symmetric ? values_[e] : lower_values_[e];
     if (free_i) rhs[at(i)] -= values_[e] * solution_[at(j)];
@@ -98,7 +113,7 @@ void ActiveSetSolver::solve_free(const ComplementarityProblem& problem) {
     if (!problem.symmetric) lower_values_[e] = 0.0;
   }
   for (std::size_t i = 0; i < n; ++i) {
-    if (problem.free[i] != 0) continue;
+    if (problem.free[i] == 1) continue;
     diagonal_[i] = 1.0;
     rhs[i] = solution_[i];
   }
@@ -135,11 +150,11 @@ void ActiveSetSolver::mark_violations(const ComplementarityProblem& problem) {
     const double noise = rounding * largest;
     if (problem.lower[k] == problem.upper[k]) continue;
     bool violated = false;
-    if (problem.free[k] != 0) {
+    if (problem.free[k] == 1) {
       const double slack = problem.diagonal[k] > 0.0 ? noise / problem.diagonal[k] : 0.0;
       violated = solution_[k] < problem.lower[k] - slack || solution_[k] > problem.upper[k] + slack;
     } else {
-      violated = std::isfinite(problem.lower[k]) ? residual_[k] < -noise : residual_[k] > noise;
+      violated = is_at_lower(problem, k) ? residual_[k] < -noise : residual_[k] > noise;
     }
     if (violated) violated_.push_back(i);
   }

@@ -25,7 +25,10 @@ struct ComplementarityProblem {
   std::vector<double> constant;      ///< c
   std::vector<double> lower;         ///< bounds of dl; where they are equal, r can be anything
   std::vector<double> upper;
-  std::vector<char> free;  ///< which unknowns to begin with as free; the solution's afterwards
+  /// Per unknown whether to begin with it free, 1, or at a bound, 0 (the lower one if that is finite) or at_upper; that of
+  /// the solution afterwards.
+  std::vector<char> free;
+  static constexpr char at_upper = 2;
 };
 
 class ActiveSetSolver {
