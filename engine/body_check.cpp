@@ -57,6 +57,13 @@ class BodyCheck {
       check_fields(entry.fields(), placed.shape->settings(), path, errors_);
     }
     for (const Error& error : placed.shape->validate(path)) errors_.push_back(error);
+    if (!placed.shape->bounded() && moves()) {
+      errors_.push_back({path, "body \"" + body_.name + "\": a " +
+                                   std::string(placed.shape->type()) +
+                                   " has no mass; only static and kinematic bodies can have it, "
+                                   "and mobility is " +
+                                   mobility_name()});
+    }
   }
 
   void check_axis() {
@@ -143,6 +150,11 @@ class BodyCheck {
     if (!body_.wrappable) return;
     if (body_.shapes.empty()) {
       fail("/wrappable", "only a body with a shape can be wrapped; give it one");
+    }
+    for (const PlacedShape& placed : body_.shapes) {
+      if (placed.shape->bounded()) continue;
+      fail("/wrappable",
+           "a cable cannot be laid round a " + std::string(placed.shape->type()) + "; use a box");
     }
     if (body_.spin_inertia == 0.0 && body_.drive == DriveKind::none) {
       fail("/wrappable",

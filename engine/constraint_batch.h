@@ -28,6 +28,8 @@ class ConstraintBatch {
   [[nodiscard]] virtual FeatureState initial_state() const = 0;
   /// Whether `state`, of the right sizes, can be one of this feature: what begin() relies on.
   [[nodiscard]] virtual bool accepts(const FeatureState& /*state*/) const { return true; }
+  /// Whether states always have the sizes of initial_state(); otherwise accepts() checks them.
+  [[nodiscard]] virtual bool has_fixed_size() const { return true; }
   /// Number of rows that linearise() appends.
   [[nodiscard]] virtual int row_count() const = 0;
 
@@ -43,6 +45,10 @@ class ConstraintBatch {
   /// Called when a solver of all rows at once has found multipliers: chooses anew between the states that rows do not
   /// tell (a cable sticks or slides). Returns whether anything has changed.
   virtual bool revise(Substep& /*substep*/) { return false; }
+  /// Whether correct_velocities() ever does anything.
+  [[nodiscard]] virtual bool corrects_velocities() const { return false; }
+  /// Called when velocities follow from positions, for what positions do not tell of them (a bounce).
+  virtual void correct_velocities(Substep& /*substep*/) {}
   /// Called when positions are final: writes the feature's state at the end of the substep.
   virtual void finish(Substep& substep, FeatureState& next) = 0;
   /// Elastic energy stored in the feature [J], between substeps.

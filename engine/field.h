@@ -56,10 +56,10 @@ struct ChoiceSlot {
 };
 
 /// Where a field lives in an object; the alternative tells its type.
-using FieldSlot =
-    std::variant<double*, int*, bool*, std::string*, Vector3*, Quaternion*, BodyId*,
-                 std::optional<double>*, std::optional<Vector3>*, std::optional<BodyId>*,
-                 std::vector<double>*, std::vector<Vector3>*, ChoiceSlot>;
+using FieldSlot = std::variant<double*, int*, bool*, std::string*, Vector3*, Quaternion*, BodyId*,
+                               std::optional<double>*, std::optional<Vector3>*,
+                               std::optional<BodyId>*, std::vector<double>*, std::vector<Vector3>*,
+                               std::vector<std::string>*, ChoiceSlot>;
 
 /// One setting of one type. The default is what a default-constructed object holds.
 struct Field {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/body.h"
+#include "engine/contacts/collider.h"
 #include "engine/contacts/ground.h"
 #include "engine/joint.h"
 #include "engine/step_settings.h"
@@ -18,7 +19,8 @@ struct Model {
   StepSettings step;
   std::vector<BodyDef> bodies;  ///< BodyId indexes this list
   std::vector<std::shared_ptr<const JointDef>> joints;
-  std::optional<GroundDef> ground;  ///< absent: nothing to fall on, and no stage for it
+  std::vector<ColliderDef> colliders;  ///< bodies that touch each other; empty: nothing does
+  std::optional<GroundDef> ground;     ///< absent: nothing to fall on, and no stage for it
 
   /// Appends a body and returns its id.
   BodyId add(BodyDef body) {

@@ -62,6 +62,9 @@ struct Row {
   int term_count = 0;
   std::array<RowTerm, max_terms> terms;
   // Only solvers of all rows at once need these.
+  /// Added to the row's yield w [1/kg], >= 0: shares a load among rows of which fewer would do. Unlike a compliance it is no
+  /// spring; the multiplier l leaves the row off by softness x l.
+  double softness = 0.0;
   int index = 0;        ///< of its multiplier among those of its feature
   bool active = false;  ///< whether its multiplier was off its bounds in the last substep
   /// Whether it shares one unknown with the row before it, which may do the same: their values are added, and the
@@ -74,6 +77,7 @@ struct Row {
     index = 0;
     active = tied = false;
     weight = 1.0;
+    softness = 0.0;
     value = rate = compliance = damping = 0.0;
     lower = -unbounded;
     upper = unbounded;

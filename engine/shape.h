@@ -9,6 +9,7 @@
 #include "engine/field.h"
 #include "engine/result.h"
 #include "engine/shapes/section.h"
+#include "engine/shapes/solid.h"
 #include "engine/vector.h"
 
 namespace sheave {
@@ -37,12 +38,16 @@ class Shape {
   [[nodiscard]] virtual double wheel_radius() const {
     return std::numeric_limits<double>::quiet_NaN();
   }
+  /// Whether it ends somewhere. What does not has no mass, no extent, and no cable lies on it.
+  [[nodiscard]] virtual bool bounded() const { return true; }
   /// Appends the points [m] that decide contact with a plane whose inward (downward) unit normal in
   /// the shape's frame is `down`: all corners, or the lowest points of a curved surface.
   virtual void append_contact_points(const Vector3& down, std::vector<Vector3>& points) const = 0;
   /// Appends points [m] in the plane whose convex hull is the hull of the shape's section with it; curved sections as
   /// polygons (engine/shapes/section.h). Nothing if the plane misses the shape.
   virtual void append_section(const SectionPlane& plane, std::vector<Vector3>& points) const = 0;
+  /// The form as contacts between bodies see it.
+  [[nodiscard]] virtual ConvexSolid solid() const = 0;
   /// Half edges [m] of a box about the shape's origin that contains it; for framing a picture and
   /// for the length scale of a scene.
   [[nodiscard]] virtual Vector3 half_extent() const = 0;

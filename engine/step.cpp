@@ -66,6 +66,11 @@ std::vector<Stage> substep_stages(const Model& model,
     add("second half of the loads", add_second_half_of_loads);
     add("solve velocities", [=](Substep& substep) { solver->solve_velocities(substep, features); });
   }
+  for (const auto& feature : features) {
+    if (!feature->corrects_velocities()) continue;
+    add("correct velocities of " + std::string(feature->name()),
+        [&own = *feature](Substep& substep) { own.correct_velocities(substep); });
+  }
   for (std::size_t i = 0; i < features.size(); ++i) {
     ConstraintBatch& feature = *features[i];
     add("finish " + std::string(feature.name()),

@@ -28,7 +28,10 @@ struct StepStatistics {
   std::int64_t set_changes = 0;
   /// Substeps left to Gauss-Seidel because no active set was found, for positions or for velocities.
   std::int64_t solver_fallbacks = 0;
-  int redundant_rows = 0;                 ///< the most in one round
+  int redundant_rows = 0;  ///< the most in one round
+  // Of contacts between bodies.
+  int contacts = 0;  ///< the most points in one substep, those about to touch among them
+  double deepest_overlap = 0.0;           ///< [m]
   std::int64_t integrator_fallbacks = 0;  ///< substeps of `rattle` that were left to `xpbd`
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/contacts/contact_batch.h"
 #include "engine/contacts/ground_batch.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
@@ -66,6 +67,7 @@ Errors check_model(const Model& model, const BodySet& bodies) {
     }
   }
   check_joints(model, bodies, errors);
+  for (const Error& error : check_colliders(model, bodies)) errors.push_back(error);
   return errors;
 }
 
@@ -81,6 +83,8 @@ std::vector<std::unique_ptr<ConstraintBatch>> model_features(const Model& model,
     if (!joints.empty()) features.push_back(joints.front()->make_batch(bodies, joints));
   }
   if (model.ground) features.push_back(make_ground_batch(*model.ground, bodies));
+  // Last, so that World::contacts() knows its place.
+  if (!model.colliders.empty()) features.push_back(make_contact_batch(model, bodies));
   return features;
 }
 
@@ -93,6 +97,7 @@ struct World::Content {
   State state;
   Substep substep;
   std::vector<Stage> stages;
+  std::size_t contacts = 0;  // which feature; means something if the model has colliders
 
   Content(Model m, std::shared_ptr<const BodySet> b,
           std::vector<std::unique_ptr<ConstraintBatch>> f, State s)
@@ -160,11 +165,14 @@ Result<World> World::create(Model model, std::shared_ptr<const BodySet> bodies,
   Errors errors = check_model(model, *bodies);
   if (!errors.empty()) return errors;
   std::vector<std::unique_ptr<ConstraintBatch>> all = model_features(model, *bodies);
+  const std::size_t own_features = all.size();
   for (auto& feature : features) all.push_back(std::move(feature));
   State state = bodies->initial_state();
   for (const auto& feature : all) state.features.push_back(feature->initial_state());
-  return World(std::make_unique<Content>(std::move(model), std::move(bodies), std::move(all),
-                                         std::move(state)));
+  auto content = std::make_unique<Content>(std::move(model), std::move(bodies), std::move(all),
+                                           std::move(state));
+  if (!content->model.colliders.empty()) content->contacts = own_features - 1;
+  return World(std::move(content));
 }
 
 StepReport World::step() {
@@ -176,6 +184,8 @@ StepReport World::step() {
     // Time comes from counters, not from a running sum, so that it does not drift.
     const double end = static_cast<double>(i + 1) / substeps;
     c.substep.restart();
+    // Features may ask for it when they begin.
+    c.substep.load_share = c.model.step.integrator == IntegratorKind::rattle ? 0.5 : 1.0;
     c.substep.next.time = (static_cast<double>(c.state.steps) + end) * c.model.step.dt;
     for (const Stage& stage : c.stages) stage.run(c.substep);
     report.divergence = c.find_divergence();
@@ -204,14 +214,22 @@ const FeatureState& World::feature_state(std::size_t index) const {
   return content_->state.features[index];
 }
 
+std::vector<ContactReport> World::contacts() const {
+  const Content& c = *content_;
+  if (c.model.colliders.empty()) return {};
+  return report_contacts(c.model, *c.bodies, c.state.features[c.contacts]);
+}
+
 Errors World::restore(const State& state) {
   const State& own = content_->state;
   bool fits =
       state.bodies.size() == own.bodies.size() && state.features.size() == own.features.size();
   for (std::size_t i = 0; fits && i < own.features.size(); ++i) {
-    fits = state.features[i].reals.size() == own.features[i].reals.size() &&
-           state.features[i].integers.size() == own.features[i].integers.size() &&
-           content_->features[i]->accepts(state.features[i]);
+    const ConstraintBatch& feature = *content_->features[i];
+    fits = (!feature.has_fixed_size() ||
+            (state.features[i].reals.size() == own.features[i].reals.size() &&
+             state.features[i].integers.size() == own.features[i].integers.size())) &&
+           feature.accepts(state.features[i]);
   }
   if (!fits) {
     return {{"",

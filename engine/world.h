@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/contacts/contact_report.h"
 #include "engine/model.h"
 #include "engine/step.h"
 
@@ -61,6 +62,9 @@ class World {
   [[nodiscard]] std::span<const std::unique_ptr<ConstraintBatch>> features() const;
   /// State of the feature at this index of features().
   [[nodiscard]] const FeatureState& feature_state(std::size_t index) const;
+
+  /// Where colliders touch or are about to; empty without colliders, and before the first step.
+  [[nodiscard]] std::vector<ContactReport> contacts() const;
 
   /// Goes back (or ahead) to a state of this world; an error if its shape does not fit.
   [[nodiscard]] Errors restore(const State& state);

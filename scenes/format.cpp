@@ -100,6 +100,7 @@ struct Description {
   std::string operator()(const std::vector<Vector3>*) const {
     return numeric("a list of [x, y, z], numbers");
   }
+  std::string operator()(const std::vector<std::string>*) const { return "a list of strings"; }
   std::string operator()(const ChoiceSlot&) const {
     std::string text;
     for (const std::string_view choice : field.choices) {
@@ -134,7 +135,10 @@ const ObjectFormat& scene_format() {
        {"bodies", "rigid bodies", true, &body_format()},
        {"joints", "joints between two bodies", true, &joint_format()},
        {"cables", "cables", true, &cable_format()},
-       {"ground", "a floor; absent: none", false, &ground_format()},
+       {"colliders", "bodies that touch each other; absent: nothing does", true,
+        &collider_format()},
+       {"ground", "a frictionless floor for bodies that are no colliders, too; absent: none", false,
+        &ground_format()},
        {"camera", "where pictures are taken from; absent: chosen automatically", false,
         &camera_format()},
        {"checks", "what the scene should show", true, &check_format()}},
@@ -176,6 +180,12 @@ const ObjectFormat& joint_format() {
                                    variants_of(joint_types()),
                                    {},
                                    {}};
+  return format;
+}
+
+const ObjectFormat& collider_format() {
+  static const ObjectFormat format =
+      plain_format<ColliderDef>("collider", "makes a body touch others, with the shapes it has");
   return format;
 }
 

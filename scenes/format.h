@@ -57,6 +57,7 @@ struct ObjectFormat {
 [[nodiscard]] const ObjectFormat& body_format();
 [[nodiscard]] const ObjectFormat& shape_format();
 [[nodiscard]] const ObjectFormat& joint_format();
+[[nodiscard]] const ObjectFormat& collider_format();
 [[nodiscard]] const ObjectFormat& ground_format();
 [[nodiscard]] const ObjectFormat& cable_format();
 [[nodiscard]] const ObjectFormat& link_format();

@@ -36,6 +36,9 @@ class SceneReader {
     for (const NodeId node : list(root, scene_format(), "cables")) {
       read_cable(node, scene.cables.emplace_back());
     }
+    for (const NodeId node : list(root, scene_format(), "colliders")) {
+      reader_.read_object(node, collider_format(), pointers(&scene.model.colliders.emplace_back()));
+    }
     if (has("ground")) read_plain("ground", ground_format(), &scene.model.ground.emplace());
     if (has("camera")) read_plain("camera", camera_format(), &scene.camera.emplace());
     for (const NodeId node : list(root, scene_format(), "checks")) {

@@ -53,6 +53,9 @@ struct SlotSchema {
   Json operator()(const std::optional<BodyId>*) const { return {{"type", "string"}}; }
   Json operator()(const std::vector<double>*) const { return list_schema(number()); }
   Json operator()(const std::vector<Vector3>*) const { return list_schema(vector()); }
+  Json operator()(const std::vector<std::string>*) const {
+    return list_schema({{"type", "string"}});
+  }
   Json operator()(const ChoiceSlot&) const {
     Json names = Json::array();
     for (const std::string_view choice : field.choices) names.push_back(choice);

@@ -97,6 +97,18 @@ struct ValueReader {
       }
     }
   }
+  void operator()(std::vector<std::string>* slot) const {
+    if (!is(Kind::array)) return wrong_type(slot);
+    if (too_long()) return;
+    slot->clear();
+    for (const NodeId element : source.children(node)) {
+      if (source.kind(element) != Kind::string) {
+        fail(element, "must be a string");
+        continue;
+      }
+      slot->push_back(source.string(element));
+    }
+  }
   [[nodiscard]] bool too_long() const {
     const std::size_t count = source.children(node).size();
     if (count <= max_list_length) return false;

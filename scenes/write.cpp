@@ -27,6 +27,8 @@ class SceneWriter {
     });
     add_list(root, "cables", scene_.cables,
              [&](const CableDef& cable) { return write_cable(cable); });
+    add_list(root, "colliders", model.colliders,
+             [&](const ColliderDef& collider) { return plain(collider_format(), &collider); });
     if (model.ground) root["ground"] = plain(ground_format(), &*model.ground);
     if (scene_.camera) root["camera"] = plain(camera_format(), &*scene_.camera);
     add_list(root, "checks", scene_.checks,

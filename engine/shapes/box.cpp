@@ -34,4 +34,13 @@ void Box::append_section(const SectionPlane& plane, std::vector<Vector3>& points
   append_hull_section(corners, plane, points);
 }
 
+ConvexSolid Box::solid() const {
+  std::vector<Vector3> corners;
+  append_contact_points(Vector3::UnitZ(), corners);
+  // Corner i has the sign of bit k of i along axis k.
+  return solid_of_faces(
+      corners,
+      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}});
+}
+
 }  // namespace sheave

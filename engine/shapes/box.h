@@ -18,6 +18,7 @@ class Box final : public Shape {
   [[nodiscard]] MassProperties unit_density() const override;
   void append_contact_points(const Vector3& down, std::vector<Vector3>& points) const override;
   void append_section(const SectionPlane& plane, std::vector<Vector3>& points) const override;
+  [[nodiscard]] ConvexSolid solid() const override;
   [[nodiscard]] Vector3 half_extent() const override { return 0.5 * size; }
 };
 

@@ -39,4 +39,8 @@ void Capsule::append_section(const SectionPlane& plane, std::vector<Vector3>& po
   }
 }
 
+ConvexSolid Capsule::solid() const {
+  return solid_about_segment(ConvexSolid::Kind::rounded, length, radius);
+}
+
 }  // namespace sheave

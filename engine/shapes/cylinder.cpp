@@ -40,4 +40,8 @@ void Cylinder::append_section(const SectionPlane& plane, std::vector<Vector3>& p
   append_cylinder_section(radius, length, plane, points);
 }
 
+ConvexSolid Cylinder::solid() const {
+  return solid_about_segment(ConvexSolid::Kind::cylinder, length, radius);
+}
+
 }  // namespace sheave

@@ -21,6 +21,7 @@ class Cylinder final : public Shape {
   [[nodiscard]] double wheel_radius() const override { return radius; }
   void append_contact_points(const Vector3& down, std::vector<Vector3>& points) const override;
   void append_section(const SectionPlane& plane, std::vector<Vector3>& points) const override;
+  [[nodiscard]] ConvexSolid solid() const override;
   [[nodiscard]] Vector3 half_extent() const override { return {radius, radius, 0.5 * length}; }
 };
 

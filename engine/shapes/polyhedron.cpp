@@ -83,4 +83,6 @@ void Polyhedron::append_section(const SectionPlane& plane, std::vector<Vector3>&
   append_hull_section(hull().vertices, plane, section);
 }
 
+ConvexSolid Polyhedron::solid() const { return solid_of_hull(hull()); }
+
 }  // namespace sheave

@@ -22,6 +22,7 @@ class Polyhedron final : public Shape {
   /// Every point: what is inside the hull or repeated never decides a contact.
   void append_contact_points(const Vector3& down, std::vector<Vector3>& contacts) const override;
   void append_section(const SectionPlane& plane, std::vector<Vector3>& section) const override;
+  [[nodiscard]] ConvexSolid solid() const override;
   [[nodiscard]] Vector3 half_extent() const override;
 
   /// The surface. Computed anew by each call; empty if the points are not valid.

@@ -106,4 +106,6 @@ void Prism::append_section(const SectionPlane& plane, std::vector<Vector3>& poin
   append_hull_section(corners, plane, points);
 }
 
+ConvexSolid Prism::solid() const { return solid_of_outline(hull(), length); }
+
 }  // namespace sheave

@@ -24,6 +24,7 @@ class Prism final : public Shape {
   /// Every outline point at both ends: what is inside the hull or repeated never decides a contact.
   void append_contact_points(const Vector3& down, std::vector<Vector3>& points) const override;
   void append_section(const SectionPlane& plane, std::vector<Vector3>& points) const override;
+  [[nodiscard]] ConvexSolid solid() const override;
   [[nodiscard]] Vector3 half_extent() const override;
 
   /// Corners of the cross-section at z = 0, counter-clockwise about z, without those that lie

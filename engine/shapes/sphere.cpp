@@ -24,4 +24,8 @@ void Sphere::append_section(const SectionPlane& plane, std::vector<Vector3>& poi
   append_ball_section(Vector3::Zero(), radius, plane, points);
 }
 
+ConvexSolid Sphere::solid() const {
+  return solid_about_segment(ConvexSolid::Kind::rounded, 0.0, radius);
+}
+
 }  // namespace sheave

@@ -19,6 +19,7 @@ class Sphere final : public Shape {
   [[nodiscard]] double wheel_radius() const override { return radius; }
   void append_contact_points(const Vector3& down, std::vector<Vector3>& points) const override;
   void append_section(const SectionPlane& plane, std::vector<Vector3>& points) const override;
+  [[nodiscard]] ConvexSolid solid() const override;
   [[nodiscard]] Vector3 half_extent() const override { return Vector3::Constant(radius); }
 };
 

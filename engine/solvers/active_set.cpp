@@ -70,7 +70,7 @@ bool ActiveSetSolver::solve(ComplementarityProblem& problem) {
     if (violated_.empty()) {
       const int blocking = blocking_unknown(problem);
       if (blocking < 0) return true;
-      problem.free[at(blocking)] = 0;
+      problem.free[at(blocking)] = blocked_above_ ? ComplementarityProblem::at_upper : 0;
       ++changes_;
       fewest = problem.size + 1;
       continue;
@@ -182,12 +182,14 @@ int ActiveSetSolver::first_blocked(const ComplementarityProblem& problem, int re
   for (int i = 0; i < problem.size; ++i) {
     const double rate = direction * null_vector_[at(i)];
     if (problem.free[at(i)] != 1 || !(std::abs(rate) > still)) continue;
-    const double bound = rate < 0.0 ? problem.lower[at(i)] : problem.upper[at(i)];
+    const bool above = rate > 0.0;
+    const double bound = !above ? problem.lower[at(i)] : problem.upper[at(i)];
     const double way = (bound - solution_[at(i)]) / rate;
     // Of unknowns that are blocked alike the redundant one itself stays free, which is what it needs.
     if (way < nearest || (way == nearest && blocked == redundant)) {
       nearest = way;
       blocked = i;
+      blocked_above_ = above;
     }
   }
   return blocked;

@@ -78,6 +78,7 @@ class ActiveSetSolver {
   std::vector<double> lower_values_;
   std::vector<int> violated_;
   std::vector<double> null_vector_;
+  bool blocked_above_ = false;  ///< by which of its bounds
   int changes_ = 0;
   int dropped_ = 0;
 };

@@ -135,7 +135,7 @@ void RowSystem::set_backward(const Substep& substep, std::size_t g) {
     const double gamma = row.compliance * row.damping / substep.h;
     value += row.value;
     if (gamma > 0.0) value += gamma * substep_change(row, substep.moving);
-    compliance += row.weight * row.compliance / (substep.h * substep.h);
+    compliance += row.weight * (row.compliance / (substep.h * substep.h) + row.softness);
     softest = std::max(softest, gamma);
     active = active || row.active;
   }
@@ -152,6 +152,7 @@ void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
   double value = 0.0;
   double start = 0.0;
   double compliance = 0.0;
+  double softness = 0.0;
   double gamma = 0.0;
   bool active = false;
   for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
@@ -159,6 +160,7 @@ void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
     value += row.value;
     start += start_values_[at(i)];
     compliance += row.weight * row.compliance * 4.0 / (substep.h * substep.h);
+    softness += row.weight * row.softness;
     gamma = std::max(gamma, 2.0 * row.compliance * row.damping / substep.h);
     active = active || row.active;
   }
@@ -166,6 +168,7 @@ void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
   if (first.upper == 0.0) start = std::max(start, 0.0);
   if (compliance > 0.0) value = (1.0 + gamma) * value + (1.0 - gamma) * start;
   group.scale = 1.0 / (1.0 + gamma);
+  compliance += softness;
   problem_.diagonal[g] = group.scale * compliance;
   problem_.constant[g] = group.scale * (value + compliance * group.multiplier);
   set_bounds(g, std::isfinite(first.lower) ? value < 0.0 : value > 0.0, active);

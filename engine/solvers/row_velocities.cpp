@@ -38,6 +38,7 @@ void RowSystem::linearise_velocities(Substep& substep, Features features) {
     for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
       value += rows_[at(i)].value;
       rate += rate_of(substep, rows_[at(i)]);
+      problem_.diagonal[g] += rows_[at(i)].weight * rows_[at(i)].softness;
     }
     const bool acts = !group.elastic && (group.multiplier != 0.0 || std::abs(value) <= closed ||
                                          (std::isfinite(first.lower) && value < 0.0) ||

@@ -66,6 +66,7 @@ class RandomFields {
       if (field.name != "outline") return;
       for (Vector3& point : *x) point.z() = 0.0;  // outlines lie in this plane
     }
+    void operator()(std::vector<std::string>* x) const { x->assign(1, "a group"); }
     void operator()(const ChoiceSlot& x) const {
       x.set(x.object, random.pick(static_cast<int>(field.choices.size())));
     }
@@ -85,6 +86,9 @@ class RandomScene {
     for (int i = 0; i < 12; ++i) attempt([&] { add_body(); });
     for (int i = 0; i < 40; ++i) attempt([&] { add_joint(); });
     for (int i = 0; i < 12; ++i) attempt([&] { add_cable(); });
+    for (int i = 0; i < 12; ++i) {
+      attempt([&] { fill(ColliderDef::field_table(), &scene_.model.colliders.emplace_back()); });
+    }
     attempt([&] { fill(GroundDef::field_table(), &scene_.model.ground.emplace()); });
     for (int i = 0; i < 4 && !scene_.camera; ++i) {
       attempt([&] { fill(CameraDef::field_table(), &scene_.camera.emplace()); });

@@ -1,0 +1,67 @@
+#include "engine/contacts/collider.h"
+
+#include <array>
+
+#include "engine/body_set.h"
+#include "engine/field_check.h"
+#include "engine/index.h"
+#include "engine/model.h"
+
+namespace sheave {
+
+std::span<const Field> ColliderDef::field_table() {
+  static const std::array table{
+      field<&ColliderDef::body>("body", "", {}, required, "a body with at least one shape"),
+      field<&ColliderDef::friction>("friction", "", at_least(0.0), optional,
+                                    "coefficient while sliding; of a pair the geometric mean"),
+      field<&ColliderDef::static_friction>("static_friction", "", at_least(0.0), optional,
+                                           "the same while sticking (default: friction)"),
+      field<&ColliderDef::restitution>(
+          "restitution", "", between(0.0, 1.0), optional,
+          "speed of parting over speed of meeting; of a pair the larger one. Bodies that meet more "
+          "slowly than gravity would make them in two substeps do not bounce"),
+      field<&ColliderDef::compliance>("compliance", "m/N", at_least(0.0), optional,
+                                      "of each point of contact; of a pair the sum; 0 is rigid"),
+      field<&ColliderDef::groups>("groups", "", {}, optional,
+                                  "groups it belongs to, names of your choice"),
+      field<&ColliderDef::ignores>("ignores", "", {}, optional,
+                                   "groups whose members it does not touch"),
+  };
+  return table;
+}
+
+Errors check_colliders(const Model& model, const BodySet& bodies) {
+  Errors errors;
+  std::vector<char> taken(at(bodies.count()), 0);
+  for (std::size_t i = 0; i < model.colliders.size(); ++i) {
+    const ColliderDef& collider = model.colliders[i];
+    const std::string path = "/colliders/" + std::to_string(i);
+    check_fields(ColliderDef::field_table(), &collider, path, errors);
+    if (collider.body.is_world() || !bodies.contains(collider.body)) {
+      errors.push_back(
+          {path + "/body", "a collider needs a body; for a floor use a static body with a shape"});
+      continue;
+    }
+    const std::string& name = bodies.name(collider.body.index);
+    const auto fail = [&](const char* field, const std::string& message) {
+      errors.push_back({path + field, "collider of \"" + name + "\": " + message});
+    };
+    if (bodies.definition(collider.body.index).shapes.empty()) {
+      fail("/body", "the body has no shape that could touch anything; give it one");
+    }
+    if (bodies[collider.body.index].massless()) {
+      fail("/body", "a wheel without spin inertia cannot touch anything but its cable");
+    }
+    if (taken[at(collider.body.index)] != 0) {
+      fail("/body", "the body has a collider already; one serves all of its shapes");
+    }
+    taken[at(collider.body.index)] = 1;
+    if (collider.static_friction && *collider.static_friction < collider.friction) {
+      fail("/static_friction", "must be at least friction, " + number_text(collider.friction) +
+                                   "; nothing holds less well at rest than while sliding");
+    }
+  }
+  return errors;
+}
+
+}  // namespace sheave

@@ -1,0 +1,162 @@
+// An impact within a substep. The gap starts at c with the rate w and the acceleration a of free bodies; it closes after
+//   T = 2 c / (|w| + |w_i|)  with  w_i^2 = w^2 - 2 a c,
+// and with restitution e it is, at the end of the substep h,
+//   target = e |w_i| (h - T) + a (h - T)^2 / 2,   and grows at  e |w_i| + a (h - T).
+// So a ball loses nothing of its height by where in a substep it meets the floor. `xpbd` keeps the mean velocity of a
+// substep for the velocity of a body, so its w is that plus a h / 2 and its new velocity is that less a h / 2. Bodies that
+// meet at less than 2 |a| h do not bounce: they would for ever.
+//
+// Tangents. What slides has friction against its sliding and none across it, so it has one row, along its velocity at the
+// start. (A second one would hold it to that direction.) What is slow enough to stop, or sticks, has two. They bound the
+// force by a square, which is right along its axes and too large by up to sqrt(2) between them; so the first axis is the
+// direction of the force that the whole manifold holds: were it that of each point, points that press against each other
+// sideways could together hold more than they should.
+//
+// A rigid contact that overlaps at the start is opened by a fifth per substep only, because the velocity that opening it at
+// once would leave behind is energy that nobody has put in.
+
+#include "engine/contacts/contact.h"
+
+#include <cmath>
+
+namespace sheave {
+namespace {
+
+constexpr double opened_share = 0.2;
+constexpr double slow_impact = 2.0;  // of what gravity does in a substep
+/// Share of a row's own yield by which solvers of all rows soften it: between the corners of a box, which four rows hold
+/// where three would do, it shares the load. It lets contacts sink by this share of what the load would move the body by in a
+/// substep if nothing held it.
+constexpr double softened_share = 1e-8;
+
+/// Rotation of a body since the start of the substep [rad]; a mounted rotor has its own about its axle.
+Vector3 turn_of(const Substep& substep, int body) {
+  const int mount = substep.bodies[body].mount;
+  const Vector3& own = substep.moving[at(body)].turn;
+  if (mount < 0) return own;
+  const MovingBody& carrier = substep.moving[at(mount)];
+  const Vector3 axis = carrier.orientation * substep.bodies[body].axis;
+  return carrier.turn + axis * dot(axis, own - carrier.turn);
+}
+
+void choose_tangents(const Vector3& sliding, Contact& contact) {
+  const Vector3 along = sliding - contact.normal * dot(contact.normal, sliding);
+  const double length = along.norm();
+  contact.tangents[0] =
+      length > 1e-9 * sliding.norm() ? Vector3(along / length) : any_perpendicular(contact.normal);
+  contact.tangents[1] = cross(contact.normal, contact.tangents[0]);
+}
+
+/// w of the row along the first tangent [1/kg].
+double tangent_yield(const Substep& substep, const Contact& contact) {
+  Row row;
+  RowResponse response;
+  contact.evaluate(substep, 1, row);
+  respond(row, substep.moving, response);
+  return response.inverse_mass;
+}
+
+void meet(const Substep& substep, double restitution, double rate, double acceleration,
+          Contact& contact) {
+  const double h = substep.h;
+  const double shift = substep.load_share == 1.0 ? 0.5 * h * acceleration : 0.0;
+  const double closing = -(rate + shift);
+  const double gap = std::max(contact.start_gap, 0.0);
+  const double square = closing * closing - 2.0 * acceleration * gap;
+  if (!(closing > 0.0) || !(square > 0.0)) return;
+  const double impact = std::sqrt(square);
+  const double left = h - 2.0 * gap / (closing + impact);
+  if (!(left > 0.0) || impact <= slow_impact * std::abs(acceleration) * h) return;
+  const double target = left * (restitution * impact + 0.5 * acceleration * left);
+  const double rebound = restitution * impact + acceleration * left;
+  if (!(target >= 0.0) || !(rebound > 0.0)) return;
+  contact.target = target;
+  contact.rebound = rebound;
+  contact.rebound_stored = std::max(0.0, rebound - shift);
+}
+
+}  // namespace
+
+Vector3 start_velocity(const Substep& substep, int body, const Vector3& point) {
+  const BodyState& state = substep.start.bodies[at(body)];
+  return state.velocity + cross(state.angular_velocity, point - state.position);
+}
+
+void prepare_contact(const Substep& substep, const ContactMaterial& material,
+                     const Vector3& free_acceleration, const Vector3& held, double pressure,
+                     bool is_new, Contact& contact) {
+  const double h = substep.h;
+  const Vector3 surface_a = contact.start_a - contact.radius_a * contact.normal;
+  const Vector3 surface_b = contact.start_b + contact.radius_b * contact.normal;
+  const Vector3 velocity = start_velocity(substep, contact.body_a, surface_a) -
+                           start_velocity(substep, contact.body_b, surface_b);
+  const double rate = dot(contact.normal, velocity);
+  const Vector3 sliding = velocity - rate * contact.normal;
+  contact.compliance = material.compliance;
+  if (material.friction > 0.0 || material.static_friction > 0.0) {
+    // Up to this speed friction may bring the point to rest within the substep.
+    choose_tangents(sliding.norm() > 0.0 ? sliding : free_acceleration, contact);
+    const double pressing =
+        std::max(pressure * tangent_yield(substep, contact), free_acceleration.norm());
+    const double stoppable = h * material.friction * pressing;
+    const bool slow = sliding.norm() <= stoppable;
+    if (is_new) contact.stuck = slow;
+    contact.rows = slow ? 3 : 2;
+    // A velocity much below that is mostly rounding.
+    if (contact.stuck || sliding.norm() <= 0.01 * stoppable) {
+      choose_tangents(held.squaredNorm() > 0.0 ? Vector3(-held) : free_acceleration, contact);
+    }
+    contact.friction = contact.stuck ? material.static_friction : material.friction;
+  }
+  contact.target = 0.0;
+  if (material.compliance == 0.0) {
+    if (contact.start_gap < 0.0) contact.target = (1.0 - opened_share) * contact.start_gap;
+    if (material.restitution > 0.0) {
+      meet(substep, material.restitution, rate, dot(contact.normal, free_acceleration), contact);
+    }
+  }
+  Row row;
+  RowResponse response;
+  for (int i = 0; i < contact.rows; ++i) {
+    row.clear();
+    contact.evaluate(substep, i, row);
+    respond(row, substep.moving, response);
+    contact.softness[at(i)] = softened_share * response.inverse_mass;
+  }
+}
+
+double Contact::gap(const Substep& substep) const {
+  return dot(normal, substep.point(body_a, own_a) - substep.point(body_b, own_b)) - radius_a -
+         radius_b;
+}
+
+Vector3 Contact::slip(const Substep& substep) const {
+  const Vector3 path_a =
+      substep.point(body_a, own_a) - start_a - radius_a * cross(turn_of(substep, body_a), normal);
+  const Vector3 path_b =
+      substep.point(body_b, own_b) - start_b + radius_b * cross(turn_of(substep, body_b), normal);
+  return slipped + path_a - path_b;
+}
+
+void Contact::evaluate(const Substep& substep, int index, Row& row) const {
+  const Vector3 surface_a = substep.point(body_a, own_a) - radius_a * normal;
+  const Vector3 surface_b = substep.point(body_b, own_b) + radius_b * normal;
+  row.softness = softness[at(index)];
+  if (index == 0) {
+    row.value = dot(normal, surface_a - surface_b) - target;
+    row.rate = -rebound;
+    row.compliance = compliance;
+    row.lower = 0.0;
+    substep.add_force(row, body_a, surface_a, normal);
+    substep.add_force(row, body_b, surface_b, -normal);
+    return;
+  }
+  const Vector3& tangent = tangents[at(index - 1)];
+  row.value = dot(tangent, slip(substep));
+  row.upper = friction * pressed;
+  row.lower = -row.upper;
+  substep.add_force(row, body_a, surface_a, tangent);
+  substep.add_force(row, body_b, surface_b, -tangent);
+}
+
+}  // namespace sheave

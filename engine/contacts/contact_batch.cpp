@@ -1,0 +1,303 @@
+// All points of contact. Found anew at the start of every substep and matched with those of the last one, so that friction
+// knows what it holds and the solver begins with the last forces.
+//
+// In a sweep of Gauss-Seidel friction is bounded by the normal multiplier of the moment. A solver of all rows at once gets
+// bounds from its last round, or the last substep, and revise() asks for another round until they agree.
+
+#include "engine/contacts/contact_batch.h"
+
+#include <algorithm>
+
+#include "engine/contacts/contact_state.h"
+#include "engine/contacts/rebound.h"
+#include "engine/model.h"
+
+namespace sheave {
+namespace {
+
+/// Relative change of a normal force below which the bounds of friction count as found.
+constexpr double settled_share = 1e-7;
+/// A point of contact is the same as one of the last substep if it is no farther away on one of the bodies than this share
+/// of the smaller form.
+constexpr double same_point = 0.05;
+
+class ContactBatch final : public ConstraintBatch {
+ public:
+  ContactBatch(const Model& model, const BodySet& bodies) : finder_(model, bodies) {
+    for (const ColliderDef& collider : model.colliders) {
+      bounces_ = bounces_ || collider.restitution > 0.0;
+    }
+  }
+
+  [[nodiscard]] std::string_view name() const override { return "contacts"; }
+  [[nodiscard]] FeatureState initial_state() const override { return {}; }
+  [[nodiscard]] bool has_fixed_size() const override { return false; }
+  [[nodiscard]] bool accepts(const FeatureState& state) const override {
+    const std::size_t count = contact_count(state);
+    if (state.integers.size() != count * ContactRecord::integers) return false;
+    if (state.reals.size() != count * ContactRecord::reals) return false;
+    const auto forms = static_cast<std::int64_t>(finder_.forms().size());
+    for (std::size_t i = 0; i < count; ++i) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        const std::int64_t form = state.integers[i * ContactRecord::integers + k];
+        if (form < 0 || form >= forms) return false;
+      }
+    }
+    return true;
+  }
+  [[nodiscard]] int row_count() const override {
+    int rows = 0;
+    for (const Contact& contact : contacts_) rows += contact.rows;
+    return rows;
+  }
+
+  void begin(const Substep& substep, const FeatureState& state) override {
+    contacts_.clear();
+    std::size_t old = 0;
+    finder_.find(substep, [&](const FormPair& pair, const Manifold& manifold) {
+      add_manifold(substep, state, pair, manifold, old);
+    });
+    multipliers_.assign(3 * contacts_.size(), 0.0);
+    warm_ = true;
+  }
+
+  double sweep(Substep& substep) override {
+    if (warm_) push_as_before(substep);
+    double correction = 0.0;
+    Row row;
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      row.clear();
+      contacts_[i].evaluate(substep, 0, row);
+      double& normal = multipliers_[3 * i];
+      if (row.value < 0.0 || normal != 0.0) {
+        correction = std::max(correction, solve_row(row, substep.h, normal, substep.moving));
+      }
+      contacts_[i].pressed = normal;
+    }
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      Contact& contact = contacts_[i];
+      contact.slips = false;
+      if (contact.friction == 0.0) continue;
+      for (std::size_t k = 1; k < at(contact.rows); ++k) {
+        double& multiplier = multipliers_[3 * i + k];
+        if (contact.pressed == 0.0 && multiplier == 0.0) continue;
+        row.clear();
+        contact.evaluate(substep, static_cast<int>(k), row);
+        correction = std::max(correction, solve_row(row, substep.h, multiplier, substep.moving));
+      }
+      note_slip(i);
+    }
+    return correction;
+  }
+
+  void linearise(Substep& substep, std::vector<Row>& rows) override {
+    warm_ = false;
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      const Contact& contact = contacts_[i];
+      for (int k = 0; k < contact.rows; ++k) {
+        Row& row = rows.emplace_back();
+        contact.evaluate(substep, k, row);
+        row.index = static_cast<int>(3 * i) + k;
+        row.active = k == 0 ? contact.last_force[0] > 0.0 : contact.stuck || k == 2;
+      }
+    }
+  }
+  [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
+
+  bool revise(Substep& substep) override {
+    bool changed = false;
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      Contact& contact = contacts_[i];
+      if (contact.friction == 0.0) continue;
+      note_slip(i);
+      // Positions of `rattle` carry half of the force.
+      const double now = multipliers_[3 * i] / substep.load_share;
+      // Where friction does not use what it has, having more or less changes nothing.
+      const double needed =
+          std::max(std::abs(multipliers_[3 * i + 1]), std::abs(multipliers_[3 * i + 2])) /
+          substep.load_share;
+      const bool matters = contact.slips || needed > contact.friction * now;
+      const double change = std::abs(now - contact.pressed);
+      if (matters && change > settled_share * std::max(now, contact.pressed)) changed = true;
+      contact.pressed = now;
+    }
+    return changed;
+  }
+
+  [[nodiscard]] bool corrects_velocities() const override { return bounces_; }
+  void correct_velocities(Substep& substep) override {
+    rebound_.run(substep, contacts_, multipliers_);
+  }
+
+  void finish(Substep& substep, FeatureState& next) override {
+    next.integers.clear();
+    next.reals.clear();
+    const double inverse_square = 1.0 / (substep.h * substep.h);
+    StepStatistics& statistics = substep.statistics;
+    statistics.contacts = std::max(statistics.contacts, static_cast<int>(contacts_.size()));
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      const Contact& contact = contacts_[i];
+      ContactRecord record;
+      record.forms = contact.forms;
+      record.own_a = contact.own_a;
+      record.own_b = contact.own_b;
+      record.normal = contact.normal;
+      record.point =
+          substep.point(contact.body_a, contact.own_a) - contact.radius_a * contact.normal;
+      record.force = inverse_square * multipliers_[3 * i];
+      for (std::size_t k = 0; k < 2 && contact.friction > 0.0; ++k) {
+        record.friction += inverse_square * multipliers_[3 * i + 1 + k] * contact.tangents[k];
+      }
+      record.gap = contact.gap(substep);
+      const bool touches = multipliers_[3 * i] > 0.0;
+      record.sticks = contact.friction > 0.0 && (touches ? !contact.slips : contact.stuck);
+      if (record.sticks && touches) {
+        record.slipped = contact.slip(substep);
+        record.slipped -= contact.normal * dot(contact.normal, record.slipped);
+      }
+      statistics.deepest_overlap = std::max(statistics.deepest_overlap, -record.gap);
+      append_contact(record, next);
+    }
+  }
+
+  [[nodiscard]] double elastic_energy(const BodySet& /*bodies*/, const State& /*state*/,
+                                      const FeatureState& own) const override {
+    double energy = 0.0;
+    for (std::size_t i = 0; i < contact_count(own); ++i) {
+      const ContactRecord record = read_contact(own, i);
+      energy += 0.5 * finder_.material(record.forms).compliance * record.force * record.force;
+    }
+    return energy;
+  }
+
+ private:
+  /// Appends the points of one pair. `old` is the first record of the state that is not of an earlier pair.
+  void add_manifold(const Substep& substep, const FeatureState& state, const FormPair& pair,
+                    const Manifold& manifold, std::size_t& old) {
+    const auto key = [](const FormPair& p) { return std::minmax(p.a, p.b); };
+    const std::size_t count = contact_count(state);
+    records_.clear();
+    for (; old < count; ++old) {
+      const ContactRecord record = read_contact(state, old);
+      if (key(pair) < key(record.forms)) break;
+      if (key(pair) == key(record.forms)) records_.push_back(record);
+    }
+    Vector3 held = Vector3::Zero();
+    double pressure = 0.0;
+    for (const ContactRecord& record : records_) {
+      held += record.friction;
+      pressure += record.force;
+    }
+    for (const ContactPoint& point : manifold.points) {
+      Contact& contact = contacts_.emplace_back();
+      contact.forms = pair;
+      contact.body_a = finder_.forms()[at(pair.a)].body;
+      contact.body_b = finder_.forms()[at(pair.b)].body;
+      contact.normal = manifold.normal;
+      contact.start_a = point.core_a;
+      contact.start_b = point.core_b;
+      contact.radius_a = point.radius_a;
+      contact.radius_b = point.radius_b;
+      contact.start_gap = point.gap;
+      contact.own_a = own_point(substep, contact.body_a, point.core_a);
+      contact.own_b = own_point(substep, contact.body_b, point.core_b);
+      const ContactRecord* last = take_record(contact, manifold.points.size());
+      Vector3 friction = Vector3::Zero();
+      if (last != nullptr) {
+        friction = last->friction;
+        contact.stuck = last->sticks;
+        contact.slipped = last->slipped;
+      }
+      prepare_contact(
+          substep, finder_.material(pair),
+          finder_.free_acceleration(contact.body_a) - finder_.free_acceleration(contact.body_b),
+          held, pressure, last == nullptr, contact);
+      if (last != nullptr) {
+        contact.last_force = {last->force, friction.dot(contact.tangents[0]),
+                              friction.dot(contact.tangents[1])};
+      }
+      contact.pressed = contact.last_force[0] * substep.h * substep.h;
+    }
+  }
+
+  static Vector3 own_point(const Substep& substep, int body, const Vector3& point) {
+    return substep.orientation(body).conjugate() * (point - substep.position(body));
+  }
+
+  /// The record of the same point, nearest first come; null if there is none. It then is nobody else's.
+  const ContactRecord* take_record(const Contact& contact, std::size_t points) {
+    ContactRecord* best = nullptr;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (ContactRecord& record : records_) {
+      if (record.forms.a < 0) continue;
+      const double distance =
+          std::min((record.own_a - contact.own_a).norm(), (record.own_b - contact.own_b).norm());
+      if (!(distance < nearest)) continue;
+      nearest = distance;
+      best = &record;
+    }
+    if (best == nullptr) return nullptr;
+    double size = finder_.forms()[at(contact.forms.a)].spread;
+    const double other = finder_.forms()[at(contact.forms.b)].spread;
+    if (other > 0.0) size = std::min(size, other);
+    if (nearest > same_point * size && (points > 1 || records_.size() > 1)) return nullptr;
+    best->forms.a = -1;
+    return best;
+  }
+
+  /// Begins with the multipliers of the last substep: what rests in equilibrium stays there in one sweep.
+  void push_as_before(Substep& substep) {
+    warm_ = false;
+    Row row;
+    RowResponse response;
+    const double square = substep.h * substep.h;
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      for (int k = 0; k < contacts_[i].rows; ++k) {
+        const double multiplier = contacts_[i].last_force[at(k)] * square;
+        if (multiplier == 0.0) continue;
+        row.clear();
+        contacts_[i].evaluate(substep, k, row);
+        respond(row, substep.moving, response);
+        multipliers_[3 * i + at(k)] = multiplier;
+        apply_multiplier(row, response, multiplier, substep.moving);
+      }
+    }
+  }
+
+  void note_slip(std::size_t i) {
+    Contact& contact = contacts_[i];
+    const double limit = (1.0 - 1e-9) * contact.friction * contact.pressed;
+    contact.slips =
+        std::abs(multipliers_[3 * i + 1]) >= limit || std::abs(multipliers_[3 * i + 2]) >= limit;
+  }
+
+  ContactFinder finder_;
+  bool bounces_ = false;
+  // Scratch of a substep.
+  std::vector<Contact> contacts_;
+  std::vector<double> multipliers_;  // three per contact
+  std::vector<ContactRecord> records_;
+  bool warm_ = false;
+  Rebound rebound_;
+};
+
+}  // namespace
+
+std::unique_ptr<ConstraintBatch> make_contact_batch(const Model& model, const BodySet& bodies) {
+  return std::make_unique<ContactBatch>(model, bodies);
+}
+
+std::vector<ContactReport> report_contacts(const Model& model, const BodySet& bodies,
+                                           const FeatureState& state) {
+  const ContactFinder finder(model, bodies);
+  const auto body_of = [&](int form) { return BodyId{finder.forms()[at(form)].body}; };
+  std::vector<ContactReport> reports;
+  for (std::size_t i = 0; i < contact_count(state); ++i) {
+    const ContactRecord record = read_contact(state, i);
+    reports.push_back({body_of(record.forms.a), body_of(record.forms.b), record.point,
+                       record.normal, record.gap, record.force, record.friction, record.sticks});
+  }
+  return reports;
+}
+
+}  // namespace sheave

@@ -1,0 +1,93 @@
+#pragma once
+// The colliders of a model and where they touch.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/contacts/broad_phase.h"
+#include "engine/contacts/manifold.h"
+#include "engine/substep.h"
+
+namespace sheave {
+
+struct Model;
+
+/// One shape of a collider.
+struct ContactForm {
+  int body = 0;
+  int collider = 0;  ///< index into Model::colliders
+  ConvexSolid solid;
+  Vector3 position = Vector3::Zero();  ///< of the shape's origin, the body's own frame [m]
+  Quaternion orientation = Quaternion::Identity();  ///< shape frame to own frame
+  double radius =
+      0.0;  ///< of the ball about the shape's origin that contains it [m]; infinite of a half-space
+  double turning_arm =
+      0.0;  ///< how far from the centre of mass a rotation moves its surface out of itself [m]
+  double spread = 0.0;  ///< edge length of the smallest cube it fits in [m]; 0 of a half-space
+};
+
+/// What a pair of colliders has in common.
+struct ContactMaterial {
+  double friction = 0.0;
+  double static_friction = 0.0;
+  double restitution = 0.0;
+  double compliance = 0.0;  ///< [m/N]
+};
+
+/// One manifold and the forms that it lies between; `b` is the later one, or a half-space.
+struct FormPair {
+  int a = 0;
+  int b = 0;
+};
+
+class ContactFinder {
+ public:
+  ContactFinder(const Model& model, const BodySet& bodies);
+
+  /// Calls `use(pair, manifold)` for every pair of forms with points that touch or may do so within the substep, which is
+  /// at its start, in ascending order of the pairs. Points may be apart by what the motion of the substep can close.
+  template <class Use>
+  void find(const Substep& substep, const Use& use) {
+    place(substep);
+    for (const auto& [i, j] : broad_phase_.find(bounds_)) {
+      FormPair pair{i, j};
+      if (!may_touch(pair)) continue;
+      if (forms_[at(i)].solid.kind == ConvexSolid::Kind::half_space) std::swap(pair.a, pair.b);
+      const double margin = margins_[at(i)] + margins_[at(j)];
+      find_contacts(placed_[at(pair.a)], placed_[at(pair.b)], margin, manifold_);
+      if (!manifold_.points.empty()) use(pair, manifold_);
+    }
+  }
+
+  [[nodiscard]] std::span<const ContactForm> forms() const { return forms_; }
+  [[nodiscard]] const ContactMaterial& material(const FormPair& pair) const;
+  /// Acceleration [m/s2] of a body that nothing holds, for gravity and its constant force.
+  [[nodiscard]] const Vector3& free_acceleration(int body) const {
+    return accelerations_[at(body)];
+  }
+
+ private:
+  void add_forms(const Model& model, const BodySet& bodies);
+  void exclude_pairs(const Model& model, const BodySet& bodies);
+  void combine_materials(const Model& model);
+  void place(const Substep& substep);
+  [[nodiscard]] bool may_touch(const FormPair& pair) const;
+  [[nodiscard]] std::size_t pair_of_colliders(int a, int b) const {
+    return at(forms_[at(a)].collider) * collider_count_ + at(forms_[at(b)].collider);
+  }
+
+  std::size_t collider_count_ = 0;
+  std::vector<ContactForm> forms_;
+  std::vector<char> apart_;  // per pair of colliders: whether they never touch
+  std::vector<ContactMaterial> materials_;
+  // Scratch.
+  std::vector<Vector3> accelerations_;  // per body
+  std::vector<PlacedSolid> placed_;
+  std::vector<double> margins_;
+  std::vector<Bounds> bounds_;
+  BroadPhase broad_phase_;
+  Manifold manifold_;
+};
+
+}  // namespace sheave

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "engine/body_id.h"
+#include "engine/vector.h"
+
+namespace sheave {
+
+/// One point in which two bodies touch or are about to, at the end of the last substep.
+struct ContactReport {
+  BodyId body_a;
+  BodyId body_b;
+  Vector3 point = Vector3::Zero();           ///< on the surface of body A [m], world frame
+  Vector3 normal = Vector3::UnitY();         ///< unit length, from B to A
+  double gap = 0.0;                          ///< [m]; < 0: depth of the overlap
+  double normal_force = 0.0;                 ///< on A along the normal [N], >= 0
+  Vector3 friction_force = Vector3::Zero();  ///< on A, across the normal [N]
+  bool sticks = false;                       ///< whether friction holds the point
+};
+
+}  // namespace sheave

@@ -1,0 +1,177 @@
+// A cylinder B against anything: each way in which a flat end, a rim or the mantle can touch a corner, an edge, a face, a
+// rim or a mantle gives a direction, and the one with the largest gap counts.
+//
+//   flat end       the cylinder's axis
+//   corner         from the nearest point of the cylinder to it
+//   mantle, edge   axis x edge
+//   rim, edge      tangent of the rim x edge, at the point of the rim that is nearest to the edge's line
+//   rim, rim       tangent x tangent, at the nearest points of the two circles
+//   rim, mantle    from the other axis to the point of the rim that is nearest to it
+//
+// Nearest points of circles are found by projecting back and forth. A direction that is a little off has a gap that is too
+// small by the square of that.
+
+#include <limits>
+
+#include "engine/contacts/contact_axis.h"
+
+namespace sheave {
+namespace {
+
+constexpr int projections = 24;
+
+struct Circle {
+  Vector3 center;
+  Vector3 axis;
+  double radius;
+  [[nodiscard]] Vector3 nearest(const Vector3& point) const {
+    Vector3 out = point - center;
+    out -= axis * dot(axis, out);
+    const double length = out.norm();
+    return center + radius * (length > 0.0 ? Vector3(out / length) : any_perpendicular(axis));
+  }
+  [[nodiscard]] Vector3 tangent(const Vector3& point) const {
+    return cross(axis, point - center) / radius;
+  }
+};
+
+class Search {
+ public:
+  Search(const PlacedSolid& a, const PlacedSolid& b, double margin)
+      : a_(a), b_(b), margin_(margin), axis_(b.axis()) {
+    best_.gap = -std::numeric_limits<double>::infinity();
+  }
+
+  ContactAxis run() {
+    try_both(axis_);
+    for (const Vector3& corner : a_.vertices) {
+      if (!a_.is(ConvexSolid::Kind::cylinder)) try_corner(corner);
+    }
+    for (std::size_t f = 0; f < a_.solid->faces.size(); ++f) try_one(-a_.face_normal(f));
+    if (done()) return best_;
+    for (const ConvexSolid::Edge& edge : a_.solid->edges) {
+      try_both(cross(axis_, a_.edge_vector(edge)));
+      if (!a_.is(ConvexSolid::Kind::cylinder)) try_rims(edge);
+      if (done()) return best_;
+    }
+    if (a_.is(ConvexSolid::Kind::cylinder)) try_cylinder();
+    return best_;
+  }
+
+ private:
+  [[nodiscard]] bool done() const { return best_.gap > margin_; }
+
+  void try_one(const Vector3& direction) {
+    const double length = direction.norm();
+    if (!(length > 1e-9)) return;
+    const Vector3 normal = direction / length;
+    const double gap = gap_along(a_, b_, normal);
+    if (!(gap > best_.gap)) return;
+    best_.normal = normal;
+    best_.gap = gap;
+  }
+  void try_both(const Vector3& direction) {
+    const double length = direction.norm();
+    if (!(length > 0.0)) return;
+    try_one(direction / length);
+    try_one(-direction / length);
+  }
+
+  void try_corner(const Vector3& corner) {
+    const Vector3 middle = 0.5 * (b_.first() + b_.last());
+    const double half = 0.5 * (b_.last() - b_.first()).norm();
+    const double along = dot(axis_, corner - middle);
+    const Vector3 out = corner - middle - along * axis_;
+    const double distance = out.norm();
+    const double radius = b_.solid->radius;
+    if (distance > 0.0) try_one(out / distance);
+    if (std::abs(along) > half && distance > radius) {
+      const Vector3 rim = middle + std::copysign(half, along) * axis_ + out * (radius / distance);
+      const Vector3 from = corner - rim;
+      if (from.norm() > 1e-9 * radius) try_one(from.normalized());
+    }
+  }
+
+  void try_rims(const ConvexSolid::Edge& edge) {
+    const Vector3& from = a_.vertices[at(edge.from)];
+    const Vector3 along = a_.edge_vector(edge);
+    const double square = dot(along, along);
+    for (const Vector3& center : b_.vertices) {
+      const Circle rim{center, axis_, b_.solid->radius};
+      Vector3 on_line = from + 0.5 * along;
+      Vector3 on_rim = rim.nearest(on_line);
+      for (int i = 0; i < projections; ++i) {
+        on_line = from + along * (dot(along, on_rim - from) / square);
+        on_rim = rim.nearest(on_line);
+      }
+      try_both(cross(rim.tangent(on_rim), along));
+    }
+  }
+
+  void try_cylinder() {
+    try_both(a_.axis());
+    const Vector3 across = a_.first() - b_.first();
+    try_both(across - axis_ * dot(axis_, across));
+    for (const Vector3& center : b_.vertices) {
+      const Circle rim{center, axis_, b_.solid->radius};
+      try_mantle(rim, a_);
+      for (const Vector3& other : a_.vertices) {
+        const Circle second{other, a_.axis(), a_.solid->radius};
+        Vector3 p = rim.nearest(other);
+        Vector3 q = second.nearest(p);
+        for (int i = 0; i < projections; ++i) {
+          p = rim.nearest(q);
+          q = second.nearest(p);
+        }
+        try_both(cross(rim.tangent(p), second.tangent(q)));
+      }
+    }
+    for (const Vector3& center : a_.vertices) {
+      try_mantle({center, a_.axis(), a_.solid->radius}, b_);
+    }
+  }
+
+  void try_mantle(const Circle& rim, const PlacedSolid& other) {
+    const Vector3 along = other.axis();
+    const Vector3& on_axis = other.first();
+    Vector3 foot = on_axis + along * dot(along, rim.center - on_axis);
+    Vector3 on_rim = rim.nearest(foot);
+    for (int i = 0; i < projections; ++i) {
+      foot = on_axis + along * dot(along, on_rim - on_axis);
+      on_rim = rim.nearest(foot);
+    }
+    try_both(on_rim - foot);
+  }
+
+  const PlacedSolid& a_;
+  const PlacedSolid& b_;
+  double margin_;
+  Vector3 axis_;
+  ContactAxis best_;
+};
+
+}  // namespace
+
+ContactAxis axis_of_cylinder(const PlacedSolid& a, const PlacedSolid& b, double margin) {
+  return Search(a, b, margin).run();
+}
+
+ContactAxis contact_axis(const PlacedSolid& a, const PlacedSolid& b, double margin) {
+  const auto turned_round = [&](ContactAxis axis) {
+    using Kind = ContactAxis::Kind;
+    axis.normal = -axis.normal;
+    std::swap(axis.core_a, axis.core_b);
+    if (axis.kind == Kind::face_a || axis.kind == Kind::face_b) {
+      axis.kind = axis.kind == Kind::face_a ? Kind::face_b : Kind::face_a;
+    }
+    return axis;
+  };
+  if (b.is(ConvexSolid::Kind::cylinder)) return axis_of_cylinder(a, b, margin);
+  if (a.is(ConvexSolid::Kind::cylinder)) return turned_round(axis_of_cylinder(b, a, margin));
+  if (a.is_round() && b.is_round()) return axis_of_round(a, b);
+  if (a.is_round()) return axis_of_round_and_faces(a, b);
+  if (b.is_round()) return turned_round(axis_of_round_and_faces(b, a));
+  return axis_of_faces(a, b, margin);
+}
+
+}  // namespace sheave

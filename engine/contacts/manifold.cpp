@@ -1,0 +1,304 @@
+// Given the normal, each solid offers what it turns towards the other: a face, an edge or a line, or a point. A face clips
+// what lies above it to the prism over itself (Sutherland and Hodgman 1974); two lines touch along what they share if
+// they are parallel, and in one point otherwise.
+
+#include "engine/contacts/manifold.h"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/contacts/contact_axis.h"
+
+namespace sheave {
+namespace {
+
+/// Cosines and sines of the angle within which a flat or a straight side of a cylinder counts as facing the other solid.
+constexpr double faces_it = 0.99;
+constexpr double lies_along_it = 0.02;
+
+/// What a solid turns towards a direction.
+struct Side {
+  std::vector<Vector3> points;       // of the core: 1, 2, or the corners of a face in order
+  Vector3 normal = Vector3::Zero();  // of the face, outward
+  double radius = 0.0;
+  [[nodiscard]] bool is_face() const { return points.size() > 2; }
+};
+
+/// The face that looks most along `direction`.
+std::size_t best_face(const PlacedSolid& solid, const Vector3& direction) {
+  std::size_t best = 0;
+  double most = -2.0;
+  for (std::size_t f = 0; f < solid.solid->faces.size(); ++f) {
+    const double cosine = dot(solid.face_normal(f), direction);
+    if (!(cosine > most)) continue;
+    most = cosine;
+    best = f;
+  }
+  return best;
+}
+
+Side face_side(const PlacedSolid& solid, std::size_t face) {
+  Side side;
+  side.normal = solid.face_normal(face);
+  for (const int corner : solid.solid->faces[face].corners) {
+    side.points.push_back(solid.vertices[at(corner)]);
+  }
+  return side;
+}
+
+/// A flat end of a cylinder as an octagon, the point of the rim that is deepest among its corners.
+Side end_side(const PlacedSolid& cylinder, const Vector3& center, const Vector3& outward,
+              const Vector3& direction) {
+  // Below this slope the end is flat and any corner is the deepest.
+  constexpr double flat = 1e-6;
+  Side side;
+  side.normal = outward;
+  Vector3 x = direction - outward * dot(outward, direction);
+  x = x.norm() > flat ? Vector3(x.normalized()) : Vector3(cylinder.rotation.col(0));
+  const Vector3 y = cross(outward, x);
+  for (int i = 0; i < 8; ++i) {
+    const double angle = 0.25 * pi * i;
+    side.points.emplace_back(center +
+                             cylinder.solid->radius * (std::cos(angle) * x + std::sin(angle) * y));
+  }
+  return side;
+}
+
+Vector3 rim_point(const PlacedSolid& cylinder, const Vector3& center, const Vector3& direction) {
+  const Vector3 axis = cylinder.axis();
+  Vector3 out = direction - axis * dot(axis, direction);
+  const double length = out.norm();
+  return center + cylinder.solid->radius *
+                      (length > 0.0 ? Vector3(out / length) : Vector3(cylinder.rotation.col(0)));
+}
+
+/// What a cylinder turns towards a direction.
+Side cylinder_side(const PlacedSolid& cylinder, const Vector3& direction) {
+  const double along = dot(cylinder.axis(), direction);
+  const Vector3& center = along < 0.0 ? cylinder.first() : cylinder.last();
+  if (std::abs(along) > faces_it) {
+    return end_side(cylinder, center, std::copysign(1.0, along) * cylinder.axis(), direction);
+  }
+  Side side;
+  if (std::abs(along) < lies_along_it) {
+    side.points = cylinder.vertices;
+    side.radius = cylinder.round_reach(direction);
+  } else {
+    side.points = {rim_point(cylinder, center, direction)};
+  }
+  return side;
+}
+
+/// What a solid turns towards `direction`; of one with faces always a face.
+Side side_towards(const PlacedSolid& solid, const Vector3& direction) {
+  if (solid.is(ConvexSolid::Kind::cylinder)) return cylinder_side(solid, direction);
+  if (solid.solid->faces.empty()) return {solid.vertices, Vector3::Zero(), solid.solid->radius};
+  return face_side(solid, best_face(solid, direction));
+}
+
+/// The part of points (a point, a line or a convex polygon) above a face.
+void clip(std::vector<Vector3>& points, const Side& face) {
+  std::vector<Vector3> kept;
+  for (std::size_t i = 0; i < face.points.size(); ++i) {
+    const Vector3& from = face.points[i];
+    const Vector3 edge = face.points[(i + 1) % face.points.size()] - from;
+    const Vector3 inward = cross(face.normal, edge).normalized();
+    // What lies on the border by rounding stays as it is.
+    const double border = -1e-9 * edge.norm();
+    kept.clear();
+    const std::size_t count = points.size();
+    for (std::size_t k = 0; k < count; ++k) {
+      const Vector3& p = points[k];
+      const Vector3& q = points[(k + 1) % count];
+      const double height = dot(inward, p - from);
+      const double next = dot(inward, q - from);
+      const bool inside = height >= border;
+      if (inside) kept.push_back(p);
+      if (inside == (next >= border) || count == 1 || (count == 2 && k == 1)) continue;
+      kept.emplace_back(p + (q - p) * (height / (height - next)));
+    }
+    points = kept;
+  }
+}
+
+/// Contacts of what lies above a face. `above_is_a`: whether the face is that of B.
+void stand_on_face(const Side& above, const Side& face, bool above_is_a, double margin,
+                   Manifold& manifold) {
+  std::vector<Vector3> points = above.points;
+  clip(points, face);
+  // Along the manifold's normal, which need not be the face's.
+  const Vector3 up = above_is_a ? manifold.normal : Vector3(-manifold.normal);
+  const double slope = dot(up, face.normal);
+  for (const Vector3& point : points) {
+    const double height = dot(face.normal, point - face.points.front()) / slope;
+    const double gap = height - above.radius;
+    if (!(gap <= margin)) continue;
+    const Vector3 foot = point - height * up;
+    if (above_is_a) {
+      manifold.points.push_back({point, foot, above.radius, 0.0, gap});
+    } else {
+      manifold.points.push_back({foot, point, 0.0, above.radius, gap});
+    }
+  }
+}
+
+void add_pair(const Side& a, const Side& b, const Vector3& p, const Vector3& q, double margin,
+              Manifold& manifold) {
+  const double gap = dot(manifold.normal, p - q) - a.radius - b.radius;
+  if (gap <= margin) manifold.points.push_back({p, q, a.radius, b.radius, gap});
+}
+
+/// Points and lines.
+void cross_lines(const Side& a, const Side& b, double margin, Manifold& manifold) {
+  constexpr double parallel = 0.02;  // sine of the angle
+  const Vector3& p0 = a.points.front();
+  const Vector3& p1 = a.points.back();
+  const Vector3& q0 = b.points.front();
+  const Vector3& q1 = b.points.back();
+  const Vector3 u = p1 - p0;
+  const Vector3 w = q1 - q0;
+  const double uu = dot(u, u);
+  const bool lines = uu > 0.0 && dot(w, w) > 0.0;
+  if (lines && cross(u, w).norm() < parallel * u.norm() * w.norm()) {
+    const double from = std::clamp(dot(u, q0 - p0) / uu, 0.0, 1.0);
+    const double to = std::clamp(dot(u, q1 - p0) / uu, 0.0, 1.0);
+    if (from != to) {
+      for (const double s : {from, to}) {
+        const Vector3 p = p0 + s * u;
+        add_pair(a, b, p, nearest_points(p, p, q0, q1).q, margin, manifold);
+      }
+      return;
+    }
+  }
+  const auto [p, q] = nearest_points(p0, p1, q0, q1);
+  add_pair(a, b, p, q, margin, manifold);
+}
+
+/// Of a solid above a half-space: every point of it that may touch.
+Side all_points(const PlacedSolid& solid, const Vector3& direction) {
+  if (!solid.is(ConvexSolid::Kind::cylinder)) {
+    return {solid.vertices, Vector3::Zero(), solid.solid->radius};
+  }
+  Side side = cylinder_side(solid, direction);
+  if (side.points.size() != 1) return side;
+  side.points.clear();
+  for (const Vector3& center : solid.vertices) {
+    side.points.push_back(rim_point(solid, center, direction));
+  }
+  return side;
+}
+
+void stand_on_half_space(const PlacedSolid& a, const PlacedSolid& b, double margin,
+                         Manifold& manifold) {
+  manifold.normal = b.face_normal(0);
+  const Side side = all_points(a, -manifold.normal);
+  for (const Vector3& point : side.points) {
+    const double height = dot(manifold.normal, point - b.first());
+    if (!(height - side.radius <= margin)) continue;
+    manifold.points.push_back(
+        {point, point - height * manifold.normal, side.radius, 0.0, height - side.radius});
+  }
+}
+
+}  // namespace
+
+void reduce_points(Manifold& manifold) {
+  std::vector<ContactPoint>& points = manifold.points;
+  if (points.size() <= Manifold::most_points) return;
+  const auto position = [&](std::size_t i) -> const Vector3& { return points[i].core_a; };
+  // Of points as deep as each other the first one, whatever rounding says.
+  double size = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    size = std::max(size, (position(i) - position(0)).norm());
+  }
+  std::size_t deepest = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].gap < points[deepest].gap - 1e-6 * size) deepest = i;
+  }
+  const auto farthest = [&](const auto& measure) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      if (measure(position(i)) > measure(position(best)) + 1e-9 * size) best = i;
+    }
+    return best;
+  };
+  const Vector3 origin = position(deepest);
+  const std::size_t second = farthest([&](const Vector3& p) { return (p - origin).norm(); });
+  const Vector3 across = cross(manifold.normal, position(second) - origin).normalized();
+  const std::array chosen{deepest, second,
+                          farthest([&](const Vector3& p) { return dot(across, p - origin); }),
+                          farthest([&](const Vector3& p) { return -dot(across, p - origin); })};
+  std::vector<ContactPoint> kept;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (std::find(chosen.begin(), chosen.end(), i) != chosen.end()) kept.push_back(points[i]);
+  }
+  points = kept;
+}
+
+void find_contacts(const PlacedSolid& a, const PlacedSolid& b, double margin, Manifold& manifold) {
+  manifold.points.clear();
+  if (b.is(ConvexSolid::Kind::half_space)) {
+    stand_on_half_space(a, b, margin, manifold);
+    reduce_points(manifold);
+    return;
+  }
+  const ContactAxis axis = contact_axis(a, b, margin);
+  manifold.normal = axis.normal;
+  if (!(axis.gap <= margin)) return;
+  using Kind = ContactAxis::Kind;
+  const Vector3 down = -axis.normal;
+  if (axis.kind == Kind::face_b) {
+    stand_on_face(side_towards(a, down), face_side(b, at(axis.face)), true, margin, manifold);
+  } else if (axis.kind == Kind::face_a) {
+    stand_on_face(side_towards(b, axis.normal), face_side(a, at(axis.face)), false, margin,
+                  manifold);
+  } else if (axis.kind == Kind::points) {
+    Side side_a{{axis.core_a}, Vector3::Zero(), a.solid->radius};
+    Side side_b{{axis.core_b}, Vector3::Zero(), b.solid->radius};
+    if (a.is_round() && b.is_round()) {
+      side_a.points = a.vertices;
+      side_b.points = b.vertices;
+    }
+    cross_lines(side_a, side_b, margin, manifold);
+  } else {
+    Side side_a = side_towards(a, down);
+    Side side_b = side_towards(b, axis.normal);
+    // Where the faces of a solid look elsewhere it touches with an edge or a corner.
+    const auto shrink = [](const PlacedSolid& solid, const Vector3& direction, Side& side) {
+      if (!side.is_face() || dot(side.normal, direction) > 1.0 - 1e-6 ||
+          solid.is(ConvexSolid::Kind::cylinder)) {
+        return;
+      }
+      for (const ConvexSolid::Edge& edge : solid.solid->edges) {
+        const Vector3 along = solid.edge_vector(edge);
+        const double top = dot(
+            direction, solid.vertices[solid.extreme(direction)] - solid.vertices[at(edge.from)]);
+        if (std::abs(dot(along, direction)) > lies_along_it * along.norm()) continue;
+        if (std::abs(top) > lies_along_it * along.norm()) continue;
+        side.points = {solid.vertices[at(edge.from)], solid.vertices[at(edge.to)]};
+        return;
+      }
+      side.points = {solid.vertices[solid.extreme(direction)]};
+    };
+    shrink(a, down, side_a);
+    shrink(b, axis.normal, side_b);
+    const double cosine_a = side_a.is_face() ? dot(side_a.normal, down) : -1.0;
+    const double cosine_b = side_b.is_face() ? dot(side_b.normal, axis.normal) : -1.0;
+    if (cosine_b > 0.5 && cosine_b >= cosine_a) {
+      stand_on_face(side_a, side_b, true, margin, manifold);
+    } else if (cosine_a > 0.5) {
+      stand_on_face(side_b, side_a, false, margin, manifold);
+    } else {
+      cross_lines(side_a, side_b, margin, manifold);
+    }
+  }
+  if (manifold.points.empty() && axis.gap <= 0.0) {
+    // Overlapping, and clipping has found no point by rounding: where each reaches deepest.
+    Side side_a{{a.vertices[a.extreme(down)]}, {}, a.round_reach(down)};
+    Side side_b{{b.vertices[b.extreme(axis.normal)]}, {}, b.round_reach(axis.normal)};
+    cross_lines(side_a, side_b, margin, manifold);
+  }
+  reduce_points(manifold);
+}
+
+}  // namespace sheave

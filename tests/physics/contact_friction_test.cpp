@@ -1,0 +1,126 @@
+// Bodies on a floor with Coulomb friction, against the mechanics of rigid bodies.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/heaps.h"
+
+namespace sheave {
+namespace {
+
+using test::g;
+using test::Heap;
+
+constexpr double degree = pi / 180.0;
+
+/// Sweeps of Gauss-Seidel that share a load among four corners to 1e-6 of it: `xpbd` begins with the forces of the last
+/// substep, `rattle` with none.
+void sweep_enough(const test::Method& method, Heap& heap) {
+  if (method.solver == SolverKind::gauss_seidel && method.integrator == IntegratorKind::rattle) {
+    heap.model.step.iterations = 100;
+  }
+}
+
+TEST(ContactFriction, ABoxOnTheFloorRestsForAMinute) {
+  for (const test::Method& method : test::methods) {
+    SCOPED_TRACE(test::name_of(method));
+    Heap heap(method.solver, method.integrator);
+    heap.surface.friction = 0.5;
+    heap.floor();
+    const BodyId box = heap.put(test::box({1.0, 0.5, 0.8}), {0.0, 0.25, 0.0}, 3.0);
+    World world = heap.start();
+    test::run(world, 60.0);
+    EXPECT_LT((world.position(box) - Vector3(0.0, 0.25, 0.0)).norm(), 1e-6);
+    EXPECT_LT(world.orientation(box).vec().norm(), 1e-6);
+    double force = 0.0;
+    for (const ContactReport& contact : world.contacts()) force += contact.normal_force;
+    EXPECT_NEAR(force, 3.0 * g, 1e-6);
+  }
+}
+
+TEST(ContactFriction, ABoxSlidesJustBeyondTheFrictionAngle) {
+  const double friction = 0.4;
+  const double limit = std::atan(friction);
+  for (const test::Method& method : test::methods) {
+    for (const double beyond : {-0.5, 0.5, 10.0}) {
+      SCOPED_TRACE(test::name_of(method) + ", degrees beyond: " + std::to_string(beyond));
+      Heap heap(method.solver, method.integrator);
+      heap.surface.friction = friction;
+      sweep_enough(method, heap);
+      const double angle = limit + beyond * degree;
+      heap.incline(angle).floor();
+      const BodyId box = heap.put(test::box({1.0, 0.4, 1.0}), {0.0, 0.2, 0.0});
+      World world = heap.start();
+      test::run(world, 1.0);
+      const double speed = world.velocity(box).x();
+      const double acceleration = g * (std::sin(angle) - friction * std::cos(angle));
+      if (beyond < 0.0) {
+        EXPECT_LT(std::abs(speed), 1e-9);
+        EXPECT_LT(std::abs(world.position(box).x()), 1e-7);
+      } else {
+        EXPECT_NEAR(speed, acceleration, 1e-3 * acceleration);
+      }
+      EXPECT_NEAR(world.velocity(box).z(), 0.0, 1e-6);  // what sweeps leave
+    }
+  }
+}
+
+TEST(ContactFriction, ABallRolls) {
+  for (const test::Method& method : test::methods) {
+    SCOPED_TRACE(test::name_of(method));
+    Heap heap(method.solver, method.integrator);
+    heap.surface.friction = 0.5;
+    const double angle = 20.0 * degree;
+    heap.incline(angle).floor();
+    const BodyId ball = heap.put(test::ball(0.3), {0.0, 0.3, 0.0});
+    World world = heap.start();
+    test::run(world, 2.0);
+    const double expected = 5.0 / 7.0 * g * std::sin(angle) * 2.0;
+    EXPECT_NEAR(world.velocity(ball).x(), expected, 1e-4 * expected);
+    EXPECT_NEAR(world.angular_velocity(ball).z(), -expected / 0.3, 1e-3 * expected / 0.3);
+    EXPECT_NEAR(world.position(ball).y(), 0.3, 1e-9);
+  }
+}
+
+TEST(ContactFriction, ASlidingBallEndsUpRollingAtFiveSeventhsOfItsSpeed) {
+  for (const test::Method& method : test::methods) {
+    SCOPED_TRACE(test::name_of(method));
+    Heap heap(method.solver, method.integrator);
+    heap.surface.friction = 0.3;
+    heap.floor();
+    const BodyId ball = heap.put(test::ball(0.03), {0.0, 0.03, 0.0});
+    heap.last().velocity = {3.0, 0.0, 4.0};
+    World world = heap.start();
+    // It rolls after 2 v / (7 mu g).
+    test::run(world, 0.8);
+    EXPECT_NEAR(world.velocity(ball).x(), 15.0 / 7.0, 2e-3);
+    EXPECT_NEAR(world.velocity(ball).z(), 20.0 / 7.0, 2e-3);
+    EXPECT_NEAR(world.angular_velocity(ball).z() * 0.03, -world.velocity(ball).x(), 1e-6);
+  }
+}
+
+TEST(ContactFriction, ABoxTipsWhenItsWeightPassesItsEdge) {
+  const double limit = std::atan(0.5);
+  for (const test::Method& method : test::methods) {
+    for (const double beyond : {-0.5, 0.5}) {
+      SCOPED_TRACE(test::name_of(method) + ", degrees beyond: " + std::to_string(beyond));
+      Heap heap(method.solver, method.integrator);
+      heap.surface.friction = 2.0;
+      sweep_enough(method, heap);
+      heap.incline(limit + beyond * degree).floor();
+      const BodyId box = heap.put(test::box({0.5, 1.0, 0.5}), {0.0, 0.5, 0.0});
+      World world = heap.start();
+      test::run(world, 2.0);
+      const double turned = std::abs(world.orientation(box).z());
+      if (beyond < 0.0) {
+        EXPECT_LT(turned, 1e-6);
+      } else {
+        EXPECT_GT(turned, 0.1);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sheave
