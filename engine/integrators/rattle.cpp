@@ -23,6 +23,9 @@ void RattleSolver::begin(Substep& substep, Features features) {
 
 bool RattleSolver::try_positions(Substep& substep, Features features) {
   const double enough = DirectSolver::tolerance * substep.bodies.scale();
+  // What Newton's method leaves is the square of the round before; sweeps leave a share of it, which is a force still.
+  constexpr double rounding = 1e-15;
+  const double done = solver_ == SolverKind::direct ? enough : rounding * substep.bodies.scale();
   double first = 0.0;
   double violated = 0.0;
   bool revised = false;
@@ -34,7 +37,7 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
     violated = positions_.violation();
     if (!std::isfinite(violated)) return false;
     if (round == 0) first = violated;
-    if ((round > 0 && !revised && violated <= enough) || round == substep.iterations) break;
+    if ((round > 0 && !revised && violated <= done) || round == substep.iterations) break;
     if (solver_ == SolverKind::direct) {
       if (!positions_.solve(substep)) return false;
     } else {
