@@ -205,7 +205,7 @@ double ActiveSetSolver::noise(const ComplementarityProblem& problem, std::size_t
     const std::vector<double>& values = below ? problem.lower_values : problem.values;
     terms += std::abs(values[at(neighbour.entry)] * solution_[at(neighbour.other)]);
   }
-  return rounding * terms;
+  return problem.rounding + rounding * terms;
 }
 
 void ActiveSetSolver::mark_violations(const ComplementarityProblem& problem) {
