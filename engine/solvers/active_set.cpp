@@ -154,7 +154,7 @@ int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem) {
   for (const double constant : problem.constant) largest = std::max(largest, std::abs(constant));
   for (int j = 0; j < problem.size; ++j) {
     if (problem.free[at(j)] != 1 || !factor_.is_dropped(j)) continue;
-    if (!(std::abs(residual_[at(j)]) > agreement * largest)) continue;
+    if (!(std::abs(residual_[at(j)]) > problem.rounding + agreement * largest)) continue;
     // A z = 0 with z_j = 1; rows that are not free have the equation z = 0.
     null_vector_.assign(at(problem.size), 0.0);
     for (int p = neighbour_start_[at(j)]; p < neighbour_start_[at(j) + 1]; ++p) {
@@ -174,7 +174,7 @@ int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem) {
 }
 
 int ActiveSetSolver::first_blocked(const ComplementarityProblem& problem, int redundant,
-                                   double direction) const {
+                                   double direction) {
   // Components that are rounding do not move.
   constexpr double still = 1e-9;
   int blocked = -1;
