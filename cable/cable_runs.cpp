@@ -181,7 +181,7 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
       heaviest = std::max(heaviest, weight);
     }
     row.weight = weight;
-    last = span;
+    if (cable.has_friction) last = span;
   }
   for (std::size_t i = start; i < rows.size(); ++i) {
     rows[i].weight =

@@ -45,7 +45,8 @@ Vector3 start_velocity(const Substep& substep, const LinkGeometry& link) {
   if (link.carrier == substep.bodies.count()) return Vector3::Zero();
   const BodyState& carrier = substep.start.bodies[at(link.carrier)];
   if (link.centered) return carrier.velocity;
-  return carrier.velocity + cross(carrier.angular_velocity, carrier.orientation * link.center);
+  return carrier.velocity +
+         cross(carrier.angular_velocity, rotated(carrier.orientation, link.center));
 }
 
 /// Rotation of the link's carrier over the substep [rad].

@@ -114,7 +114,7 @@ void Substep::restart() {
     const BodyProperties& properties = bodies[i];
     if (inverse_masses_change(bodies, i)) set_inverse_masses(bodies, i, load_share * h, body);
     if (properties.mount >= 0 && properties.axis_inertia > 0.0) {
-      const Vector3 axis = start.bodies[at(properties.mount)].orientation * properties.axis;
+      const Vector3 axis = rotated(start.bodies[at(properties.mount)].orientation, properties.axis);
       body.inverse_inertia = axis * axis.transpose() / properties.axis_inertia;
     }
     predicted_turn[at(i)].setZero();
@@ -150,7 +150,7 @@ Vector3 Substep::position(int body) const {
   const BodyProperties& properties = bodies[body];
   if (properties.mount < 0) return moving[at(body)].position;
   const MovingBody& carrier = moving[at(properties.mount)];
-  return carrier.position + carrier.orientation * properties.mount_position;
+  return carrier.position + rotated(carrier.orientation, properties.mount_position);
 }
 
 void Substep::add_force(Row& row, int body, const Vector3& at_point,
@@ -162,7 +162,7 @@ void Substep::add_force(Row& row, int body, const Vector3& at_point,
     return;
   }
   const MovingBody& carrier = moving[at(mount)];
-  const Vector3 axis = carrier.orientation * bodies[body].axis;
+  const Vector3 axis = rotated(carrier.orientation, bodies[body].axis);
   const Vector3 spin = axis * dot(axis, cross(at_point - position(body), direction));
   row.add(mount, direction, cross(at_point - carrier.position, direction) - spin);
   row.add(body, Vector3::Zero(), spin);

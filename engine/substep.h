@@ -74,7 +74,10 @@ struct Substep {
   [[nodiscard]] Vector3 position(int body) const;
   /// World position of the point `local` [m] of the body's own frame.
   [[nodiscard]] Vector3 point(int body, const Vector3& local) const {
-    return position(body) + orientation(body) * local;
+    const MovingBody& own = moving[static_cast<std::size_t>(body)];
+    // Of a mounted rotor the pose follows from its carrier's.
+    if (own.tracks_orientation) return own.position + rotated(own.orientation, local);
+    return position(body) + rotated(orientation(body), local);
   }
 
   // Gradients of what acts on a body, mounted or not (design, section 2).

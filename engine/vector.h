@@ -43,6 +43,16 @@ constexpr double pi = 3.14159265358979323846;
   return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
 }
 
+/// q v, in Eigen's order of operations.
+[[nodiscard]] inline Vector3 rotated(const Quaternion& q, const Vector3& v) {
+  const Vector3 axis{q.x(), q.y(), q.z()};
+  Vector3 twice = cross(axis, v);
+  twice += twice;
+  const Vector3 last = cross(axis, twice);
+  return {v[0] + q.w() * twice[0] + last[0], v[1] + q.w() * twice[1] + last[1],
+          v[2] + q.w() * twice[2] + last[2]};
+}
+
 /// The rotation by |turn| radians about turn/|turn| [rad], exact to rounding for any size.
 /// Small turns (every correction of a solver is one) use the Taylor series of sin and cos, which
 /// at |turn| < 0.2 is exact to the last bit and several times faster.

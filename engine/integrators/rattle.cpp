@@ -23,9 +23,14 @@ void RattleSolver::begin(Substep& substep, Features features) {
 
 bool RattleSolver::try_positions(Substep& substep, Features features) {
   const double enough = DirectSolver::tolerance * substep.bodies.scale();
+  // Newton's last round leaves far less than it found. A sweep leaves a share, which is a force still, so when what the
+  // features decide is settled, sweeps go on to rounding.
+  constexpr double rounding = 1e-15;
+  const double done = solver_ == SolverKind::direct ? enough : rounding * substep.bodies.scale();
   double first = 0.0;
   double violated = 0.0;
   bool revised = false;
+  bool settled = false;
   // One linearisation more than rounds: whether x1 is a solution or the substep must be left to xpbd is decided by what
   // the last round has left, which only the rows at x1 tell.
   for (int round = 0; round <= substep.iterations; ++round) {
@@ -34,16 +39,17 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
     violated = positions_.violation();
     if (!std::isfinite(violated)) return false;
     if (round == 0) first = violated;
-    if ((round > 0 && !revised && violated <= enough) || round == substep.iterations) break;
+    settled = settled || (round > 0 && !revised && violated <= enough);
+    if ((settled && violated <= done) || round == substep.iterations) break;
     if (solver_ == SolverKind::direct) {
       if (!positions_.solve(substep)) return false;
     } else {
       positions_.relax(substep, 1);
     }
     positions_.apply(substep, features);
+    if (settled) continue;
     revised = false;
-    // What the last round finds would have no round to act in; the features decide it for the next substep.
-    if (round + 1 == substep.iterations) continue;
+    // After the last round, too: what it finds has the round of the velocities to act in.
     for (const auto& feature : features) revised = feature->revise(substep) || revised;
   }
   // Gauss-Seidel need not have converged; Newton's method that has not is lost.

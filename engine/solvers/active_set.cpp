@@ -154,7 +154,7 @@ int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem) {
   for (const double constant : problem.constant) largest = std::max(largest, std::abs(constant));
   for (int j = 0; j < problem.size; ++j) {
     if (problem.free[at(j)] != 1 || !factor_.is_dropped(j)) continue;
-    if (!(std::abs(residual_[at(j)]) > agreement * largest)) continue;
+    if (!(std::abs(residual_[at(j)]) > problem.rounding + agreement * largest)) continue;
     // A z = 0 with z_j = 1; rows that are not free have the equation z = 0.
     null_vector_.assign(at(problem.size), 0.0);
     for (int p = neighbour_start_[at(j)]; p < neighbour_start_[at(j) + 1]; ++p) {
@@ -205,7 +205,7 @@ double ActiveSetSolver::noise(const ComplementarityProblem& problem, std::size_t
     const std::vector<double>& values = below ? problem.lower_values : problem.values;
     terms += std::abs(values[at(neighbour.entry)] * solution_[at(neighbour.other)]);
   }
-  return rounding * terms;
+  return problem.rounding + rounding * terms;
 }
 
 void ActiveSetSolver::mark_violations(const ComplementarityProblem& problem) {

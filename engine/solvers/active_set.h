@@ -28,6 +28,7 @@ struct ComplementarityProblem {
   std::vector<double> values;        ///< A(i, j) of the entries (i, j), i < j, of the pattern
   std::vector<double> lower_values;  ///< A(j, i)
   std::vector<double> constant;      ///< c
+  double rounding = 0.0;             ///< what c may be off by, whatever its size [unit of c]
   std::vector<double> lower;         ///< bounds of dl; where they are equal, r can be anything
   std::vector<double> upper;
   /// Per unknown whether to begin with it free, 1, or at a bound, 0 (the lower one if that is finite) or at_upper; that of

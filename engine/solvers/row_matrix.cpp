@@ -65,10 +65,10 @@ void RowSystem::assemble(const Substep& substep) {
   // What rounding leaves where the rows of a group cancel (nothing but a wheel that the cable slides over can move) is no
   // yield: such a group keeps its unknown.
   own_yield_.assign(groups_.size(), 0.0);
-  for (const Coupling& c : couplings_) {
-    if (c.first.row != c.second.row || c.first.term != c.second.term) continue;
-    own_yield_[at(group_of_[at(c.first.row)])] += std::abs(coupling(substep, c.first, c.first));
-  }
+  const auto add_own_yield = [&](const Coupling& c, double value) {
+    if (c.first.row != c.second.row || c.first.term != c.second.term) return;
+    own_yield_[at(group_of_[at(c.first.row)])] += std::abs(value);
+  };
   const auto drop_cancelled = [&] {
     for (std::size_t g = 0; g < groups_.size(); ++g) {
       constexpr double rounding = 1e-13;
@@ -81,6 +81,7 @@ void RowSystem::assemble(const Substep& substep) {
       if (c.entry >= 0) {
         problem_.values[at(c.entry)] += value;
       } else {
+        add_own_yield(c, value);
         // The two orders of a pair within one group.
         problem_.diagonal[at(-1 - c.entry)] += c.first.row == c.second.row ? value : 2.0 * value;
       }
@@ -93,11 +94,13 @@ void RowSystem::assemble(const Substep& substep) {
     return rows_[at(motion.row)].weight * coupling(substep, gradient, motion);
   };
   for (const Coupling& c : couplings_) {
-    const double value = weighted(c.first, c.second);
+    const double unweighted = coupling(substep, c.first, c.second);
+    const double value = rows_[at(c.second.row)].weight * unweighted;
     if (c.entry >= 0) {
       problem_.values[at(c.entry)] += value;
       problem_.lower_values[at(c.entry)] += weighted(c.second, c.first);
     } else {
+      add_own_yield(c, unweighted);
       double& diagonal = problem_.diagonal[at(-1 - c.entry)];
       diagonal += value;
       if (c.first.row != c.second.row) diagonal += weighted(c.second, c.first);

@@ -61,6 +61,7 @@ bool RowSystem::match_start() {
 
 bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool from_here) {
   collect_rows(substep, features);
+  problem_.rounding = value_rounding * substep.bodies.scale();
   responses_.resize(rows_.size());
   symmetric_rows_ = rule == Rule::backward;
   bound_share_ = rule == Rule::backward ? 1.0 : 0.5;

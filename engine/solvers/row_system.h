@@ -72,6 +72,11 @@ class RowSystem {
   [[nodiscard]] int row_count() const { return static_cast<int>(rows_.size()); }
 
  private:
+  /// What rounding leaves of a row's value, relative to the scene's size: lengths are sums of some ten numbers of that
+  /// size. Without it rows that only a wheel between walls can move, taut by rounding on either side of it, would have no
+  /// solution: no turn of the wheel is good for both.
+  static constexpr double value_rounding = 1e-14;
+
   /// Rows that share an unknown.
   struct Group {
     int first_row = 0;

@@ -25,6 +25,7 @@ void RowSystem::linearise_velocities(Substep& substep, Features features) {
   const double share =
       0.5 / substep.h;  // of the bounds, for an impulse in the second half of the substep
   collect_rows(substep, features);
+  problem_.rounding = value_rounding * substep.bodies.scale() / substep.h;
   responses_.resize(rows_.size());
   symmetric_rows_ = true;
   for (std::size_t i = 0; i < rows_.size(); ++i) respond(rows_[i], substep.moving, responses_[i]);

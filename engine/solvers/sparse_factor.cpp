@@ -91,6 +91,60 @@ void SparseFactor::analyse(int n, std::span<const std::pair<int, int>> entries) 
   inverse_pivot_.resize(at(n));
   work_.assign(at(n), 0.0);
   path_.resize(at(n));
+  chain_ = is_chain();
+}
+
+bool SparseFactor::is_chain() const {
+  for (int k = 0; k < size_; ++k) {
+    if (place_[at(k)] != k) return false;
+    const int start = column_start_[at(k)];
+    const int count = column_start_[at(k) + 1] - start;
+    if (count > 1 || (count == 1 && entry_row_[at(start)] != k - 1)) return false;
+  }
+  return true;
+}
+
+void SparseFactor::factor_chain(std::span<const double> diagonal, std::span<const double> values,
+                                const double* transposed_values) {
+  dropped_ = 0;
+  for (int k = 0; k < size_; ++k) {
+    const double full = diagonal[at(k)];
+    double pivot = full;
+    const int p = column_start_[at(k)];
+    if (p < column_start_[at(k) + 1]) {
+      const auto entry = at(entry_of_[at(p)]);
+      const bool turned = turned_[at(p)] != 0;
+      const double inverse = inverse_pivot_[at(k) - 1];
+      const auto slot = at(factor_start_[at(k) - 1]);
+      if (transposed_values == nullptr) {
+        const double y = values[entry];
+        factor_[slot] = y * inverse;
+        pivot -= factor_[slot] * y;
+      } else {
+        const double y = turned ? transposed_values[entry] : values[entry];
+        const double z = turned ? values[entry] : transposed_values[entry];
+        factor_[slot] = z * inverse;
+        upper_[slot] = y * inverse;
+        pivot -= factor_[slot] * y;
+      }
+    }
+    keep_pivot(k, pivot, full);
+  }
+}
+
+void SparseFactor::solve_chain(std::span<double> x) const {
+  const std::vector<double>& back = symmetric_ ? factor_ : upper_;
+  for (int k = 1; k < size_; ++k) {
+    const int p = factor_start_[at(k) - 1];
+    if (p < factor_start_[at(k)]) x[at(k)] -= factor_[at(p)] * x[at(k) - 1];
+  }
+  for (int k = size_ - 1; k >= 0; --k) {
+    double y = x[at(k)] * inverse_pivot_[at(k)];
+    const int p = factor_start_[at(k)];
+    if (p < factor_start_[at(k) + 1]) y -= back[at(p)] * x[at(k) + 1];
+    // A dropped unknown is 0 whatever the others are.
+    x[at(k)] = inverse_pivot_[at(k)] > 0.0 ? y : 0.0;
+  }
 }
 
 int SparseFactor::scatter(int k, std::span<const double> values, const double* transposed_values) {
@@ -132,6 +186,7 @@ void SparseFactor::keep_pivot(int k, double pivot, double full) {
 
 void SparseFactor::factor(std::span<const double> diagonal, std::span<const double> values) {
   symmetric_ = true;
+  if (chain_) return factor_chain(diagonal, values, nullptr);
   begin_factor(diagonal);
   for (int k = 0; k < size_; ++k) {
     const double full = inverse_pivot_[at(k)];
@@ -159,6 +214,7 @@ void SparseFactor::factor(std::span<const double> diagonal, std::span<const doub
   symmetric_ = false;
   upper_.resize(factor_.size());
   lower_work_.resize(at(size_), 0.0);
+  if (chain_) return factor_chain(diagonal, values, transposed_values.data());
   begin_factor(diagonal);
   for (int k = 0; k < size_; ++k) {
     const double full = inverse_pivot_[at(k)];
@@ -185,6 +241,7 @@ void SparseFactor::factor(std::span<const double> diagonal, std::span<const doub
 }
 
 void SparseFactor::solve(std::span<double> x) {
+  if (chain_) return solve_chain(x);
   const std::vector<double>& back = symmetric_ ? factor_ : upper_;
   for (int i = 0; i < size_; ++i) work_[at(place_[at(i)])] = x[at(i)];
   for (int k = 0; k < size_; ++k) {

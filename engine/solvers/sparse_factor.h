@@ -4,8 +4,8 @@
 //
 // Up-looking (Davis, "Direct Methods for Sparse Linear Systems", 2006, chapter 4): row k of L solves a triangular system
 // with the rows before it, and which of its entries are not zero follows from the elimination tree, found once per
-// pattern. A chain, such as the spans of a cable over wheels, has one entry per row: the cost is then that of a
-// tridiagonal solver.
+// pattern. A chain, such as the spans of a cable over wheels, has one entry per row, next to the diagonal: there the
+// same operations are those of a tridiagonal solver, and are written as one.
 //
 // Redundant rows make A singular: a belt round two wheels, a frame with more joints than degrees of freedom. Their
 // pivots are what rounding leaves of zero. A pivot below `dropped_pivot` times the diagonal entry it started from is left
@@ -49,6 +49,11 @@ class SparseFactor {
   /// returned place on. Scatters the entries of A above the diagonal into work_, and those below into lower_work_.
   int scatter(int k, std::span<const double> values, const double* transposed_values);
   void begin_factor(std::span<const double> diagonal);
+  /// The factors of a chain; null `transposed_values`: symmetric.
+  void factor_chain(std::span<const double> diagonal, std::span<const double> values,
+                    const double* transposed_values);
+  void solve_chain(std::span<double> x) const;
+  [[nodiscard]] bool is_chain() const;
   /// Takes the pivot of row k, or drops it.
   void keep_pivot(int k, double pivot, double full);
 
@@ -69,6 +74,7 @@ class SparseFactor {
   std::vector<double> factor_;
   std::vector<double> upper_;  ///< U above its diagonal, by rows, with the pattern of L
   bool symmetric_ = true;
+  bool chain_ = false;                 ///< every entry joins neighbours, in their own order
   std::vector<double> inverse_pivot_;  ///< 0 where dropped
   // Scratch of factor() and solve().
   std::vector<double> work_;

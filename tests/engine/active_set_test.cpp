@@ -83,6 +83,28 @@ TEST(ActiveSet, StartedFromTheSolutionNothingChanges) {
   EXPECT_EQ(random.problem.free, found);
 }
 
+TEST(ActiveSet, WhatRoundingMakesUnsolvableIsNoViolation) {
+  // A wheel held between two walls: one span is too long by more than the other has to spare, all of it rounding.
+  ComplementarityProblem p;
+  p.size = 2;
+  p.diagonal = {1.0, 1.0};
+  p.values = {-1.0};
+  p.constant = {1e-15, -2e-15};
+  p.lower = {0.0, 0.0};
+  p.upper = {no_bound, no_bound};
+  ActiveSetSolver solver;
+  solver.analyse(2, std::vector<std::pair<int, int>>{{0, 1}});
+  p.free = {1, 1};
+  EXPECT_FALSE(solver.solve(p));
+  p.free = {1, 1};
+  p.rounding = 1e-14;
+  EXPECT_TRUE(solver.solve(p));
+  // Beyond rounding there is none, and that is told.
+  p.constant = {1e-13, -2e-13};
+  p.free = {1, 1};
+  EXPECT_FALSE(solver.solve(p));
+}
+
 TEST(ActiveSet, EachRowHasItsOwnScale) {
   // A joint that turns by a radian in a substep, and beside it, nothing between them, a span in a machine of a micrometre
   // that is too long by 1e-14 m. The span must be pulled back however large the other number is.

@@ -105,6 +105,56 @@ TEST(SparseFactor, AChainFillsNothingInWhateverOrderItsEntriesCome) {
   EXPECT_EQ(factor.fill(), n - 1);
 }
 
+TEST(SparseFactor, AChainIsSolvedLikeAnyMatrix) {
+  // Symmetric and not, its entries given either way round, in pieces, and with a redundant equation.
+  std::mt19937 generator(5);
+  std::uniform_real_distribution<double> value(-1.0, 1.0);
+  for (int trial = 0; trial < 100; ++trial) {
+    const int n = 1 + trial % 12;
+    const bool symmetric = trial % 2 == 0;
+    Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
+    std::vector<std::pair<int, int>> entries;
+    std::vector<double> diagonal;
+    std::vector<double> values;
+    std::vector<double> transposed;
+    for (int i = 0; i < n; ++i) {
+      dense(i, i) = 2.5 + value(generator);  // more than the row's other entries together
+      diagonal.push_back(dense(i, i));
+    }
+    for (int i = 0; i + 1 < n; ++i) {
+      if (trial % 5 == 4 && i % 3 == 2) continue;
+      const bool turned = value(generator) > 0.0;
+      const int row = turned ? i + 1 : i;
+      const int column = turned ? i : i + 1;
+      entries.emplace_back(row, column);
+      values.push_back(0.7 * value(generator));
+      transposed.push_back(symmetric ? values.back() : 0.7 * value(generator));
+      dense(row, column) = values.back();
+      dense(column, row) = transposed.back();
+    }
+    SparseFactor factor;
+    factor.analyse(n, entries);
+    if (symmetric) {
+      factor.factor(diagonal, values);
+    } else {
+      factor.factor(diagonal, values, transposed);
+    }
+    const Eigen::VectorXd wanted = Eigen::VectorXd::Random(n);
+    Eigen::VectorXd x = dense * wanted;
+    factor.solve({x.data(), static_cast<std::size_t>(n)});
+    EXPECT_NEAR((x - wanted).norm(), 0.0, 1e-13 * n) << trial;
+    EXPECT_EQ(factor.dropped(), 0);
+  }
+  // Two equal equations: the second is left out, and the first is satisfied.
+  SparseFactor factor;
+  factor.analyse(2, std::vector<std::pair<int, int>>{{0, 1}});
+  factor.factor(std::vector{2.0, 2.0}, std::vector{2.0});
+  std::vector<double> x{3.0, 3.0};
+  factor.solve(x);
+  EXPECT_EQ(factor.dropped(), 1);
+  EXPECT_EQ(x, (std::vector{1.5, 0.0}));
+}
+
 TEST(SparseFactor, LeavesOutRedundantEquations) {
   std::mt19937 generator(2);
   int dropped = 0;

@@ -20,7 +20,8 @@ using ForceProbe = std::function<std::vector<double>(const Simulation&)>;
 
 std::vector<double> tensions(const Simulation& s) {
   std::vector<double> all;
-  for (const SpanReport& span : s.cable_reports()[0].spans) all.push_back(span.tension);
+  const CableReport cable = s.cable_reports()[0];
+  for (const SpanReport& span : cable.spans) all.push_back(span.tension);
   return all;
 }
 

@@ -44,6 +44,7 @@ Encounter random_encounter(std::uint64_t seed, double tilt, bool boxes) {
   Encounter encounter;
   Machine& m = encounter.machine;
   m.model.step = settings(0.002, 1, 2);
+  choose_method(seed, m.model.step);
   CableDef rope;
   rope.name = "rope";
   for (const char* name : {"first", "second"}) {

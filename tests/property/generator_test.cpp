@@ -34,11 +34,11 @@ TEST(RandomMachine, HasEveryKindOfLink) {
   std::string all;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) all += describe(random_machine(seed).machine);
   for (const char* part :
-       {"attachment(", "rolling(",   "pinhole(",   "hybrid(",   "spool(",
-        "closed",      "lifted",     "turns",      " J=0",      "(free",
-        "(planar",     "(slider",    "(kinematic", "(rotor on", "mu 0.",
-        "EA",          "compliance", "frozen",     "radius",    "rest lengths given",
-        "pitch 0.0"}) {
+       {"attachment(", "rolling(",   "pinhole(",       "hybrid(",   "spool(",
+        "closed",      "lifted",     "turns",          " J=0",      "(free",
+        "(planar",     "(slider",    "(kinematic",     "(rotor on", "mu 0.",
+        "EA",          "compliance", "frozen",         "radius",    "rest lengths given",
+        "pitch 0.0",   " direct ",   " gauss-seidel ", " xpbd;",    " rattle;"}) {
     EXPECT_NE(all.find(part), std::string::npos) << part;
   }
 }

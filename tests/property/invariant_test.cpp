@@ -76,17 +76,50 @@ constexpr Traits never_negative() {
   return traits;
 }
 
+/// What an outline has been wound on and off, and at which tilt. Of other links nothing.
+struct TiltedOutline {
+  double stored = 0.0;        ///< [m], at last
+  double counted = 0.0;       ///< sum of the changes of that [m]
+  double least_cosine = 1.0;  ///< of the angle between a span beside it and its plane
+
+  void follow(const CableReport& cable, std::size_t link) {
+    const LinkReport& now = cable.links[link];
+    if (now.path.empty()) return;
+    counted += std::abs(now.stored_length - stored);
+    stored = now.stored_length;
+    for (const std::size_t span : {link - 1, link}) {
+      if (span >= cable.spans.size()) continue;
+      const Vector3 along = cable.spans[span].end - cable.spans[span].start;
+      const double out = now.normal.dot(along.normalized());
+      least_cosine = std::min(least_cosine, std::sqrt(std::max(1.0 - out * out, 0.0)));
+    }
+  }
+  [[nodiscard]] double left_over() const { return counted * (1.0 / least_cosine - 1.0); }
+};
+
+std::vector<TiltedOutline> tilted_outlines(const Simulation& s) {
+  std::vector<TiltedOutline> outlines;
+  for (const LinkReport& link : s.cable_reports()[0].links) {
+    outlines.push_back({link.stored_length, 0.0, 1.0});
+  }
+  return outlines;
+}
+
 // A rest length is at least the length minus what the solver has left over. With 50 iterations that is far less than a
 // substep's motion, but rows that fight each other can keep more, so what they are short of counts, too. A stored length
 // below 0 makes a hybrid end attach and the cable leave a wheel, at the end of the same substep. What is left is what
 // the course's change then moves along the neighbouring links: by the substep's motion times radius / span length.
 // A belt does not leave the last two links, whatever is stored on them, and is followed no longer when it has come to
 // them.
+// An outline whose plane the span leaves by the angle t counts an edge e as between e cos t and e, so that no row jumps
+// (tilt_loss() in cable/span_row.cpp). So what is wound on at one tilt and off at another may leave up to
+// 1 / cos t - 1 of all that was counted on it and off it.
 TEST(Property, NoLengthIsNegative) {
   run_campaign("negative lengths", never_negative(), [](const Machine& random, std::uint64_t) {
     Machine machine = with_single_substeps(random);
     machine.model.step.iterations = 50;
     Simulation s = start(machine);
+    std::vector<TiltedOutline> outlines = tilted_outlines(s);
     Finding worst;
     for (int i = 0; i < 3 * invariant_steps; ++i) {
       const State before = s.world.state();
@@ -101,8 +134,10 @@ TEST(Property, NoLengthIsNegative) {
         for (const SpanReport& span : cable.spans) {
           worst.worsen(-span.rest_length, moved * (1.0 + 0.3 / shortest), "rest length");
         }
-        for (const LinkReport& link : cable.links) {
-          worst.worsen(-link.stored_length, moved * (1.0 + 0.3 / shortest), "stored length");
+        for (std::size_t k = 0; k < cable.links.size(); ++k) {
+          outlines[k].follow(cable, k);
+          worst.worsen(-cable.links[k].stored_length,
+                       moved * (1.0 + 0.3 / shortest) + outlines[k].left_over(), "stored length");
         }
       }
     }

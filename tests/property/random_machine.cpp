@@ -90,6 +90,12 @@ Machine draw(Random& random, const Traits& traits) {
 
 }  // namespace
 
+void choose_method(std::uint64_t seed, StepSettings& step) {
+  Random random(seed ^ 0x9e3779b97f4a7c15U);
+  step.solver = random.chance(0.5) ? SolverKind::direct : SolverKind::gauss_seidel;
+  step.integrator = random.chance(0.5) ? IntegratorKind::rattle : IntegratorKind::xpbd;
+}
+
 RandomMachine random_machine(std::uint64_t seed, const Traits& traits) {
   Random random(seed);
   RandomMachine result;
@@ -102,7 +108,10 @@ RandomMachine random_machine(std::uint64_t seed, const Traits& traits) {
       change_rest_lengths(random, *simulation, result.machine.cables.front());
       simulation = Simulation::create(result.machine.model, result.machine.cables);
     }
-    if (simulation) return result;
+    if (simulation) {
+      choose_method(seed, result.machine.model.step);
+      return result;
+    }
     if (result.refused++ == 0) result.first_refusal = text(simulation.errors());
   }
   throw std::runtime_error("no machine of seed " + std::to_string(seed) +
@@ -112,7 +121,9 @@ RandomMachine random_machine(std::uint64_t seed, const Traits& traits) {
 std::string describe(const Machine& machine) {
   std::ostringstream out;
   const StepSettings& step = machine.model.step;
-  out << "dt " << step.dt << " / " << step.substeps << " x " << step.iterations << "; bodies:";
+  out << "dt " << step.dt << " / " << step.substeps << " x " << step.iterations << ' '
+      << solver_names[static_cast<std::size_t>(step.solver)] << ' '
+      << integrator_names[static_cast<std::size_t>(step.integrator)] << "; bodies:";
   for (const BodyDef& body : machine.model.bodies) {
     out << ' ' << body.name << '(' << mobility_names[static_cast<std::size_t>(body.mobility)];
     if (body.mount) out << " on " << body.mount->index;

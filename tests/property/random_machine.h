@@ -37,6 +37,10 @@ struct RandomMachine {
 
 [[nodiscard]] RandomMachine random_machine(std::uint64_t seed, const Traits& traits = {});
 
+/// Chooses solver and integrator: any of the four pairs, equally often. Its draw is its own, so a seed's machine is the
+/// same whatever there is to choose from.
+void choose_method(std::uint64_t seed, StepSettings& step);
+
 /// A machine in a few lines: bodies by mobility, and the links of the cables.
 [[nodiscard]] std::string describe(const Machine& machine);
 

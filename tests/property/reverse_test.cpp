@@ -29,7 +29,10 @@ struct Poses {
 };
 
 Poses poses_after(Machine machine, double h, int sweeps) {
-  machine.model.step = settings(h, 1, sweeps);
+  StepSettings& step = machine.model.step;
+  step.dt = h;
+  step.substeps = 1;
+  step.iterations = sweeps;
   Simulation s = start(machine);
   for (int i = 0; i < reverse_steps; ++i) {
     if (!s.world.step().ok()) return {};
