@@ -86,6 +86,27 @@ struct HilbertOptions {
 /// The points of the curve, in units of their spacing: 8^order of them, neighbours one apart; the last step is -y.
 [[nodiscard]] std::vector<Vector3> hilbert_curve(int order);
 
+/// A chain of rigid links with ball joints, fixed at one end, a heavy ball at the other, let go from a straight line: what
+/// solvers that pass errors from joint to joint find hardest.
+struct ChainOptions {
+  int links = 40;              ///< 1 ... 10 000
+  double link_length = 1.0;    ///< between the joints of a link [m], > 0
+  double link_radius = 0.125;  ///< of each, a capsule [m], > 0
+  double link_mass = 1.0;      ///< of each [kg], > 0
+  double mass_ratio = 672.0;   ///< mass of the ball against that of a link, > 0
+  double ball_radius = 8.0;    ///< of the ball [m], > 0; the last joint is on its surface
+  double angle = 0.0;          ///< of the chain below the horizontal at the start [rad], 0 ... 1.5
+  double gravity = 10.0;       ///< downwards [m/s2], > 0
+  double duration = 20.0;      ///< [s], > 0
+  double dt = 1.0 / 60.0;      ///< [s], > 0
+  int substeps = 16;           ///< 1 ... 100 000
+  int iterations = 10;         ///< sweeps, or rounds of the direct solver at most
+
+  static std::span<const Field> field_table();
+};
+/// An error, with the option's name as its path, if an option is out of range.
+[[nodiscard]] Result<Scene> generate_chain(const ChainOptions& options);
+
 /// One kind of generated scene, for programs that choose it by name.
 struct GeneratorKind {
   std::string_view name;                    ///< "wheel-train", ...

@@ -60,7 +60,7 @@ constexpr std::array<Quantity, 4> energy_quantities{{
 constexpr int tension = 0;  // in span_quantities
 
 // Comparing a word with more names than this takes longer than a user waits for a hint.
-constexpr std::size_t max_suggestions = 100'000;
+constexpr std::size_t most_quantities = 100'000;
 
 constexpr std::array<QuantityGroup, 5> groups{{
     {"<body>.", body_quantities},
@@ -237,7 +237,7 @@ Result<int> ObservableSet::index_of(std::string_view name) const {
   const auto found = std::find(names_.begin(), names_.end(), name);
   if (found != names_.end()) return static_cast<int>(found - names_.begin());
   Suggestion suggestion(name);
-  if (names_.size() <= max_suggestions) {
+  if (names_.size() <= most_quantities) {
     for (const std::string& candidate : names_) suggestion.consider(candidate);
   }
   const std::string hint =

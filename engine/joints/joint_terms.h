@@ -10,6 +10,8 @@ inline void drop_rounding(Row& row, std::span<const MovingBody> bodies) {
   const auto keep = [](const Matrix3& inverse, Vector3& gradient) {
     constexpr double rounding = 1e-12;
     const double full = inverse.trace() * gradient.norm();
+    // What nothing can move may yet move by itself: velocities of driven bodies count in those of rows.
+    if (!(full > 0.0)) return;
     if (times(inverse, gradient).norm() <= rounding * full) gradient.setZero();
   };
   for (RowTerm& term : std::span(row.terms).first(static_cast<std::size_t>(row.term_count))) {

@@ -38,6 +38,8 @@ std::span<const GeneratorKind> generator_kinds() {
           "block-and-tackle", "a load on several parts of one rope, and the effort at its end"),
       kind<HilbertOptions, &generate_hilbert>(
           "hilbert", "one cable along a Hilbert curve in space, a wheel at every turn, a motor"),
+      kind<ChainOptions, &generate_chain>(
+          "chain", "rigid links with ball joints and a heavy ball, let go from a straight line"),
   };
   return kinds;
 }

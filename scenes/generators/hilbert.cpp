@@ -87,7 +87,8 @@ class Hilbert {
     // The cable runs clockwise about the axle, so positive angles wind it up.
     drum.orientation = from_z_to(outward.cross(along));
     drum.drive = DriveKind::speed;
-    drum.drive_times = {0.0, options_.start, generators::tidy(options_.start + options_.ramp)};
+    drum.drive_times = {0.0, HilbertOptions::start,
+                        generators::tidy(HilbertOptions::start + options_.ramp)};
     drum.drive_values = {0.0, 0.0, generators::tidy(options_.motor / drum_radius())};
     auto link = std::make_shared<SpoolLink>();
     link->body = scene_.model.add(std::move(drum));
@@ -196,7 +197,8 @@ class Hilbert {
     const double h = options_.dt / options_.substeps;
     const double inertia = 0.5 * options_.wheel_mass * options_.radius * options_.radius;
     const double speed = (options_.wound(time) - options_.wound(time - h)) / h;
-    const bool rising = time > options_.start && time < options_.start + options_.ramp;
+    const bool rising =
+        time > HilbertOptions::start && time < HilbertOptions::start + options_.ramp;
     const double acceleration = rising ? options_.rise() : 0.0;
     const double weight = lifting ? options_.load * (options_.gravity + acceleration) : 0.0;
     const double wheels = running * difference(speed, acceleration);
@@ -221,7 +223,7 @@ class Hilbert {
   }
 
   void add_taut_checks() {
-    const double start = options_.start;
+    const double start = HilbertOptions::start;
     const double ramp = options_.ramp;
     check_tensions(0.5 * start, wheels_, true, "M g before the motor starts");
     const std::string speeding = "M (g + a), at the motor with n (m a / 2 + c v / r^2) more";
@@ -244,7 +246,7 @@ class Hilbert {
       check_angle(k, scene_.duration, k * slack, "and stays with the cable");
       // Not while the motor speeds up, where the wheels that run take some of the tension for that, too.
       const double between = options_.time_of((k + 0.5) * slack);
-      if (between > options_.start + options_.ramp && jerks_are_apart()) {
+      if (between > HilbertOptions::start + options_.ramp && jerks_are_apart()) {
         check_tensions(between, k, false,
                        fmt::format("the drag of {} wheel{}, c v / r^2 each", k, k == 1 ? "" : "s"));
       }
