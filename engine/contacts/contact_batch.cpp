@@ -84,7 +84,7 @@ class ContactBatch final : public ConstraintBatch {
         contact.evaluate(substep, static_cast<int>(k), row);
         correction = std::max(correction, solve_row(row, substep.h, multiplier, substep.moving));
       }
-      note_slip(i);
+      note_slip(substep, i);
     }
     return correction;
   }
@@ -107,8 +107,7 @@ class ContactBatch final : public ConstraintBatch {
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       Contact& contact = contacts_[i];
       if (contact.friction == 0.0) continue;
-      note_slip(i);
-      // Positions of `rattle` carry half of the force.
+      note_slip(substep, i);
       const double now = multipliers_[3 * i] / substep.load_share;
       // Where friction does not use what it has, having more or less changes nothing.
       const double needed =
@@ -249,9 +248,10 @@ class ContactBatch final : public ConstraintBatch {
     return best;
   }
 
-  void note_slip(std::size_t i) {
+  void note_slip(const Substep& substep, std::size_t i) {
     Contact& contact = contacts_[i];
-    const double limit = (1.0 - 1e-9) * contact.friction * contact.pressed;
+    // Positions of `rattle` carry half of the force.
+    const double limit = (1.0 - 1e-9) * substep.load_share * contact.friction * contact.pressed;
     contact.slips =
         std::abs(multipliers_[3 * i + 1]) >= limit || std::abs(multipliers_[3 * i + 2]) >= limit;
   }

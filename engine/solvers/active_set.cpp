@@ -174,7 +174,7 @@ int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem) {
 }
 
 int ActiveSetSolver::first_blocked(const ComplementarityProblem& problem, int redundant,
-                                   double direction) const {
+                                   double direction) {
   // Components that are rounding do not move.
   constexpr double still = 1e-9;
   int blocked = -1;

@@ -58,7 +58,7 @@ class ActiveSetSolver {
   /// The free unknown that has to go to its bound so that a redundant one is satisfied; -1: there is none.
   [[nodiscard]] int blocking_unknown(const ComplementarityProblem& problem);
   [[nodiscard]] int first_blocked(const ComplementarityProblem& problem, int redundant,
-                                  double direction) const;
+                                  double direction);
 
   /// An entry of a row off the diagonal.
   struct Neighbour {
