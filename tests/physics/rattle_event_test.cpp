@@ -53,7 +53,8 @@ TautRun taut_run(const test::Machine& m, double time) {
     EXPECT_TRUE(report.ok());
     EXPECT_EQ(report.statistics.integrator_fallbacks, 0);
     bool taut = false;
-    for (const SpanReport& span : s.cable_reports()[0].spans) taut = taut || span.tension > 0.0;
+    const std::vector<CableReport> reports = s.cable_reports();
+    for (const SpanReport& span : reports[0].spans) taut = taut || span.tension > 0.0;
     if (!taut) break;
     if (s.cables->events().size() > run.events.size()) run.events.push_back(run.energy.size());
     run.energy.push_back(s.world.energy().total() - start);

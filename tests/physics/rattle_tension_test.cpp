@@ -20,7 +20,8 @@ using ForceProbe = std::function<std::vector<double>(const Simulation&)>;
 
 std::vector<double> tensions(const Simulation& s) {
   std::vector<double> all;
-  for (const SpanReport& span : s.cable_reports()[0].spans) all.push_back(span.tension);
+  const std::vector<CableReport> reports = s.cable_reports();
+  for (const SpanReport& span : reports[0].spans) all.push_back(span.tension);
   return all;
 }
 
