@@ -45,6 +45,11 @@ class ConstraintBatch {
   /// Called when a solver of all rows at once has found multipliers: chooses anew between the states that rows do not
   /// tell (a cable sticks or slides). Returns whether anything has changed.
   virtual bool revise(Substep& /*substep*/) { return false; }
+  /// Whether its rows depend on each other too much for sweeps from row to row to get anywhere: Gauss-Seidel then solves them
+  /// all at once whenever it is their turn.
+  [[nodiscard]] virtual bool is_stiff() const { return false; }
+  /// Whether begin() has found an impact from which bodies will rebound. `rattle` leaves such a substep to `xpbd`.
+  [[nodiscard]] virtual bool meets() const { return false; }
   /// Whether correct_velocities() ever does anything.
   [[nodiscard]] virtual bool corrects_velocities() const { return false; }
   /// Called when velocities follow from positions, for what positions do not tell of them (a bounce).

@@ -39,7 +39,11 @@ std::vector<Stage> substep_stages(const Model& model,
   const bool rattle = model.step.integrator == IntegratorKind::rattle;
   const bool moves_kinematic = has_kinematic_bodies(model);
   const bool mounted = has_mounted_rotors(model);
-  const auto solver = rattle ? std::make_shared<RattleSolver>(model.step.solver) : nullptr;
+  const bool stiff = std::any_of(features.begin(), features.end(),
+                                 [](const auto& feature) { return feature->is_stiff(); });
+  // `rattle` sweeps over one system of all rows, which is of no use where some are stiff.
+  const SolverKind at_once = stiff ? SolverKind::direct : model.step.solver;
+  const auto solver = rattle ? std::make_shared<RattleSolver>(at_once) : nullptr;
 
   for (std::size_t i = 0; i < features.size(); ++i) {
     ConstraintBatch& feature = *features[i];
@@ -56,20 +60,20 @@ std::vector<Stage> substep_stages(const Model& model,
       direct->solve(substep, features);
     });
   } else if (!features.empty()) {
-    add("solve by gauss-seidel",
-        [features](Substep& substep) { solve_gauss_seidel(substep, features); });
+    add("solve by gauss-seidel", [features, sweeps = std::make_shared<GaussSeidelSolver>()](
+                                     Substep& substep) { sweeps->solve(substep, features); });
   }
   add("derive velocities", derive_velocities);
   if (rattle) add("correct gyroscopic velocities", correct_gyroscopic_velocities);
   if (mounted) add("place mounted rotors", place_mounted_rotors);
-  if (rattle) {
-    add("second half of the loads", add_second_half_of_loads);
-    add("solve velocities", [=](Substep& substep) { solver->solve_velocities(substep, features); });
-  }
+  if (rattle) add("second half of the loads", add_second_half_of_loads);
   for (const auto& feature : features) {
     if (!feature->corrects_velocities()) continue;
     add("correct velocities of " + std::string(feature->name()),
         [&own = *feature](Substep& substep) { own.correct_velocities(substep); });
+  }
+  if (rattle) {
+    add("solve velocities", [=](Substep& substep) { solver->solve_velocities(substep, features); });
   }
   for (std::size_t i = 0; i < features.size(); ++i) {
     ConstraintBatch& feature = *features[i];

@@ -10,6 +10,7 @@
 #include "engine/shapes/box.h"
 #include "engine/shapes/capsule.h"
 #include "engine/shapes/cylinder.h"
+#include "engine/shapes/half_space.h"
 #include "engine/shapes/polyhedron.h"
 #include "engine/shapes/prism.h"
 #include "engine/shapes/sphere.h"
@@ -141,6 +142,9 @@ class Builder {
         if (const auto sheave = sheave_for(id, body, placed, *cylinder)) part.shape = *sheave;
         thickness = std::max(thickness, cylinder->length);
       }
+      if (const auto* plane = dynamic_cast<const HalfSpace*>(placed.shape.get())) {
+        lay_slab(*plane, part);
+      }
       view_.parts.push_back(std::move(part));
     }
     if (body.shapes.empty() && !carries_cable(id)) {
@@ -148,6 +152,20 @@ class Builder {
           {id, SphereShape{2.5 * cable_radius_}, Vector3::Zero(), Quaternion::Identity(), color});
     }
     if (body.mount) add_cheeks(id, *body.mount, thickness);
+  }
+
+  /// Stands for a half-space: a thin slab under its plane, wider than the scene.
+  void lay_slab(const HalfSpace& plane, BodyPart& part) const {
+    const double scale = world_.bodies().scale();
+    const double depth = 0.01 * scale;
+    const Vector3 normal = plane.normal.normalized();
+    part.shape = BoxShape{Vector3(3.0 * scale, depth, 3.0 * scale)};
+    part.position = placed_at(part, -0.5 * depth * normal);
+    part.orientation = part.orientation * Quaternion(Eigen::Quaterniond::FromTwoVectors(
+                                              Eigen::Vector3d::UnitY(), Eigen::Vector3d(normal)));
+  }
+  static Vector3 placed_at(const BodyPart& part, const Vector3& local) {
+    return part.position + part.orientation * local;
   }
 
   /// A cylinder that turns about another axle than its own; spokes would show the wrong one.

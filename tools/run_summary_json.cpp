@@ -39,7 +39,9 @@ Json statistics(const RunStatistics& statistics) {
           {"set_changes", statistics.set_changes},
           {"solver_fallbacks", statistics.solver_fallbacks},
           {"redundant_rows", statistics.redundant_rows},
-          {"integrator_fallbacks", statistics.integrator_fallbacks}};
+          {"integrator_fallbacks", statistics.integrator_fallbacks},
+          {"contacts", statistics.contacts},
+          {"deepest_overlap", statistics.deepest_overlap}};
 }
 
 Json json(const SpanReport& span, bool known) {
@@ -115,6 +117,21 @@ Json bodies(const World& world) {
   return list;
 }
 
+Json contacts(const World& world) {
+  Json list = Json::array();
+  for (const ContactReport& contact : world.contacts()) {
+    list.push_back({{"body_a", world.bodies().name(contact.body_a.index)},
+                    {"body_b", world.bodies().name(contact.body_b.index)},
+                    {"point", json(contact.point)},
+                    {"normal", json(contact.normal)},
+                    {"gap", contact.gap},
+                    {"normal_force", contact.normal_force},
+                    {"friction_force", json(contact.friction_force)},
+                    {"sticks", contact.sticks}});
+  }
+  return list;
+}
+
 Json warnings(const std::vector<Warning>& warnings) {
   Json list = Json::array();
   for (const Warning& warning : warnings) {
@@ -171,6 +188,7 @@ std::string to_json(const RunSummary& summary) {
               {"statistics", statistics(outcome.statistics)},
               {"events", events(summary)},
               {"warnings", warnings(summary.warnings)}};
+  if (!world.model().colliders.empty()) object["contacts"] = contacts(world);
   if (summary.checked) {
     object["checks"] = checks(summary.checks);
     object["checks_passed"] = summary.checks_passed();

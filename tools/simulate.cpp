@@ -27,6 +27,8 @@ void accumulate(const StepStatistics& step, RunStatistics& total) {
   total.solver_fallbacks += step.solver_fallbacks;
   total.redundant_rows = std::max(total.redundant_rows, step.redundant_rows);
   total.integrator_fallbacks += step.integrator_fallbacks;
+  total.contacts = std::max(total.contacts, step.contacts);
+  total.deepest_overlap = std::max(total.deepest_overlap, step.deepest_overlap);
 }
 
 }  // namespace

@@ -3,8 +3,8 @@
 // and with restitution e it is, at the end of the substep h,
 //   target = e |w_i| (h - T) + a (h - T)^2 / 2,   and grows at  e |w_i| + a (h - T).
 // So a ball loses nothing of its height by where in a substep it meets the floor. `xpbd` keeps the mean velocity of a
-// substep for the velocity of a body, so its w is that plus a h / 2 and its new velocity is that less a h / 2. Bodies that
-// meet at less than 2 |a| h do not bounce: they would for ever.
+// substep for the velocity of a body, so its w is that plus a h / 2. That settles positions; for velocities the approach is
+// taken from the end (rebound.cpp). Bodies that meet at less than 2 |a| h do not bounce: they would for ever.
 //
 // Tangents. What slides has friction against its sliding and none across it, so it has one row, along its velocity at the
 // start. (A second one would hold it to that direction.) What is slow enough to stop, or sticks, has two. They bound the
@@ -12,7 +12,7 @@
 // direction of the force that the whole manifold holds: were it that of each point, points that press against each other
 // sideways could together hold more than they should.
 //
-// A rigid contact that overlaps at the start is opened by a fifth per substep only, because the velocity that opening it at
+// A rigid contact that overlaps at the start is opened by a fiftieth per substep only, because the velocity that opening it at
 // once would leave behind is energy that nobody has put in.
 
 #include "engine/contacts/contact.h"
@@ -22,12 +22,12 @@
 namespace sheave {
 namespace {
 
-constexpr double opened_share = 0.2;
+constexpr double opened_share = 0.02;
 constexpr double slow_impact = 2.0;  // of what gravity does in a substep
 /// Share of a row's own yield by which solvers of all rows soften it: between the corners of a box, which four rows hold
 /// where three would do, it shares the load. It lets contacts sink by this share of what the load would move the body by in a
 /// substep if nothing held it.
-constexpr double softened_share = 1e-8;
+constexpr double softened_share = 1e-9;
 
 /// Rotation of a body since the start of the substep [rad]; a mounted rotor has its own about its axle.
 Vector3 turn_of(const Substep& substep, int body) {
@@ -59,7 +59,7 @@ double tangent_yield(const Substep& substep, const Contact& contact) {
 void meet(const Substep& substep, double restitution, double rate, double acceleration,
           Contact& contact) {
   const double h = substep.h;
-  const double shift = substep.load_share == 1.0 ? 0.5 * h * acceleration : 0.0;
+  const double shift = contact.mean_velocities ? 0.5 * h * acceleration : 0.0;
   const double closing = -(rate + shift);
   const double gap = std::max(contact.start_gap, 0.0);
   const double square = closing * closing - 2.0 * acceleration * gap;
@@ -72,7 +72,8 @@ void meet(const Substep& substep, double restitution, double rate, double accele
   if (!(target >= 0.0) || !(rebound > 0.0)) return;
   contact.target = target;
   contact.rebound = rebound;
-  contact.rebound_stored = std::max(0.0, rebound - shift);
+  contact.restitution = restitution;
+  contact.acceleration = acceleration;
 }
 
 }  // namespace
@@ -144,7 +145,6 @@ void Contact::evaluate(const Substep& substep, int index, Row& row) const {
   row.softness = softness[at(index)];
   if (index == 0) {
     row.value = dot(normal, surface_a - surface_b) - target;
-    row.rate = -rebound;
     row.compliance = compliance;
     row.lower = 0.0;
     substep.add_force(row, body_a, surface_a, normal);

@@ -37,8 +37,12 @@ struct Contact {
   double friction = 0.0;              ///< coefficient that counts in this substep
   double compliance = 0.0;            ///< [m/N]
   double target = 0.0;                ///< gap at the end of the substep
-  double rebound = 0.0;         ///< normal velocity after an impact in this substep [m/s]; 0: none
-  double rebound_stored = 0.0;  ///< the same as `xpbd` keeps velocities: the mean of the substep
+  /// Normal velocity after an impact in this substep [m/s]; 0: none. Refined when velocities are known (rebound.h).
+  double rebound = 0.0;
+  /// Whether velocities are means of the substep before, as those of `xpbd` are, or of the moment.
+  bool mean_velocities = true;
+  double restitution = 0.0;
+  double acceleration = 0.0;         ///< of the gap, for free bodies [m/s2]
   std::array<double, 3> softness{};  ///< Row::softness of each row [1/kg]
   // What the last substep knows: forces [N] along the normal and the tangents, and whether friction held.
   std::array<double, 3> last_force{};

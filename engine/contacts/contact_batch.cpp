@@ -23,7 +23,8 @@ constexpr double same_point = 0.05;
 
 class ContactBatch final : public ConstraintBatch {
  public:
-  ContactBatch(const Model& model, const BodySet& bodies) : finder_(model, bodies) {
+  ContactBatch(const Model& model, const BodySet& bodies)
+      : finder_(model, bodies), mean_velocities_(model.step.integrator == IntegratorKind::xpbd) {
     for (const ColliderDef& collider : model.colliders) {
       bounces_ = bounces_ || collider.restitution > 0.0;
     }
@@ -58,11 +59,9 @@ class ContactBatch final : public ConstraintBatch {
       add_manifold(substep, state, pair, manifold, old);
     });
     multipliers_.assign(3 * contacts_.size(), 0.0);
-    warm_ = true;
   }
 
   double sweep(Substep& substep) override {
-    if (warm_) push_as_before(substep);
     double correction = 0.0;
     Row row;
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
@@ -85,13 +84,12 @@ class ContactBatch final : public ConstraintBatch {
         contact.evaluate(substep, static_cast<int>(k), row);
         correction = std::max(correction, solve_row(row, substep.h, multiplier, substep.moving));
       }
-      note_slip(i);
+      note_slip(substep, i);
     }
     return correction;
   }
 
   void linearise(Substep& substep, std::vector<Row>& rows) override {
-    warm_ = false;
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       const Contact& contact = contacts_[i];
       for (int k = 0; k < contact.rows; ++k) {
@@ -109,8 +107,7 @@ class ContactBatch final : public ConstraintBatch {
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       Contact& contact = contacts_[i];
       if (contact.friction == 0.0) continue;
-      note_slip(i);
-      // Positions of `rattle` carry half of the force.
+      note_slip(substep, i);
       const double now = multipliers_[3 * i] / substep.load_share;
       // Where friction does not use what it has, having more or less changes nothing.
       const double needed =
@@ -124,6 +121,11 @@ class ContactBatch final : public ConstraintBatch {
     return changed;
   }
 
+  [[nodiscard]] bool is_stiff() const override { return true; }
+  [[nodiscard]] bool meets() const override {
+    return std::any_of(contacts_.begin(), contacts_.end(),
+                       [](const Contact& contact) { return contact.rebound > 0.0; });
+  }
   [[nodiscard]] bool corrects_velocities() const override { return bounces_; }
   void correct_velocities(Substep& substep) override {
     rebound_.run(substep, contacts_, multipliers_);
@@ -191,6 +193,7 @@ class ContactBatch final : public ConstraintBatch {
     for (const ContactPoint& point : manifold.points) {
       Contact& contact = contacts_.emplace_back();
       contact.forms = pair;
+      contact.mean_velocities = mean_velocities_;
       contact.body_a = finder_.forms()[at(pair.a)].body;
       contact.body_b = finder_.forms()[at(pair.b)].body;
       contact.normal = manifold.normal;
@@ -207,6 +210,7 @@ class ContactBatch final : public ConstraintBatch {
         friction = last->friction;
         contact.stuck = last->sticks;
         contact.slipped = last->slipped;
+        contact.pressed = last->force * substep.h * substep.h;
       }
       prepare_contact(
           substep, finder_.material(pair),
@@ -216,7 +220,6 @@ class ContactBatch final : public ConstraintBatch {
         contact.last_force = {last->force, friction.dot(contact.tangents[0]),
                               friction.dot(contact.tangents[1])};
       }
-      contact.pressed = contact.last_force[0] * substep.h * substep.h;
     }
   }
 
@@ -245,39 +248,21 @@ class ContactBatch final : public ConstraintBatch {
     return best;
   }
 
-  /// Begins with the multipliers of the last substep: what rests in equilibrium stays there in one sweep.
-  void push_as_before(Substep& substep) {
-    warm_ = false;
-    Row row;
-    RowResponse response;
-    const double square = substep.h * substep.h;
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      for (int k = 0; k < contacts_[i].rows; ++k) {
-        const double multiplier = contacts_[i].last_force[at(k)] * square;
-        if (multiplier == 0.0) continue;
-        row.clear();
-        contacts_[i].evaluate(substep, k, row);
-        respond(row, substep.moving, response);
-        multipliers_[3 * i + at(k)] = multiplier;
-        apply_multiplier(row, response, multiplier, substep.moving);
-      }
-    }
-  }
-
-  void note_slip(std::size_t i) {
+  void note_slip(const Substep& substep, std::size_t i) {
     Contact& contact = contacts_[i];
-    const double limit = (1.0 - 1e-9) * contact.friction * contact.pressed;
+    // Positions of `rattle` carry half of the force.
+    const double limit = (1.0 - 1e-9) * substep.load_share * contact.friction * contact.pressed;
     contact.slips =
         std::abs(multipliers_[3 * i + 1]) >= limit || std::abs(multipliers_[3 * i + 2]) >= limit;
   }
 
   ContactFinder finder_;
+  bool mean_velocities_ = true;
   bool bounces_ = false;
   // Scratch of a substep.
   std::vector<Contact> contacts_;
   std::vector<double> multipliers_;  // three per contact
   std::vector<ContactRecord> records_;
-  bool warm_ = false;
   Rebound rebound_;
 };
 

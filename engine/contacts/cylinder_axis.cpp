@@ -8,7 +8,8 @@
 //   rim, rim       tangent x tangent, at the nearest points of the two circles
 //   rim, mantle    from the other axis to the point of the rim that is nearest to it
 //
-// Nearest points of circles are found by projecting back and forth. A direction that is a little off has a gap that is too
+// Nearest points of circles are found by projecting back and forth; where solids overlap deeply these need not be the best
+// ones, so the best direction is improved by a search across it. A direction that is a little off has a gap that is too
 // small by the square of that.
 
 #include <limits>
@@ -55,6 +56,7 @@ class Search {
       if (done()) return best_;
     }
     if (a_.is(ConvexSolid::Kind::cylinder)) try_cylinder();
+    if (!done()) climb();
     return best_;
   }
 
@@ -75,6 +77,25 @@ class Search {
     if (!(length > 0.0)) return;
     try_one(direction / length);
     try_one(-direction / length);
+  }
+
+  /// From the best direction uphill, by steps across it that are halved where none helps. What is best already by more
+  /// than rounding, and has a closed form, stays as it is.
+  void climb() {
+    const double size = a_.solid->radius + b_.solid->radius + (a_.first() - b_.first()).norm();
+    for (double step = 0.1; step > 1e-7; step *= 0.5) {
+      bool higher = true;
+      while (higher) {
+        const double before = best_.gap;
+        const Vector3 from = best_.normal;
+        const Vector3 x = any_perpendicular(from);
+        const Vector3 y = cross(from, x);
+        ContactAxis kept = best_;
+        for (const Vector3& aside : {x, Vector3(-x), y, Vector3(-y)}) try_one(from + step * aside);
+        higher = best_.gap > before + 1e-12 * size;
+        if (!higher) best_ = kept;
+      }
+    }
   }
 
   void try_corner(const Vector3& corner) {
@@ -105,6 +126,13 @@ class Search {
         on_rim = rim.nearest(on_line);
       }
       try_both(cross(rim.tangent(on_rim), along));
+      // Where the edge goes deep into the cylinder, other points of the rim may serve better.
+      const Vector3 x = any_perpendicular(axis_);
+      const Vector3 y = cross(axis_, x);
+      for (int i = 0; i < 12; ++i) {
+        const double angle = pi / 12.0 * i;
+        try_both(cross(std::cos(angle) * x + std::sin(angle) * y, along));
+      }
     }
   }
 

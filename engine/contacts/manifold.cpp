@@ -211,9 +211,21 @@ void reduce_points(Manifold& manifold) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     size = std::max(size, (position(i) - position(0)).norm());
   }
+  // The corners of two squares that are turned against each other by a little come in pairs. One of each will do, and
+  // then it is no matter of rounding which four are kept.
+  std::vector<ContactPoint> distinct;
+  for (const ContactPoint& point : points) {
+    if (std::none_of(distinct.begin(), distinct.end(), [&](const ContactPoint& other) {
+          return (other.core_a - point.core_a).norm() < 0.05 * size;
+        })) {
+      distinct.push_back(point);
+    }
+  }
+  points = distinct;
+  if (points.size() <= Manifold::most_points) return;
   std::size_t deepest = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
-    if (points[i].gap < points[deepest].gap - 1e-6 * size) deepest = i;
+    if (points[i].gap < points[deepest].gap - 1e-3 * size) deepest = i;
   }
   const auto farthest = [&](const auto& measure) {
     std::size_t best = 0;

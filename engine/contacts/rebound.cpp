@@ -1,6 +1,20 @@
+// Newton's law for impacts, v+ = -e v-, with v- the normal velocity that points of contact would have at the end of the
+// substep if nothing had touched. Where the law holds in all of them with impulses m >= 0, the energy changes by
+//   m . (v+ + v-) / 2 = (1 - e) m . v- / 2 <= 0,
+// so that no bounce makes any, however many meet. (The approach at the start would not do: bodies turn in a substep.)
+//
+// v- is reached at the depth c < 0 beyond the surface, under the acceleration a. The impact was at v_i^2 = v-^2 - 2 a c, the
+// time 2 c / (v- + v_i) ago, and since then the rebound e v_i has been slowed by a. `xpbd` keeps the mean velocity of the
+// substep, which is by a h / 2 less.
+//
+// Substeps of `rattle` with an impact are left to `xpbd`: multipliers along the gradients of the start would bounce a body that
+// turns off places where it no longer is. Impulses, found by sweeps, bring points that bounce to that velocity and keep those that are pressed from
+// falling; friction takes its share. With those of the positions, l / h, no impulse pulls.
+
 #include "engine/contacts/rebound.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/stages.h"
 
@@ -27,15 +41,41 @@ void push(Substep& substep, const Row& row, const RowResponse& response, double 
   }
 }
 
+/// How far the mean velocity of a substep is behind that of its end.
+double lag(const Substep& substep, const Contact& contact) {
+  return contact.mean_velocities ? 0.5 * substep.h * contact.acceleration : 0.0;
+}
+
+/// The normal velocity at the end of the substep after an impact, from that without it.
+double rebound_from(const Substep& substep, const Contact& contact, double free_velocity) {
+  const double a = contact.acceleration;
+  const double h = substep.h;
+  const double shift = lag(substep, contact);
+  const double mean = free_velocity + shift - 0.5 * h * a;
+  const double depth = -(contact.start_gap + h * mean);
+  const double closing = -(free_velocity + shift);
+  const double square = closing * closing + 2.0 * a * std::max(depth, 0.0);
+  if (!(closing > 0.0) || !(square > 0.0)) return 0.0;
+  const double impact = std::sqrt(square);
+  const double since = std::clamp(2.0 * depth / (closing + impact), 0.0, h);
+  return std::max(0.0, contact.restitution * impact + a * since);
+}
+
 }  // namespace
 
-void Rebound::run(Substep& substep, std::span<const Contact> contacts,
-                  std::span<double> multipliers) {
-  if (substep.load_share != 1.0) return;  // `rattle` solves for velocities itself
+void Rebound::run(Substep& substep, std::span<Contact> contacts, std::span<double> multipliers) {
   if (std::none_of(contacts.begin(), contacts.end(),
                    [](const Contact& contact) { return contact.rebound > 0.0; })) {
     return;
   }
+  substep.update_inertias();
+  collect(substep, contacts, multipliers);
+  find_rebounds(substep, contacts, multipliers);
+  sweep(substep, contacts, multipliers);
+}
+
+void Rebound::collect(const Substep& substep, std::span<const Contact> contacts,
+                      std::span<const double> multipliers) {
   impacts_.clear();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     if (!(multipliers[3 * i] > 0.0)) continue;
@@ -47,10 +87,34 @@ void Rebound::run(Substep& substep, std::span<const Contact> contacts,
       contacts[i].evaluate(substep, static_cast<int>(k), impact.rows[k]);
       respond(impact.rows[k], substep.moving, impact.responses[k]);
     }
-    impact.wanted = contacts[i].rebound > 0.0
-                        ? contacts[i].rebound_stored
-                        : std::min(0.0, velocity_along(substep, impact.rows[0]));
   }
+}
+
+void Rebound::find_rebounds(Substep& substep, std::span<Contact> contacts,
+                            std::span<const double> multipliers) {
+  kept_ = substep.next.bodies;
+  for (const Impact& impact : impacts_) {
+    for (std::size_t k = 0; k < impact.rows.size(); ++k) {
+      const double impulse = multipliers[3 * impact.contact + k] / substep.h;
+      push(substep, impact.rows[k], impact.responses[k], -impulse);
+    }
+  }
+  follow_carriers(substep);
+  for (const Impact& impact : impacts_) {
+    Contact& contact = contacts[impact.contact];
+    if (!(contact.rebound > 0.0)) continue;
+    contact.rebound = rebound_from(substep, contact, velocity_along(substep, impact.rows[0]));
+  }
+  substep.next.bodies = kept_;
+  for (Impact& impact : impacts_) {
+    const Contact& contact = contacts[impact.contact];
+    impact.wanted = contact.rebound > 0.0 ? std::max(0.0, contact.rebound - lag(substep, contact))
+                                          : std::min(0.0, velocity_along(substep, impact.rows[0]));
+  }
+}
+
+void Rebound::sweep(Substep& substep, std::span<const Contact> contacts,
+                    std::span<double> multipliers) {
   const double h = substep.h;
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     double largest = 0.0;

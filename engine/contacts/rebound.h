@@ -7,14 +7,13 @@
 
 namespace sheave {
 
-/// Velocities after impacts, for substeps of `xpbd`: positions have already been moved apart, and velocities follow from
-/// that; but what a bounce leaves is not what the way of a substep says. Impulses m [N s], found by sweeps, bring the normal
-/// velocity of points that bounce to Contact::rebound_stored and keep that of points that are pressed from falling; friction
-/// takes its share of them. With those of the positions, l / h, no impulse pulls.
+/// Velocities after impacts. Positions have already been moved apart, and velocities follow from that; but what a bounce
+/// leaves is not what the way of a substep says.
 class Rebound {
  public:
-  /// Changes the velocities in substep.next, and adds h m to the multipliers, three per contact.
-  void run(Substep& substep, std::span<const Contact> contacts, std::span<double> multipliers);
+  /// Finds Contact::rebound of the contacts that meet in this substep, changes the velocities in substep.next, and adds h
+  /// times the impulses to the multipliers, three per contact.
+  void run(Substep& substep, std::span<Contact> contacts, std::span<double> multipliers);
 
  private:
   struct Impact {
@@ -23,7 +22,15 @@ class Rebound {
     std::vector<Row> rows;
     std::vector<RowResponse> responses;
   };
+
+  void collect(const Substep& substep, std::span<const Contact> contacts,
+               std::span<const double> multipliers);
+  void find_rebounds(Substep& substep, std::span<Contact> contacts,
+                     std::span<const double> multipliers);
+  void sweep(Substep& substep, std::span<const Contact> contacts, std::span<double> multipliers);
+
   std::vector<Impact> impacts_;
+  std::vector<BodyState> kept_;
 };
 
 }  // namespace sheave

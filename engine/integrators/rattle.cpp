@@ -5,7 +5,6 @@
 
 #include "engine/index.h"
 #include "engine/integrators/loads.h"
-#include "engine/solvers/gauss_seidel.h"
 #include "engine/stages.h"
 
 namespace sheave {
@@ -64,8 +63,12 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
 }
 
 void RattleSolver::solve_positions(Substep& substep, Features features) {
-  if (try_positions(substep, features)) return;
-  ++substep.statistics.integrator_fallbacks;
+  const bool impact = std::any_of(features.begin(), features.end(),
+                                  [](const auto& feature) { return feature->meets(); });
+  if (!impact) {
+    if (try_positions(substep, features)) return;
+    ++substep.statistics.integrator_fallbacks;
+  }
   substep.load_share = 1.0;
   substep.restart();
   for (std::size_t i = 0; i < features.size(); ++i) {
@@ -76,7 +79,7 @@ void RattleSolver::solve_positions(Substep& substep, Features features) {
   if (solver_ == SolverKind::direct) {
     direct_.solve(substep, features);
   } else {
-    solve_gauss_seidel(substep, features);
+    sweeps_.solve(substep, features);
   }
 }
 

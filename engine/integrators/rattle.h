@@ -14,6 +14,7 @@
 //   (engine/solvers/row_system.h): it conserves the energy of linear springs and is stable for any of them.
 // - A row that closes in a substep stops the motion against it: an inelastic impact. No row makes energy.
 // - Free rotation is an explicit midpoint step that conserves the angular momentum (engine/integrators/xpbd.cpp).
+// - A substep in which bodies meet and rebound is done by xpbd, whose impulses act where bodies are at its end.
 // - Where no l brings C(x1) to 0 (a swing of a right angle in one substep has no such l), the substep is done again by
 //   xpbd, and counted.
 
@@ -42,6 +43,7 @@ class RattleSolver {
   RowSystem positions_;
   RowSystem velocities_;
   DirectSolver direct_;
+  GaussSeidelSolver sweeps_;
 };
 
 }  // namespace sheave

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/solvers/gauss_seidel.h"
-
 namespace sheave {
 
 void DirectSolver::solve(Substep& substep, Features features) {
@@ -25,7 +23,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
     if (!system_.solve(substep)) {
       substep.statistics.rows = system_.row_count();
       ++substep.statistics.solver_fallbacks;
-      solve_gauss_seidel(substep, features);
+      sweeps_.solve(substep, features);
       return;
     }
     system_.apply(substep, features);

@@ -10,6 +10,7 @@
 // static forces. Where bodies swing too far within a substep for that, the rounds stop converging, and corrections are added
 // up instead: a chain of light links under a heavy ball, whose links swing across it by more than a radian per substep.
 
+#include "engine/solvers/gauss_seidel.h"
 #include "engine/solvers/row_system.h"
 
 namespace sheave {
@@ -28,6 +29,7 @@ class DirectSolver {
 
  private:
   RowSystem system_;
+  GaussSeidelSolver sweeps_;
 };
 
 }  // namespace sheave

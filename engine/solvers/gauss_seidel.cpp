@@ -2,17 +2,38 @@
 
 #include <algorithm>
 
+#include "engine/solvers/direct.h"
+
 namespace sheave {
 
-void solve_gauss_seidel(Substep& substep,
-                        std::span<const std::unique_ptr<ConstraintBatch>> features) {
+double GaussSeidelSolver::visit(Substep& substep, Features feature, Block& block, bool first) {
+  RowSystem& system = block.system;
+  system.linearise_among_others(substep, feature, first);
+  const double violated = system.violation();
+  const bool enough = violated <= DirectSolver::tolerance * substep.bodies.scale();
+  if (!first && !block.revised && enough) return violated;
+  if (system.solve(substep)) {
+    system.apply(substep, feature);
+  } else {
+    feature.front()->sweep(substep);
+  }
+  block.revised = feature.front()->revise(substep);
+  system.remember_places(substep);
+  return violated;
+}
+
+void GaussSeidelSolver::solve(Substep& substep, Features features) {
   int rows = 0;
   for (const auto& feature : features) rows += feature->row_count();
+  blocks_.resize(features.size());
   double correction = 0.0;
   for (int iteration = 0; iteration < substep.iterations; ++iteration) {
     correction = 0.0;
-    for (const auto& feature : features) {
-      correction = std::max(correction, feature->sweep(substep));
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      const bool stiff = features[i]->is_stiff() && features[i]->row_count() > 0;
+      correction = std::max(
+          correction, stiff ? visit(substep, features.subspan(i, 1), blocks_[i], iteration == 0)
+                            : features[i]->sweep(substep));
     }
   }
   StepStatistics& statistics = substep.statistics;

@@ -192,6 +192,28 @@ void RowSystem::remember_origin(const Substep& substep) {
   }
 }
 
+void RowSystem::linearise_among_others(Substep& substep, Features features, bool first_round) {
+  if (!first_round) {
+    for (std::size_t b = 0; b < placed_.size(); ++b) {
+      const MovingBody& body = substep.moving[b];
+      const Vector3 turn = body.turn - placed_[b].turn;
+      origin_[b].position += body.position - placed_[b].position;
+      origin_[b].turn += turn;
+      origin_[b].orientation = turned(origin_[b].orientation, turn);
+    }
+  }
+  linearise(substep, features, Rule::backward, first_round);
+  remember_places(substep);
+}
+
+void RowSystem::remember_places(const Substep& substep) {
+  placed_.resize(substep.moving.size());
+  for (std::size_t b = 0; b < placed_.size(); ++b) {
+    const MovingBody& body = substep.moving[b];
+    placed_[b] = {body.position, body.orientation, body.turn};
+  }
+}
+
 void RowSystem::settle(const Substep& substep) {
   // From where the bodies are to where the multipliers of now put them along the gradients of now.
   motion_.assign(substep.moving.size(), RowTerm{});

@@ -54,6 +54,11 @@ class RowSystem {
   /// otherwise from those of the last call with it. In the first round, with multipliers of 0 at the predicted positions,
   /// it must be set. False if a row touches other bodies than at the remembered start.
   bool linearise(Substep& substep, Features features, Rule rule, bool from_here);
+  /// The problem at the current positions, of features among others that have moved the bodies, too, since the last round:
+  /// their motion counts as part of what bodies move from.
+  void linearise_among_others(Substep& substep, Features features, bool first_round);
+  /// To be called after apply(), if the next round is one among others.
+  void remember_places(const Substep& substep);
   /// The problem of the velocities in substep.next, with K = J at the current positions: the impulses m [N s] for which
   /// dC/dt = 0 (or >= 0) on rows that have acted or are closed. Springs have acted and get none.
   void linearise_velocities(Substep& substep, Features features);
@@ -132,6 +137,7 @@ class RowSystem {
   std::vector<Group> groups_;
   std::vector<int> group_of_;
   std::vector<Pose> origin_;  ///< per body: where it moves from, in the first round its prediction
+  std::vector<Pose> placed_;  ///< per body: where the last round among others has left it
   bool from_here_ = true;
   /// Per body: displacement and turn, or their rates; `body` is not used.
   std::vector<RowTerm> motion_;

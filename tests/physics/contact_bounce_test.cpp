@@ -68,7 +68,7 @@ TEST(ContactBounce, EqualBallsExchangeTheirVelocities) {
     const BodyId second = heap.put(test::ball(0.1), {1.0, 0.0, 0.0});
     World world = heap.start();
     test::run(world, 1.0);
-    // Row::softness leaves 1e-8 of an impact.
+    // Row::softness leaves 1e-9 of an impact.
     constexpr double tolerance = 1e-7;
     EXPECT_NEAR(world.velocity(first).norm(), 0.0, tolerance);
     EXPECT_NEAR(world.velocity(second).x(), 2.0, tolerance);

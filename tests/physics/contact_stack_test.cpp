@@ -38,8 +38,6 @@ TEST(ContactStack, TenBoxesRestForAMinute) {
     }
     EXPECT_LT(worst, 0.01 * edge);
     EXPECT_EQ(fallbacks, 0);
-    std::printf("%s worst %g edges, energy %g\n", test::name_of(method).c_str(), worst / edge,
-                world.energy().kinetic);
   }
 }
 

@@ -138,7 +138,11 @@ class RandomScene {
     const int shapes = random_.pick(3) + 1;
     for (int i = 0; i < shapes; ++i) {
       PlacedShape placed;
-      placed.shape = make(shape_types());
+      // Forms without end are only for bodies that need no mass.
+      const bool moves = body.mobility != Mobility::fixed && body.mobility != Mobility::kinematic;
+      do {
+        placed.shape = make(shape_types());
+      } while (moves && !placed.shape->bounded());
       if (body.mobility != Mobility::rotor) fill(PlacedShape::field_table(), &placed);
       body.shapes.push_back(std::move(placed));
     }

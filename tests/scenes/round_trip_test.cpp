@@ -35,7 +35,8 @@ INSTANTIATE_TEST_SUITE_P(round_trip, ShippedScene, testing::ValuesIn(valid_scene
 TEST(round_trip, random_scenes_survive_exactly) {
   std::set<std::string_view> types;
   std::size_t entities = 0;
-  for (unsigned seed = 0; seed < 60; ++seed) {
+  std::size_t colliders = 0;
+  for (unsigned seed = 0; seed < 150; ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = random_scene(seed);
     expect_exact(scene);
@@ -46,6 +47,7 @@ TEST(round_trip, random_scenes_survive_exactly) {
     for (const CableDef& cable : scene.cables) {
       for (const auto& link : cable.links) types.insert(link->type());
     }
+    colliders += scene.model.colliders.size();
     entities += scene.model.bodies.size() + scene.model.joints.size() + scene.cables.size() +
                 scene.checks.size() + (scene.camera ? 1 : 0) + (scene.model.ground ? 1 : 0);
   }
@@ -57,6 +59,7 @@ TEST(round_trip, random_scenes_survive_exactly) {
   expect_types(joint_types());
   expect_types(link_types());
   EXPECT_GT(entities, 600U);
+  EXPECT_GT(colliders, 50U);
 }
 
 TEST(round_trip, generated_scenes_survive_exactly) {
