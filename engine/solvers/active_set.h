@@ -58,7 +58,7 @@ class ActiveSetSolver {
   /// The free unknown that has to go to its bound so that a redundant one is satisfied; -1: there is none.
   [[nodiscard]] int blocking_unknown(const ComplementarityProblem& problem);
   [[nodiscard]] int first_blocked(const ComplementarityProblem& problem, int redundant,
-                                  double direction) const;
+                                  double direction);
 
   /// An entry of a row off the diagonal.
   struct Neighbour {
@@ -77,6 +77,7 @@ class ActiveSetSolver {
   std::vector<double> values_;
   std::vector<double> lower_values_;
   std::vector<int> violated_;
+  std::vector<int> returns_;  // how often an unknown went to its bound in this solve()
   std::vector<double> null_vector_;
   bool blocked_above_ = false;  ///< by which of its bounds
   int changes_ = 0;

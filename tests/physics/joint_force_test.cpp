@@ -24,9 +24,9 @@
 namespace sheave {
 namespace {
 
-constexpr double mass = 3.0;
+constexpr double held_mass = 3.0;
 constexpr double arm = 0.4;
-constexpr double weight = mass * test::g;
+constexpr double weight = held_mass * test::g;
 
 class JointForce : public test::ForEveryCombination {
  protected:
@@ -35,7 +35,7 @@ class JointForce : public test::ForEveryCombination {
     Model model;
     model.gravity = test::down;
     model.step = step_settings(1.0 / 60.0, GetParam().solver == SolverKind::direct ? 20 : 400);
-    const BodyId body = model.add(test::lump("body", center, mass));
+    const BodyId body = model.add(test::lump("body", center, held_mass));
     joint->name = "joint";
     joint->body_b = body;
     model.joints.push_back(joint);
@@ -138,7 +138,7 @@ TEST_P(JointForce, IsTheOppositeOnTheOtherBody) {
   Model model;
   model.gravity = test::down;
   model.step = step_settings(1.0 / 60.0, 100);
-  const BodyId body = model.add(test::lump("body", {0.0, -arm, 0.0}, mass));
+  const BodyId body = model.add(test::lump("body", {0.0, -arm, 0.0}, held_mass));
   auto joint = std::make_shared<FixedJoint>();
   joint->name = "joint";
   joint->body_a = body;
@@ -156,7 +156,7 @@ TEST_P(JointForce, DeflectsBearingsByComplianceTimesForce) {
   Model model;
   model.gravity = test::down;
   model.step = step_settings(1.0 / 240.0, 100);
-  BodyDef lump = test::lump("body", beside, mass);
+  BodyDef lump = test::lump("body", beside, held_mass);
   // Oscillations die away: frequencies are 58 and 82 rad/s, decays by 20 / 3 and 1 / 0.27 per second.
   lump.damping = 40.0;
   lump.angular_damping = 2.0;
@@ -183,7 +183,7 @@ TEST(JointBreaking, HappensAtTheLimitAndLeavesTheBodyFree) {
     model.step = test::settings(1.0 / 240.0, 1, 20);
     model.step.solver = combination.solver;
     model.step.integrator = combination.integrator;
-    const BodyId body = model.add(test::weight("body", {0.0, -1.0, 0.0}, mass));
+    const BodyId body = model.add(test::weight("body", {0.0, -1.0, 0.0}, held_mass));
     auto rod = std::make_shared<DistanceJoint>();
     rod->name = "rod";
     rod->body_b = body;
@@ -211,7 +211,7 @@ TEST(JointBreaking, HappensAtTheLimitAndLeavesTheBodyFree) {
     // m v = integral of m g + 10 t from the break on.
     const double from = *reports[0].broken_at;
     const double impulse = weight * (1.0 - from) + 5.0 * (1.0 - from * from);
-    EXPECT_NEAR(-world.velocity(body).y(), impulse / mass, 1e-9);
+    EXPECT_NEAR(-world.velocity(body).y(), impulse / held_mass, 1e-9);
   }
 }
 
@@ -219,7 +219,7 @@ TEST(JointBreaking, IsPartOfTheState) {
   Model model;
   model.gravity = test::down;
   model.step = test::settings(0.01, 1, 20);
-  const BodyId body = model.add(test::lump("body", {0.0, -1.0, 0.0}, mass));
+  const BodyId body = model.add(test::lump("body", {0.0, -1.0, 0.0}, held_mass));
   auto rod = std::make_shared<DistanceJoint>();
   rod->name = "rod";
   rod->body_b = body;
