@@ -15,6 +15,19 @@ namespace sheave {
 
 class BodySet;
 
+/// A free coordinate of a joint type.
+struct JointCoordinateInfo {
+  /// What the pose of the bodies tells of it.
+  enum class Measure {
+    pose,     ///< its value
+    turns,    ///< its value up to whole turns, which are counted
+    changes,  ///< how fast it changes, and no value (a rotation about a direction that moves)
+  };
+  std::string_view name;  ///< "angle", "travel", ...
+  bool angle = false;     ///< its units have rad for m
+  Measure measure = angle ? Measure::turns : Measure::pose;
+};
+
 /// Settings of one joint between two bodies; derived types add their own.
 class JointDef {
  public:
@@ -32,6 +45,8 @@ class JointDef {
   static std::span<const Field> common_field_table();
   [[nodiscard]] virtual std::string_view type() const = 0;  ///< key in the registry, e.g. "hinge"
   [[nodiscard]] virtual const void* settings() const = 0;   ///< this, as its own type
+  /// The coordinates that reports tell, in their order.
+  [[nodiscard]] virtual std::span<const JointCoordinateInfo> coordinates() const = 0;
   /// Faults beyond the ranges of the field tables; `path` is prepended to theirs.
   [[nodiscard]] virtual Errors validate(const BodySet& bodies, const std::string& path) const;
   /// One batch for all `joints`, which are of this type.

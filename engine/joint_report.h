@@ -1,6 +1,7 @@
 #pragma once
 // What joints do: forces, angles, drives.
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,28 +17,47 @@ class World;
 struct JointCoordinateReport {
   std::string_view name;  ///< "angle", "travel", ...
   bool angle = false;     ///< its units have rad for m
-  double value = 0.0;  ///< since time 0 [m], angles with all turns; of a distance joint its length
-  double rate = 0.0;   ///< [m/s]
+  double value =
+      0.0;  ///< since time 0 [m], angles with all turns; the swing of a ball joint: against the other axis
+  double rate = 0.0;         ///< [m/s]
   double drive_force = 0.0;  ///< of its drive in the last substep, along the coordinate [N]
 };
 
 struct JointReport {
   std::string name;
+  std::string_view type;  ///< key in the registry, e.g. "hinge"
   /// What the joint did to body_b in the last substep, in the world frame: the mean force, and its torque about body_b's
   /// anchor. Drives, springs, stops and friction are part of it. The opposite acts on body_a.
-  Vector3 force = Vector3::Zero();   ///< [N]
-  Vector3 torque = Vector3::Zero();  ///< [N m]
-  std::vector<JointCoordinateReport>
-      coordinates;                  ///< empty for joints that leave none, or do not count them
-  std::optional<double> broken_at;  ///< when it broke [s]
+  Vector3 force = Vector3::Zero();                 ///< [N]
+  Vector3 torque = Vector3::Zero();                ///< [N m]
+  std::vector<JointCoordinateReport> coordinates;  ///< JointDef::coordinates()
+  std::optional<double> broken_at;                 ///< when it broke [s]
 };
 
 /// A feature that consists of joints.
 class JointFeature : public ConstraintBatch {
  public:
-  /// Appends the reports of its joints, for a state of the world and `own` of the feature.
-  virtual void append_reports(const BodySet& bodies, const State& state, const FeatureState& own,
-                              std::vector<JointReport>& reports) const = 0;
+  /// Of all its joints, which it has in the order of the model.
+  [[nodiscard]] virtual std::string_view type() const = 0;
+  /// What its joint at `index` did, for a substep that begins `now` and with the feature's state `own`.
+  [[nodiscard]] virtual JointReport report(int index, const Substep& now,
+                                           const FeatureState& own) const = 0;
+};
+
+/// Reads single joints of one state of a world, which must outlive it and not step meanwhile.
+class JointReader {
+ public:
+  explicit JointReader(const World& world);
+  ~JointReader();
+  JointReader(JointReader&&) noexcept;
+  JointReader& operator=(JointReader&&) noexcept;
+
+  /// Of the joint at this index of Model::joints.
+  [[nodiscard]] JointReport report(int joint) const;
+
+ private:
+  struct Content;
+  std::unique_ptr<Content> content_;
 };
 
 /// The reports of all joints, in the order of the model.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/joints/hinge.h"
 #include "render/number_text.h"
 
 namespace sheave::render {
@@ -90,6 +91,12 @@ std::optional<Vector3> motion_plane(const Model& model, std::span<const CableRep
       normals.push_back(body.axis ? Vector3(body.axis->normalized()) : Vector3(Vector3::UnitZ()));
     }
   }
+  if (normals.empty()) {
+    for (const auto& joint : model.joints) {
+      const auto* hinge = dynamic_cast<const HingeJoint*>(joint.get());
+      if (hinge != nullptr) normals.push_back(hinge->axis.normalized());
+    }
+  }
   return common_direction(normals);
 }
 
@@ -106,10 +113,12 @@ ViewBuilder::ViewBuilder(const World& world, std::span<const CableReport> cables
   for (const CableReport& cable : cables) {
     for (const LinkReport& link : cable.links) box.extend(link.center);
   }
+  extend_by_joints(world, box);
   if (box.isEmpty()) box.extend(Eigen::Vector3d::Zero());
   const double diagonal = std::max(box.diagonal().norm(), 1e-9);
   cable_radius_ = options_.cable_radius.value_or(suitable_cable_radius(diagonal, cables));
   bodies_ = make_body_view(world, cables, cable_radius_);
+  joints_ = make_joint_view(world, cable_radius_);
 
   const Eigen::AlignedBox3d shown = options_.run_bounds.isEmpty() ? box : options_.run_bounds;
   if (world.model().ground) {
@@ -130,6 +139,7 @@ DrawList ViewBuilder::build(const World& world, std::span<const CableReport> cab
   if (options_.time) list.time = world.state().time;
   if (floor_) list.planes.push_back(*floor_);
   add_bodies(world, list);
+  add_joints(joints_, world, list);
   add_cables(cables, list);
   return list;
 }

@@ -18,6 +18,7 @@
 #include "render/body_view.h"
 #include "render/cable_path.h"
 #include "render/draw_list.h"
+#include "render/joint_view.h"
 
 namespace sheave::render {
 
@@ -43,7 +44,7 @@ struct ViewOptions {
 
 class ViewBuilder {
  public:
-  /// Decides once how bodies and cables look. `world` and `cables` must be of the same state,
+  /// Decides once how bodies, joints and cables look. `world` and `cables` must be of the same state,
   /// usually that at time 0; later calls of build() must be for the same model.
   ViewBuilder(const World& world, std::span<const CableReport> cables, ViewOptions options = {});
 
@@ -63,6 +64,7 @@ class ViewBuilder {
   double weight_ = 0.0;  ///< of all bodies [N]
   double cable_radius_ = 0.0;
   BodyView bodies_;
+  JointView joints_;
   std::optional<Plane> floor_;
 };
 
@@ -74,7 +76,7 @@ class ViewBuilder {
 [[nodiscard]] Vector3 up_direction(const Model& model);
 
 /// The normal of the plane in which the scene moves: the common axis of its wheels, or of its
-/// planar bodies if it has no wheels. Nothing if they have none in common.
+/// planar bodies if it has no wheels, or of its hinges if it has neither. Nothing if they have none in common.
 [[nodiscard]] std::optional<Vector3> motion_plane(const Model& model,
                                                   std::span<const CableReport> cables);
 

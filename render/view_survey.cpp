@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/cable_path.h"
+#include "render/joint_view.h"
 #include "render/number_text.h"
 #include "render/overlay.h"
 #include "render/view_builder.h"
@@ -42,6 +43,7 @@ void ViewSurvey::add(const World& world, std::span<const CableReport> cables) {
     }
     if (bodies[i].shapes.empty()) extend(bounds_, world.position(id), Vector3::Zero());
   }
+  extend_by_joints(world, bounds_);
   CableStyle style;
   style.gravity = world.model().gravity;
   if (const auto& ground = world.model().ground) {

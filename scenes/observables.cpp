@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/joint_report.h"
 #include "scenes/suggestion.h"
 
 namespace sheave {
@@ -51,26 +52,69 @@ constexpr std::array<Quantity, 5> cable_quantities{{
     {"wrapped_length", "m", "cable on these bodies"},
     {"cut", "", "1 when the cable has been cut or has broken, 0 before"},
 }};
+constexpr std::array<Quantity, 9> joint_quantities{{
+    {"force", "N", "size of the joint's force on body_b in the last substep"},
+    {"fx", "N", "its parts along the axes of the world"},
+    {"fy", "N", "the same"},
+    {"fz", "N", "the same"},
+    {"torque", "N m", "size of its torque about body_b's anchor"},
+    {"tx", "N m", "its parts along the axes of the world"},
+    {"ty", "N m", "the same"},
+    {"tz", "N m", "the same"},
+    {"broken", "", "1 when the joint has broken, 0 before"},
+}};
+// "<coordinate>" stands for the names that JointDef::coordinates() gives.
+constexpr std::array<Quantity, 3> coordinate_quantities{{
+    {"<coordinate>", "m, rad",
+     "what the joint leaves free, since time 0, angles with all turns: extension (distance), twist "
+     "and swing (ball with an axis), angle (hinge, plane), travel (slider), travel and angle "
+     "(cylindrical, rack), angle_a and angle_b (universal, gear)"},
+    {"<coordinate>_rate", "m/s, rad/s", "how fast it changes"},
+    {"drive_force", "N, N m",
+     "of its drive; <coordinate>_drive_force where a joint has two coordinates"},
+}};
 constexpr std::array<Quantity, 4> energy_quantities{{
     {"kinetic", "J", "of the whole scene"},
     {"potential", "J", "the same"},
     {"elastic", "J", "the same"},
     {"total", "J", "the same"},
 }};
-constexpr int tension = 0;  // in span_quantities
+constexpr int tension = 0;      // in span_quantities
+constexpr int broken = 8;       // in joint_quantities
+constexpr int drive_force = 2;  // in coordinate_quantities
 
 // Comparing a word with more names than this takes longer than a user waits for a hint.
 constexpr std::size_t most_quantities = 100'000;
 
-constexpr std::array<QuantityGroup, 5> groups{{
+constexpr std::array<QuantityGroup, 7> groups{{
     {"<body>.", body_quantities},
     {"<cable>.<span>.", span_quantities},
     {"<cable>.link<k>.", link_quantities},
     {"<cable>.", cable_quantities},
+    {"<joint>.", joint_quantities},
+    {"<joint>.", coordinate_quantities},
     {"energy.", energy_quantities},
 }};
 
+/// The names of one coordinate's quantities, in the order of coordinate_quantities.
+std::array<std::string, 3> coordinate_names(const JointDef& joint,
+                                            const JointCoordinateInfo& coordinate) {
+  const std::string name(coordinate.name);
+  const bool only_one = joint.coordinates().size() == 1;
+  return {name, name + "_rate", only_one ? "drive_force" : name + "_drive_force"};
+}
+
 }  // namespace
+
+std::string shared_quantity(const JointDef& joint) {
+  for (const JointCoordinateInfo& coordinate : joint.coordinates()) {
+    for (const std::string& name : coordinate_names(joint, coordinate)) {
+      const auto is_it = [&](const Quantity& quantity) { return quantity.name == name; };
+      if (std::any_of(body_quantities.begin(), body_quantities.end(), is_it)) return name;
+    }
+  }
+  return "";
+}
 
 std::span<const QuantityGroup> quantity_groups() { return groups; }
 
@@ -93,6 +137,10 @@ class ObservableSet::Sampler {
         return of_link(cable(source.entity).links[item], source.quantity);
       case Group::cable:
         return of_cable(cable(source.entity), source.quantity);
+      case Group::joint:
+        return of_joint(joint(source.entity), source.quantity);
+      case Group::coordinate:
+        return of_coordinate(joint(source.entity).coordinates[item], source.quantity);
       case Group::energy:
         return energy(source.quantity);
     }
@@ -132,6 +180,16 @@ class ObservableSet::Sampler {
         return cable.cut ? 1.0 : 0.0;
     }
   }
+  static double of_joint(const JointReport& joint, int quantity) {
+    if (quantity == broken) return joint.broken_at ? 1.0 : 0.0;
+    const Vector3& vector = quantity < 4 ? joint.force : joint.torque;
+    const int part = quantity % 4;  // its size, then x, y, z
+    return part == 0 ? vector.norm() : vector[part - 1];
+  }
+  static double of_coordinate(const JointCoordinateReport& coordinate, int quantity) {
+    if (quantity == drive_force) return coordinate.drive_force;
+    return quantity == 0 ? coordinate.value : coordinate.rate;
+  }
   const std::array<double, 14>& body(int index) {
     if (index == body_) return body_values_;
     body_ = index;
@@ -154,6 +212,13 @@ class ObservableSet::Sampler {
     if (reports_.empty()) reports_ = simulation_.cable_reports();
     return reports_[static_cast<std::size_t>(index)];
   }
+  const JointReport& joint(int index) {
+    if (index == joint_) return joint_report_;
+    if (!joints_) joints_.emplace(simulation_.world);
+    joint_ = index;
+    joint_report_ = joints_->report(index);
+    return joint_report_;
+  }
   double energy(int quantity) {
     if (!energy_) energy_ = simulation_.world.energy();
     const std::array values{energy_->kinetic, energy_->potential, energy_->elastic,
@@ -165,6 +230,9 @@ class ObservableSet::Sampler {
   int body_ = -1;  // whose values are in body_values_
   std::array<double, 14> body_values_{};
   std::vector<CableReport> reports_;
+  std::optional<JointReader> joints_;
+  int joint_ = -1;  // whose report is in joint_report_
+  JointReport joint_report_;
   std::optional<Energy> energy_;
 };
 
@@ -176,6 +244,7 @@ ObservableSet::ObservableSet(const Simulation& simulation) {
     add_cable(reports[i].name, static_cast<int>(i), static_cast<int>(reports[i].spans.size()),
               static_cast<int>(reports[i].links.size()));
   }
+  add_joints(simulation.world.model());
   add_energies();
 }
 
@@ -186,6 +255,7 @@ ObservableSet::ObservableSet(const Model& model, const std::vector<CableDef>& ca
     add_cable(cables[i].name, static_cast<int>(i), cables[i].span_count(),
               static_cast<int>(cables[i].links.size()));
   }
+  add_joints(model);
   add_energies();
 }
 
@@ -226,6 +296,24 @@ void ObservableSet::add_cable(std::string_view name, int entity, int spans, int 
   }
 }
 
+void ObservableSet::add_joints(const Model& model) {
+  for (int i = 0; i < static_cast<int>(model.joints.size()); ++i) {
+    const JointDef& joint = *model.joints[static_cast<std::size_t>(i)];
+    for (int q = 0; q < static_cast<int>(joint_quantities.size()); ++q) {
+      add(fmt::format("{}.{}", joint.name, joint_quantities[static_cast<std::size_t>(q)].name),
+          {Group::joint, i, 0, q});
+    }
+    const std::span<const JointCoordinateInfo> coordinates = joint.coordinates();
+    for (int k = 0; k < static_cast<int>(coordinates.size()); ++k) {
+      const auto names = coordinate_names(joint, coordinates[static_cast<std::size_t>(k)]);
+      for (int q = 0; q < static_cast<int>(names.size()); ++q) {
+        add(fmt::format("{}.{}", joint.name, names[static_cast<std::size_t>(q)]),
+            {Group::coordinate, i, k, q});
+      }
+    }
+  }
+}
+
 void ObservableSet::add_energies() {
   for (int q = 0; q < static_cast<int>(energy_quantities.size()); ++q) {
     add(fmt::format("energy.{}", energy_quantities[static_cast<std::size_t>(q)].name),
@@ -242,14 +330,25 @@ Result<int> ObservableSet::index_of(std::string_view name) const {
   }
   const std::string hint =
       suggestion.best().empty()
-          ? std::string("; allowed are t, <body>.x, <cable>.<span>.tension, energy.total and alike")
+          ? std::string(
+                "; allowed are t, <body>.x, <cable>.<span>.tension, <joint>.force, "
+                "energy.total and alike")
           : suggestion.question();
   return Error{"", fmt::format("there is no quantity \"{}\"{}", name, hint)};
 }
 
 bool ObservableSet::known_at_start(int index) const {
   const Source& source = sources_[static_cast<std::size_t>(index)];
-  return source.group != Group::span || source.quantity != tension;
+  switch (source.group) {
+    case Group::span:
+      return source.quantity != tension;
+    case Group::joint:
+      return source.quantity == broken;
+    case Group::coordinate:
+      return source.quantity != drive_force;
+    default:
+      return true;
+  }
 }
 
 void ObservableSet::sample(const Simulation& simulation, std::vector<double>& values) const {

@@ -2,7 +2,8 @@
 // Every number of a running simulation that has a name: the columns of a CSV file, and what the
 // checks of a scene refer to.
 //
-// t, the time, and what quantity_groups() lists, e.g. weight.vy, rope.1.tension, rope.link0.slip, energy.total.
+// t, the time, and what quantity_groups() lists, e.g. weight.vy, rope.1.tension, rope.link0.slip,
+// door.angle, energy.total.
 
 #include <span>
 #include <string>
@@ -30,7 +31,10 @@ struct QuantityGroup {
 /// All of them but the time, for the documentation.
 [[nodiscard]] std::span<const QuantityGroup> quantity_groups();
 
-/// The observables of one model, in a fixed order: time, bodies, cables, energies.
+/// A quantity of this joint that a body has too, so that they cannot have the same name; empty if there is none.
+[[nodiscard]] std::string shared_quantity(const JointDef& joint);
+
+/// The observables of one model, in a fixed order: time, bodies, cables, joints, energies.
 class ObservableSet {
  public:
   explicit ObservableSet(const Simulation& simulation);
@@ -40,28 +44,29 @@ class ObservableSet {
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   /// Position of a name in names(); an error suggests a name that is nearly the same.
   [[nodiscard]] Result<int> index_of(std::string_view name) const;
-  /// Whether the observable means something before the first step. Tensions do not.
+  /// Whether the observable means something before the first step. Forces do not.
   [[nodiscard]] bool known_at_start(int index) const;
 
   /// All values, in the order of names(). `simulation` must be of the model this set was made for.
   void sample(const Simulation& simulation, std::vector<double>& values) const;
-  /// The values at `indices` only: costs nothing for bodies that are not asked for, and cables and
-  /// energies only if one of them is.
+  /// The values at `indices` only: costs nothing for bodies and joints that are not asked for, and
+  /// cables and energies only if one of them is.
   void sample(const Simulation& simulation, std::span<const int> indices,
               std::span<double> values) const;
 
  private:
-  enum class Group { time, body, span, link, cable, energy };
+  enum class Group { time, body, span, link, cable, joint, coordinate, energy };
   struct Source {
     Group group = Group::time;
-    int entity = 0;    ///< index of the body or cable
-    int item = 0;      ///< index of the span or link
+    int entity = 0;    ///< index of the body, cable or joint
+    int item = 0;      ///< index of the span, link or coordinate
     int quantity = 0;  ///< which of the group's names
   };
   class Sampler;
 
   void add_bodies(const Model& model);
   void add_cable(std::string_view name, int entity, int spans, int links);
+  void add_joints(const Model& model);
   void add(std::string name, Source source);
   void add_time();
   void add_energies();

@@ -1,6 +1,8 @@
 #include "scenes/validate.h"
 
 #include <cmath>
+#include <string_view>
+#include <unordered_set>
 
 #include <fmt/format.h>
 
@@ -113,6 +115,22 @@ void check_names(const Scene& scene, Errors& errors) {
   for (std::size_t i = 0; i < scene.cables.size(); ++i) check(scene.cables[i].name, "cables", i);
 }
 
+/// Bodies and joints may have the same name as long as every quantity has one of its own.
+void check_shared_names(const Model& model, Errors& errors) {
+  std::unordered_set<std::string_view> bodies;
+  for (const BodyDef& body : model.bodies) bodies.insert(body.name);
+  for (std::size_t i = 0; i < model.joints.size(); ++i) {
+    const JointDef& joint = *model.joints[i];
+    if (!bodies.contains(joint.name)) continue;
+    const std::string shared = shared_quantity(joint);
+    if (shared.empty()) continue;
+    errors.push_back({fmt::format("/joints/{}/name", i),
+                      fmt::format("a body is called \"{0}\" too, so {0}.{1} could be that of "
+                                  "either; choose another name",
+                                  joint.name, shared)});
+  }
+}
+
 }  // namespace
 
 Errors validate_scene(const Scene& scene) { return validate_scene(scene, false); }
@@ -121,6 +139,7 @@ Errors validate_scene(const Scene& scene, bool checks_may_end_late) {
   Errors errors;
   check_fields(Scene::field_table(), &scene, "", errors);
   check_names(scene, errors);
+  check_shared_names(scene.model, errors);
   if (scene.camera) check_camera(*scene.camera, errors);
   std::optional<ObservableSet> observables;
   if (!scene.checks.empty()) observables.emplace(scene.model, scene.cables);

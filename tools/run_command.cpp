@@ -137,11 +137,15 @@ ExitCode run(const RunOptions& options) {
   for (Warning& warning : collect_warnings(simulation, outcome.statistics)) {
     warnings.push_back(std::move(warning));
   }
+  std::vector<JointReport> joints = joint_reports(simulation.world);
+  std::vector<RunEvent> events = collect_events(simulation, joints);
   const RunSummary summary{options.scene.path,
                            scene,
                            simulation,
                            monitor,
                            outcome,
+                           std::move(joints),
+                           std::move(events),
                            std::move(warnings),
                            options.check,
                            checks ? checks->results() : std::vector<CheckResult>{}};

@@ -62,6 +62,23 @@ std::vector<Warning> collect_warnings(const Simulation& simulation,
   return warnings;
 }
 
+std::vector<RunEvent> collect_events(const Simulation& simulation,
+                                     const std::vector<JointReport>& joints) {
+  std::vector<RunEvent> events;
+  if (simulation.cables != nullptr) {
+    for (const CableEvent& event : simulation.cables->events()) {
+      events.push_back({event.time, false, event.cable, event.link, event.body,
+                        cable_event_names[static_cast<std::size_t>(event.kind)]});
+    }
+  }
+  for (const JointReport& joint : joints) {
+    if (joint.broken_at) events.push_back({*joint.broken_at, true, joint.name, -1, "", "break"});
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const RunEvent& a, const RunEvent& b) { return a.time < b.time; });
+  return events;
+}
+
 double time_per_step(const RunOutcome& outcome) {
   if (outcome.steps == 0) return std::numeric_limits<double>::quiet_NaN();
   return outcome.step_time / static_cast<double>(outcome.steps);

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/joint_report.h"
 #include "scenes/check.h"
 #include "scenes/scene.h"
 #include "tools/run_monitor.h"
@@ -19,6 +20,20 @@ struct Warning {
   std::string message;  ///< one sentence
 };
 
+/// Something that happened at a moment.
+struct RunEvent {
+  double time = 0.0;      ///< [s]
+  bool of_joint = false;  ///< else of a cable
+  std::string subject;    ///< name of the joint or cable
+  int link = -1;          ///< of the cable; -1: none, and for joints
+  std::string body;       ///< that the cable met; empty: the world, or none
+  std::string_view kind;  ///< "break" of a joint; of a cable as in cable_event_names
+};
+
+/// What cables and joints went through, in the order of time.
+[[nodiscard]] std::vector<RunEvent> collect_events(const Simulation& simulation,
+                                                   const std::vector<JointReport>& joints);
+
 /// All that a summary is made of. The references must outlive it.
 struct RunSummary {
   std::string_view scene_path;
@@ -26,6 +41,8 @@ struct RunSummary {
   const Simulation& simulation;
   const RunMonitor& monitor;
   const RunOutcome& outcome;
+  std::vector<JointReport> joints;  ///< at the end
+  std::vector<RunEvent> events;
   std::vector<Warning> warnings;
   bool checked = false;  ///< whether checks were asked for
   std::vector<CheckResult> checks;

@@ -91,15 +91,40 @@ Json cables(const RunSummary& summary) {
   return list;
 }
 
+Json joints(const RunSummary& summary) {
+  Json list = Json::array();
+  // Before the first step nobody knows the forces.
+  const bool known = summary.simulation.world.state().steps > 0;
+  for (const JointReport& joint : summary.joints) {
+    Json coordinates = Json::array();
+    for (const JointCoordinateReport& coordinate : joint.coordinates) {
+      coordinates.push_back({{"name", coordinate.name},
+                             {"value", coordinate.value},
+                             {"rate", coordinate.rate},
+                             {"drive_force", known ? Json(coordinate.drive_force) : Json()}});
+    }
+    list.push_back({{"name", joint.name},
+                    {"type", joint.type},
+                    {"force", known ? json(joint.force) : Json()},
+                    {"torque", known ? json(joint.torque) : Json()},
+                    {"coordinates", std::move(coordinates)},
+                    {"broken_at", joint.broken_at ? Json(*joint.broken_at) : Json()}});
+  }
+  return list;
+}
+
 Json events(const RunSummary& summary) {
   Json list = Json::array();
-  if (summary.simulation.cables == nullptr) return list;
-  for (const CableEvent& event : summary.simulation.cables->events()) {
+  for (const RunEvent& event : summary.events) {
+    if (event.of_joint) {
+      list.push_back({{"time", event.time}, {"joint", event.subject}, {"kind", event.kind}});
+      continue;
+    }
     list.push_back({{"time", event.time},
-                    {"cable", event.cable},
+                    {"cable", event.subject},
                     {"link", event.link},
                     {"body", event.body},
-                    {"kind", cable_event_names[static_cast<std::size_t>(event.kind)]}});
+                    {"kind", event.kind}});
   }
   return list;
 }
@@ -184,6 +209,7 @@ std::string to_json(const RunSummary& summary) {
                 {"max_drift", summary.monitor.max_energy_drift()},
                 {"parts", json(summary.monitor.final_energy())}}},
               {"cables", cables(summary)},
+              {"joints", joints(summary)},
               {"bodies", bodies(world)},
               {"statistics", statistics(outcome.statistics)},
               {"events", events(summary)},

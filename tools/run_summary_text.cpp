@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -95,17 +96,47 @@ std::string cables(const RunSummary& summary) {
   return "\n" + table.text() + omitted(count, "spans");
 }
 
-std::string events(const RunSummary& summary) {
-  if (summary.simulation.cables == nullptr) return "";
-  const std::vector<CableEvent>& events = summary.simulation.cables->events();
-  if (events.empty()) return "";
-  TextTable table({"time [s]", "cable", "body", "event"}, 4);
-  for (std::size_t i = 0; i < std::min(events.size(), max_events); ++i) {
-    const CableEvent& event = events[i];
-    table.add({short_number(event.time), event.cable, event.body.empty() ? "world" : event.body,
-               std::string(cable_event_names[static_cast<std::size_t>(event.kind)])});
+/// One line per joint and free coordinate.
+std::string joints(const RunSummary& summary) {
+  if (summary.joints.empty()) return "";
+  TextTable table({"joint", "force [N]", "torque [N m]", "coordinate", "value", "rate", "drive"},
+                  1);
+  const bool known = summary.simulation.world.state().steps > 0;
+  const std::string unknown = "unknown";
+  std::size_t lines = 0;
+  for (const JointReport& joint : summary.joints) {
+    if (++lines > max_rows) break;
+    std::vector<std::string> line{joint.name};
+    if (joint.broken_at) {
+      line.insert(line.end(), {"broken", ""});
+    } else {
+      line.push_back(known ? short_number(joint.force.norm()) : unknown);
+      line.push_back(known ? short_number(joint.torque.norm()) : unknown);
+    }
+    if (joint.coordinates.empty()) line.insert(line.end(), {"", "", "", ""});
+    for (const JointCoordinateReport& coordinate : joint.coordinates) {
+      if (line.empty()) line.assign({"", "", ""});
+      const std::string_view unit = coordinate.angle ? "rad" : "m";
+      line.push_back(fmt::format("{} [{}]", coordinate.name, unit));
+      line.push_back(short_number(coordinate.value));
+      line.push_back(short_number(coordinate.rate));
+      line.push_back(known ? short_number(coordinate.drive_force) : unknown);
+      table.add(std::exchange(line, {}));
+    }
+    if (!line.empty()) table.add(std::move(line));
   }
-  return "\n" + table.text() + omitted(events.size(), "events", max_events);
+  return "\n" + table.text() + omitted(summary.joints.size(), "joints");
+}
+
+std::string events(const RunSummary& summary) {
+  if (summary.events.empty()) return "";
+  TextTable table({"time [s]", "subject", "body", "event"}, 4);
+  for (std::size_t i = 0; i < std::min(summary.events.size(), max_events); ++i) {
+    const RunEvent& event = summary.events[i];
+    const std::string body = event.of_joint || !event.body.empty() ? event.body : "world";
+    table.add({short_number(event.time), event.subject, body, std::string(event.kind)});
+  }
+  return "\n" + table.text() + omitted(summary.events.size(), "events", max_events);
 }
 
 std::string invariants(const RunSummary& summary) {
@@ -141,7 +172,7 @@ std::string checks_text(const std::vector<CheckResult>& checks) {
 
 std::string to_text(const RunSummary& summary) {
   std::string text = head(summary) + bodies(summary.simulation.world) + cables(summary) +
-                     events(summary) + invariants(summary);
+                     joints(summary) + events(summary) + invariants(summary);
   if (summary.checked) text += "\n" + checks_text(summary.checks);
   return text;
 }

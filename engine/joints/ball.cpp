@@ -13,11 +13,13 @@ namespace {
 
 struct BallKernel : AnchorPair {
   static constexpr int lock_count = 3;
-  static constexpr std::array<JointCoordinateInfo, 5> coordinates{{{"twist", true},
-                                                                   {"swing", false},
-                                                                   {"turn0", true, true},
-                                                                   {"turn1", true, true},
-                                                                   {"turn2", true, true}}};
+  static constexpr std::array<JointCoordinateInfo, 5> coordinates{{
+      {"twist", true},
+      {"swing", true, JointCoordinateInfo::Measure::pose},
+      {"turn0", true, JointCoordinateInfo::Measure::changes},
+      {"turn1", true, JointCoordinateInfo::Measure::changes},
+      {"turn2", true, JointCoordinateInfo::Measure::changes},
+  }};
   enum : int { twist, swing, first_turn };
   double compliance = 0.0;
 
@@ -84,6 +86,11 @@ std::span<const Field> BallJoint::field_table() {
        coordinate_fields<BallJoint, &BallJoint::twist>(CoordinateKind::rotation, "twist_",
                                                        "the twist of body_b about the axis")});
   return table;
+}
+
+std::span<const JointCoordinateInfo> BallJoint::coordinates() const {
+  // Without an axis nobody knows what swing and twist are; the turns are for friction alone.
+  return std::span(BallKernel::coordinates).first(axis ? BallKernel::first_turn : 0);
 }
 
 Errors BallJoint::validate(const BodySet& bodies, const std::string& path) const {

@@ -55,6 +55,10 @@ std::span<const Field> CylindricalJoint::field_table() {
   return table;
 }
 
+std::span<const JointCoordinateInfo> CylindricalJoint::coordinates() const {
+  return CylindricalKernel::coordinates;
+}
+
 Errors CylindricalJoint::validate(const BodySet& bodies, const std::string& path) const {
   Errors errors = JointDef::validate(bodies, path);
   check_direction(axis, name, path + "/axis", errors);

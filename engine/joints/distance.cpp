@@ -73,6 +73,10 @@ std::span<const Field> DistanceJoint::field_table() {
   return table;
 }
 
+std::span<const JointCoordinateInfo> DistanceJoint::coordinates() const {
+  return DistanceKernel::coordinates;
+}
+
 Errors DistanceJoint::validate(const BodySet& bodies, const std::string& path) const {
   Errors errors = JointDef::validate(bodies, path);
   const auto fail = [&](const char* key, const char* message) {

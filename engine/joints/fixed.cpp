@@ -40,6 +40,8 @@ std::span<const Field> FixedJoint::field_table() {
   return table;
 }
 
+std::span<const JointCoordinateInfo> FixedJoint::coordinates() const { return {}; }
+
 Errors FixedJoint::validate(const BodySet& bodies, const std::string& path) const {
   return JointDef::validate(bodies, path);
 }

@@ -45,6 +45,10 @@ std::span<const Field> GearJoint::field_table() {
   return table;
 }
 
+std::span<const JointCoordinateInfo> GearJoint::coordinates() const {
+  return GearKernel::coordinates;
+}
+
 Errors GearJoint::validate(const BodySet& bodies, const std::string& path) const {
   Errors errors = JointDef::validate(bodies, path);
   check_coupling(*this, carrier, ratio, "ratio", bodies, path, errors);

@@ -46,6 +46,10 @@ std::span<const Field> HingeJoint::field_table() {
   return table;
 }
 
+std::span<const JointCoordinateInfo> HingeJoint::coordinates() const {
+  return HingeKernel::coordinates;
+}
+
 Errors HingeJoint::validate(const BodySet& bodies, const std::string& path) const {
   Errors errors = JointDef::validate(bodies, path);
   check_direction(axis, name, path + "/axis", errors);

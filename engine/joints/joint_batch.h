@@ -3,7 +3,7 @@
 //
 //   struct Kernel {
 //     static constexpr int lock_count;                              // rows that keep bodies from moving
-//     static constexpr std::array<JointCoordinateInfo, n> coordinates;  // free coordinates
+//     static constexpr std::array<JointCoordinateInfo, n> coordinates;  // free coordinates; those that reports tell come first
 //     int anchor_body() const;  Vector3 anchor(const Substep&) const;   // where body_b is held, for reports
 //     bool elastic() const;                                         // whether a lock has compliance
 //     void lock(int index, JointTerms&) const;                      // C, gradient, compliance, bounds
@@ -24,13 +24,6 @@
 
 namespace sheave {
 
-struct JointCoordinateInfo {
-  std::string_view name;
-  bool angle = false;
-  /// It has a rate but is no function of the pose (a rotation about a direction that moves): it is the sum of its changes.
-  bool only_changes = false;
-};
-
 /// A joint with what acts along its coordinates.
 template <class Kernel>
 struct JointParts {
@@ -47,7 +40,7 @@ class JointBatch final : public JointFeature {
  public:
   JointBatch(std::string name, const BodySet& bodies, std::span<const JointDef* const> definitions,
              std::vector<JointParts<Kernel>> joints)
-      : name_(std::move(name)) {
+      : name_(std::move(name)), type_(definitions.front()->type()) {
     int row = 0;
     int coordinate = 0;
     for (std::size_t j = 0; j < joints.size(); ++j) {
@@ -63,6 +56,7 @@ class JointBatch final : public JointFeature {
                  std::any_of(joints[j].effects.begin(), joints[j].effects.end(),
                              [](const JointEffect& e) { return e.elastic(); });
       effects_.insert(effects_.end(), joints[j].effects.begin(), joints[j].effects.end());
+      joint.reported = static_cast<int>(definition.coordinates().size());
       names_.push_back(definition.name);
       limits_.push_back({definition.breaking_force, definition.breaking_torque});
       breakable_ = breakable_ || definition.breaking_force || definition.breaking_torque;
@@ -159,20 +153,20 @@ class JointBatch final : public JointFeature {
     return energy;
   }
 
-  void append_reports(const BodySet& bodies, const State& state, const FeatureState& own,
-                      std::vector<JointReport>& reports) const override {
-    const Substep now(bodies, state, 1.0, 1);
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
-      const Joint& joint = joints_[j];
-      JointReport report;
-      report.name = names_[j];
-      if (broken_at(own, j) >= 0.0) report.broken_at = broken_at(own, j);
-      const Wrench wrench = reaction(now, joint, own);
-      report.force = wrench.force;
-      report.torque = wrench.torque;
-      if (joint.first_coordinate >= 0) append_coordinates(now, joint, own, report);
-      reports.push_back(std::move(report));
-    }
+  [[nodiscard]] std::string_view type() const override { return type_; }
+  [[nodiscard]] JointReport report(int index, const Substep& now,
+                                   const FeatureState& own) const override {
+    const auto j = static_cast<std::size_t>(index);
+    const Joint& joint = joints_[j];
+    JointReport report;
+    report.name = names_[j];
+    report.type = type_;
+    if (broken_at(own, j) >= 0.0) report.broken_at = broken_at(own, j);
+    const Wrench wrench = reaction(now, joint, own);
+    report.force = wrench.force;
+    report.torque = wrench.torque;
+    append_coordinates(now, joint, own, report);
+    return report;
   }
 
  private:
@@ -183,6 +177,7 @@ class JointBatch final : public JointFeature {
     int first_effect = 0;
     int effect_count = 0;
     int first_coordinate = -1;  // < 0: none are counted
+    int reported = 0;           // how many coordinates reports tell; more than the pose is counted
     bool restricted = false;    // whether a body has a restricted mobility
   };
   struct BreakingLimits {
@@ -215,10 +210,10 @@ class JointBatch final : public JointFeature {
       JointTerms terms(substep, row);
       joint.kernel.coordinate(k, terms);
       const JointCoordinateInfo& info = Kernel::coordinates[at(k)];
-      if (!info.angle && !info.only_changes) return row.value;
+      if (info.measure == JointCoordinateInfo::Measure::pose) return row.value;
       const double expected =
           starts[at(joint.first_coordinate + k)] + substep_change(row, substep.moving);
-      if (info.only_changes) return expected;
+      if (info.measure == JointCoordinateInfo::Measure::changes) return expected;
       // Whole turns: those next to what the motion of the substep makes of the start.
       return row.value + 2.0 * pi * std::round((expected - row.value) / (2.0 * pi));
     }
@@ -297,7 +292,7 @@ class JointBatch final : public JointFeature {
 
   void append_coordinates(const Substep& now, const Joint& joint, const FeatureState& own,
                           JointReport& report) const {
-    for (int k = 0; k < coordinate_count; ++k) {
+    for (int k = 0; k < joint.reported; ++k) {
       JointCoordinateReport coordinate{Kernel::coordinates[at(k)].name,
                                        Kernel::coordinates[at(k)].angle};
       Row row;
@@ -317,6 +312,7 @@ class JointBatch final : public JointFeature {
   }
 
   std::string name_;
+  std::string_view type_;
   std::vector<Joint> joints_;
   std::vector<JointEffect> effects_;
   std::vector<std::string> names_;

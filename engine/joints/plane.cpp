@@ -14,7 +14,9 @@ namespace {
 struct PlaneKernel : AnchorPair {  // z of the frame is the normal
   static constexpr int lock_count = 3;
   static constexpr std::array<JointCoordinateInfo, 3> coordinates{
-      {{"angle", true}, {"slide0", false, true}, {"slide1", false, true}}};
+      {{"angle", true},
+       {"slide0", false, JointCoordinateInfo::Measure::changes},
+       {"slide1", false, JointCoordinateInfo::Measure::changes}}};
   double compliance = 0.0;
   double angular_compliance = 0.0;
 
@@ -74,6 +76,11 @@ std::span<const Field> PlaneJoint::field_table() {
        coordinate_fields<PlaneJoint, &PlaneJoint::angle>(CoordinateKind::rotation, "angle_",
                                                          "the angle of body_b about the normal")});
   return table;
+}
+
+std::span<const JointCoordinateInfo> PlaneJoint::coordinates() const {
+  return std::span(PlaneKernel::coordinates)
+      .first(1);  // without the slides, which are for friction
 }
 
 Errors PlaneJoint::validate(const BodySet& bodies, const std::string& path) const {

@@ -49,6 +49,10 @@ std::span<const Field> RackJoint::field_table() {
   return table;
 }
 
+std::span<const JointCoordinateInfo> RackJoint::coordinates() const {
+  return RackKernel::coordinates;
+}
+
 Errors RackJoint::validate(const BodySet& bodies, const std::string& path) const {
   Errors errors = JointDef::validate(bodies, path);
   check_coupling(*this, carrier, radius, "radius", bodies, path, errors);

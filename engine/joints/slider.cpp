@@ -46,6 +46,10 @@ std::span<const Field> SliderJoint::field_table() {
   return table;
 }
 
+std::span<const JointCoordinateInfo> SliderJoint::coordinates() const {
+  return SliderKernel::coordinates;
+}
+
 Errors SliderJoint::validate(const BodySet& bodies, const std::string& path) const {
   Errors errors = JointDef::validate(bodies, path);
   check_direction(axis, name, path + "/axis", errors);

@@ -80,6 +80,10 @@ std::span<const Field> UniversalJoint::field_table() {
   return table;
 }
 
+std::span<const JointCoordinateInfo> UniversalJoint::coordinates() const {
+  return UniversalKernel::coordinates;
+}
+
 Errors UniversalJoint::validate(const BodySet& bodies, const std::string& path) const {
   Errors errors = JointDef::validate(bodies, path);
   check_direction(axis_a, name, path + "/axis_a", errors);

@@ -20,7 +20,7 @@ namespace sheave {
 namespace {
 
 constexpr double inertia = 0.06;
-constexpr double mass = 2.0;
+constexpr double sledge_mass = 2.0;
 
 class JointCoordinates : public test::ForEveryCombination {
  protected:
@@ -46,7 +46,7 @@ class JointCoordinates : public test::ForEveryCombination {
     model.gravity = test::down;
     model.step = step_settings(h, 50);
     const Vector3 axis{std::cos(slope), std::sin(slope), 0.0};
-    BodyDef body = test::lump("sledge", Vector3::Zero(), mass);
+    BodyDef body = test::lump("sledge", Vector3::Zero(), sledge_mass);
     body.velocity = speed * axis;
     model.add(body);
     auto slider = std::make_shared<SliderJoint>();
@@ -129,7 +129,7 @@ TEST_P(JointCoordinates, DryFrictionDeceleratesEvenlyAndThenHolds) {
 
 TEST_P(JointCoordinates, DryFrictionHoldsOnASlopeUpToItsForce) {
   const double slope = 0.3;
-  const double pull = mass * test::g * std::sin(slope);
+  const double pull = sledge_mass * test::g * std::sin(slope);
   JointCoordinate friction;
   friction.friction = 1.01 * pull;
   World holding = sledge(friction, 0.0, slope);
@@ -138,7 +138,7 @@ TEST_P(JointCoordinates, DryFrictionHoldsOnASlopeUpToItsForce) {
   friction.friction = 0.99 * pull;
   World sliding = sledge(friction, 0.0, slope);
   test::run(sliding, 5.0);
-  EXPECT_NEAR(coordinate(sliding).rate, -5.0 * 0.01 * pull / mass, 1e-7);
+  EXPECT_NEAR(coordinate(sliding).rate, -5.0 * 0.01 * pull / sledge_mass, 1e-7);
 }
 
 TEST_P(JointCoordinates, StopsHoldWithoutOvershoot) {
@@ -158,7 +158,7 @@ TEST_P(JointCoordinates, StopsHoldWithoutOvershoot) {
   test::run(down, 2.0);
   EXPECT_NEAR(coordinate(down).value, -0.2, 1e-9);
   // Its axis rises to the right, and so does what the stop does; the guide bears the rest of the weight.
-  EXPECT_NEAR(joint_reports(down)[0].force.y(), mass * test::g, 1e-4);
+  EXPECT_NEAR(joint_reports(down)[0].force.y(), sledge_mass * test::g, 1e-4);
 }
 
 TEST_P(JointCoordinates, ElasticStopGivesByComplianceTimesForce) {
@@ -168,7 +168,7 @@ TEST_P(JointCoordinates, ElasticStopGivesByComplianceTimesForce) {
   stop.damping = 30.0;
   World world = sledge(stop, 0.0, 0.3);
   test::run(world, 20.0);
-  EXPECT_NEAR(coordinate(world).value, -0.1 - 1e-3 * mass * test::g * std::sin(0.3), 1e-8);
+  EXPECT_NEAR(coordinate(world).value, -0.1 - 1e-3 * sledge_mass * test::g * std::sin(0.3), 1e-8);
 }
 
 TEST_P(JointCoordinates, SpeedDriveWithALimitRampsUpAndStaysThere) {
@@ -211,8 +211,8 @@ TEST_P(JointCoordinates, SoftPositionDriveGivesUnderLoad) {
   lift.damping = 40.0;
   World world = sledge(lift, 0.0, 0.3);
   test::run(world, 20.0);
-  EXPECT_NEAR(coordinate(world).value, 0.25 - 2e-3 * mass * test::g * std::sin(0.3), 1e-8);
-  EXPECT_NEAR(coordinate(world).drive_force, mass * test::g * std::sin(0.3), 1e-6);
+  EXPECT_NEAR(coordinate(world).value, 0.25 - 2e-3 * sledge_mass * test::g * std::sin(0.3), 1e-8);
+  EXPECT_NEAR(coordinate(world).drive_force, sledge_mass * test::g * std::sin(0.3), 1e-6);
 }
 
 TEST_P(JointCoordinates, ForceDriveAcceleratesByForceOverMass) {
@@ -221,17 +221,17 @@ TEST_P(JointCoordinates, ForceDriveAcceleratesByForceOverMass) {
   push.drive_values = {0.0, 6.0};
   World world = sledge(push, 0.0);
   test::run(world, 0.5);
-  EXPECT_NEAR(coordinate(world).rate, 0.5 * 0.5 * 3.0 / mass, 1e-9);
+  EXPECT_NEAR(coordinate(world).rate, 0.5 * 0.5 * 3.0 / sledge_mass, 1e-9);
   test::run(world, 2.0);
-  EXPECT_NEAR(coordinate(world).rate, (3.0 + 6.0) / mass, 1e-9);
+  EXPECT_NEAR(coordinate(world).rate, (3.0 + 6.0) / sledge_mass, 1e-9);
 }
 
 TEST_P(JointCoordinates, ActuatorLiftsAndDashpotLimitsTheFall) {
   Model model;
   model.gravity = test::down;
   model.step = step_settings(1.0 / 240.0, 50);
-  const BodyId lifted = model.add(test::lump("lifted", {0.0, -2.0, 0.0}, mass));
-  const BodyId falling = model.add(test::lump("falling", {3.0, -1.0, 0.0}, mass));
+  const BodyId lifted = model.add(test::lump("lifted", {0.0, -2.0, 0.0}, sledge_mass));
+  const BodyId falling = model.add(test::lump("falling", {3.0, -1.0, 0.0}, sledge_mass));
   const auto line = [&](const char* name, BodyId body) {
     auto joint = std::make_shared<DistanceJoint>();
     joint->name = name;
@@ -247,9 +247,10 @@ TEST_P(JointCoordinates, ActuatorLiftsAndDashpotLimitsTheFall) {
   World world = test::start(model);
   test::run(world, 2.0);
   EXPECT_NEAR(world.position(lifted).y(), -1.0, 1e-9);
-  EXPECT_NEAR(joint_reports(world)[0].force.y(), mass * test::g, 1e-5);
+  EXPECT_NEAR(joint_reports(world)[0].force.y(), sledge_mass * test::g, 1e-5);
   // v tends to m g / b; after 2 s all but e^-8 of it.
-  EXPECT_NEAR(-world.velocity(falling).y(), mass * test::g / 8.0, 1e-3 * mass * test::g / 8.0);
+  EXPECT_NEAR(-world.velocity(falling).y(), sledge_mass * test::g / 8.0,
+              1e-3 * sledge_mass * test::g / 8.0);
 }
 
 /// Speed lost in 0.5 s by a ball joint's or a plane's dry friction, in any direction.
@@ -261,7 +262,7 @@ TEST_P(JointCoordinates, DryFrictionOfBallsAndPlanesIsTheSameInAllDirections) {
     BodyDef spinning = test::lump("spinning", Vector3::Zero(), 1.0);
     spinning.inertia = Vector3(inertia, inertia, inertia);
     spinning.angular_velocity = 5.0 * way;
-    BodyDef puck = test::lump("puck", {3.0, 0.0, 0.0}, mass);
+    BodyDef puck = test::lump("puck", {3.0, 0.0, 0.0}, sledge_mass);
     puck.velocity = 2.0 * Vector3(way.x(), way.y(), 0.0).normalized();
     auto ball = std::make_shared<BallJoint>();
     ball->name = "ball";
@@ -276,7 +277,8 @@ TEST_P(JointCoordinates, DryFrictionOfBallsAndPlanesIsTheSameInAllDirections) {
     World world = test::start(model);
     test::run(world, 0.5);
     EXPECT_LT((world.angular_velocity({0}) - (5.0 - 0.5 * 0.3 / inertia) * way).norm(), 1e-6);
-    EXPECT_LT((world.velocity({1}) - (2.0 - 0.5 * 1.5 / mass) * 0.5 * puck.velocity).norm(), 1e-6);
+    EXPECT_LT((world.velocity({1}) - (2.0 - 0.5 * 1.5 / sledge_mass) * 0.5 * puck.velocity).norm(),
+              1e-6);
     test::run(world, 4.0);
     EXPECT_LT(world.angular_velocity({0}).norm(), 1e-9);
     EXPECT_LT(world.velocity({1}).norm(), 1e-9);
@@ -287,7 +289,7 @@ TEST_P(JointCoordinates, SwingStopsAtItsLimit) {
   Model model;
   model.gravity = test::down;
   model.step = step_settings(1.0 / 240.0, 50);
-  BodyDef arm = test::lump("arm", {0.5, 0.0, 0.0}, mass);
+  BodyDef arm = test::lump("arm", {0.5, 0.0, 0.0}, sledge_mass);
   arm.angular_damping = 2.0;
   auto ball = std::make_shared<BallJoint>();
   ball->name = "shoulder";
@@ -301,7 +303,7 @@ TEST_P(JointCoordinates, SwingStopsAtItsLimit) {
   EXPECT_NEAR(report.coordinates[1].value, 0.4, 1e-7);
   EXPECT_NEAR(std::atan2(-world.position({0}).y(), world.position({0}).x()), 0.4, 1e-7);
   // The stop bears the torque of the weight.
-  EXPECT_NEAR(report.torque.z(), 0.5 * std::cos(0.4) * mass * test::g, 1e-4);
+  EXPECT_NEAR(report.torque.z(), 0.5 * std::cos(0.4) * sledge_mass * test::g, 1e-4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Combinations, JointCoordinates, ::testing::ValuesIn(test::combinations),

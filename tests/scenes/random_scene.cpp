@@ -4,6 +4,8 @@
 #include <string>
 
 #include "cable/simulation.h"
+#include "engine/joints/gear.h"
+#include "engine/joints/rack.h"
 #include "engine/joints/universal.h"
 
 namespace sheave::test {
@@ -155,6 +157,13 @@ class RandomScene {
       cross->axis_b = cross->axis_a.cross(cross->axis_b);
     }
     fill(JointDef::common_field_table(), joint.get());
+    const bool couples =
+        joint->type() == GearJoint::type_name || joint->type() == RackJoint::type_name;
+    if (couples && bodies() > 1) {
+      // Most pairs of random bodies are one body or the world.
+      joint->body_a = BodyId{random_.pick(bodies() - 1)};
+      joint->body_b = BodyId{joint->body_a.index + 1};
+    }
     joint->name = name("joint");
     scene_.model.joints.push_back(std::move(joint));
   }

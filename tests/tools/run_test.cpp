@@ -17,6 +17,7 @@ namespace sheave::test {
 namespace {
 
 using nlohmann::json;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -256,7 +257,7 @@ TEST(RunCommand, TheTextShowsWrapsAndTheFirstEvents) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("rope.0 "));
   EXPECT_THAT(result.out, HasSubstr("rope, on \"post\" "));
-  EXPECT_THAT(result.out, HasSubstr("0.02      rope   post  touch"));
+  EXPECT_THAT(result.out, HasSubstr("0.02      rope     post  touch"));
   const json summary = run_json({scene});
   ASSERT_GT(summary["events"].size(), 11U);
   EXPECT_THAT(result.out, HasSubstr("... and " + std::to_string(summary["events"].size() - 10) +
@@ -265,6 +266,52 @@ TEST(RunCommand, TheTextShowsWrapsAndTheFirstEvents) {
   const ProcessResult start = run_sheave({"run", scene, "--steps", "1"});
   EXPECT_THAT(start.out, Not(HasSubstr("post\" ")));
   EXPECT_THAT(start.out, Not(HasSubstr("event")));
+}
+
+TEST(RunCommand, JointsAreToldAndSoIsThatOneBroke) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("jointed.json", jointed_scene);
+  const json summary = run_json({scene});
+  ASSERT_EQ(summary["joints"].size(), 2U);
+  const json& string = summary["joints"][0];
+  EXPECT_EQ(string["name"], "string");
+  EXPECT_EQ(string["type"], "distance");
+  EXPECT_EQ(string["force"], json({0.0, 0.0, 0.0}));
+  // It falls 1 m in sqrt(2 / g) = 0.447 s, a step of the first order earlier or later.
+  EXPECT_NEAR(string["broken_at"], 0.447, 0.01);
+  ASSERT_EQ(summary["events"].size(), 1U);
+  EXPECT_EQ(summary["events"][0],
+            (json{{"time", string["broken_at"]}, {"joint", "string"}, {"kind", "break"}}));
+  const json& bearing = summary["joints"][1];
+  EXPECT_TRUE(bearing["broken_at"].is_null());
+  ASSERT_EQ(bearing["coordinates"].size(), 1U);
+  const json& angle = bearing["coordinates"][0];
+  EXPECT_EQ(angle["name"], "angle");
+  EXPECT_NEAR(angle["value"], 0.25, 1e-6);
+  EXPECT_NEAR(angle["rate"], 0.0, 1e-6);
+  // The drive holds the bar: m g cos(0.25) x 0.5 m; all of its weight is on the bearing.
+  EXPECT_NEAR(angle["drive_force"], 15.0 * std::cos(0.25), 1e-3);
+  EXPECT_NEAR(bearing["force"][1], 30.0, 1e-3);
+  EXPECT_NEAR(bearing["torque"][2], 15.0 * std::cos(0.25), 1e-3);
+  // Before the first step nobody knows the forces.
+  const json start = run_json({scene, "--steps", "0"});
+  EXPECT_TRUE(start["joints"][1]["force"].is_null());
+  EXPECT_TRUE(start["joints"][1]["coordinates"][0]["drive_force"].is_null());
+  EXPECT_EQ(start["joints"][1]["coordinates"][0]["value"], 0.0);
+  EXPECT_TRUE(start["events"].empty());
+}
+
+TEST(RunCommand, TheTextHasATableOfJointsIfThereAreAny) {
+  const TemporaryFolder folder;
+  const ProcessResult result = run_sheave({"run", folder.write("jointed.json", jointed_scene)});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out,
+              ContainsRegex("joint +force \\[N\\] +torque \\[N m\\] +coordinate +value"));
+  EXPECT_THAT(result.out, ContainsRegex("string +broken +extension \\[m\\]"));
+  EXPECT_THAT(result.out, ContainsRegex("bearing +30 +14.53[0-9]* +angle \\[rad\\] +0.25 "));
+  EXPECT_THAT(result.out, ContainsRegex("0.4[45] +string +break"));
+  const ProcessResult without = run_sheave({"run", folder.write("atwood.json", atwood_scene)});
+  EXPECT_THAT(without.out, Not(HasSubstr("joint")));
 }
 
 TEST(RunCommand, SubstepsThatRattleLeavesToXpbdAreToldAndWarnedOf) {

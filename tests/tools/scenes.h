@@ -36,6 +36,25 @@ inline const std::string atwood_scene = R"json({
 }
 )json";
 
+/// A bar on a hinge with a spring, and a weight on a string that breaks when it is pulled taut.
+inline const std::string jointed_scene = R"json({
+  "format": "sheave-scene/1",
+  "gravity": [0, -10, 0],
+  "duration": 1,
+  "step": {"dt": 0.01, "iterations": 50},
+  "bodies": [
+    {"name": "bar", "mass": 3, "position": [0.5, 0, 0], "shape": {"type": "box", "size": [1, 0.1, 0.1]}},
+    {"name": "stone", "mass": 2, "position": [3, -1, 0], "shape": {"type": "sphere", "radius": 0.1}}
+  ],
+  "joints": [
+    {"type": "distance", "name": "string", "body_b": "stone", "anchor_a": [3, 0, 0], "anchor_b": [3, -1, 0],
+     "length": 2, "limit": "at-most", "breaking_force": 50},
+    {"type": "hinge", "name": "bearing", "body_b": "bar", "anchor": [0, 0, 0], "axis": [0, 0, 1],
+     "drive": "angle", "drive_times": [0, 0.5], "drive_values": [0, 0.25]}
+  ]
+}
+)json";
+
 /// A body that such a force throws out of the world within a few steps.
 inline const std::string runaway_scene = R"json({
   "format": "sheave-scene/1",
