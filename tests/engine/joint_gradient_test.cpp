@@ -76,57 +76,57 @@ JointCoordinate with_spring() {
   return coordinate;
 }
 
-const Vector3 place{0.45, 0.15, 0.25};
-const Vector3 direction{0.6, -0.3, 1.0};
+const Vector3 joint_place{0.45, 0.15, 0.25};
+const Vector3 joint_direction{0.6, -0.3, 1.0};
 
 void configure(DistanceJoint& joint) {
-  joint.anchor_a = place;
-  joint.anchor_b = place + Vector3(0.6, -0.2, 0.9);
+  joint.anchor_a = joint_place;
+  joint.anchor_b = joint_place + Vector3(0.6, -0.2, 0.9);
   joint.extension = with_spring();
 }
 void configure(BallJoint& joint) {
-  joint.anchor = place;
-  joint.axis = direction;
+  joint.anchor = joint_place;
+  joint.axis = joint_direction;
   joint.swing_limit = 0.2;
   joint.twist = with_spring();
 }
 void configure(HingeJoint& joint) {
-  joint.anchor = place;
-  joint.axis = direction;
+  joint.anchor = joint_place;
+  joint.axis = joint_direction;
   joint.angle = with_spring();
 }
 void configure(SliderJoint& joint) {
-  joint.anchor = place;
-  joint.axis = direction;
+  joint.anchor = joint_place;
+  joint.axis = joint_direction;
   joint.travel = with_spring();
 }
 void configure(CylindricalJoint& joint) {
-  joint.anchor = place;
-  joint.axis = direction;
+  joint.anchor = joint_place;
+  joint.axis = joint_direction;
   joint.travel = with_spring();
   joint.angle = with_spring();
 }
 void configure(UniversalJoint& joint) {
-  joint.anchor = place;
-  joint.axis_a = direction;
-  joint.axis_b = direction.cross(Vector3(0.1, 0.7, 0.4));
+  joint.anchor = joint_place;
+  joint.axis_a = joint_direction;
+  joint.axis_b = joint_direction.cross(Vector3(0.1, 0.7, 0.4));
   joint.angle_a = with_spring();
   joint.angle_b = with_spring();
 }
 void configure(PlaneJoint& joint) {
-  joint.anchor = place;
-  joint.normal = direction;
+  joint.anchor = joint_place;
+  joint.normal = joint_direction;
   joint.angle = with_spring();
 }
-void configure(FixedJoint& joint) { joint.anchor = place; }
+void configure(FixedJoint& joint) { joint.anchor = joint_place; }
 void configure(GearJoint& joint) {
-  joint.axis_a = direction;
+  joint.axis_a = joint_direction;
   joint.axis_b = Vector3(-0.2, 0.9, 0.4);
   joint.ratio = -1.7;
 }
 void configure(RackJoint& joint) {
-  joint.anchor = place;
-  joint.axis = direction;
+  joint.anchor = joint_place;
+  joint.axis = joint_direction;
   joint.direction = Vector3(-0.2, 0.9, 0.4);
   joint.radius = 0.6;
 }
