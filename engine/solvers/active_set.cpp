@@ -61,7 +61,6 @@ void ActiveSetSolver::relax(const ComplementarityProblem& problem, int sweeps) {
 bool ActiveSetSolver::solve(ComplementarityProblem& problem) {
   constexpr int patience = 3;  // block changes without progress
   changes_ = dropped_ = 0;
-  returns_.assign(at(problem.size), 0);
   int fewest = problem.size + 1;
   int left = patience;
   const int most_tries = 50 + 2 * problem.size;
@@ -93,7 +92,6 @@ bool ActiveSetSolver::solve(ComplementarityProblem& problem) {
         side = 1;
       } else {
         side = solution_[at(i)] < problem.lower[at(i)] ? 0 : ComplementarityProblem::at_upper;
-        ++returns_[at(i)];
       }
     }
     changes_ += static_cast<int>(violated_.size());
@@ -229,12 +227,7 @@ void ActiveSetSolver::mark_violations(const ComplementarityProblem& problem) {
     } else {
       broken = is_at_lower(problem, k) ? -residual_[k] : residual_[k];
     }
-    // A row that says the same as free ones (dry friction of what a drive and a rope hold) has at its bound a residual that
-    // is the rounding of positions, and when it is free a multiplier that is anything, also beyond its bound. Once it has
-    // come back to its bound for the second time, only more than such rounding frees it.
-    constexpr double of_positions = 1e4;
-    const bool goes_round = problem.free[k] != 1 && returns_[k] >= 2;
-    const double allowed = noise(problem, k) * (goes_round ? of_positions : 1.0);
+    const double allowed = noise(problem, k);
     if (broken > 0.0 && broken > allowed) violated_.push_back(i);
   }
 }

@@ -78,7 +78,6 @@ class ActiveSetSolver {
   std::vector<double> values_;
   std::vector<double> lower_values_;
   std::vector<int> violated_;
-  std::vector<int> returns_;  // how often an unknown went to its bound in this solve()
   std::vector<double> null_vector_;
   bool blocked_above_ = false;  ///< by which of its bounds
   int changes_ = 0;
