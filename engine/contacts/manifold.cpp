@@ -200,6 +200,24 @@ void stand_on_half_space(const PlacedSolid& a, const PlacedSolid& b, double marg
   }
 }
 
+/// Where no face of a solid looks along `direction` it touches with an edge or a corner.
+void shrink_to_edge(const PlacedSolid& solid, const Vector3& direction, Side& side) {
+  if (!side.is_face() || dot(side.normal, direction) > 1.0 - 1e-6 ||
+      solid.is(ConvexSolid::Kind::cylinder)) {
+    return;
+  }
+  const Vector3& extreme = solid.vertices[solid.extreme(direction)];
+  for (const ConvexSolid::Edge& edge : solid.solid->edges) {
+    const Vector3 along = solid.edge_vector(edge);
+    const double top = dot(direction, extreme - solid.vertices[at(edge.from)]);
+    if (std::abs(dot(along, direction)) > lies_along_it * along.norm()) continue;
+    if (std::abs(top) > lies_along_it * along.norm()) continue;
+    side.points = {solid.vertices[at(edge.from)], solid.vertices[at(edge.to)]};
+    return;
+  }
+  side.points = {extreme};
+}
+
 }  // namespace
 
 void reduce_points(Manifold& manifold) {
@@ -275,25 +293,8 @@ void find_contacts(const PlacedSolid& a, const PlacedSolid& b, double margin, Ma
   } else {
     Side side_a = side_towards(a, down);
     Side side_b = side_towards(b, axis.normal);
-    // Where the faces of a solid look elsewhere it touches with an edge or a corner.
-    const auto shrink = [](const PlacedSolid& solid, const Vector3& direction, Side& side) {
-      if (!side.is_face() || dot(side.normal, direction) > 1.0 - 1e-6 ||
-          solid.is(ConvexSolid::Kind::cylinder)) {
-        return;
-      }
-      for (const ConvexSolid::Edge& edge : solid.solid->edges) {
-        const Vector3 along = solid.edge_vector(edge);
-        const double top = dot(
-            direction, solid.vertices[solid.extreme(direction)] - solid.vertices[at(edge.from)]);
-        if (std::abs(dot(along, direction)) > lies_along_it * along.norm()) continue;
-        if (std::abs(top) > lies_along_it * along.norm()) continue;
-        side.points = {solid.vertices[at(edge.from)], solid.vertices[at(edge.to)]};
-        return;
-      }
-      side.points = {solid.vertices[solid.extreme(direction)]};
-    };
-    shrink(a, down, side_a);
-    shrink(b, axis.normal, side_b);
+    shrink_to_edge(a, down, side_a);
+    shrink_to_edge(b, axis.normal, side_b);
     const double cosine_a = side_a.is_face() ? dot(side_a.normal, down) : -1.0;
     const double cosine_b = side_b.is_face() ? dot(side_b.normal, axis.normal) : -1.0;
     if (cosine_b > 0.5 && cosine_b >= cosine_a) {

@@ -61,19 +61,23 @@ inline constexpr CoordinateUnits translation_units{"m", "m/N", "N/m", "N s/m", "
 inline constexpr CoordinateUnits rotation_units{"rad",       "rad/(N m)", "N m/rad",
                                                 "N m s/rad", "N m",       "rad, rad/s or N m"};
 
-template <class Class, JointCoordinate Class::*Coordinate, auto Member>
-FieldSlot coordinate_slot(void* object) {
-  return &((static_cast<Class*>(object)->*Coordinate).*Member);
-}
 template <class Class, JointCoordinate Class::*Coordinate>
-FieldSlot coordinate_drive_slot(void* object) {
-  return ChoiceSlot{
-      &(static_cast<Class*>(object)->*Coordinate),
-      [](const void* o) { return static_cast<int>(static_cast<const JointCoordinate*>(o)->drive); },
-      [](void* o, int index) {
-        static_cast<JointCoordinate*>(o)->drive = static_cast<CoordinateDrive>(index);
-      }};
-}
+struct CoordinateSlots {
+  template <auto Member>
+  static FieldSlot of(void* object) {
+    return &((static_cast<Class*>(object)->*Coordinate).*Member);
+  }
+  static FieldSlot drive(void* object) {
+    return ChoiceSlot{&(static_cast<Class*>(object)->*Coordinate),
+                      [](const void* o) {
+                        return static_cast<int>(static_cast<const JointCoordinate*>(o)->drive);
+                      },
+                      [](void* o, int index) {
+                        static_cast<JointCoordinate*>(o)->drive =
+                            static_cast<CoordinateDrive>(index);
+                      }};
+  }
+};
 
 }  // namespace detail
 
@@ -104,40 +108,36 @@ template <class Class, JointCoordinate Class::*Coordinate>
                       std::string_view text, FieldSlot (*slot)(void*)) {
     return Field{key, of, range, optional, text, {}, slot};
   };
-#define SHEAVE_SLOT(member) (&detail::coordinate_slot<Class, Coordinate, &C::member>)
+  using Slots = detail::CoordinateSlots<Class, Coordinate>;
   return {
-      row(name[0], unit.value, any_number(), meaning[0], SHEAVE_SLOT(lower)),
-      row(name[1], unit.value, any_number(), meaning[1], SHEAVE_SLOT(upper)),
+      row(name[0], unit.value, any_number(), meaning[0], &Slots::template of<&C::lower>),
+      row(name[1], unit.value, any_number(), meaning[1], &Slots::template of<&C::upper>),
       row(name[2], unit.compliance, at_least(0.0), "of the stops; 0 (default) is rigid",
-          SHEAVE_SLOT(limit_compliance)),
-      row(name[3], unit.stiffness, at_least(0.0), meaning[2], SHEAVE_SLOT(stiffness)),
-      row(name[4], unit.value, any_number(), "where the spring is relaxed", SHEAVE_SLOT(rest)),
-      row(name[5], unit.damping, at_least(0.0), "viscous friction", SHEAVE_SLOT(damping)),
+          &Slots::template of<&C::limit_compliance>),
+      row(name[3], unit.stiffness, at_least(0.0), meaning[2], &Slots::template of<&C::stiffness>),
+      row(name[4], unit.value, any_number(), "where the spring is relaxed",
+          &Slots::template of<&C::rest>),
+      row(name[5], unit.damping, at_least(0.0), "viscous friction",
+          &Slots::template of<&C::damping>),
       row(name[6], unit.force, at_least(0.0), "dry friction, of bearings or guides",
-          SHEAVE_SLOT(friction)),
-      Field{name[7],
-            "",
-            {},
-            optional,
-            "what the drive's values prescribe",
-            drives,
-            &detail::coordinate_drive_slot<Class, Coordinate>},
+          &Slots::template of<&C::friction>),
+      Field{name[7], "", {}, optional, "what the drive's values prescribe", drives, &Slots::drive},
       row(name[8], "s", any_number(),
           "increasing times of the values, linear in between; none for a constant",
-          SHEAVE_SLOT(drive_times)),
+          &Slots::template of<&C::drive_times>),
       row(name[9], unit.drive, any_number(), "values of the drive, one per time",
-          SHEAVE_SLOT(drive_values)),
+          &Slots::template of<&C::drive_values>),
       row(name[10], unit.drive, any_number(), "of a sine added to the values",
-          SHEAVE_SLOT(drive_amplitude)),
-      row(name[11], "Hz", at_least(0.0), "of the sine", SHEAVE_SLOT(drive_frequency)),
-      row(name[12], "rad", any_number(), "of the sine at time 0", SHEAVE_SLOT(drive_phase)),
+          &Slots::template of<&C::drive_amplitude>),
+      row(name[11], "Hz", at_least(0.0), "of the sine", &Slots::template of<&C::drive_frequency>),
+      row(name[12], "rad", any_number(), "of the sine at time 0",
+          &Slots::template of<&C::drive_phase>),
       row(name[13], unit.force, above(0.0), "the most the drive can do (default: anything)",
-          SHEAVE_SLOT(drive_limit)),
+          &Slots::template of<&C::drive_limit>),
       row(name[14], unit.compliance, at_least(0.0),
           "how far a drive to a position gives; 0 (default) is rigid",
-          SHEAVE_SLOT(drive_compliance)),
+          &Slots::template of<&C::drive_compliance>),
   };
-#undef SHEAVE_SLOT
 }
 
 /// All rows of `tables`, one after the other.

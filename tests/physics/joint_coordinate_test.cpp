@@ -34,7 +34,7 @@ class JointCoordinates : public test::ForEveryCombination {
     model.add(body);
     auto hinge = std::make_shared<HingeJoint>();
     hinge->name = "hinge";
-    hinge->body_b = wheel_;
+    hinge->body_b = wheel;
     hinge->angle = angle;
     model.joints.push_back(hinge);
     return test::start(model);
@@ -51,7 +51,7 @@ class JointCoordinates : public test::ForEveryCombination {
     model.add(body);
     auto slider = std::make_shared<SliderJoint>();
     slider->name = "slider";
-    slider->body_b = wheel_;
+    slider->body_b = wheel;
     slider->axis = axis;
     slider->travel = travel;
     model.joints.push_back(slider);
@@ -60,7 +60,7 @@ class JointCoordinates : public test::ForEveryCombination {
   static JointCoordinateReport coordinate(const World& world) {
     return joint_reports(world).at(0).coordinates.at(0);
   }
-  static constexpr BodyId wheel_{0};
+  static constexpr BodyId wheel{0};
 };
 
 JointCoordinate drive(CoordinateDrive kind, double value) {

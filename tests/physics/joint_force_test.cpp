@@ -41,20 +41,20 @@ class JointForce : public test::ForEveryCombination {
     model.joints.push_back(joint);
     World world = test::start(model);
     test::run(world, 1.0);
-    moved_ = (world.position(body) - center).norm();
-    turned_ = world.orientation(body).vec().norm();
+    moved = (world.position(body) - center).norm();
+    turned = world.orientation(body).vec().norm();
     return joint_reports(world).at(0);
   }
   void expect_held(const JointReport& report, const Vector3& torque) const {
     const bool direct = GetParam().solver == SolverKind::direct;
     EXPECT_LT((report.force - Vector3(0.0, weight, 0.0)).norm(), direct ? 1e-6 : 1e-4);
     EXPECT_LT((report.torque - torque).norm(), direct ? 1e-6 : 1e-4);
-    EXPECT_LT(moved_, direct ? 1e-9 : 1e-6);
-    EXPECT_LT(turned_, direct ? 1e-9 : 1e-6);
+    EXPECT_LT(moved, direct ? 1e-9 : 1e-6);
+    EXPECT_LT(turned, direct ? 1e-9 : 1e-6);
   }
 
-  double moved_ = 0.0;
-  double turned_ = 0.0;
+  double moved = 0.0;
+  double turned = 0.0;
 };
 
 const Vector3 beside{arm, 0.0, 0.0};

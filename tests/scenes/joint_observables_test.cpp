@@ -21,8 +21,8 @@ Machine jointed() {
   Machine m;
   m.model.gravity = down;
   m.model.step = settings(0.01, 1, 50);
-  const auto add = [&](const auto& joint, std::string name, const Vector3& center) {
-    joint->name = std::move(name);
+  const auto add = [&](const auto& joint, const std::string& name, const Vector3& center) {
+    joint->name = name;
     joint->body_b = m.model.add(lump(joint->name + " lump", center, 2.0));
     m.model.joints.push_back(joint);
   };
@@ -57,29 +57,29 @@ Machine jointed() {
 
 class JointObservables : public testing::Test {
  protected:
-  JointObservables() : simulation_(start(jointed())), set_(simulation_) {}
+  JointObservables() : simulation(start(jointed())), set(simulation) {}
 
   double value(const std::string& name) {
-    const Result<int> index = set_.index_of(name);
+    const Result<int> index = set.index_of(name);
     EXPECT_TRUE(index) << name;
     if (!index) return NAN;
     std::vector<double> values;
-    set_.sample(simulation_, values);
+    set.sample(simulation, values);
     // Asked for alone it is the same.
     double alone = NAN;
-    set_.sample(simulation_, std::span(&*index, 1), std::span(&alone, 1));
+    set.sample(simulation, std::span(&*index, 1), std::span(&alone, 1));
     EXPECT_EQ(alone, values.at(static_cast<std::size_t>(*index))) << name;
     return alone;
   }
-  [[nodiscard]] bool exists(const std::string& name) const { return bool(set_.index_of(name)); }
+  [[nodiscard]] bool exists(const std::string& name) const { return bool(set.index_of(name)); }
 
-  Simulation simulation_;
-  ObservableSet set_;
+  Simulation simulation;
+  ObservableSet set;
 };
 
 TEST_F(JointObservables, HaveTheValuesOfTheReports) {
-  run(simulation_.world, 0.5);
-  const std::vector<JointReport> reports = joint_reports(simulation_.world);
+  run(simulation.world, 0.5);
+  const std::vector<JointReport> reports = joint_reports(simulation.world);
   ASSERT_EQ(reports.size(), 5U);
   for (const JointReport& joint : reports) {
     const std::string dot = joint.name + ".";
@@ -103,7 +103,7 @@ TEST_F(JointObservables, HaveTheValuesOfTheReports) {
 }
 
 TEST_F(JointObservables, MeanWhatTheySay) {
-  run(simulation_.world, 0.5);
+  run(simulation.world, 0.5);
   EXPECT_NEAR(value("hinge.angle"), 1.0, 1e-6);
   EXPECT_NEAR(value("hinge.angle_rate"), 2.0, 1e-6);
   EXPECT_NEAR(value("sleeve.travel"), 0.25, 1e-6);
@@ -129,7 +129,7 @@ TEST_F(JointObservables, AreThoseThatTheJointTypeHas) {
 TEST_F(JointObservables, OfADefinitionAndOfItsSimulationAreTheSameAndUnique) {
   const Machine m = jointed();
   const std::vector<std::string> names = ObservableSet(m.model, m.cables).names();
-  EXPECT_EQ(names, set_.names());
+  EXPECT_EQ(names, set.names());
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
   // 1 time, 5 bodies, 5 joints with 2 + 1 + 2 + 0 + 1 coordinates, energies.
   EXPECT_EQ(names.size(), 1U + 5U * 14U + 5U * 9U + 6U * 3U + 4U);
@@ -137,15 +137,15 @@ TEST_F(JointObservables, OfADefinitionAndOfItsSimulationAreTheSameAndUnique) {
 
 TEST_F(JointObservables, ForcesAreUnknownAtTheStart) {
   for (const std::string name : {"hinge.force", "hinge.fx", "hinge.tz", "hinge.drive_force"}) {
-    EXPECT_FALSE(set_.known_at_start(set_.index_of(name).value())) << name;
+    EXPECT_FALSE(set.known_at_start(set.index_of(name).value())) << name;
   }
   for (const std::string name : {"hinge.angle", "hinge.angle_rate", "hinge.broken"}) {
-    EXPECT_TRUE(set_.known_at_start(set_.index_of(name).value())) << name;
+    EXPECT_TRUE(set.known_at_start(set.index_of(name).value())) << name;
   }
 }
 
 TEST_F(JointObservables, UnknownOnesGetASuggestion) {
-  EXPECT_THAT(set_.index_of("hinge.angel").errors()[0].message,
+  EXPECT_THAT(set.index_of("hinge.angel").errors()[0].message,
               testing::HasSubstr("did you mean \"hinge.angle\"?"));
 }
 
