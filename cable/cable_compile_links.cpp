@@ -29,6 +29,7 @@ void CableCompiler::compile_links(const CableDef& def) {
     links_.push_back(*compiled);
     LinkGeometry& placed = links_.back();
     placed.centered = compiled->center.isZero(0.0);
+    placed.still = compiled->carrier == bodies_.count();
     if (placed.layer_pitch > 0.0) {
       // With what is on it at time 0; the definition keeps the bare drum.
       bare_radii_[static_cast<int>(system_->links_.size() + i)] = placed.signed_radius;

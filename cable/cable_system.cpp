@@ -81,7 +81,8 @@ double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     if (!spans_[at(k)].active) continue;
     row.clear();
-    evaluate(substep, k, row);
+    const SpanGeometry span = evaluate(substep, k, row);
+    if (spans_[at(k)].kind == SpanKind::spatial) references_[at(k)].ends = {span.start, span.end};
     double& multiplier = multipliers_[at(k)];
     if (row.value >= 0.0 && multiplier == 0.0) continue;  // slack
     correction = std::max(correction, solve_row(row, substep.h, multiplier, substep.moving));
@@ -103,7 +104,8 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     const LinkGeometry& first = links_[at(setup.first)];
     const LinkGeometry& second = links_[at(setup.second)];
     const CompiledCable& cable = cables_[at(setup.cable)];
-    const SpanGeometry span = span_geometry(substep, setup, first, second);
+    const SpanGeometry span =
+        span_geometry(substep, setup, first, second, &references_[at(k)].ends);
     if (!span.has_tangent) {
       if (fallbacks_[at(k)].substeps++ == 0) fallbacks_[at(k)].first_time = substep.next.time;
       ++substep.statistics.geometry_fallbacks;

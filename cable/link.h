@@ -36,6 +36,7 @@ struct LinkGeometry {
   bool mounted = false;               ///< whether `body` is a mounted rotor
   Vector3 center = Vector3::Zero();   ///< [m], own frame of the carrier
   bool centered = false;              ///< `center` is 0, so its position needs no rotation
+  bool still = false;                 ///< the carrier is the world: centre and normal stay
   Vector3 normal = Vector3::UnitZ();  ///< unit normal of the link's plane, own frame of the carrier
   int side = 0;                       ///< +1 counter-clockwise, -1 clockwise, 0 a point
   double signed_radius = 0.0;         ///< side times the radius, of an outline at its corners [m]

@@ -9,9 +9,16 @@ namespace sheave {
 /// Centre of the link's circle now; bodies that hold it at their centre of mass need no rotation.
 inline Vector3 center_of(const Substep& substep, const LinkGeometry& link, int corner) {
   if (link.outline) return substep.point(link.carrier, link.outline->corners[at(corner)]);
+  if (link.still) return link.center;
   const bool on_mounted_rotor = link.mounted && link.carrier == link.body;
   if (link.centered && !on_mounted_rotor) return substep.moving[at(link.carrier)].position;
   return substep.point(link.carrier, link.center);
+}
+
+/// Whether both ends of a span move with one rigid body, so that nothing changes its length. What rounding leaves of its
+/// gradient would have to pull with 1e16 times its error.
+inline bool on_one_body(const LinkGeometry& first, const LinkGeometry& second) {
+  return first.body == second.body && first.carrier == first.body && second.carrier == second.body;
 }
 
 /// Unit vector from the centre of `circle` to `point` on it.

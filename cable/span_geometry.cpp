@@ -1,6 +1,7 @@
 #include "cable/span_geometry.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace sheave {
 namespace {
@@ -18,106 +19,158 @@ bool tangent_point(const LinkCircle& circle, const Vector3& target, bool incomin
   return span.has_tangent;
 }
 
-/// The two ends as angles on their circles; refines them by Newton's method on the tangency
-/// conditions G1 = e1.(a2 - c1) - r1 and G2 = e2.(a1 - c2) - r2 (matrix: cable/span_row.h).
-class TangencySolver {
- public:
-  TangencySolver(const LinkCircle& first, const LinkCircle& second)
-      : first_(first),
-        second_(second),
-        r1_(std::abs(first.signed_radius)),
-        r2_(std::abs(second.signed_radius)) {}
+/// An end on its circle: `radial` from the centre to the tangent point and `tangent` counter-clockwise along the circle,
+/// unit vectors in its plane.
+struct RimPoint {
+  Vector3 radial;
+  Vector3 tangent;
 
-  /// Moves `start` and `end` to a solution; false if there is none near them that runs the way the
-  /// windings ask for.
-  bool refine(Vector3& start, Vector3& end) const {
-    constexpr int max_rounds = 30;
-    Vector3 e1 = (start - first_.center) / r1_;
-    Vector3 e2 = (end - second_.center) / r2_;
-    for (int round = 0; round < max_rounds; ++round) {
-      const Vector3 to_end = end - first_.center;
-      const Vector3 to_start = start - second_.center;
-      const double g1 = e1.dot(to_end) - r1_;
-      const double g2 = e2.dot(to_start) - r2_;
-      if (std::max(std::abs(g1), std::abs(g2)) <= tolerance * (to_end.norm() + to_start.norm())) {
-        return runs_along(start, end, e1, e2);
-      }
-      const Vector3 t1 = first_.normal.cross(e1);
-      const Vector3 t2 = second_.normal.cross(e2);
-      const double a = t1.dot(to_end);
-      const double b = r2_ * e1.dot(t2);
-      const double c = r1_ * e2.dot(t1);
-      const double d = t2.dot(to_start);
-      const double determinant = a * d - b * c;
-      if (determinant == 0.0) return false;
-      // Half a radian at most, so that a nearly singular step cannot jump to the other tangent.
-      const auto limited = [](double angle) { return std::clamp(angle, -0.5, 0.5); };
-      e1 = rotation_by(limited((b * g2 - d * g1) / determinant) * first_.normal) * e1;
-      e2 = rotation_by(limited((c * g1 - a * g2) / determinant) * second_.normal) * e2;
-      start = first_.center + r1_ * e1;
-      end = second_.center + r2_ * e2;
-    }
-    return false;
+  /// The point of the circle that is nearest to the direction of `radial`.
+  void settle(const Vector3& normal) {
+    tangent = cross(normal, radial);
+    tangent *= 1.0 / std::sqrt(dot(tangent, tangent));
+    radial = cross(tangent, normal);
   }
-
- private:
-  static constexpr double tolerance = 1e-14;
-
-  [[nodiscard]] bool runs_along(const Vector3& start, const Vector3& end, const Vector3& e1,
-                                const Vector3& e2) const {
-    const Vector3 direction = end - start;
-    return first_.signed_radius * direction.dot(first_.normal.cross(e1)) >= 0.0 &&
-           second_.signed_radius * direction.dot(second_.normal.cross(e2)) >= 0.0;
-  }
-
-  const LinkCircle& first_;
-  const LinkCircle& second_;
-  double r1_;
-  double r2_;
 };
 
-}  // namespace
+/// How far Newton's method may go.
+struct NewtonLimits {
+  int rounds;
+  double step;  ///< of an end in one round [rad]
+  /// Of the share of an error that solving for the ends in turn leaves per round: below 1 that would find this solution.
+  double contraction;
+  bool
+      from_near;  ///< whether a longer step tells that there is no solution near; otherwise it is shortened
+};
+/// From anywhere near: the ends have been solved for in turn before.
+constexpr NewtonLimits anywhere{30, 0.5, std::numeric_limits<double>::infinity(), false};
+/// From where the span was: only to the solution that the search from anywhere would find, too.
+constexpr NewtonLimits nearby{6, 0.1, 0.5, true};
 
-SpanGeometry spatial_span(const LinkCircle& first, const LinkCircle& second) {
-  // Each round shrinks the error by about (r1/d)(r2/d); where that is slow, or where the rounds
-  // circle round the solution, Newton's method takes over.
-  constexpr int max_rounds = 30;
-  constexpr double tolerance = 4e-15;
-  Vector3 start = first.center;
-  Vector3 end = second.center;
-  bool first_tangent = true;
-  bool second_tangent = true;
-  const bool both = first.signed_radius != 0.0 && second.signed_radius != 0.0;
-  const double size = std::max(std::abs(first.signed_radius), std::abs(second.signed_radius));
-  bool converged = false;
-  for (int round = 0; round < max_rounds && !converged; ++round) {
-    const Vector3 last_start = start;
-    const Vector3 last_end = end;
-    if (first.signed_radius != 0.0) first_tangent = tangent_point(first, end, false, start);
-    if (second.signed_radius != 0.0) second_tangent = tangent_point(second, start, true, end);
-    const double change = std::max((start - last_start).norm(), (end - last_end).norm());
-    converged = !both || change <= tolerance * (size + (end - start).norm());
-  }
-  bool has_tangent = first_tangent && second_tangent;
-  // Small changes do not mean a small error where the rounds converge slowly, so look at it.
-  const double residual =
-      both ? std::abs((start - first.center).dot(end - first.center) / first.signed_radius -
-                      first.signed_radius)
-           : 0.0;
-  if (!converged || (has_tangent && residual > tolerance * (size + (end - start).norm()))) {
-    Vector3 refined_start = start;
-    Vector3 refined_end = end;
-    has_tangent = TangencySolver(first, second).refine(refined_start, refined_end);
-    if (has_tangent) {
-      start = refined_start;
-      end = refined_end;
+/// Newton's method on the tangency conditions G1 = e1.(a2 - c1) - r1 and G2 = e2.(a1 - c2) - r2 (matrix:
+/// cable/span_row.h). Moves `start` and `end` to a solution; false if there is none near them that runs the way the
+/// windings ask for.
+bool refine_tangents(const LinkCircle& first, const LinkCircle& second, const NewtonLimits& limits,
+                     Vector3& start, Vector3& end) {
+  constexpr double tolerance = 1e-14;
+  // The step after one of this size is smaller than rounding.
+  constexpr double last_step = 3e-8;
+  const double r1 = std::abs(first.signed_radius);
+  const double r2 = std::abs(second.signed_radius);
+  RimPoint rim1{start - first.center, {}};
+  RimPoint rim2{end - second.center, {}};
+  bool solved = false;
+  for (int round = 0; round <= limits.rounds; ++round) {
+    rim1.settle(first.normal);
+    rim2.settle(second.normal);
+    start = sum(first.center, r1, rim1.radial);
+    end = sum(second.center, r2, rim2.radial);
+    if (solved) break;
+    const Vector3 to_end = end - first.center;
+    const Vector3 to_start = start - second.center;
+    const double g1 = dot(rim1.radial, to_end) - r1;
+    const double g2 = dot(rim2.radial, to_start) - r2;
+    const double a = dot(rim1.tangent, to_end);
+    const double b = r2 * dot(rim1.radial, rim2.tangent);
+    const double c = r1 * dot(rim2.radial, rim1.tangent);
+    const double d = dot(rim2.tangent, to_start);
+    const double determinant = a * d - b * c;
+    if (std::abs(b * c) > limits.contraction * std::abs(a * d)) return false;
+    const double largest = std::max(std::abs(g1), std::abs(g2));
+    const double size_squared = dot(to_end, to_end) + dot(to_start, to_start);
+    if (largest * largest <= tolerance * tolerance * size_squared) {
+      solved = true;
+      break;
     }
+    if (!(std::abs(determinant) > 0.0)) return false;
+    const double step1 = (b * g2 - d * g1) / determinant;
+    const double step2 = (c * g1 - a * g2) / determinant;
+    const double larger = std::max(std::abs(step1), std::abs(step2));
+    solved = larger <= last_step;
+    if (larger > limits.step && limits.from_near) return false;
+    // No more, so that a nearly singular step cannot jump to the other tangent.
+    rim1.radial = sum(rim1.radial, std::clamp(step1, -limits.step, limits.step), rim1.tangent);
+    rim2.radial = sum(rim2.radial, std::clamp(step2, -limits.step, limits.step), rim2.tangent);
   }
-  // Without a tangent the span is the straight line between the points of the rims that the last
-  // round left, which is where the tangent's ends go as it ceases to exist.
+  const Vector3 direction = end - start;
+  return solved && first.signed_radius * dot(direction, rim1.tangent) >= 0.0 &&
+         second.signed_radius * dot(direction, rim2.tangent) >= 0.0;
+}
+
+/// What the last round left where there is no tangent: the straight line between the points of the rims, which is where
+/// the tangent's ends go as it ceases to exist.
+SpanGeometry line_between(const Vector3& start, const Vector3& end, bool has_tangent) {
   SpanGeometry span = straight_span(start, end);
   span.has_tangent = has_tangent;
   return span;
+}
+
+/// The span between two circles, neither of which is a point.
+SpanGeometry span_of_circles(const LinkCircle& first, const LinkCircle& second) {
+  // Each round shrinks the error by about (r1/d)(r2/d); once it is small, or where the rounds circle round the solution,
+  // Newton's method takes over.
+  constexpr int max_rounds = 30;
+  constexpr double tolerance = 4e-15;
+  constexpr double near = 0.02;
+  Vector3 start = first.center;
+  Vector3 end = second.center;
+  const double size = std::max(std::abs(first.signed_radius), std::abs(second.signed_radius));
+  bool tried = false;
+  for (int round = 0; round < max_rounds; ++round) {
+    const Vector3 last_start = start;
+    const Vector3 last_end = end;
+    const bool first_tangent = tangent_point(first, end, false, start);
+    const bool second_tangent = tangent_point(second, start, true, end);
+    const double change = std::max((start - last_start).norm(), (end - last_end).norm());
+    const double allowed = size + (end - start).norm();
+    const bool both = first_tangent && second_tangent;
+    if (both && !tried && change <= near * size) {
+      tried = true;
+      Vector3 refined_start = start;
+      Vector3 refined_end = end;
+      if (refine_tangents(first, second, anywhere, refined_start, refined_end)) {
+        return line_between(refined_start, refined_end, true);
+      }
+    }
+    // Small changes do not mean a small error where the rounds converge slowly, but there Newton's method has been tried.
+    if (change <= tolerance * allowed) {
+      return line_between(start, end, both);
+    }
+  }
+  Vector3 refined_start = start;
+  Vector3 refined_end = end;
+  if (refine_tangents(first, second, anywhere, refined_start, refined_end)) {
+    return line_between(refined_start, refined_end, true);
+  }
+  return line_between(start, end, false);
+}
+
+}  // namespace
+
+SpanGeometry spatial_span(const LinkCircle& first, const LinkCircle& second,
+                          const SpanGuess* guess) {
+  const bool first_is_point = first.signed_radius == 0.0;
+  const bool second_is_point = second.signed_radius == 0.0;
+  Vector3 start = first.center;
+  Vector3 end = second.center;
+  if (first_is_point || second_is_point) {
+    bool has_tangent = true;
+    if (!first_is_point) has_tangent = tangent_point(first, end, false, start);
+    if (!second_is_point) has_tangent = tangent_point(second, start, true, end);
+    return line_between(start, end, has_tangent);
+  }
+  // Circles that overlap may have several tangents, or one that the search from anywhere does not find; which one counts
+  // must not depend on where the span was.
+  const double reach = std::abs(first.signed_radius) + std::abs(second.signed_radius);
+  const Vector3 apart = second.center - first.center;
+  if (guess != nullptr && dot(apart, apart) > reach * reach) {
+    start = guess->start;
+    end = guess->end;
+    if (refine_tangents(first, second, nearby, start, end)) {
+      return line_between(start, end, true);
+    }
+  }
+  return span_of_circles(first, second);
 }
 
 }  // namespace sheave

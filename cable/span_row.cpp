@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
-#include <Eigen/LU>
-
 #include "cable/link_contact.h"
+#include "cable/span_skew.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -31,12 +30,6 @@ Vector3 center_after(const Substep& substep, const LinkGeometry& link, double ti
   if (link.centered) return center;
   return center +
          rotation_by(time * carrier.angular_velocity) * (carrier.orientation * link.center);
-}
-
-/// Whether both ends of a span move with one rigid body, so that nothing changes its length. What rounding leaves of its
-/// gradient would have to pull with 1e16 times its error.
-bool on_one_body(const LinkGeometry& first, const LinkGeometry& second) {
-  return first.body == second.body && first.carrier == first.body && second.carrier == second.body;
 }
 
 /// Velocity of the link's centre at the start of the substep (of an outline: of its origin, which is near enough for a
@@ -83,21 +76,6 @@ double expected_turn(const Substep& substep, const LinkGeometry& first, const Li
   return sum;
 }
 
-/// Rotation A - B of the tangent point at one end, relative to the body, since the start. `radial` is the unit vector
-/// from the centre of the end's circle to the tangent point, now; `start_radial` the same at the start, own frame.
-double relative_turn(const Substep& substep, const LinkGeometry& link, const Vector3& start_radial,
-                     const Vector3& radial) {
-  const MovingBody& carrier = substep.moving[at(link.carrier)];
-  const Quaternion orientation = substep.orientation(link.carrier);
-  const Vector3 normal = orientation * link.normal;
-  const double raw = angle_between(start_radial, orientation.conjugate() * radial, link.normal);
-  const double carrier_turn = normal.dot(carrier.turn);
-  // In the carrier's frame the tangent point moves against the carrier's rotation.
-  const double relative_to_carrier = unwrapped(raw, -carrier_turn);
-  if (link.carrier == link.body) return relative_to_carrier;
-  return relative_to_carrier - (normal.dot(substep.moving[at(link.body)].turn) - carrier_turn);
-}
-
 /// By how much less than its edges the span changes when its contact moves from one corner to another while its far end,
 /// `far_end` in the carrier's own frame, is out of the outline's plane [m, with the sign of the way `along`]. Where the
 /// contact changes corner the span, seen along the plane, lies along the edge e; with d from the nearer corner to the far
@@ -123,37 +101,6 @@ double tilt_loss(const LinkGeometry& link, int from, int to, double along, const
   return along > 0.0 ? loss : -loss;
 }
 
-/// The forces along e1 and e2 that the moving tangent points of skew planes add to the row.
-void add_skew_terms(const Substep& substep, const LinkGeometry& first, const LinkGeometry& second,
-                    const SpanGeometry& span, Row& row) {
-  const LinkCircle circle1 = circle_of(substep, first, span.first_corner);
-  const LinkCircle circle2 = circle_of(substep, second, span.second_corner);
-  const double r1 = std::abs(first.signed_radius);
-  const double r2 = std::abs(second.signed_radius);
-  // A point is a circle whose tangent point cannot move: k = 0, and 1 on the diagonal of M.
-  const Vector3 e1 = r1 > 0.0 ? radial(circle1, span.start) : Vector3(Vector3::Zero());
-  const Vector3 e2 = r2 > 0.0 ? radial(circle2, span.end) : Vector3(Vector3::Zero());
-  const Vector3 t1 = circle1.normal.cross(e1);
-  const Vector3 t2 = circle2.normal.cross(e2);
-  const Eigen::Vector2d k(-(r1 * span.direction.dot(t1) - first.signed_radius),
-                          r2 * span.direction.dot(t2) - second.signed_radius);
-  Eigen::Matrix2d m;
-  m << (r1 > 0.0 ? t1.dot(span.end - circle1.center) : 1.0), r2 * e1.dot(t2), r1 * e2.dot(t1),
-      (r2 > 0.0 ? t2.dot(span.start - circle2.center) : 1.0);
-  const double determinant = m.determinant();
-  if (!(std::abs(determinant) > 0.0)) return;
-  const Eigen::Vector2d y = m.inverse().transpose() * k;
-  // d(l - L) = -y . g, so dC = y . g with g1 = e1.(v2(a2) - v1(a2)), g2 = e2.(v1(a1) - v2(a1)).
-  if (r1 > 0.0) {
-    add_link_force(substep, row, second, span.end, y[0] * e1);
-    add_link_force(substep, row, first, span.end, -y[0] * e1);
-  }
-  if (r2 > 0.0) {
-    add_link_force(substep, row, first, span.start, y[1] * e2);
-    add_link_force(substep, row, second, span.start, -y[1] * e2);
-  }
-}
-
 /// Without a tangent the length stays 0 and the span's direction is perpendicular to the line between the centres. That
 /// line turns by motion / distance, which moves cable by q times that: q / d times what the force of 1 at the
 /// tangent points stands for. The rest of it acts at the centres; at d = q, where the tangent ends, there is none.
@@ -170,7 +117,7 @@ void add_turning_terms(const Substep& substep, const SpanSetup& setup, const Lin
 
 inline SpanGeometry span_between(const Substep& substep, const SpanSetup& setup,
                                  const LinkGeometry& first, const LinkGeometry& second,
-                                 int first_corner, int second_corner) {
+                                 int first_corner, int second_corner, const SpanGuess* guess) {
   switch (setup.kind) {
     case SpanKind::straight:
       return straight_span(center_of(substep, first, 0), center_of(substep, second, 0));
@@ -182,7 +129,7 @@ inline SpanGeometry span_between(const Substep& substep, const SpanSetup& setup,
       break;
   }
   return spatial_span(circle_of(substep, first, first_corner),
-                      circle_of(substep, second, second_corner));
+                      circle_of(substep, second, second_corner), guess);
 }
 
 /// Finds the corners: each round turns the span about one end until it no longer cuts the other outline. Between convex
@@ -200,7 +147,7 @@ SpanGeometry outlined_span(const Substep& substep, const SpanSetup& setup,
   SpanGeometry span;
   bool settled = false;
   for (int round = 0; round < rounds && !settled; ++round) {
-    span = span_between(substep, setup, first, second, first_corner, second_corner);
+    span = span_between(substep, setup, first, second, first_corner, second_corner, nullptr);
     const int next_first = touched_corner(substep, first, span.direction, first_corner);
     if (next_first != first_corner) {
       first_corner = next_first;
@@ -217,16 +164,18 @@ SpanGeometry outlined_span(const Substep& substep, const SpanSetup& setup,
 }
 
 inline SpanGeometry span_geometry_now(const Substep& substep, const SpanSetup& setup,
-                                      const LinkGeometry& first, const LinkGeometry& second) {
+                                      const LinkGeometry& first, const LinkGeometry& second,
+                                      const SpanGuess* guess) {
   if (setup.outlined) return outlined_span(substep, setup, first, second);
-  return span_between(substep, setup, first, second, 0, 0);
+  return span_between(substep, setup, first, second, 0, 0, guess);
 }
 
 }  // namespace
 
 SpanGeometry span_geometry(const Substep& substep, const SpanSetup& setup,
-                           const LinkGeometry& first, const LinkGeometry& second) {
-  return span_geometry_now(substep, setup, first, second);
+                           const LinkGeometry& first, const LinkGeometry& second,
+                           const SpanGuess* guess) {
+  return span_geometry_now(substep, setup, first, second, guess);
 }
 
 SpanReference span_reference(const Substep& substep, const SpanSetup& setup,
@@ -235,7 +184,8 @@ SpanReference span_reference(const Substep& substep, const SpanSetup& setup,
   SpanReference reference;
   reference.rest_length = rest_length;
   if (setup.kind == SpanKind::straight) return reference;
-  const SpanGeometry span = span_geometry_now(substep, setup, first, second);
+  const SpanGeometry span = span_geometry_now(substep, setup, first, second, nullptr);
+  reference.ends = {span.start, span.end};
   if (setup.outlined) {
     reference.first_corner = span.first_corner;
     reference.second_corner = span.second_corner;
@@ -297,11 +247,13 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
       break;
     }
     case SpanKind::spatial: {
+      if (!setup.outlined) return skew_transport(substep, first, second, reference, geometry);
       const auto way = [&](const LinkGeometry& link, const Vector3& start_radial, int start_corner,
                            double start_angle, int corner, const Vector3& point,
                            const Vector3& far_end) {
         const Vector3 outward = contact_normal(substep, link, corner, point, geometry.direction);
-        const double turn = relative_turn(substep, link, start_radial, outward);
+        const double turn =
+            relative_turn(substep, link, frame_of(substep, link), start_radial, outward);
         // `side` makes the gain of either end a loss of the span.
         const double gain = &link == &first ? layer_gain(link, turn) : -layer_gain(link, turn);
         const double along = way_along(link, turn, start_corner, start_angle, corner);
@@ -330,15 +282,20 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
 SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
                            const LinkGeometry& first, const LinkGeometry& second,
                            const SpanReference& reference, Row& row) {
-  const SpanGeometry span = span_geometry_now(substep, setup, first, second);
+  if (setup.kind == SpanKind::spatial && !setup.outlined) {
+    return evaluate_skew_span(substep, first, second, reference, row);
+  }
+  const SpanGeometry span = span_geometry_now(substep, setup, first, second, nullptr);
   const SpanTransport transport = span_transport(substep, setup, first, second, reference, span);
   row.value = reference.rest_length + transport.from_first + transport.from_second - span.length;
   if (on_one_body(first, second)) return span;
+  if (setup.kind == SpanKind::spatial) {
+    add_skew_span(substep, first, second, circle_of(substep, first, span.first_corner),
+                  circle_of(substep, second, span.second_corner), span, row);
+    return span;
+  }
   add_link_force(substep, row, first, span.start, span.direction);
   add_link_force(substep, row, second, span.end, -span.direction);
-  if (setup.kind == SpanKind::spatial && span.has_tangent && span.length > 0.0) {
-    add_skew_terms(substep, first, second, span, row);
-  }
   if (setup.kind == SpanKind::planar && !span.has_tangent && !setup.outlined) {
     add_turning_terms(substep, setup, first, second, span, row);
   }

@@ -61,6 +61,7 @@ struct SpanSetup {
 /// What a span remembers during a substep: the reference its transport is measured from.
 struct SpanReference {
   double rest_length = 0.0;                 ///< at the start of the substep [m]
+  SpanGuess ends;                           ///< spatial: where the span was last
   Vector3 direction = Vector3::Zero();      ///< planar: u at the start
   double expected_turn = 0.0;               ///< planar: of u over the substep [rad]
   Vector3 first_radial = Vector3::Zero();   ///< spatial: e1 at the start, carrier's own frame
@@ -82,9 +83,10 @@ struct SpanTransport {
   double from_second = 0.0;  ///< from the second link [m]
 };
 
-/// The span as it is now.
+/// The span as it is now, found faster with a guess (cable/span_geometry.h).
 [[nodiscard]] SpanGeometry span_geometry(const Substep& substep, const SpanSetup& setup,
-                                         const LinkGeometry& first, const LinkGeometry& second);
+                                         const LinkGeometry& first, const LinkGeometry& second,
+                                         const SpanGuess* guess = nullptr);
 
 /// The reference for the coming substep; bodies are where they were at its start.
 [[nodiscard]] SpanReference span_reference(const Substep& substep, const SpanSetup& setup,

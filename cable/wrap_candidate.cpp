@@ -105,6 +105,7 @@ std::optional<LinkGeometry> wrap_link(const BodySet& bodies, const WrapCandidate
   Result<LinkGeometry> link = wrap.compile(bodies, "");
   if (!link) return std::nullopt;
   link->centered = link->center.isZero(0.0);
+  link->still = link->carrier == bodies.count();
   link->lifts = true;
   return std::move(*link);
 }

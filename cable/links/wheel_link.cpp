@@ -118,14 +118,23 @@ Result<LinkGeometry> WheelLink::place(const BodySet& bodies, const std::string& 
 }
 
 void carry_by_axle(const BodySet& bodies, LinkGeometry& link) {
-  const int mount = bodies[link.body].mount;
-  if (mount < 0 || link.outline) return;
+  const int wheel = link.body;
+  if (wheel == bodies.count() || bodies[wheel].mobility != Mobility::rotor || link.outline) return;
+  const int mount = bodies[wheel].mount;
+  const bool mounted = mount >= 0;
+  const Quaternion orientation = bodies.initial_orientation(wheel);
+  // A mounted rotor turns about the origin of its frame, one on a fixed axle about its centre of mass.
+  const Vector3& center_of_mass = bodies[wheel].center_of_mass;
   const Quaternion to_carrier =
-      bodies.initial_orientation(mount).conjugate() * bodies.initial_orientation(link.body);
-  const Vector3 offset = to_carrier * (link.center + bodies[link.body].center_of_mass);
-  if (offset.cross(bodies[link.body].axis).norm() > 1e-9 * std::abs(link.signed_radius)) return;
-  link.carrier = mount;
-  link.center = bodies[link.body].mount_position + offset;
+      mounted ? Quaternion(bodies.initial_orientation(mount).conjugate() * orientation)
+              : orientation;
+  const Vector3 offset =
+      to_carrier * (mounted ? Vector3(link.center + center_of_mass) : link.center);
+  if (offset.cross(bodies[wheel].axis).norm() > 1e-9 * std::abs(link.signed_radius)) return;
+  const Vector3 on_axle =
+      mounted ? bodies[wheel].mount_position : bodies.initial_point(wheel, center_of_mass);
+  link.carrier = mounted ? mount : bodies.count();
+  link.center = on_axle + offset;
   link.normal = to_carrier * link.normal;
 }
 

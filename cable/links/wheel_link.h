@@ -47,8 +47,8 @@ template <class Link>
   };
 }
 
-/// A wheel whose centre lies on the axle of a mounted rotor gets it and its plane fixed to the carrier, which saves
-/// following the rotor's own angle.
+/// A wheel whose centre lies on the axle of a rotor gets it and its plane fixed to what holds the axle, another body or the
+/// world, which saves following the rotor's own angle.
 void carry_by_axle(const BodySet& bodies, LinkGeometry& link);
 
 }  // namespace sheave

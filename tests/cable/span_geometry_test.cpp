@@ -219,6 +219,31 @@ TEST(SpatialSpan, IsTangentToBothCirclesSeenAlongTheirNormals) {
   EXPECT_EQ(unsolved, 0) << "largest error " << worst << " m";
 }
 
+TEST(SpatialSpan, AGuessDecidesNothing) {
+  // Guesses from as near as rounding to anywhere on the rims. Both searches end within 1e-14 of the solution, times the
+  // condition 1/l of a tangent that is short as seen along a normal, at either end.
+  Random random;
+  int without = 0;
+  for (int i = 0; i < 50000; ++i) {
+    const LinkCircle a{{0, 0, 0}, random.unit(), random(-0.9, 0.9)};
+    const LinkCircle b{random(0.5, 3.0) * random.unit(), random.unit(), random(-0.9, 0.9)};
+    const SpanGeometry span = spatial_span(a, b);
+    const double off = std::pow(10.0, random(-16.0, 0.5));
+    const SpanGuess guess{span.start + off * random.unit(), span.end + off * random.unit()};
+    const SpanGeometry again = spatial_span(a, b, &guess);
+    ASSERT_EQ(again.has_tangent, span.has_tangent) << i;
+    if (!span.has_tangent) {
+      ++without;
+      continue;
+    }
+    const double sharpness = std::min(1.0, seen_length(a, span) * seen_length(b, span));
+    const double allowed = 1e-13 / sharpness;
+    EXPECT_LT((again.start - span.start).norm(), allowed) << i;
+    EXPECT_LT((again.end - span.end).norm(), allowed) << i;
+  }
+  EXPECT_GT(without, 1000);
+}
+
 TEST(SpatialSpan, LengthIsContinuousWhereTheTangentEnds) {
   // A point above the plane of a circle, moved across the circle's rim: outside, the length is
   // sqrt(l^2 + z^2) with the planar l, which goes to 0 at the rim, so the limit is z.

@@ -1,0 +1,38 @@
+#pragma once
+// The row of a span between circles, or a circle and a point, in planes that differ or move: what cable/span_row.h derives
+// for different planes. Internal to the cable library.
+
+#include "cable/span_row.h"
+
+namespace sheave {
+
+/// A link's circle in the world, now, and what turned it there.
+struct LinkFrame {
+  LinkCircle circle;
+  Quaternion orientation = Quaternion::Identity();  ///< of the carrier; of one at rest not used
+};
+[[nodiscard]] LinkFrame frame_of(const Substep& substep, const LinkGeometry& link);
+
+/// Rotation A - B [rad] of the tangent point at one end about the link's normal, relative to the body, since the start.
+/// `outward` is the unit vector from the centre of the end's circle to the tangent point, now; `start_outward` the same at
+/// the start, own frame of the carrier.
+[[nodiscard]] double relative_turn(const Substep& substep, const LinkGeometry& link,
+                                   const LinkFrame& frame, const Vector3& start_outward,
+                                   const Vector3& outward);
+
+/// Adds to `row` the unit forces of the span's ends and the forces that its moving tangent points add. Nothing of the latter
+/// without a tangent. Circles are those at the corners where the span ends.
+void add_skew_span(const Substep& substep, const LinkGeometry& first, const LinkGeometry& second,
+                   const LinkCircle& first_circle, const LinkCircle& second_circle,
+                   const SpanGeometry& span, Row& row);
+
+/// span_transport() and evaluate_span() for a span of kind `spatial` without outlines.
+[[nodiscard]] SpanTransport skew_transport(const Substep& substep, const LinkGeometry& first,
+                                           const LinkGeometry& second,
+                                           const SpanReference& reference,
+                                           const SpanGeometry& span);
+SpanGeometry evaluate_skew_span(const Substep& substep, const LinkGeometry& first,
+                                const LinkGeometry& second, const SpanReference& reference,
+                                Row& row);
+
+}  // namespace sheave
