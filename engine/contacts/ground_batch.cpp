@@ -6,6 +6,7 @@
 #include "engine/contacts/ground_batch.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/substep.h"
 
@@ -36,33 +37,50 @@ class GroundBatch final : public ConstraintBatch {
   void begin(const Substep& substep, const FeatureState& state) override {
     std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
     for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].pressed = state.reals[i] > 0.0;
-    std::size_t next = 0;
-    for (const Owner& owner : owners_) {
+    for (Owner& owner : owners_) {
       points_.clear();
       append_points(substep, owner);
-      for (const Vector3& point : points_) contacts_[next++].point = point;
+      owner.touches = false;
+      double reach_squared = 0.0;
+      std::size_t next = owner.first;
+      for (const Vector3& point : points_) {
+        contacts_[next++].point = point;
+        reach_squared = std::max(reach_squared, dot(point, point));
+      }
+      owner.reach = std::sqrt(reach_squared);
+      owner.near = may_come_near(substep, owner);
     }
   }
 
   double sweep(Substep& substep) override {
     double correction = 0.0;
     Row row;
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-      row.clear();
-      evaluate(substep, contacts_[i], row);
-      if (row.value >= 0.0 && multipliers_[i] == 0.0) continue;  // apart
-      correction = std::max(correction, solve_row(row, substep.h, multipliers_[i], substep.moving));
+    for (Owner& owner : owners_) {
+      // One look at a shape that is nowhere near the floor; not from where a point of it has been pushed.
+      if (!owner.touches && height(substep.position(owner.body)) > owner.reach) continue;
+      for (std::size_t i = owner.first; i < owner.first + owner.count; ++i) {
+        row.clear();
+        evaluate(substep, contacts_[i], row);
+        if (row.value >= 0.0 && multipliers_[i] == 0.0) continue;  // apart
+        correction =
+            std::max(correction, solve_row(row, substep.h, multipliers_[i], substep.moving));
+        owner.touches = true;
+      }
     }
     return correction;
   }
 
   void linearise(Substep& substep, std::vector<Row>& rows) override {
-    int index = 0;
-    for (const Contact& contact : contacts_) {
-      Row& row = rows.emplace_back();
-      evaluate(substep, contact, row);
-      row.index = index++;
-      row.active = contact.pressed;
+    for (Owner& owner : owners_) {
+      // A row that appears in the middle of a substep has no start there, and rattle leaves that substep to xpbd.
+      owner.near = owner.near || height(substep.position(owner.body)) <= owner.reach;
+      if (!owner.near) continue;
+      for (std::size_t i = owner.first; i < owner.first + owner.count; ++i) {
+        Row& row = rows.emplace_back();
+        evaluate(substep, contacts_[i], row);
+        row.index = static_cast<int>(i);
+        row.active = contacts_[i].pressed;
+      }
     }
   }
   [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
@@ -88,15 +106,34 @@ class GroundBatch final : public ConstraintBatch {
     int body;
     const PlacedShape* shape;
     Vector3 center_of_mass;  // body frame
+    std::size_t first = 0;   // of its contacts
+    std::size_t count = 0;
+    double reach =
+        0.0;  // largest distance of a contact's point from the centre of mass [m], in this substep
+    bool touches = false;  // one of its multipliers may not be 0
+    bool near = false;     // may touch the floor in this substep, as far as its speed tells
   };
+
+  [[nodiscard]] double height(const Vector3& point) const { return dot(normal_, point - point_); }
 
   void add_body(const BodySet& bodies, int body) {
     for (const PlacedShape& placed : bodies.definition(body).shapes) {
-      owners_.push_back({body, &placed, bodies[body].center_of_mass});
       points_.clear();
       placed.shape->append_contact_points(Vector3::UnitX(), points_);
+      Owner owner{body, &placed, bodies[body].center_of_mass};
+      owner.first = contacts_.size();
+      owner.count = points_.size();
+      owners_.push_back(owner);
       for (const Vector3& point : points_) contacts_.push_back({body, point, false});
     }
+  }
+
+  /// Twice its size above the floor leaves room for what the substep adds to the speed.
+  [[nodiscard]] bool may_come_near(const Substep& substep, const Owner& owner) const {
+    const double above = height(substep.position(owner.body));
+    const int mount = substep.bodies[owner.body].mount;
+    const BodyState& state = substep.start.bodies[at(mount >= 0 ? mount : owner.body)];
+    return above <= 2.0 * (owner.reach + substep.h * state.velocity.norm());
   }
 
   void append_points(const Substep& substep, const Owner& owner) {
@@ -109,7 +146,7 @@ class GroundBatch final : public ConstraintBatch {
 
   void evaluate(const Substep& substep, const Contact& contact, Row& row) const {
     const Vector3 at = substep.point(contact.body, contact.point);
-    row.value = normal_.dot(at - point_);
+    row.value = height(at);
     row.lower = 0.0;
     substep.add_force(row, contact.body, at, normal_);
   }

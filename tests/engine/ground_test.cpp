@@ -6,6 +6,7 @@
 
 #include "engine/shapes/sphere.h"
 #include "tests/support/builders.h"
+#include "tests/support/combinations.h"
 
 namespace sheave {
 namespace {
@@ -72,6 +73,30 @@ TEST(Ground, DoesNotHoldWhatLeaves) {
     ASSERT_TRUE(free.step().ok());
     ASSERT_EQ(world.position({0}), free.position({0}));
   }
+}
+
+class GroundForAll : public test::ForEveryCombination {};
+INSTANTIATE_TEST_SUITE_P(Combinations, GroundForAll, ::testing::ValuesIn(test::combinations),
+                         test::combination_name);
+
+TEST_P(GroundForAll, HasNoRowsForWhatIsFarAndStopsWhatGetsThereWithinOneStep) {
+  // At rest 2 m above the floor, then pulled down by 6e4 N: 8 m of fall in 1/60 s, which nothing tells at the start.
+  Model model;
+  model.gravity = test::down;
+  model.step = step_settings(1.0 / 60.0, 200);  // for sweeps over eight corners that are 8 m deep
+  model.ground.emplace();
+  model.add(test::lump("box", {0.3, 2.15, -0.1}, 2.0));
+  model.add(test::lump("other", {5.3, 2.15, -0.1}, 2.0));
+  model.bodies[0].force = {0.0, -6e4, 0.0};
+  World world = test::start(model);
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_TRUE(world.step().ok());
+    // Its lowest corners; the box does not turn, for it is pulled at its centre of mass.
+    ASSERT_GE(world.position({0}).y(), 0.15 - 1e-9) << i;
+  }
+  EXPECT_NEAR(world.position({0}).y(), 0.15, 1e-9);
+  // The other one has fallen freely.
+  EXPECT_GT(world.position({1}).y(), 2.0);
 }
 
 TEST(Ground, IsFeltByTheCarrierOfAMountedWheel) {
