@@ -8,6 +8,7 @@
 
 #include <algorithm>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 
 #include "engine/body_check.h"
@@ -84,6 +85,17 @@ void lump_mounted_rotor(std::vector<BodyProperties>& bodies, const std::vector<B
   carrier.center_of_mass = center;
 }
 
+/// The axis of the moment that differs from two equal ones. (None for a multiple of the identity.)
+std::optional<Vector3> find_symmetry_axis(const Matrix3& inertia) {
+  const Eigen::SelfAdjointEigenSolver<Matrix3> principal(inertia);
+  const Vector3 moments = principal.eigenvalues();  // increasing
+  const double equal = 1e-12 * moments[2];
+  const bool lower = moments[1] - moments[0] <= equal;
+  const bool upper = moments[2] - moments[1] <= equal;
+  if (lower == upper) return std::nullopt;
+  return Vector3(principal.eigenvectors().col(lower ? 2 : 0)).normalized();
+}
+
 /// What can be computed only when all mounted rotors are lumped in.
 void finish_body(BodyProperties& body, const BodyDef& def) {
   const Vector3 own_axis = def.orientation.normalized().conjugate() * body.axis;
@@ -92,6 +104,7 @@ void finish_body(BodyProperties& body, const BodyDef& def) {
     const double mean = body.inertia.trace() / 3.0;
     body.isotropic =
         (body.inertia - mean * Matrix3::Identity()).cwiseAbs().maxCoeff() <= 1e-12 * mean;
+    body.symmetry_axis = find_symmetry_axis(body.inertia);
   }
   if (body.mobility == Mobility::planar || (body.mobility == Mobility::rotor && body.mount < 0)) {
     body.axis_inertia = def.spin_inertia.value_or(own_axis.dot(body.inertia * own_axis));

@@ -1,6 +1,7 @@
 #pragma once
 // Bodies as the step needs them: everything that follows from the definitions once and for all.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@ struct BodyProperties {
   Matrix3 inertia = Matrix3::Zero();
   Matrix3 inverse_inertia = Matrix3::Zero();  ///< of `inertia`; zero where the body cannot turn
   bool isotropic = false;  ///< free bodies: `inertia` is a multiple of the identity
+  /// Free bodies: two principal moments are equal (a capsule, a wheel), and this is the unit axis of the third, own frame.
+  std::optional<Vector3> symmetry_axis;
   /// Unit vector: planar normal, slider direction or axle, in the world frame; of a mounted rotor
   /// in its carrier's own frame.
   Vector3 axis = Vector3::UnitZ();

@@ -107,6 +107,28 @@ struct ChainOptions {
 /// An error, with the option's name as its path, if an option is out of range.
 [[nodiscard]] Result<Scene> generate_chain(const ChainOptions& options);
 
+/// A rope over two wheels, with a weight at each end, as rigid segments with ball joints that touch the wheels; or the same
+/// machine with one cable (figure 14 of the paper).
+struct NaiveRopeOptions {
+  int segments = 100;           ///< of the rope, 20 ... 10 000
+  bool cable = false;           ///< one cable in place of the segments
+  double radius = 0.3;          ///< of the wheels [m], > 0
+  double wheel_mass = 2.0;      ///< of each, a solid disc [kg], > 0
+  double rope_radius = 0.02;    ///< of the segments, capsules [m], > 0
+  double linear_density = 1.0;  ///< of the rope [kg/m], > 0; the cable has no mass
+  double load = 20.0;           ///< the weight at each end [kg], > 0
+  double friction = 0.5;        ///< between segments and wheels, >= 0
+  double gravity = 10.0;        ///< downwards [m/s2], > 0
+  double duration = 1.5;        ///< [s], > 0
+  double dt = 1.0 / 60.0;       ///< [s], > 0
+  int substeps = 1;             ///< 1 ... 100 000
+  int iterations = 100;         ///< sweeps, or rounds of the direct solver at most
+
+  static std::span<const Field> field_table();
+};
+/// An error, with the option's name as its path, if an option is out of range.
+[[nodiscard]] Result<Scene> generate_naive_rope(const NaiveRopeOptions& options);
+
 /// One kind of generated scene, for programs that choose it by name.
 struct GeneratorKind {
   std::string_view name;                    ///< "wheel-train", ...

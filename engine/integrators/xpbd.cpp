@@ -12,6 +12,10 @@
 //   q_half = exp(h/2 w) q,   w_half = I(q_half)^-1 (L_half - sum J s a(q_half)),
 //   q* = exp(h w_half) q,    w* = I(q*)^-1 (L_end - sum J s a(q*)),   turn* = h w_half,
 // of second order. The bearing passes no torque about a, so s is constant without constraints.
+// With two equal moments J and a third one K about the axis u, and no rotors, the free motion is known: with L at half,
+//   q* = exp(h L / J) exp(h s u) q,    s = (1 / K - 1 / J) L . u,    w_half = L / J + s u(h / 2),
+// for any step. The explicit rule would turn L away from u where h |w| is not small; a thin body then begins to spin about
+// its axis, where nothing stops it, and what light links gain in every substep makes them run away.
 // This deviates from the paper's engine, which gets w' from the difference of orientations: that
 // aliases beyond half a turn per substep and does not conserve L.
 
@@ -21,6 +25,22 @@
 
 namespace sheave {
 namespace {
+
+/// Turns a body with two equal moments of inertia under constant angular momentum. Returns the angular velocity at half.
+Vector3 turn_symmetric_body(Substep& substep, int i, const Vector3& momentum) {
+  const BodyProperties& body = substep.bodies[i];
+  MovingBody& moving = substep.moving[at(i)];
+  const Quaternion& start = substep.start.bodies[at(i)].orientation;
+  const Vector3& own_axis = *body.symmetry_axis;
+  const double along = own_axis.dot(body.inverse_inertia * own_axis);  // 1 / K
+  const double across = 0.5 * (body.inverse_inertia.trace() - along);  // 1 / J
+  const Vector3 axis = start * own_axis;
+  const Vector3 precession = across * momentum;
+  const double spin = (along - across) * momentum.dot(axis);
+  moving.orientation = turned(turned(start, substep.h * spin * axis), substep.h * precession);
+  const Quaternion half = turned(start, 0.5 * substep.h * precession);
+  return precession + spin * (half * own_axis);
+}
 
 /// Free rotation of a free body over the substep.
 void rotate_freely(Substep& substep, int i) {
@@ -45,9 +65,14 @@ void rotate_freely(Substep& substep, int i) {
     const Vector3 velocity = damped_rotation(substep.bodies.definition(i), inertia,
                                              start.angular_velocity, substep.load_share * h);
     const Vector3 momentum = inertia * velocity + rotors(start.orientation);
-    const Quaternion half = turned(start.orientation, 0.5 * h * velocity);
-    half_velocity = world_inertia(body, half, true) * (momentum + 0.5 * h * torque - rotors(half));
-    moving.orientation = turned(start.orientation, h * half_velocity);
+    if (body.symmetry_axis && body.mounted_rotors.empty()) {
+      half_velocity = turn_symmetric_body(substep, i, momentum + 0.5 * h * torque);
+    } else {
+      const Quaternion half = turned(start.orientation, 0.5 * h * velocity);
+      half_velocity =
+          world_inertia(body, half, true) * (momentum + 0.5 * h * torque - rotors(half));
+      moving.orientation = turned(start.orientation, h * half_velocity);
+    }
     const Matrix3 inverse = world_inertia(body, moving.orientation, true);
     end_velocity =
         inverse * (momentum + substep.load_share * h * torque - rotors(moving.orientation));

@@ -40,6 +40,8 @@ std::span<const GeneratorKind> generator_kinds() {
           "hilbert", "one cable along a Hilbert curve in space, a wheel at every turn, a motor"),
       kind<ChainOptions, &generate_chain>(
           "chain", "rigid links with ball joints and a heavy ball, let go from a straight line"),
+      kind<NaiveRopeOptions, &generate_naive_rope>(
+          "naive-rope", "a rope as rigid segments over two wheels, or one cable in its place"),
   };
   return kinds;
 }

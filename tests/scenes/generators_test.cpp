@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/shapes/capsule.h"
 #include "scenes/check.h"
 #include "tests/support/builders.h"
 
@@ -122,6 +123,51 @@ TEST(chain, hangs_together_at_any_angle_and_keeps_its_energy) {
     EXPECT_LT(simulation.world.velocity({5}).norm(), 1.5 * options.gravity * scene->model.step.dt);
     EXPECT_EQ(failed_checks(*scene), "");
   }
+}
+
+TEST(naive_rope, lies_on_its_wheels_and_hangs_together_for_any_number_of_segments) {
+  for (const int segments : {20, 31, 100, 257}) {
+    SCOPED_TRACE(segments);
+    NaiveRopeOptions options;
+    options.segments = segments;
+    const Result<Scene> scene = generate_naive_rope(options);
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(text(validate_scene(*scene)), "");
+    const auto count = static_cast<std::size_t>(segments);
+    ASSERT_EQ(scene->model.bodies.size(), count + 4);
+    ASSERT_EQ(scene->model.joints.size(), count + 1);
+    ASSERT_EQ(scene->model.colliders.size(), count + 2);
+    // Ends of neighbours coincide, and no segment is nearer to an axle than its radius beside the wheel's; numbers of a scene
+    // have 12 digits.
+    const auto end = [&](std::size_t k, double side) {
+      const BodyDef& body = scene->model.bodies[k + 4];
+      const auto& capsule = dynamic_cast<const Capsule&>(*body.shapes[0].shape);
+      return Vector3(body.position +
+                     body.orientation * Vector3(0.5 * side * capsule.length, 0.0, 0.0));
+    };
+    for (std::size_t k = 0; k < count; ++k) {
+      if (k > 0) {
+        EXPECT_LT((end(k, -1.0) - end(k - 1, 1.0)).norm(), 1e-10) << k;
+      }
+      for (std::size_t wheel = 0; wheel < 2; ++wheel) {
+        const Vector3 center = scene->model.bodies[wheel].position;
+        const Vector3 start = end(k, -1.0) - center;
+        const Vector3 way = end(k, 1.0) - center - start;
+        const double nearest = std::clamp(-start.dot(way) / way.squaredNorm(), 0.0, 1.0);
+        EXPECT_GT((start + nearest * way).norm(), options.radius + options.rope_radius - 1e-10);
+      }
+    }
+  }
+}
+
+TEST(naive_rope, with_one_cable_in_its_place_does_not_stretch) {
+  NaiveRopeOptions options;
+  options.cable = true;
+  options.duration = 1.0;
+  const Result<Scene> scene = generate_naive_rope(options);
+  ASSERT_TRUE(scene);
+  EXPECT_EQ(scene->model.colliders.size(), 0U);
+  EXPECT_EQ(failed_checks(*scene), "");
 }
 
 TEST(generators, refuse_options_out_of_range) {

@@ -49,6 +49,8 @@ TEST(shipped_scenes, generated_ones_are_up_to_date) {
       {"paper/hilbert2-stretched", "hilbert", {{"order", "2"}}},
       {"paper/hilbert2-loose", "hilbert", {{"order", "2"}, {"slack", "0.05"}}},
       {"paper/hilbert3", "hilbert", {{"order", "3"}}},
+      {"paper/naive-rope", "naive-rope", {{"segments", "100"}}},
+      {"paper/naive-rope-cable", "naive-rope", {{"segments", "100"}, {"cable", "true"}}},
       {"stress/chain-and-ball", "chain", {{"links", "40"}, {"mass_ratio", "672"}}},
   };
   const auto scenes = std::filesystem::path(SHEAVE_SOURCE_DIR) / "scenes";

@@ -70,7 +70,8 @@ TEST(GenerateCommand, RoundTripThroughValidateAndRun) {
        {std::vector<std::string>{"wheel-train", "--wheels", "5"},
         {"block-and-tackle", "--parts", "2"},
         {"hilbert", "--order", "1"},
-        {"chain", "--links", "20"}}) {
+        {"chain", "--links", "20"},
+        {"naive-rope", "--cable", "true"}}) {
     const std::string scene = folder.path(options[0] + ".json");
     const ProcessResult made =
         run_sheave({"generate", options[0], options[1], options[2], "--out", scene});
