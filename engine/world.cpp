@@ -127,14 +127,15 @@ struct World::Content {
   /// The first body whose new state is not finite or has run away, or else the first feature.
   [[nodiscard]] std::optional<Divergence> find_divergence() const {
     const double time = substep.next.time;
-    const std::string when = " at time " + number_text(time) + " s";
+    // Made only when it is needed: this runs in every substep, and a text costs as much as a span.
+    const auto when = [time] { return " at time " + number_text(time) + " s"; };
     for (int i = 0; i < bodies->count(); ++i) {
       const char* what = fault_of(substep.next.bodies[at(i)]);
       if (what == nullptr) continue;
       return Divergence{
           {i},
           time,
-          "body \"" + bodies->name(i) + "\": " + what + " is not finite or has run away" + when};
+          "body \"" + bodies->name(i) + "\": " + what + " is not finite or has run away" + when()};
     }
     for (std::size_t i = 0; i < features.size(); ++i) {
       const std::vector<double>& reals = substep.next.features[i].reals;
@@ -142,7 +143,7 @@ struct World::Content {
         continue;
       }
       return Divergence{BodyId::world(), time,
-                        std::string(features[i]->name()) + ": the state is not finite" + when};
+                        std::string(features[i]->name()) + ": the state is not finite" + when()};
     }
     return std::nullopt;
   }

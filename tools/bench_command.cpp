@@ -17,6 +17,7 @@ namespace {
 struct BenchArguments {
   BenchOptions bench;
   bool json = false;
+  bool list = false;
   std::string markdown, chart, save, compare;
   double allow = 1.1;
 };
@@ -35,6 +36,13 @@ void check_arguments(const BenchArguments& arguments) {
 
 ExitCode bench(const BenchArguments& arguments) {
   check_arguments(arguments);
+  if (arguments.list) {
+    const BenchTable rows = list_table(arguments.bench);
+    std::string names;
+    for (const BenchRow& row : rows.rows) names += row.name() + "\n";
+    print(arguments.json ? bench_json(rows) : names);
+    return ExitCode::done;
+  }
   catch_interrupts();
   const BenchTable table = measure_table(arguments.bench);
   print(arguments.json ? bench_json(table) : bench_text(table));
@@ -70,6 +78,7 @@ Action declare_bench(CLI::App& app) {
          "--filter", arguments->bench.filter,
          "only rows with this in scene and setting, e.g. hilbert3, direct, \"simple gauss\"")
       ->option_text("TEXT");
+  app.add_flag("--list", arguments->list, "only print the names of the rows");
   app.add_option("--repetitions", arguments->bench.repetitions, "samples of each row; default: 7")
       ->check(CLI::Range(1, 1000))
       ->option_text("N");

@@ -24,8 +24,6 @@ namespace {
 
 /// A reference is good if its error is at most this share of every error that is measured with it.
 constexpr double reference_share = 0.1;
-/// Errors below this are rounding, which no reference tells from none.
-constexpr double rounding_error = 1e-11;
 
 [[noreturn]] void stop_by_signal() { throw Failure(ExitCode::interrupted, "interrupted"); }
 
@@ -62,6 +60,7 @@ std::vector<BenchRow> wanted_rows(const std::string& filter) {
   std::erase_if(rows, [part = lower_case(filter)](const BenchRow& row) {
     return lower_case(row.name()).find(part) == std::string::npos;
   });
+  if (rows.empty()) throw Failure(ExitCode::usage, "--filter leaves no row");
   return rows;
 }
 
@@ -83,7 +82,6 @@ class Measurement {
 
   BenchTable run() {
     std::vector<BenchRow> rows = wanted_rows(options_.filter);
-    if (rows.empty()) throw Failure(ExitCode::usage, "--filter leaves no row");
     if (!std::filesystem::is_directory(options_.folder)) {
       throw Failure(ExitCode::no_input, options_.folder + ": no such folder");
     }
@@ -233,6 +231,12 @@ class Measurement {
 };
 
 }  // namespace
+
+BenchTable list_table(const BenchOptions& options) {
+  BenchTable table{wanted_rows(options.filter), {}, machine_info(), version_string, 0, {}};
+  for (BenchRow& row : table.rows) row.fault = "not measured";
+  return table;
+}
 
 BenchTable measure_table(const BenchOptions& options) { return Measurement(options).run(); }
 

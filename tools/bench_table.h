@@ -12,6 +12,9 @@
 
 namespace sheave::tools {
 
+/// Relative errors below this are rounding, which no reference tells from none.
+inline constexpr double rounding_error = 1e-11;
+
 /// One scene with one setting.
 struct BenchRow {
   std::string scene;  ///< its name in the paper
@@ -70,6 +73,8 @@ struct BenchOptions {
 /// Measures all rows that the filter leaves. Shows a progress bar on a terminal. A Failure if nothing is left (2), if the
 /// folder does not exist (66), or if a signal came (130).
 [[nodiscard]] BenchTable measure_table(const BenchOptions& options);
+/// The same rows without any numbers; their fault is "not measured".
+[[nodiscard]] BenchTable list_table(const BenchOptions& options);
 
 /// For people, with the machine and remarks.
 [[nodiscard]] std::string bench_text(const BenchTable& table);

@@ -1,5 +1,6 @@
 // sheave bench: the table for people, as text and as Markdown.
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -11,19 +12,18 @@ namespace sheave::tools {
 namespace {
 
 const std::vector<std::string> bench_head{
-    "scene",        "setting", "joints",  "frame [us]",     "quartiles",  "paper [us]",
-    "paper / ours", "error",   "stretch", "solves / frame", "ns / solve", "instructions"};
+    "scene",          "setting",      "joints",         "frame [us]",    "quartiles",
+    "paper [us]",     "paper / ours", "position error", "tension error", "stretch",
+    "solves / frame", "ns / solve",   "instructions"};
 
 std::string three_digits(double value) { return fmt::format("{:.3g}", value); }
 
-/// An error that is not well above that of its reference is only known to be below their sum.
-std::string error_text(const BenchRow& row) {
-  const double error = row.error.position;
-  const double doubt = row.reference_error.position;
+/// An error that is not well above that of its reference is only known to be below their sum, and rounding tells nothing.
+std::string error_text(double error, double doubt) {
   constexpr double well_above = 3.0;
   if (!std::isfinite(doubt)) return fmt::format("{:.1e}, not verified", error);
-  return error > well_above * doubt ? fmt::format("{:.1e}", error)
-                                    : fmt::format("< {:.1e}", error + doubt);
+  if (error > well_above * doubt && error > rounding_error) return fmt::format("{:.1e}", error);
+  return fmt::format("< {:.1e}", std::max(error + doubt, rounding_error));
 }
 
 std::string microseconds(double seconds) {
@@ -47,7 +47,8 @@ std::vector<std::string> cells(const BenchRow& row) {
           microseconds(time.lower) + " - " + microseconds(time.upper),
           paper ? microseconds(*row.paper_seconds) : "-",
           paper ? three_digits(*row.paper_seconds / time.median) : "-",
-          error_text(row),
+          error_text(row.error.position, row.reference_error.position),
+          error_text(row.error.tension, row.reference_error.tension),
           fmt::format("{:.1e}", row.stretch),
           three_digits(row.row_solves),
           three_digits(1e9 * row.seconds_per_solve()),
@@ -111,7 +112,8 @@ std::string bench_markdown(const BenchTable& table) {
       "of\n"
       "the whole scene. Setting: solver, substeps (x iterations). Paper / ours: how many times "
       "faster than the paper's\n"
-      "Core i7 of 3.5 GHz. Error: largest displacement of the bodies from a converged reference in "
+      "Core i7 of 3.5 GHz. Position error: largest displacement of the bodies from a converged "
+      "reference in "
       "any frame, root\n"
       "mean square over bodies, relative to the scene's size (measure/run_error.h). Stretch: "
       "largest violation of a\n"
