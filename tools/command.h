@@ -27,5 +27,6 @@ Action declare_validate(CLI::App& app);
 Action declare_schema(CLI::App& app);
 Action declare_reference(CLI::App& app);
 Action declare_generate(CLI::App& app);
+Action declare_bench(CLI::App& app);
 
 }  // namespace sheave::tools

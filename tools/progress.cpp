@@ -16,7 +16,7 @@ namespace {
 
 // What is over sooner needs no bar; redrawing faster than one can read only costs time.
 constexpr std::chrono::milliseconds first_after{400};
-constexpr std::chrono::milliseconds between{100};
+constexpr std::chrono::milliseconds redraw_interval{100};
 
 std::size_t terminal_width() {
   winsize size{};
@@ -52,7 +52,7 @@ bool Progress::due() const { return shown_ && Clock::now() >= next_; }
 
 void Progress::update(double now, const std::string& text) {
   if (!due()) return;
-  next_ = Clock::now() + between;
+  next_ = Clock::now() + redraw_interval;
   const double fraction =
       end_ > begin_ ? std::clamp((now - begin_) / (end_ - begin_), 0.0, 1.0) : 1.0;
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();

@@ -52,7 +52,7 @@ std::string head(const RunSummary& summary) {
   return text;
 }
 
-std::string bodies(const World& world) {
+std::string body_lines(const World& world) {
   TextTable table({"body", "x [m]", "y [m]", "z [m]", "speed [m/s]", "turning [rad/s]"}, 1);
   const auto count = static_cast<std::size_t>(world.bodies().count());
   for (std::size_t i = 0; i < std::min(count, max_rows); ++i) {
@@ -70,7 +70,7 @@ const std::string& body_name(const RunSummary& summary, BodyId id) {
   return summary.simulation.world.model().bodies[static_cast<std::size_t>(id.index)].name;
 }
 
-std::string cables(const RunSummary& summary) {
+std::string cable_lines(const RunSummary& summary) {
   TextTable table({"span", "tension [N]", "length [m]", "rest length [m]"}, 1);
   const bool known = summary.simulation.world.state().steps > 0;
   const std::vector<CableReport> reports = summary.simulation.cable_reports();
@@ -97,7 +97,7 @@ std::string cables(const RunSummary& summary) {
 }
 
 /// One line per joint and free coordinate.
-std::string joints(const RunSummary& summary) {
+std::string joint_lines(const RunSummary& summary) {
   if (summary.joints.empty()) return "";
   TextTable table({"joint", "force [N]", "torque [N m]", "coordinate", "value", "rate", "drive"},
                   1);
@@ -128,7 +128,7 @@ std::string joints(const RunSummary& summary) {
   return "\n" + table.text() + omitted(summary.joints.size(), "joints");
 }
 
-std::string events(const RunSummary& summary) {
+std::string event_lines(const RunSummary& summary) {
   if (summary.events.empty()) return "";
   TextTable table({"time [s]", "subject", "body", "event"}, 4);
   for (std::size_t i = 0; i < std::min(summary.events.size(), max_events); ++i) {
@@ -171,8 +171,8 @@ std::string checks_text(const std::vector<CheckResult>& checks) {
 }
 
 std::string to_text(const RunSummary& summary) {
-  std::string text = head(summary) + bodies(summary.simulation.world) + cables(summary) +
-                     joints(summary) + events(summary) + invariants(summary);
+  std::string text = head(summary) + body_lines(summary.simulation.world) + cable_lines(summary) +
+                     joint_lines(summary) + event_lines(summary) + invariants(summary);
   if (summary.checked) text += "\n" + checks_text(summary.checks);
   return text;
 }

@@ -1,0 +1,30 @@
+#pragma once
+// Counts the instructions that this thread executes, where the machine allows it.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace sheave::measure {
+
+/// A hardware counter of the kernel (perf_event_open), of user code only.
+class InstructionCounter {
+ public:
+  InstructionCounter();
+  ~InstructionCounter();
+  InstructionCounter(const InstructionCounter&) = delete;
+  InstructionCounter& operator=(const InstructionCounter&) = delete;
+
+  [[nodiscard]] bool available() const { return descriptor_ >= 0; }
+  /// Why not, in a few words; empty if it is.
+  [[nodiscard]] const std::string& reason() const { return reason_; }
+  /// Instructions since the counter was made; nothing if it is not available or lost its place to other counters, so that a
+  /// number is always a whole count.
+  [[nodiscard]] std::optional<std::uint64_t> read() const;
+
+ private:
+  int descriptor_ = -1;
+  std::string reason_;
+};
+
+}  // namespace sheave::measure

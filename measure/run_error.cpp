@@ -1,0 +1,76 @@
+#include "measure/run_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sheave::measure {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double square_displacement(const TrackedBody& body, const BodyPose& pose, const BodyPose& right) {
+  const double turned = body.turns_by_angle ? pose.angle - right.angle
+                                            : pose.orientation.angularDistance(right.orientation);
+  const double rim = body.reach * turned;
+  return (pose.position - right.position).squaredNorm() + rim * rim;
+}
+
+double position_error(const Trajectory& run, const Trajectory& reference, std::size_t frame) {
+  if (run.bodies.empty()) return 0.0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < run.bodies.size(); ++i) {
+    sum += square_displacement(run.bodies[i], run.frames[frame].poses[i],
+                               reference.frames[frame].poses[i]);
+  }
+  return std::sqrt(sum / static_cast<double>(run.bodies.size())) / reference.scale;
+}
+
+double tension_error(const Trajectory& run, const Trajectory& reference) {
+  double difference = 0.0;
+  double size = 0.0;
+  // Tensions mean nothing before the first step.
+  for (std::size_t f = 1; f < reference.frames.size(); ++f) {
+    for (std::size_t k = 0; k < reference.frames[f].tensions.size(); ++k) {
+      const double right = reference.frames[f].tensions[k];
+      const double wrong = run.frames[f].tensions[k] - right;
+      difference += wrong * wrong;
+      size += right * right;
+    }
+  }
+  if (difference == 0.0) return 0.0;
+  return size > 0.0 ? std::sqrt(difference / size) : infinity;
+}
+
+double energy_error(const Trajectory& run, const Trajectory& reference) {
+  double difference = 0.0;
+  double size = 0.0;
+  const double start = reference.frames.front().energy;
+  for (std::size_t f = 0; f < reference.frames.size(); ++f) {
+    const Frame& right = reference.frames[f];
+    difference = std::max(difference, std::abs(run.frames[f].energy - right.energy));
+    size = std::max({size, std::abs(right.energy - start), right.kinetic_energy});
+  }
+  // What never moves in truth has an energy to compare with only by rounding.
+  return size > 1e-12 * std::abs(start) && size > 0.0 ? difference / size : 0.0;
+}
+
+}  // namespace
+
+std::vector<double> position_errors(const Trajectory& run, const Trajectory& reference) {
+  std::vector<double> errors;
+  const std::size_t frames = std::min(run.frames.size(), reference.frames.size());
+  for (std::size_t f = 0; f < frames; ++f) errors.push_back(position_error(run, reference, f));
+  return errors;
+}
+
+RunError error_of(const Trajectory& run, const Trajectory& reference) {
+  if (!run.complete() || !reference.complete() || run.frames.size() != reference.frames.size()) {
+    return {infinity, infinity, infinity, infinity};
+  }
+  const std::vector<double> errors = position_errors(run, reference);
+  return {*std::max_element(errors.begin(), errors.end()), errors.back(),
+          tension_error(run, reference), energy_error(run, reference)};
+}
+
+}  // namespace sheave::measure

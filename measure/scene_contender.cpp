@@ -1,0 +1,22 @@
+#include "measure/scene_contender.h"
+
+#include <memory>
+#include <utility>
+
+#include "cable/simulation.h"
+#include "measure/trajectory.h"
+
+namespace sheave::measure {
+
+Result<Contender> scene_contender(std::string name, const Scene& scene) {
+  Result<Simulation> created = Simulation::create(scene.model, scene.cables);
+  if (!created) return created.errors();
+  // Shared, because std::function copies what it keeps.
+  const auto simulation = std::make_shared<Simulation>(std::move(created).value());
+  const auto start = std::make_shared<const State>(simulation->world.state());
+  return Contender{std::move(name),
+                   [simulation, start] { static_cast<void>(simulation->world.restore(*start)); },
+                   [simulation] { return simulation->world.step().ok(); }, frame_count(scene)};
+}
+
+}  // namespace sheave::measure

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "engine/result.h"
+#include "measure/timing.h"
+#include "scenes/scene.h"
+
+namespace sheave::measure {
+
+/// A scene with its own settings, ready to be timed from time 0 to its duration. It owns what it runs.
+[[nodiscard]] Result<Contender> scene_contender(std::string name, const Scene& scene);
+
+}  // namespace sheave::measure

@@ -1,0 +1,98 @@
+#include "measure/trajectory.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sheave::measure {
+namespace {
+
+/// Largest distance of the body's surface from its origin, as far as turning about its axis goes.
+double reach_of(const BodyDef& body) {
+  double reach = 0.0;
+  for (const PlacedShape& placed : body.shapes) {
+    if (!placed.shape->bounded()) continue;
+    const double radius = placed.shape->wheel_radius();
+    const double own = std::isfinite(radius) ? radius : placed.shape->half_extent().norm();
+    reach = std::max(reach, placed.position.norm() + own);
+  }
+  return reach;
+}
+
+std::vector<TrackedBody> tracked_bodies(const BodySet& bodies) {
+  std::vector<TrackedBody> tracked;
+  for (int i = 0; i < bodies.count(); ++i) {
+    const BodyProperties& own = bodies[i];
+    const bool given =
+        own.mobility == Mobility::fixed || own.mobility == Mobility::kinematic || own.prescribed();
+    if (given) continue;
+    const bool turns = own.mobility == Mobility::planar || own.mobility == Mobility::rotor;
+    tracked.push_back({BodyId{i}, reach_of(bodies.definition(i)), turns});
+  }
+  return tracked;
+}
+
+bool is_rigid(const CableDef& cable) {
+  return cable.compliance.value_or(0.0) == 0.0 && !cable.axial_stiffness;
+}
+
+/// Adds a frame and what it says about the cables' lengths.
+void add_frame(const Scene& scene, const Simulation& simulation, Trajectory& trajectory) {
+  Frame frame;
+  const World& world = simulation.world;
+  for (const TrackedBody& body : trajectory.bodies) {
+    const double angle = world.state().bodies[static_cast<std::size_t>(body.id.index)].angle;
+    frame.poses.push_back({world.position(body.id), world.orientation(body.id), angle});
+  }
+  const std::vector<CableReport> reports = simulation.cable_reports();
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const CableReport& cable = reports[i];
+    double excess = 0.0;
+    for (const SpanReport& span : cable.spans) {
+      frame.tensions.push_back(span.tension);
+      excess += std::max(0.0, span.length - span.rest_length);
+    }
+    for (const WrapReport& wrap : cable.wraps) {
+      excess += std::max(0.0, wrap.span.length - wrap.span.rest_length);
+    }
+    trajectory.length_error = std::max(trajectory.length_error, std::abs(cable.length_error));
+    if (is_rigid(scene.cables[i]) && !cable.cut && cable.total_length > 0.0) {
+      trajectory.stretch = std::max(trajectory.stretch, excess / cable.total_length);
+    }
+  }
+  const Energy energy = world.energy();
+  frame.energy = energy.total();
+  frame.kinetic_energy = energy.kinetic;
+  trajectory.frames.push_back(std::move(frame));
+}
+
+}  // namespace
+
+std::int64_t frame_count(const Scene& scene) {
+  return std::max<std::int64_t>(1, std::llround(scene.duration / scene.model.step.dt));
+}
+
+Result<Trajectory> record(const Scene& scene, const FrameObserver& observe) {
+  Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
+  if (!simulation) return simulation.errors();
+  Trajectory trajectory;
+  trajectory.scale = simulation->world.bodies().scale();
+  trajectory.bodies = tracked_bodies(simulation->world.bodies());
+  add_frame(scene, *simulation, trajectory);
+  const std::int64_t count = frame_count(scene);
+  for (std::int64_t i = 1; i <= count; ++i) {
+    StepReport report = simulation->world.step();
+    trajectory.row_solves += report.statistics.row_solves;
+    trajectory.rounds += report.statistics.rounds;
+    trajectory.fallbacks +=
+        report.statistics.solver_fallbacks + report.statistics.integrator_fallbacks;
+    if (!report.ok()) {
+      trajectory.divergence = std::move(report.divergence);
+      break;
+    }
+    add_frame(scene, *simulation, trajectory);
+    if (observe && !observe(i, count)) return Error{"", "interrupted"};
+  }
+  return trajectory;
+}
+
+}  // namespace sheave::measure

@@ -1,0 +1,77 @@
+#include "measure/reference_run.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "tests/support/builders.h"
+
+namespace sheave::measure {
+namespace {
+
+Scene pendulum_scene() {
+  const test::Machine machine = test::cable_pendulum(1.0, 1.0, 0.5);
+  Scene scene;
+  scene.model = machine.model;
+  scene.cables = machine.cables;
+  scene.duration = 2.0;
+  scene.model.step.dt = 1.0 / 60.0;
+  return scene;
+}
+
+Reference made(const ReferenceOptions& options) {
+  Result<Reference> reference = reference_run(pendulum_scene(), options);
+  if (!reference) throw std::runtime_error(reference.errors().front().message);
+  return std::move(reference).value();
+}
+
+TEST(ReferenceRun, EstimatesItsOwnError) {
+  ReferenceOptions options;
+  options.first_substeps = 2;
+  options.most_substeps = 8;
+  const Reference reference = made(options);
+  EXPECT_EQ(reference.substeps, 8);
+  EXPECT_FALSE(reference.good);
+  EXPECT_NEAR(reference.order, 2.0, 0.1);
+  // 16 times finer, so a 256th of the error: as good as the truth here. An estimate of second order is three times too
+  // large, 1 / (2^2 - 1); half and twice that leave room for what is of higher order.
+  ReferenceOptions finer = options;
+  finer.first_substeps = 64;
+  finer.most_substeps = 128;
+  const double error = error_of(reference.trajectory, made(finer).trajectory).position;
+  EXPECT_GT(reference.estimate.position, 1.5 * error);
+  EXPECT_LT(reference.estimate.position, 6.0 * error);
+}
+
+TEST(ReferenceRun, KnowsTheOrderOfTheIntegrator) {
+  ReferenceOptions options;
+  options.integrator = IntegratorKind::xpbd;
+  options.first_substeps = 16;
+  options.most_substeps = 128;
+  EXPECT_NEAR(made(options).order, 1.0, 0.1);
+}
+
+TEST(ReferenceRun, EndsWhenItIsGoodEnough) {
+  ReferenceOptions options;
+  options.first_substeps = 1;
+  options.most_substeps = 1024;
+  options.good_enough = [](const Reference& reference) {
+    return reference.estimate.position < 1e-4;
+  };
+  const Reference reference = made(options);
+  EXPECT_TRUE(reference.good);
+  EXPECT_LT(reference.estimate.position, 1e-4);
+  EXPECT_LT(reference.substeps, 1024);
+}
+
+TEST(ReferenceRun, OfASingleRunIsNotVerified) {
+  ReferenceOptions options;
+  options.first_substeps = 4;
+  options.most_substeps = 4;
+  const Reference reference = made(options);
+  EXPECT_TRUE(std::isinf(reference.estimate.position));
+  EXPECT_FALSE(reference.good);
+}
+
+}  // namespace
+}  // namespace sheave::measure
