@@ -39,6 +39,17 @@ struct MovingBody {
   bool prescribed = false;                    ///< moves as a function of time, whatever pulls at it
   bool tracks_orientation = true;             ///< `orientation` follows every correction
   Vector3 start_position = Vector3::Zero();   ///< position at the start of the substep [m]
+  Quaternion free_orientation = Quaternion::Identity();  ///< `orientation` of the free motion
+  Vector3 free_turn = Vector3::Zero();                   ///< `turn` of the free motion [rad]
+
+  /// Corrects the rotation by a rotation vector [rad]. The orientation is that of the free motion turned by the sum c of
+  /// all corrections, exp(c) q*, and not by one after the other: velocities follow from that sum, and rotations do not
+  /// commute, so that sweeps which turn a slender body to and fro about several axes would leave a sum, and with it a
+  /// velocity, where there is no motion. That feeds on itself.
+  void rotate(const Vector3& correction) {
+    turn += correction;
+    if (tracks_orientation) orientation = turned(free_orientation, turn - free_turn);
+  }
 };
 
 /// Gradient of a row with respect to one body.
@@ -142,11 +153,7 @@ inline void apply_multiplier(const Row& row, const RowResponse& response, double
   for (std::size_t i = 0; i < static_cast<std::size_t>(row.term_count); ++i) {
     MovingBody& body = bodies[static_cast<std::size_t>(row.terms[i].body)];
     if (body.translates) body.position = sum(body.position, increment, response.linear[i]);
-    if (body.rotates) {
-      const Vector3 turn = increment * response.angular[i];
-      body.turn += turn;
-      if (body.tracks_orientation) body.orientation = turned(body.orientation, turn);
-    }
+    if (body.rotates) body.rotate(increment * response.angular[i]);
   }
 }
 

@@ -111,6 +111,8 @@ void Substep::restart() {
     body.position = body.start_position = from.position;
     body.orientation = from.orientation;
     body.turn.setZero();
+    body.free_orientation = body.orientation;
+    body.free_turn.setZero();
     const BodyProperties& properties = bodies[i];
     if (inverse_masses_change(bodies, i)) set_inverse_masses(bodies, i, load_share * h, body);
     if (properties.mount >= 0 && properties.axis_inertia > 0.0) {

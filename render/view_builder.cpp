@@ -118,7 +118,8 @@ ViewBuilder::ViewBuilder(const World& world, std::span<const CableReport> cables
   const double diagonal = std::max(box.diagonal().norm(), 1e-9);
   cable_radius_ = options_.cable_radius.value_or(suitable_cable_radius(diagonal, cables));
   bodies_ = make_body_view(world, cables, cable_radius_);
-  joints_ = make_joint_view(world, cable_radius_);
+  paint_bodies();
+  if (options_.joints) joints_ = make_joint_view(world, cable_radius_);
 
   const Eigen::AlignedBox3d shown = options_.run_bounds.isEmpty() ? box : options_.run_bounds;
   if (world.model().ground) {
@@ -130,6 +131,14 @@ ViewBuilder::ViewBuilder(const World& world, std::span<const CableReport> cables
     floor_ = floor_under(shown, up_direction(world.model()));
   }
   if (floor_) floor_->grid_spacing = round_down(std::max(0.15 * shown.diagonal().norm(), 1e-9));
+}
+
+void ViewBuilder::paint_bodies() {
+  for (BodyPart& part : bodies_.parts) {
+    const auto index = static_cast<std::size_t>(part.body.index);
+    if (part.body.is_world() || index >= options_.body_colors.size()) continue;
+    part.color = options_.body_colors[index].value_or(part.color);
+  }
 }
 
 DrawList ViewBuilder::build(const World& world, std::span<const CableReport> cables) const {

@@ -33,7 +33,10 @@ struct ViewOptions {
   /// floor; default: what is there at the beginning.
   Eigen::AlignedBox3d run_bounds{};
   bool force_labels = false;  ///< the tension beside every span
-  bool legend = true;         ///< left out anyway if there are no cables
+  /// Colours of bodies, by their index; missing ones are chosen by what the bodies are.
+  std::vector<std::optional<Color>> body_colors{};
+  bool joints = true;  ///< pins, rods and rails
+  bool legend = true;  ///< left out anyway if there are no cables
   bool time = true;
   /// A floor for shadows to fall on below a scene that has no ground of its own; never shown
   /// without gravity.
@@ -54,6 +57,7 @@ class ViewBuilder {
   [[nodiscard]] double cable_radius() const { return cable_radius_; }
 
  private:
+  void paint_bodies();
   void add_bodies(const World& world, DrawList& list) const;
   void add_cables(std::span<const CableReport> cables, DrawList& list) const;
   [[nodiscard]] double tension_scale(std::span<const CableReport> cables) const;

@@ -141,6 +141,8 @@ const ObjectFormat& scene_format() {
         &ground_format()},
        {"camera", "where pictures are taken from; absent: chosen automatically", false,
         &camera_format()},
+       {"paint", "colours of bodies in pictures; absent: chosen by what they are", true,
+        &paint_format()},
        {"checks", "what the scene should show", true, &check_format()}},
       {}};
   return format;
@@ -217,6 +219,12 @@ const ObjectFormat& link_format() {
 const ObjectFormat& camera_format() {
   static const ObjectFormat format =
       plain_format<CameraDef>("camera", "where pictures are taken from");
+  return format;
+}
+
+const ObjectFormat& paint_format() {
+  static const ObjectFormat format =
+      plain_format<PaintDef>("paint", "the colour of a body in pictures");
   return format;
 }
 

@@ -62,6 +62,7 @@ struct ObjectFormat {
 [[nodiscard]] const ObjectFormat& cable_format();
 [[nodiscard]] const ObjectFormat& link_format();
 [[nodiscard]] const ObjectFormat& camera_format();
+[[nodiscard]] const ObjectFormat& paint_format();
 [[nodiscard]] const ObjectFormat& check_format();
 
 /// Most elements that a list of objects may have.

@@ -41,6 +41,9 @@ class SceneReader {
     }
     if (has("ground")) read_plain("ground", ground_format(), &scene.model.ground.emplace());
     if (has("camera")) read_plain("camera", camera_format(), &scene.camera.emplace());
+    for (const NodeId node : list(root, scene_format(), "paint")) {
+      reader_.read_object(node, paint_format(), pointers(&scene.paint.emplace_back()));
+    }
     for (const NodeId node : list(root, scene_format(), "checks")) {
       reader_.read_object(node, check_format(), pointers(&scene.checks.emplace_back()));
     }

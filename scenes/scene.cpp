@@ -26,6 +26,19 @@ std::span<const Field> CameraDef::field_table() {
                                 "that all is in view"),
       field<&CameraDef::labels>("labels", "", {}, optional,
                                 "write the tensions [N] beside the cables"),
+      field<&CameraDef::joints>("joints", "", {}, optional,
+                                "draw pins, rods and rails of the joints"),
+      field<&CameraDef::cable_radius>("cable_radius", "m", above(0.0), optional,
+                                      "that cables are drawn with; default: suits the scene"),
+  };
+  return table;
+}
+
+std::span<const Field> PaintDef::field_table() {
+  static const std::array table{
+      field<&PaintDef::body>("body", "", {}, required, "which is painted; each once at most"),
+      field<&PaintDef::color>("color", "", between(0.0, 1.0), required,
+                              "red, green and blue as on a screen (sRGB)"),
   };
   return table;
 }

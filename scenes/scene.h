@@ -35,6 +35,16 @@ struct CameraDef {
   std::optional<double> vertical_fov;  ///< perspective: full vertical angle [rad], in (0, pi)
   std::optional<double> height;        ///< orthographic: height of the picture [m]; needs position
   bool labels = false;                 ///< write the tensions [N] beside the cables
+  bool joints = true;                  ///< draw pins, rods and rails of the joints
+  std::optional<double> cable_radius;  ///< that cables are drawn with [m]; default: suits the scene
+
+  static std::span<const Field> field_table();
+};
+
+/// The colour of a body in pictures. Bodies without one have a colour by what they are.
+struct PaintDef {
+  BodyId body;
+  Vector3 color{1.0, 1.0, 1.0};  ///< red, green, blue as on a screen (sRGB), each in [0, 1]
 
   static std::span<const Field> field_table();
 };
@@ -78,6 +88,7 @@ struct Scene {
   Model model;
   std::vector<CableDef> cables;
   std::optional<CameraDef> camera;
+  std::vector<PaintDef> paint;
   std::vector<CheckDef> checks;
 
   /// Top-level values that are no object or list.

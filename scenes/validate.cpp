@@ -65,6 +65,21 @@ void check_camera(const CameraDef& camera, Errors& errors) {
   }
 }
 
+void check_paint(const Scene& scene, Errors& errors) {
+  std::unordered_set<int> painted;
+  for (std::size_t i = 0; i < scene.paint.size(); ++i) {
+    const std::string path = fmt::format("/paint/{}", i);
+    const BodyId body = scene.paint[i].body;
+    check_fields(PaintDef::field_table(), &scene.paint[i], path, errors);
+    if (body.is_world() || static_cast<std::size_t>(body.index) >= scene.model.bodies.size()) {
+      errors.push_back({path + "/body", "paint: there must be a body to be painted"});
+    } else if (!painted.insert(body.index).second) {
+      const std::string& name = scene.model.bodies[static_cast<std::size_t>(body.index)].name;
+      errors.push_back({path + "/body", fmt::format("\"{}\" has been painted already", name)});
+    }
+  }
+}
+
 /// Checks one check, except for the name of its quantity.
 void check_check(const CheckDef& check, const std::string& path, double duration, bool may_end_late,
                  Errors& errors) {
@@ -141,6 +156,7 @@ Errors validate_scene(const Scene& scene, bool checks_may_end_late) {
   check_names(scene, errors);
   check_shared_names(scene.model, errors);
   if (scene.camera) check_camera(*scene.camera, errors);
+  check_paint(scene, errors);
   std::optional<ObservableSet> observables;
   if (!scene.checks.empty()) observables.emplace(scene.model, scene.cables);
   for (std::size_t i = 0; i < scene.checks.size(); ++i) {

@@ -31,6 +31,8 @@ class SceneWriter {
              [&](const ColliderDef& collider) { return plain(collider_format(), &collider); });
     if (model.ground) root["ground"] = plain(ground_format(), &*model.ground);
     if (scene_.camera) root["camera"] = plain(camera_format(), &*scene_.camera);
+    add_list(root, "paint", scene_.paint,
+             [&](const PaintDef& paint) { return plain(paint_format(), &paint); });
     add_list(root, "checks", scene_.checks,
              [&](const CheckDef& check) { return plain(check_format(), &check); });
     return root;

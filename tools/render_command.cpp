@@ -101,6 +101,16 @@ Look survey(const Scene& scene, const PictureOptions& options, std::span<const d
   view.run_bounds = survey.bounds();
   view.force_labels = options.labels || (scene.camera && scene.camera->labels);
   view.title = scene.name;
+  if (scene.camera) {
+    view.joints = scene.camera->joints;
+    view.cable_radius = scene.camera->cable_radius;
+  }
+  view.body_colors.resize(scene.model.bodies.size());
+  for (const PaintDef& paint : scene.paint) {
+    view.body_colors[static_cast<std::size_t>(paint.body.index)] =
+        render::Color{static_cast<float>(paint.color.x()), static_cast<float>(paint.color.y()),
+                      static_cast<float>(paint.color.z())};
+  }
   render::ViewBuilder builder(start.world, cables, view);
   const render::DrawList typical = builder.build(start.world, cables);
   const render::Camera camera =

@@ -168,7 +168,8 @@ void predict(Substep& substep) {
       case Mobility::kinematic:
         break;
     }
-    substep.predicted_turn[at(i)] = moving.turn;
+    substep.predicted_turn[at(i)] = moving.free_turn = moving.turn;
+    moving.free_orientation = moving.orientation;
   }
 }
 

@@ -188,7 +188,7 @@ void RowSystem::remember_origin(const Substep& substep) {
   origin_.resize(substep.moving.size());
   for (std::size_t b = 0; b < origin_.size(); ++b) {
     const MovingBody& body = substep.moving[b];
-    origin_[b] = {body.position, body.orientation, body.turn};
+    origin_[b] = {body.position, body.turn};
   }
 }
 
@@ -196,10 +196,8 @@ void RowSystem::linearise_among_others(Substep& substep, Features features, bool
   if (!first_round) {
     for (std::size_t b = 0; b < placed_.size(); ++b) {
       const MovingBody& body = substep.moving[b];
-      const Vector3 turn = body.turn - placed_[b].turn;
       origin_[b].position += body.position - placed_[b].position;
-      origin_[b].turn += turn;
-      origin_[b].orientation = turned(origin_[b].orientation, turn);
+      origin_[b].turn += body.turn - placed_[b].turn;
     }
   }
   linearise(substep, features, Rule::backward, first_round);
@@ -210,7 +208,7 @@ void RowSystem::remember_places(const Substep& substep) {
   placed_.resize(substep.moving.size());
   for (std::size_t b = 0; b < placed_.size(); ++b) {
     const MovingBody& body = substep.moving[b];
-    placed_[b] = {body.position, body.orientation, body.turn};
+    placed_[b] = {body.position, body.turn};
   }
 }
 
@@ -289,8 +287,7 @@ void RowSystem::apply(Substep& substep, Features features) {
     const Pose& from = origin_[b];
     if (body.translates) body.position = from.position + motion_[b].linear;
     if (!body.rotates) continue;
-    body.turn = from.turn + motion_[b].angular;
-    if (body.tracks_orientation) body.orientation = turned(from.orientation, motion_[b].angular);
+    body.rotate(from.turn + motion_[b].angular - body.turn);
   }
 }
 

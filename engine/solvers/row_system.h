@@ -93,8 +93,7 @@ class RowSystem {
   /// Where a body is predicted to be.
   struct Pose {
     Vector3 position = Vector3::Zero();  ///< [m]
-    Quaternion orientation = Quaternion::Identity();
-    Vector3 turn = Vector3::Zero();  ///< since the start of the substep [rad]
+    Vector3 turn = Vector3::Zero();      ///< since the start of the substep [rad]
   };
   /// A term of a row that touches a body which can move.
   struct Touch {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/joints/hinge.h"
 #include "engine/shapes/box.h"
 #include "engine/shapes/cylinder.h"
 #include "engine/shapes/polyhedron.h"
@@ -224,6 +225,39 @@ TEST(AutomaticCamera, ShowsTheWholeRunClearOfTheLegend) {
     EXPECT_GT(p->y, 20.0);
     EXPECT_LT(p->y, 350.0);
   }
+}
+
+TEST(ViewBuilder, BodiesHaveTheColoursTheyAreGiven) {
+  const Simulation simulation = start(shaped_atwood());
+  const std::vector<CableReport> cables = simulation.cable_reports();
+  ViewOptions options;
+  const DrawList plain =
+      ViewBuilder(simulation.world, cables, options).build(simulation.world, cables);
+  options.body_colors = {std::nullopt, rgb(0x102030)};  // the first weight; nothing for the second
+  const DrawList painted =
+      ViewBuilder(simulation.world, cables, options).build(simulation.world, cables);
+  ASSERT_EQ(painted.solids.size(), plain.solids.size());
+  int different = 0;
+  for (std::size_t i = 0; i < plain.solids.size(); ++i) {
+    if (painted.solids[i].color == plain.solids[i].color) continue;
+    ++different;
+    EXPECT_EQ(painted.solids[i].color, rgb(0x102030));
+    EXPECT_TRUE(std::holds_alternative<BoxShape>(painted.solids[i].shape));
+  }
+  EXPECT_EQ(different, 1);
+}
+
+TEST(ViewBuilder, JointsCanBeLeftOut) {
+  Model model;
+  auto hinge = std::make_shared<HingeJoint>();
+  hinge->body_b = model.add(test::lump("lump", {0.4, 0.0, 0.0}, 1.0));
+  model.joints.push_back(hinge);
+  const World world = test::start(model);
+  ViewOptions options;
+  const auto parts = [&] { return ViewBuilder(world, {}, options).build(world, {}).solids.size(); };
+  const std::size_t with_joints = parts();
+  options.joints = false;
+  EXPECT_LT(parts(), with_joints);
 }
 
 }  // namespace

@@ -95,6 +95,9 @@ class RandomScene {
     for (int i = 0; i < 4 && !scene_.camera; ++i) {
       attempt([&] { fill(CameraDef::field_table(), &scene_.camera.emplace()); });
     }
+    for (int i = 0; i < 4; ++i) {
+      attempt([&] { fill(PaintDef::field_table(), &scene_.paint.emplace_back()); });
+    }
     for (int i = 0; i < 12; ++i) attempt([&] { add_check(); });
     return std::move(scene_);
   }

@@ -36,6 +36,7 @@ TEST(round_trip, random_scenes_survive_exactly) {
   std::set<std::string_view> types;
   std::size_t entities = 0;
   std::size_t colliders = 0;
+  std::size_t paints = 0;
   for (unsigned seed = 0; seed < 150; ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = random_scene(seed);
@@ -48,6 +49,7 @@ TEST(round_trip, random_scenes_survive_exactly) {
       for (const auto& link : cable.links) types.insert(link->type());
     }
     colliders += scene.model.colliders.size();
+    paints += scene.paint.size();
     entities += scene.model.bodies.size() + scene.model.joints.size() + scene.cables.size() +
                 scene.checks.size() + (scene.camera ? 1 : 0) + (scene.model.ground ? 1 : 0);
   }
@@ -60,6 +62,7 @@ TEST(round_trip, random_scenes_survive_exactly) {
   expect_types(link_types());
   EXPECT_GT(entities, 600U);
   EXPECT_GT(colliders, 50U);
+  EXPECT_GT(paints, 50U);
 }
 
 TEST(round_trip, generated_scenes_survive_exactly) {

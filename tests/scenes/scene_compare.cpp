@@ -79,6 +79,7 @@ class Printer {
     }
     if (scene.model.ground) add("/ground", GroundDef::field_table(), &*scene.model.ground);
     if (scene.camera) add("/camera", CameraDef::field_table(), &*scene.camera);
+    for (const PaintDef& paint : scene.paint) add("/paint", PaintDef::field_table(), &paint);
     for (const CheckDef& check : scene.checks) add("/check", CheckDef::field_table(), &check);
   }
   [[nodiscard]] std::string text() const { return out_.str(); }
