@@ -88,7 +88,7 @@ void lump_mounted_rotor(std::vector<BodyProperties>& bodies, const std::vector<B
 /// The axis of the moment that differs from two equal ones. (None for a multiple of the identity.)
 std::optional<Vector3> find_symmetry_axis(const Matrix3& inertia) {
   const Eigen::SelfAdjointEigenSolver<Matrix3> principal(inertia);
-  const Vector3 moments = principal.eigenvalues();  // increasing
+  const Vector3& moments = principal.eigenvalues();  // increasing
   const double equal = 1e-12 * moments[2];
   const bool lower = moments[1] - moments[0] <= equal;
   const bool upper = moments[2] - moments[1] <= equal;
