@@ -18,7 +18,7 @@ constexpr std::array<PaperRow, 11> rows{{
     {"Hilbert3", "hilbert3.json", 498, 1, 10, 60.0, "Table 1"},
     {"Hilbert3", "hilbert3.json", 498, 1, 100, 60.0, "text"},
     {"Bow", "bow.json", 0, 10, 10, 25.0, "text"},
-    {"Naive rope", "naive-rope.json", 100, 1, 100, std::nullopt, "text"},
+    {"Naive rope", "naive-rope.json", 100, 1, 100, std::nullopt, "text", "naive-rope-cable.json"},
 }};
 
 }  // namespace

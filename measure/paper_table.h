@@ -23,6 +23,9 @@ struct PaperRow {
   int iterations = 1;                  ///< per substep
   std::optional<double> milliseconds;  ///< per frame; nothing: not told
   std::string_view source;             ///< "Table 1" or "text"
+  /// The same machine with a cable in place of a rope of segments, which is what the rope should do: the reference for the
+  /// bodies that both have. Such a row is only run with the paper's setting. Empty: the scene itself is.
+  std::string_view cable_file{};
 };
 
 /// All of them, in the paper's order; rows of one scene stand together.

@@ -26,7 +26,7 @@ std::vector<TrackedBody> tracked_bodies(const BodySet& bodies) {
         own.mobility == Mobility::fixed || own.mobility == Mobility::kinematic || own.prescribed();
     if (given) continue;
     const bool turns = own.mobility == Mobility::planar || own.mobility == Mobility::rotor;
-    tracked.push_back({BodyId{i}, reach_of(bodies.definition(i)), turns});
+    tracked.push_back({BodyId{i}, bodies.name(i), reach_of(bodies.definition(i)), turns});
   }
   return tracked;
 }
@@ -66,6 +66,33 @@ void add_frame(const Scene& scene, const Simulation& simulation, Trajectory& tra
 }
 
 }  // namespace
+
+std::array<Trajectory, 2> with_common_bodies(const Trajectory& run, const Trajectory& other) {
+  std::array<Trajectory, 2> common{run, other};
+  for (Trajectory& one : common) {
+    one.bodies.clear();
+    for (Frame& frame : one.frames) {
+      frame.poses.clear();
+      frame.tensions.clear();
+    }
+  }
+  for (std::size_t k = 0; k < other.bodies.size(); ++k) {
+    const auto same = std::find_if(run.bodies.begin(), run.bodies.end(), [&](const auto& body) {
+      return body.name == other.bodies[k].name;
+    });
+    if (same == run.bodies.end()) continue;
+    const auto i = static_cast<std::size_t>(same - run.bodies.begin());
+    const std::array<std::size_t, 2> places{i, k};
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Trajectory& from = side == 0 ? run : other;
+      common[side].bodies.push_back(from.bodies[places[side]]);
+      for (std::size_t f = 0; f < from.frames.size(); ++f) {
+        common[side].frames[f].poses.push_back(from.frames[f].poses[places[side]]);
+      }
+    }
+  }
+  return common;
+}
 
 std::int64_t frame_count(const Scene& scene) {
   return std::max<std::int64_t>(1, std::llround(scene.duration / scene.model.step.dt));
