@@ -133,9 +133,9 @@ class Measurement {
       runs[i] = recorded(*scene, rows[i]);
     }
     if (truth) fault = compare(*truth, rows, runs);
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (rows[i].fault.empty()) rows[i].fault = fault;
-      Entry entry{std::move(rows[i]), {}};
+    for (BenchRow& row : rows) {
+      if (row.fault.empty()) row.fault = fault;
+      Entry entry{std::move(row), {}};
       if (entry.row.measured()) start(*scene, entry);
       entries_.push_back(std::move(entry));
     }
