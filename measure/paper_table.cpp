@@ -39,10 +39,8 @@ StepSettings direct_settings(const PaperRow& row, IntegratorKind integrator) {
   return step;
 }
 
-int joint_count(const Scene& scene) {
-  int spans = 0;
-  for (const CableDef& cable : scene.cables) spans += cable.span_count();
-  return spans > 0 ? spans : static_cast<int>(scene.model.joints.size());
+int joint_count(const Scene& scene, const Trajectory& run) {
+  return run.most_spans > 0 ? run.most_spans : static_cast<int>(scene.model.joints.size());
 }
 
 std::string settings_text(const StepSettings& step) {

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "engine/step_settings.h"
+#include "measure/trajectory.h"
 #include "scenes/scene.h"
 
 namespace sheave::measure {
@@ -38,8 +39,9 @@ inline constexpr double paper_frame = 1.0 / 60.0;  ///< [s]
 /// The direct solver at its default, with as many substeps as the paper takes.
 [[nodiscard]] StepSettings direct_settings(const PaperRow& row, IntegratorKind integrator);
 
-/// Free spans of the scene's cables; the joints of a scene without cables.
-[[nodiscard]] int joint_count(const Scene& scene);
+/// Free spans of the scene's cables, in the frame of its run that has the most (a cable that comes to lie on a body has one
+/// more); the joints of a scene without cables.
+[[nodiscard]] int joint_count(const Scene& scene, const Trajectory& run);
 
 /// "gauss-seidel 1 x 10": solver, substeps x iterations, and the integrator if it is not the paper's. Of the direct solver,
 /// which stops by itself, only the substeps.

@@ -44,9 +44,11 @@ void add_frame(const Scene& scene, const Simulation& simulation, Trajectory& tra
     frame.poses.push_back({world.position(body.id), world.orientation(body.id), angle});
   }
   const std::vector<CableReport> reports = simulation.cable_reports();
+  std::size_t spans = 0;
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const CableReport& cable = reports[i];
     double excess = 0.0;
+    spans += cable.spans.size() + cable.wraps.size();
     for (const SpanReport& span : cable.spans) {
       frame.tensions.push_back(span.tension);
       excess += std::max(0.0, span.length - span.rest_length);
@@ -59,6 +61,7 @@ void add_frame(const Scene& scene, const Simulation& simulation, Trajectory& tra
       trajectory.stretch = std::max(trajectory.stretch, excess / cable.total_length);
     }
   }
+  trajectory.most_spans = std::max(trajectory.most_spans, static_cast<int>(spans));
   const Energy energy = world.energy();
   frame.energy = energy.total();
   frame.kinetic_energy = energy.kinetic;

@@ -52,6 +52,8 @@ struct Trajectory {
   /// rest length, relative to that cable's whole length. 0 if there is no rigid cable.
   double stretch = 0.0;
   double length_error = 0.0;  ///< largest |CableReport::length_error| in any frame
+  int most_spans =
+      0;  ///< free spans of all cables, wraps among them, in the frame that has the most
   std::int64_t row_solves = 0;
   std::int64_t rounds = 0;               ///< of the direct solver
   std::int64_t fallbacks = 0;            ///< substeps left to Gauss-Seidel or to `xpbd`

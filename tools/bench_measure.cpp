@@ -129,8 +129,8 @@ class Measurement {
     }
     std::vector<std::optional<measure::Trajectory>> runs(rows.size());
     for (std::size_t i = 0; truth && i < rows.size(); ++i) {
-      rows[i].joints = measure::joint_count(*scene);
       runs[i] = recorded(*scene, rows[i]);
+      if (runs[i]) rows[i].joints = measure::joint_count(*scene, *runs[i]);
     }
     if (truth) fault = compare(*truth, rows, runs);
     for (BenchRow& row : rows) {
