@@ -18,7 +18,7 @@ constexpr std::array<PaperRow, 11> rows{{
     {"Hilbert3", "hilbert3.json", 498, 1, 10, 60.0, "Table 1"},
     {"Hilbert3", "hilbert3.json", 498, 1, 100, 60.0, "text"},
     {"Bow", "bow.json", 0, 10, 10, 25.0, "text"},
-    {"Naive rope", "naive-rope.json", 100, 1, 100, std::nullopt, "text"},
+    {"Naive rope", "naive-rope.json", 100, 1, 100, std::nullopt, "text", "naive-rope-cable.json"},
 }};
 
 }  // namespace
@@ -39,10 +39,8 @@ StepSettings direct_settings(const PaperRow& row, IntegratorKind integrator) {
   return step;
 }
 
-int joint_count(const Scene& scene) {
-  int spans = 0;
-  for (const CableDef& cable : scene.cables) spans += cable.span_count();
-  return spans > 0 ? spans : static_cast<int>(scene.model.joints.size());
+int joint_count(const Scene& scene, const Trajectory& run) {
+  return run.most_spans > 0 ? run.most_spans : static_cast<int>(scene.model.joints.size());
 }
 
 std::string settings_text(const StepSettings& step) {

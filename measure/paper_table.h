@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "engine/step_settings.h"
+#include "measure/trajectory.h"
 #include "scenes/scene.h"
 
 namespace sheave::measure {
@@ -23,6 +24,9 @@ struct PaperRow {
   int iterations = 1;                  ///< per substep
   std::optional<double> milliseconds;  ///< per frame; nothing: not told
   std::string_view source;             ///< "Table 1" or "text"
+  /// The same machine with a cable in place of a rope of segments, which is what the rope should do: the reference for the
+  /// bodies that both have. Such a row is only run with the paper's setting. Empty: the scene itself is.
+  std::string_view cable_file{};
 };
 
 /// All of them, in the paper's order; rows of one scene stand together.
@@ -35,8 +39,9 @@ inline constexpr double paper_frame = 1.0 / 60.0;  ///< [s]
 /// The direct solver at its default, with as many substeps as the paper takes.
 [[nodiscard]] StepSettings direct_settings(const PaperRow& row, IntegratorKind integrator);
 
-/// Free spans of the scene's cables; the joints of a scene without cables.
-[[nodiscard]] int joint_count(const Scene& scene);
+/// Free spans of the scene's cables, in the frame of its run that has the most (a cable that comes to lie on a body has one
+/// more); the joints of a scene without cables.
+[[nodiscard]] int joint_count(const Scene& scene, const Trajectory& run);
 
 /// "gauss-seidel 1 x 10": solver, substeps x iterations, and the integrator if it is not the paper's. Of the direct solver,
 /// which stops by itself, only the substeps.

@@ -4,6 +4,8 @@
 #include <limits>
 #include <utility>
 
+#include "measure/timing.h"
+
 namespace sheave::measure {
 namespace {
 
@@ -20,12 +22,21 @@ Result<Reference> reference_run(Scene scene, const ReferenceOptions& options) {
   step.integrator = options.integrator;
   step.iterations = options.rounds;
   step.substeps = options.first_substeps;
+  const double start = thread_time();
   Result<Trajectory> first = record(scene, options.observe);
   if (!first) return first.errors();
   constexpr double unknown = std::numeric_limits<double>::infinity();
-  Reference reference{
-      std::move(first).value(), {unknown, unknown, unknown, unknown}, step.substeps};
+  Reference reference{std::move(first).value(),
+                      {unknown, unknown, unknown, unknown},
+                      step.substeps,
+                      options.integrator};
+  double last = thread_time();
+  double duration = last - start;  // of the last run
+  bool first_difference = true;
   while (!reference.good && step.substeps <= options.most_substeps / 2) {
+    // Half the step takes twice the time.
+    if (!first_difference && last - start + 2.0 * duration > options.most_seconds) break;
+    first_difference = false;
     step.substeps *= 2;
     Result<Trajectory> finer = record(scene, options.observe);
     if (!finer) return finer.errors();
@@ -34,12 +45,25 @@ Result<Reference> reference_run(Scene scene, const ReferenceOptions& options) {
     reference.estimate = difference;
     reference.trajectory = std::move(finer).value();
     reference.substeps = step.substeps;
+    duration = thread_time() - last;
+    last += duration;
     reference.good = options.good_enough && options.good_enough(reference);
   }
   if (!reference.trajectory.complete()) {
     return Error{"", "the reference diverged: " + reference.trajectory.divergence->message};
   }
   return reference;
+}
+
+Result<Reference> best_reference(const Scene& scene, ReferenceOptions options) {
+  options.integrator = IntegratorKind::rattle;
+  Result<Reference> second_order = reference_run(scene, options);
+  if (second_order && second_order->good) return second_order;
+  options.integrator = IntegratorKind::xpbd;
+  Result<Reference> first_order = reference_run(scene, options);
+  if (!first_order || !second_order) return first_order ? first_order : second_order;
+  const bool better = first_order->estimate.position < second_order->estimate.position;
+  return better ? first_order : second_order;
 }
 
 }  // namespace sheave::measure

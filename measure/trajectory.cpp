@@ -26,7 +26,7 @@ std::vector<TrackedBody> tracked_bodies(const BodySet& bodies) {
         own.mobility == Mobility::fixed || own.mobility == Mobility::kinematic || own.prescribed();
     if (given) continue;
     const bool turns = own.mobility == Mobility::planar || own.mobility == Mobility::rotor;
-    tracked.push_back({BodyId{i}, reach_of(bodies.definition(i)), turns});
+    tracked.push_back({BodyId{i}, bodies.name(i), reach_of(bodies.definition(i)), turns});
   }
   return tracked;
 }
@@ -44,9 +44,11 @@ void add_frame(const Scene& scene, const Simulation& simulation, Trajectory& tra
     frame.poses.push_back({world.position(body.id), world.orientation(body.id), angle});
   }
   const std::vector<CableReport> reports = simulation.cable_reports();
+  std::size_t spans = 0;
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const CableReport& cable = reports[i];
     double excess = 0.0;
+    spans += cable.spans.size() + cable.wraps.size();
     for (const SpanReport& span : cable.spans) {
       frame.tensions.push_back(span.tension);
       excess += std::max(0.0, span.length - span.rest_length);
@@ -59,6 +61,7 @@ void add_frame(const Scene& scene, const Simulation& simulation, Trajectory& tra
       trajectory.stretch = std::max(trajectory.stretch, excess / cable.total_length);
     }
   }
+  trajectory.most_spans = std::max(trajectory.most_spans, static_cast<int>(spans));
   const Energy energy = world.energy();
   frame.energy = energy.total();
   frame.kinetic_energy = energy.kinetic;
@@ -66,6 +69,33 @@ void add_frame(const Scene& scene, const Simulation& simulation, Trajectory& tra
 }
 
 }  // namespace
+
+std::array<Trajectory, 2> with_common_bodies(const Trajectory& run, const Trajectory& other) {
+  std::array<Trajectory, 2> common{run, other};
+  for (Trajectory& one : common) {
+    one.bodies.clear();
+    for (Frame& frame : one.frames) {
+      frame.poses.clear();
+      frame.tensions.clear();
+    }
+  }
+  for (std::size_t k = 0; k < other.bodies.size(); ++k) {
+    const auto same = std::find_if(run.bodies.begin(), run.bodies.end(), [&](const auto& body) {
+      return body.name == other.bodies[k].name;
+    });
+    if (same == run.bodies.end()) continue;
+    const auto i = static_cast<std::size_t>(same - run.bodies.begin());
+    const std::array<std::size_t, 2> places{i, k};
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Trajectory& from = side == 0 ? run : other;
+      common[side].bodies.push_back(from.bodies[places[side]]);
+      for (std::size_t f = 0; f < from.frames.size(); ++f) {
+        common[side].frames[f].poses.push_back(from.frames[f].poses[places[side]]);
+      }
+    }
+  }
+  return common;
+}
 
 std::int64_t frame_count(const Scene& scene) {
   return std::max<std::int64_t>(1, std::llround(scene.duration / scene.model.step.dt));

@@ -3,6 +3,7 @@
 //
 //   sheave::measure::Trajectory run = *sheave::measure::record(scene);
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -34,6 +35,7 @@ struct Frame {
 /// A body that is compared: one that moves otherwise than as a function of time.
 struct TrackedBody {
   BodyId id;
+  std::string name;
   /// How far from the body's origin its surface reaches [m]: what turns by an angle is displaced by angle x reach. Of
   /// wheels their radius; of bodies without a shape 0.
   double reach = 0.0;
@@ -50,6 +52,8 @@ struct Trajectory {
   /// rest length, relative to that cable's whole length. 0 if there is no rigid cable.
   double stretch = 0.0;
   double length_error = 0.0;  ///< largest |CableReport::length_error| in any frame
+  int most_spans =
+      0;  ///< free spans of all cables, wraps among them, in the frame that has the most
   std::int64_t row_solves = 0;
   std::int64_t rounds = 0;               ///< of the direct solver
   std::int64_t fallbacks = 0;            ///< substeps left to Gauss-Seidel or to `xpbd`
@@ -57,6 +61,11 @@ struct Trajectory {
 
   [[nodiscard]] bool complete() const { return !divergence.has_value(); }
 };
+
+/// The same run with only the bodies that `other` has too, in that order, by their names, and without tensions: for scenes that
+/// are the same machine modelled in two ways. Bodies of the other that it lacks are dropped from both.
+[[nodiscard]] std::array<Trajectory, 2> with_common_bodies(const Trajectory& run,
+                                                           const Trajectory& other);
 
 /// Called after each frame with the frames done and their number; false ends the run, which is then no trajectory.
 using FrameObserver = std::function<bool(std::int64_t done, std::int64_t of)>;

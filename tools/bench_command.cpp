@@ -86,6 +86,10 @@ Action declare_bench(CLI::App& app) {
                  "how often the step of the references is halved at most; default: 5")
       ->check(CLI::Range(1, 12))
       ->option_text("N");
+  app.add_option("--reference-seconds", arguments->bench.reference_seconds,
+                 "CPU time after which the step of a reference is halved no further; default: 60")
+      ->check(CLI::Range(0.0, 1e6))
+      ->option_text("X");
   app.add_flag("--json", arguments->json, "print one JSON object instead of the table");
   app.add_option("--markdown", arguments->markdown, "write the table as Markdown")
       ->option_text("FILE");

@@ -111,11 +111,13 @@ std::string bench_json(const BenchTable& table) {
                  {"references", BenchJson::array()}};
   for (const BenchRow& row : table.rows) json["rows"].push_back(row_json(row));
   for (const BenchReference& reference : table.references) {
-    json["references"].push_back({{"scene", reference.scene},
-                                  {"substeps", reference.substeps},
-                                  {"order", reference.order},
-                                  {"error", error_json(reference.estimate)},
-                                  {"good", reference.good}});
+    json["references"].push_back(
+        {{"scene", reference.scene},
+         {"substeps", reference.substeps},
+         {"integrator", integrator_names[static_cast<std::size_t>(reference.integrator)]},
+         {"order", reference.order},
+         {"error", error_json(reference.estimate)},
+         {"good", reference.good}});
   }
   if (!table.no_instructions.empty()) json["no_instructions"] = table.no_instructions;
   return json.dump(2) + "\n";

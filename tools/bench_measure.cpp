@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include <sheave_version.h>
@@ -37,6 +38,7 @@ BenchRow row_for(const measure::PaperRow& paper, const StepSettings& settings) {
   BenchRow row;
   row.scene = paper.scene;
   row.file = paper.file;
+  row.cable_file = paper.cable_file;
   row.settings = settings;
   row.paper_joints = paper.joints;
   row.paper_source = paper.source;
@@ -53,6 +55,7 @@ std::vector<BenchRow> wanted_rows(const std::string& filter) {
     if (first == nullptr || first->scene != table[i].scene) first = &table[i];
     rows.push_back(row_for(table[i], measure::paper_settings(table[i])));
     if (i + 1 < table.size() && table[i + 1].scene == table[i].scene) continue;
+    if (!table[i].cable_file.empty()) continue;
     for (const IntegratorKind kind : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
       rows.push_back(row_for(*first, measure::direct_settings(*first, kind)));
     }
@@ -103,26 +106,36 @@ class Measurement {
   }
 
  private:
+  /// A scene of the folder in frames as the paper has them; says in `fault` why there is none.
+  std::optional<Scene> loaded(const std::string& file, std::string& fault) const {
+    const std::string path = options_.folder + "/" + file;
+    SceneResult scene = load_scene(path);
+    if (scene) {
+      scene.scene->model.step.dt = measure::paper_frame;
+      return std::move(scene.scene);
+    }
+    fault = scene.status == SceneStatus::not_found ? "missing: " + path
+                                                   : to_string(scene.errors.front());
+    return {};
+  }
+
   /// All rows of one scene.
   void measure_errors(std::vector<BenchRow> rows) {
-    const std::string path = options_.folder + "/" + rows.front().file;
-    const SceneResult scene = load_scene(path);
     std::string fault;
-    if (scene.status == SceneStatus::not_found) fault = "missing: " + path;
-    if (fault.empty() && !scene) fault = to_string(scene.errors.front());
-    std::vector<std::optional<measure::Trajectory>> runs(rows.size());
-    if (fault.empty()) {
-      Scene framed = *scene;
-      framed.model.step.dt = measure::paper_frame;
-      for (std::size_t i = 0; i < rows.size(); ++i) {
-        rows[i].joints = measure::joint_count(framed);
-        runs[i] = recorded(framed, rows[i]);
-      }
-      fault = compare(framed, rows, runs);
+    const std::optional<Scene> scene = loaded(rows.front().file, fault);
+    std::optional<Scene> truth = scene;
+    if (const std::string& file = rows.front().cable_file; scene && !file.empty()) {
+      truth = loaded(file, fault);
     }
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (rows[i].fault.empty()) rows[i].fault = fault;
-      Entry entry{std::move(rows[i]), {}};
+    std::vector<std::optional<measure::Trajectory>> runs(rows.size());
+    for (std::size_t i = 0; truth && i < rows.size(); ++i) {
+      runs[i] = recorded(*scene, rows[i]);
+      if (runs[i]) rows[i].joints = measure::joint_count(*scene, *runs[i]);
+    }
+    if (truth) fault = compare(*truth, rows, runs);
+    for (BenchRow& row : rows) {
+      if (row.fault.empty()) row.fault = fault;
+      Entry entry{std::move(row), {}};
       if (entry.row.measured()) start(*scene, entry);
       entries_.push_back(std::move(entry));
     }
@@ -151,35 +164,44 @@ class Measurement {
   }
 
   /// Fills in the errors; returns why there are none.
-  std::string compare(const Scene& scene, std::vector<BenchRow>& rows,
+  std::string compare(const Scene& truth, std::vector<BenchRow>& rows,
                       const std::vector<std::optional<measure::Trajectory>>& runs) {
+    const bool modelled_twice = !rows.front().cable_file.empty();
     measure::ReferenceOptions options;
     options.first_substeps = 2 * rows.front().settings.substeps;
     options.most_substeps = options.first_substeps << options_.reference_doublings;
-    const auto smallest_error = [&](const measure::Reference& reference) {
+    options.most_seconds = options_.reference_seconds;
+    options.good_enough = [&](const measure::Reference& reference) {
       double smallest = std::numeric_limits<double>::infinity();
       for (const auto& run : runs) {
         if (!run) continue;
-        smallest = std::min(smallest, measure::error_of(*run, reference.trajectory).position);
+        const measure::RunError error = run_error(*run, reference.trajectory, modelled_twice);
+        smallest = std::min(smallest, error.position);
       }
-      return std::max(smallest, rounding_error);
-    };
-    options.good_enough = [&](const measure::Reference& reference) {
-      return reference.estimate.position <= reference_share * smallest_error(reference);
+      return reference.estimate.position <= reference_share * std::max(smallest, rounding_error);
     };
     Progress progress(rows.front().scene + " reference", 0.0,
-                      static_cast<double>(measure::frame_count(scene)), false);
+                      static_cast<double>(measure::frame_count(truth)), false);
     options.observe = observer(progress);
-    const Result<measure::Reference> reference = measure::reference_run(scene, options);
+    const Result<measure::Reference> reference = measure::best_reference(truth, options);
     if (!reference) return reference.errors().front().message;
-    references_.push_back({rows.front().scene, reference->substeps, reference->order,
-                           reference->estimate, reference->good});
+    references_.push_back({rows.front().scene, reference->substeps, reference->integrator,
+                           reference->order, reference->estimate, reference->good});
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (!runs[i]) continue;
-      rows[i].error = measure::error_of(*runs[i], reference->trajectory);
+      rows[i].error = run_error(*runs[i], reference->trajectory, modelled_twice);
       rows[i].reference_error = reference->estimate;
     }
     return {};
+  }
+
+  static measure::RunError run_error(const measure::Trajectory& run,
+                                     const measure::Trajectory& reference, bool modelled_twice) {
+    if (!modelled_twice) return measure::error_of(run, reference);
+    const auto [own, right] = measure::with_common_bodies(run, reference);
+    measure::RunError error = measure::error_of(own, right);
+    error.tension = std::numeric_limits<double>::quiet_NaN();
+    return error;
   }
 
   static void start(const Scene& scene, Entry& entry) {

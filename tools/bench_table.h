@@ -17,9 +17,10 @@ inline constexpr double rounding_error = 1e-11;
 
 /// One scene with one setting.
 struct BenchRow {
-  std::string scene;  ///< its name in the paper
-  std::string file;   ///< name of the scene file
-  int joints = 0;     ///< free spans, as we count them
+  std::string scene;       ///< its name in the paper
+  std::string file;        ///< name of the scene file
+  std::string cable_file;  ///< measure::PaperRow::cable_file
+  int joints = 0;          ///< free spans, as we count them
   StepSettings settings;
   int paper_joints = 0;  ///< 0: not told
   /// The paper's time of this setting [s]; of the direct solver that of the scene's first row, which is the table's.
@@ -30,9 +31,9 @@ struct BenchRow {
 
   measure::Spread seconds;             ///< per frame
   std::optional<double> instructions;  ///< per frame
-  measure::RunError error;
-  measure::RunError reference_error;  ///< estimate for what `error` is measured against
-  double stretch = 0.0;               ///< measure::Trajectory::stretch
+  measure::RunError error;             ///< of tensions NaN if the reference is another scene
+  measure::RunError reference_error;   ///< estimate for what `error` is measured against
+  double stretch = 0.0;                ///< measure::Trajectory::stretch
   double length_error = 0.0;
   double row_solves = 0.0;     ///< per frame
   double rounds = 0.0;         ///< of the direct solver, per frame
@@ -49,6 +50,7 @@ struct BenchRow {
 struct BenchReference {
   std::string scene;
   int substeps = 0;
+  IntegratorKind integrator = IntegratorKind::rattle;
   double order = 0.0;  ///< NaN: not known
   measure::RunError estimate;
   bool good = false;  ///< its error is at most a tenth of all errors measured with it
@@ -67,7 +69,8 @@ struct BenchOptions {
   std::string folder = "scenes/paper";
   std::string filter;  ///< part of a row's name; lower and upper case alike
   int repetitions = 7;
-  int reference_doublings = 5;  ///< of the substeps, at most
+  int reference_doublings = 5;      ///< of the substeps, at most
+  double reference_seconds = 60.0;  ///< CPU time of one reference, about
 };
 
 /// Measures all rows that the filter leaves. Shows a progress bar on a terminal. A Failure if nothing is left (2), if the

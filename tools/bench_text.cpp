@@ -21,6 +21,7 @@ std::string three_digits(double value) { return fmt::format("{:.3g}", value); }
 /// An error that is not well above that of its reference is only known to be below their sum, and rounding tells nothing.
 std::string error_text(double error, double doubt) {
   constexpr double well_above = 3.0;
+  if (std::isnan(error)) return "-";
   if (!std::isfinite(doubt)) return fmt::format("{:.1e}, not verified", error);
   if (error > well_above * doubt && error > rounding_error) return fmt::format("{:.1e}", error);
   return fmt::format("< {:.1e}", std::max(error + doubt, rounding_error));
@@ -73,8 +74,9 @@ std::vector<std::string> bench_remarks(const BenchTable& table) {
   }
   for (const BenchReference& reference : table.references) {
     std::string line =
-        fmt::format("{}: reference direct, rattle, {} substeps, its own error {:.1e}",
-                    reference.scene, reference.substeps, reference.estimate.position);
+        fmt::format("{}: reference direct, {}, {} substeps, its own error {:.1e}", reference.scene,
+                    integrator_names[static_cast<std::size_t>(reference.integrator)],
+                    reference.substeps, reference.estimate.position);
     if (std::isfinite(reference.order)) line += fmt::format(" (order {:.1f})", reference.order);
     if (!reference.good) line += ", more than a tenth of the smallest error measured with it";
     lines.push_back(line);

@@ -64,6 +64,32 @@ TEST(ReferenceRun, EndsWhenItIsGoodEnough) {
   EXPECT_LT(reference.substeps, 1024);
 }
 
+TEST(ReferenceRun, BeginsNoRunThatWouldTakeTooLong) {
+  ReferenceOptions options;
+  options.first_substeps = 1;
+  options.most_substeps = 1024;
+  options.most_seconds = 0.0;
+  EXPECT_EQ(made(options).substeps, 2);  // two runs are needed for an estimate
+}
+
+TEST(ReferenceRun, TriesBothIntegratorsUntilOneIsGood) {
+  ReferenceOptions options;
+  options.most_substeps = 4;
+  const Result<Reference> kept = best_reference(pendulum_scene(), options);
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->integrator, IntegratorKind::rattle);  // of the higher order
+  int asked = 0;
+  options.good_enough = [&](const Reference& reference) {
+    ++asked;
+    return reference.integrator == IntegratorKind::xpbd;
+  };
+  // A good one is taken, but only if it is nearer than the other.
+  const Result<Reference> better = best_reference(pendulum_scene(), options);
+  ASSERT_TRUE(better);
+  EXPECT_EQ(asked, 2);
+  EXPECT_EQ(better->integrator, IntegratorKind::rattle);
+}
+
 TEST(ReferenceRun, OfASingleRunIsNotVerified) {
   ReferenceOptions options;
   options.first_substeps = 4;

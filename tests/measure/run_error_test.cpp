@@ -62,7 +62,7 @@ TEST(RunError, OfARunAgainstItselfIsZero) {
 Trajectory still() {
   Trajectory run;
   run.scale = 4.0;
-  run.bodies = {{BodyId{0}, 0.5, true}, {BodyId{1}, 2.0, false}};
+  run.bodies = {{BodyId{0}, "wheel", 0.5, true}, {BodyId{1}, "box", 2.0, false}};
   Frame frame;
   frame.poses.resize(2);
   frame.tensions = {3.0, 4.0};

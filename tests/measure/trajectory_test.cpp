@@ -91,6 +91,23 @@ TEST(Trajectory, StretchOfAnElasticCableIsNoViolation) {
   EXPECT_EQ(run->stretch, 0.0);
 }
 
+TEST(Trajectory, FindsTheBodiesThatTwoModelsShare) {
+  const test::Machine machine = test::Atwood().machine();
+  test::Machine more = machine;
+  more.model.add(test::lump("stone", {9.0, 0.0, 0.0}, 1.0));
+  more.model.bodies[0].name = "pulley";
+  const Result<Trajectory> one = record(scene_of(machine, 0.1));
+  const Result<Trajectory> two = record(scene_of(more, 0.1));
+  ASSERT_TRUE(one && two);
+  const auto [a, b] = with_common_bodies(*two, *one);
+  ASSERT_EQ(a.bodies.size(), 2U);  // neither the wheel, which has two names, nor the stone
+  ASSERT_EQ(b.bodies.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(a.bodies[i].name, b.bodies[i].name);
+  EXPECT_EQ(a.frames.size(), 7U);
+  EXPECT_EQ(a.frames[6].poses[1].position, b.frames[6].poses[1].position);
+  EXPECT_TRUE(a.frames[6].tensions.empty());
+}
+
 TEST(Trajectory, OfASceneThatDoesNotBuildIsAnError) {
   Scene scene = scene_of(test::Atwood().machine(), 0.5);
   scene.model.bodies[0].mass = -1.0;

@@ -23,14 +23,14 @@ using testing::Not;
 /// Runs the bench on a folder in which the paper's "simple" is two weights over a wheel.
 class Bench : public testing::Test {
  protected:
-  Bench() { folder_.write("simple.json", atwood_scene); }
+  Bench() { folder.write("simple.json", atwood_scene); }
 
   [[nodiscard]] ProcessResult bench(std::vector<std::string> options) const {
-    options.insert(options.begin(), {"bench", "--scenes", folder_.path(""), "--repetitions", "1"});
+    options.insert(options.begin(), {"bench", "--scenes", folder.path(""), "--repetitions", "1"});
     return run_sheave(options);
   }
 
-  TemporaryFolder folder_;
+  TemporaryFolder folder;
 };
 
 TEST_F(Bench, ListsTheTablesRows) {
@@ -80,7 +80,7 @@ TEST_F(Bench, NamesMissingScenesAndInventsNothing) {
 }
 
 TEST_F(Bench, ShowsNoTimeOfABadScene) {
-  folder_.write("pulley.json", R"({"format": "sheave-scene/1", "gravity": [0, 0, 0]})");
+  folder.write("pulley.json", R"({"format": "sheave-scene/1", "gravity": [0, 0, 0]})");
   const ProcessResult result = bench({"--json", "--filter", "pulley"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   for (const json& row : json::parse(result.out)["rows"]) {
@@ -90,7 +90,7 @@ TEST_F(Bench, ShowsNoTimeOfABadScene) {
 }
 
 TEST_F(Bench, ComparesWithABaseline) {
-  const std::string baseline = folder_.path("before.json");
+  const std::string baseline = folder.path("before.json");
   ASSERT_EQ(bench({"--filter", "simple gauss", "--save", baseline}).exit_code, 0);
   const ProcessResult same =
       bench({"--filter", "simple", "--compare", baseline, "--allow", "1000"});
@@ -105,7 +105,7 @@ TEST_F(Bench, ComparesWithABaseline) {
     }
   }
   faster["machine"]["cpu"] = "another one";
-  const std::string path = folder_.write("faster.json", faster.dump());
+  const std::string path = folder.write("faster.json", faster.dump());
   const ProcessResult slower = bench({"--filter", "simple gauss", "--compare", path});
   EXPECT_EQ(slower.exit_code, 1);
   EXPECT_THAT(slower.out, HasSubstr("SLOWER"));
@@ -113,11 +113,11 @@ TEST_F(Bench, ComparesWithABaseline) {
 }
 
 TEST_F(Bench, RefusesWhatIsNoBaselineBeforeItMeasures) {
-  EXPECT_EQ(bench({"--compare", folder_.path("none.json")}).exit_code, 66);
+  EXPECT_EQ(bench({"--compare", folder.path("none.json")}).exit_code, 66);
   for (const char* text : {"", "[]", "{}", R"({"format": "sheave-bench/2", "rows": []})",
                            R"({"format": "sheave-bench/1", "rows": 3})",
                            R"({"format": "sheave-bench/1", "rows": [7]})"}) {
-    const std::string path = folder_.write("wrong.json", text);
+    const std::string path = folder.write("wrong.json", text);
     const ProcessResult result = bench({"--compare", path});
     EXPECT_EQ(result.exit_code, 65) << text;
     EXPECT_THAT(result.err, HasSubstr("no baseline")) << text;
@@ -129,24 +129,24 @@ TEST_F(Bench, WrongUsage) {
   EXPECT_EQ(bench({"--filter", "no such row"}).exit_code, 2);
   EXPECT_EQ(bench({"--chart", "picture.gif"}).exit_code, 2);
   EXPECT_EQ(bench({"--repetitions", "0"}).exit_code, 2);
-  EXPECT_EQ(run_sheave({"bench", "--scenes", folder_.path("nowhere")}).exit_code, 66);
+  EXPECT_EQ(run_sheave({"bench", "--scenes", folder.path("nowhere")}).exit_code, 66);
 }
 
 TEST_F(Bench, WritesMarkdownAndCharts) {
-  const std::string page = folder_.path("table.md");
+  const std::string page = folder.path("table.md");
   ASSERT_EQ(bench({"--filter", "simple", "--markdown", page}).exit_code, 0);
   EXPECT_THAT(read_file(page), HasSubstr("| Simple | gauss-seidel 1 x 10 | 2 (paper 4) |"));
   if (std::system("gnuplot --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no gnuplot";
   for (const std::string name : {"it's a chart.png", "chart.svg"}) {
-    const std::string path = folder_.path(name);
+    const std::string path = folder.path(name);
     const ProcessResult result = bench({"--filter", "simple", "--chart", path});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const std::string picture = read_file(path);
     EXPECT_THAT(picture, HasSubstr(name.ends_with(".png") ? "PNG" : "</svg>"));
   }
-  EXPECT_EQ(bench({"--filter", "simple", "--chart", folder_.path("no/where.png")}).exit_code, 74);
+  EXPECT_EQ(bench({"--filter", "simple", "--chart", folder.path("no/where.png")}).exit_code, 74);
   // Nothing unfinished stays behind.
-  EXPECT_THAT(folder_.entries(),
+  EXPECT_THAT(folder.entries(),
               ElementsAre("chart.svg", "it's a chart.png", "simple.json", "table.md"));
 }
 
