@@ -117,5 +117,26 @@ TEST(Row, AddsContributionsToTheSameBody) {
   EXPECT_EQ(row.term_count, 0);
 }
 
+/// Sweeps that turn a body to and fro about several axes and end where they began must leave it where it was: its velocity
+/// follows from the sum of what was applied, and slender bodies under large forces are turned by a radian at a time.
+TEST(MovingBody, TurnsByTheSumOfItsCorrections) {
+  MovingBody body;
+  body.free_orientation = Quaternion(Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5));
+  body.free_turn = {7.0, 0.0, 0.0};  // more than a turn in one substep
+  body.orientation = body.free_orientation;
+  body.turn = body.free_turn;
+  const std::array<Vector3, 6> corrections{Vector3(0.9, 0.0, 0.0),  Vector3(0.0, 0.7, 0.0),
+                                           Vector3(-0.9, 0.0, 0.0), Vector3(0.0, 0.0, 0.4),
+                                           Vector3(0.0, -0.7, 0.0), Vector3(0.0, 0.0, -0.4)};
+  for (const Vector3& correction : corrections) {
+    body.rotate(correction);
+    const Quaternion sum = turned(body.free_orientation, body.turn - body.free_turn);
+    EXPECT_NEAR((body.orientation.coeffs() - sum.coeffs()).norm(), 0.0, 1e-15);
+  }
+  // Rounding of 7 + 0.9.
+  EXPECT_NEAR((body.turn - body.free_turn).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((body.orientation.coeffs() - body.free_orientation.coeffs()).norm(), 0.0, 1e-14);
+}
+
 }  // namespace
 }  // namespace sheave
