@@ -250,6 +250,7 @@ TEST(ViewBuilder, BodiesHaveTheColoursTheyAreGiven) {
 TEST(ViewBuilder, JointsCanBeLeftOut) {
   Model model;
   auto hinge = std::make_shared<HingeJoint>();
+  hinge->name = "hinge";
   hinge->body_b = model.add(test::lump("lump", {0.4, 0.0, 0.0}, 1.0));
   model.joints.push_back(hinge);
   const World world = test::start(model);
