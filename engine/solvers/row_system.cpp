@@ -114,6 +114,11 @@ void RowSystem::make_groups() {
   problem_.free.resize(n);
 }
 
+bool RowSystem::is_pushed(const Row& row, double value) const {
+  // A cable that is just taut counts, or a long one at rest would be found taut span by span.
+  return (std::isfinite(row.lower) ? value : -value) <= problem_.rounding;
+}
+
 void RowSystem::set_bounds(std::size_t g, bool pushed, bool active) {
   const Group& group = groups_[g];
   const Row& first = rows_[at(group.first_row)];
@@ -143,8 +148,7 @@ void RowSystem::set_backward(const Substep& substep, std::size_t g) {
   group.scale = 1.0 / (1.0 + softest);
   problem_.diagonal[g] = group.scale * compliance;
   problem_.constant[g] = group.scale * (value + compliance * group.multiplier);
-  const bool pushed = std::isfinite(rows_[at(group.first_row)].lower) ? value < 0.0 : value > 0.0;
-  set_bounds(g, pushed, active);
+  set_bounds(g, is_pushed(rows_[at(group.first_row)], value), active);
 }
 
 void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
@@ -172,7 +176,7 @@ void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
   compliance += softness;
   problem_.diagonal[g] = group.scale * compliance;
   problem_.constant[g] = group.scale * (value + compliance * group.multiplier);
-  set_bounds(g, std::isfinite(first.lower) ? value < 0.0 : value > 0.0, active);
+  set_bounds(g, is_pushed(first, value), active);
 }
 
 void RowSystem::add_motion(const Substep& substep, std::size_t row, double change) {

@@ -112,6 +112,8 @@ class RowSystem {
   void make_groups();
   void set_backward(const Substep& substep, std::size_t group);
   void set_midpoint(const Substep& substep, std::size_t group);
+  /// Whether a row that was not active is likely to act: a first guess, which the active set corrects.
+  [[nodiscard]] bool is_pushed(const Row& row, double value) const;
   void set_bounds(std::size_t group, bool pushed, bool active);
   void remember_origin(const Substep& substep);
   void settle(const Substep& substep);
