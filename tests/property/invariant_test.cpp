@@ -99,7 +99,8 @@ struct TiltedOutline {
 
 std::vector<TiltedOutline> tilted_outlines(const Simulation& s) {
   std::vector<TiltedOutline> outlines;
-  for (const LinkReport& link : s.cable_reports()[0].links) {
+  const std::vector<CableReport> reports = s.cable_reports();
+  for (const LinkReport& link : reports[0].links) {
     outlines.push_back({link.stored_length, 0.0, 1.0});
   }
   return outlines;
