@@ -227,8 +227,7 @@ void ActiveSetSolver::mark_violations(const ComplementarityProblem& problem) {
     } else {
       broken = is_at_lower(problem, k) ? -residual_[k] : residual_[k];
     }
-    const double allowed = noise(problem, k);
-    if (broken > 0.0 && broken > allowed) violated_.push_back(i);
+    if (broken > 0.0 && broken > noise(problem, k)) violated_.push_back(i);
   }
 }
 
