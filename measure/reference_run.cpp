@@ -43,6 +43,10 @@ Result<Reference> reference_run(Scene scene, const ReferenceOptions& options) {
     const RunError difference = error_of(reference.trajectory, *finer);
     reference.order = order_of(reference.estimate.position, difference.position);
     reference.estimate = difference;
+    reference.differences.clear();
+    if (std::isfinite(difference.position)) {
+      reference.differences = position_errors(reference.trajectory, *finer);
+    }
     reference.trajectory = std::move(finer).value();
     reference.substeps = step.substeps;
     duration = thread_time() - last;

@@ -12,6 +12,7 @@
 // nature would damp, and `xpbd`, which damps, converges sooner although its order is lower. So both are tried.
 
 #include <functional>
+#include <vector>
 
 #include "measure/run_error.h"
 
@@ -24,6 +25,8 @@ struct Reference {
   IntegratorKind integrator = IntegratorKind::rattle;
   double order =
       0.0;  ///< of the position error; NaN if only two runs were made or nothing is left of the error
+  /// Of each frame the difference in position of the last two runs: how the estimate came about. Empty if one of them diverged.
+  std::vector<double> differences{};
   bool good = false;  ///< whether the caller found it good enough before the limit
 };
 

@@ -7,6 +7,7 @@
 
 #include "tools/bench_table.h"
 #include "tools/command.h"
+#include "tools/gnuplot.h"
 #include "tools/interrupt.h"
 #include "tools/output_file.h"
 #include "tools/terminal.h"
@@ -24,10 +25,7 @@ struct BenchArguments {
 
 /// Refuses what would only be found wrong after minutes of measuring.
 void check_arguments(const BenchArguments& arguments) {
-  const std::string& chart = arguments.chart;
-  if (!chart.empty() && !chart.ends_with(".png") && !chart.ends_with(".svg")) {
-    throw Failure(ExitCode::usage, "--chart " + chart + ": the name must end in .png or .svg");
-  }
+  if (!arguments.chart.empty()) check_chart_name(arguments.chart);
   if (!arguments.compare.empty()) {
     // An empty table has nothing to compare, but the file is read.
     static_cast<void>(compare_with_baseline({}, arguments.compare, arguments.allow));

@@ -15,6 +15,7 @@
 #include "measure/scene_contender.h"
 #include "measure/timing.h"
 #include "tools/bench_table.h"
+#include "tools/error_text.h"
 #include "tools/failure.h"
 #include "tools/interrupt.h"
 #include "tools/progress.h"

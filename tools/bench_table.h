@@ -12,9 +12,6 @@
 
 namespace sheave::tools {
 
-/// Relative errors below this are rounding, which no reference tells from none.
-inline constexpr double rounding_error = 1e-11;
-
 /// One scene with one setting.
 struct BenchRow {
   std::string scene;       ///< its name in the paper

@@ -1,11 +1,11 @@
 // sheave bench: the table for people, as text and as Markdown.
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "tools/bench_table.h"
+#include "tools/error_text.h"
 #include "tools/text_table.h"
 
 namespace sheave::tools {
@@ -17,20 +17,6 @@ const std::vector<std::string> bench_head{
     "solves / frame", "ns / solve",   "instructions"};
 
 std::string three_digits(double value) { return fmt::format("{:.3g}", value); }
-
-/// An error that is not well above that of its reference is only known to be below their sum, and rounding tells nothing.
-std::string error_text(double error, double doubt) {
-  constexpr double well_above = 3.0;
-  if (std::isnan(error)) return "-";
-  if (!std::isfinite(doubt)) return fmt::format("{:.1e}, not verified", error);
-  if (error > well_above * doubt && error > rounding_error) return fmt::format("{:.1e}", error);
-  return fmt::format("< {:.1e}", std::max(error + doubt, rounding_error));
-}
-
-std::string microseconds(double seconds) {
-  const double value = 1e6 * seconds;
-  return value >= 1000.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
-}
 
 std::string joints_text(const BenchRow& row) {
   const bool same = row.paper_joints == 0 || row.paper_joints == row.joints;
@@ -44,9 +30,9 @@ std::vector<std::string> cells(const BenchRow& row) {
   return {row.scene,
           measure::settings_text(row.settings),
           joints_text(row),
-          microseconds(time.median),
-          microseconds(time.lower) + " - " + microseconds(time.upper),
-          paper ? microseconds(*row.paper_seconds) : "-",
+          microseconds_text(time.median),
+          microseconds_text(time.lower) + " - " + microseconds_text(time.upper),
+          paper ? microseconds_text(*row.paper_seconds) : "-",
           paper ? three_digits(*row.paper_seconds / time.median) : "-",
           error_text(row.error.position, row.reference_error.position),
           error_text(row.error.tension, row.reference_error.tension),
@@ -141,7 +127,7 @@ bool BenchComparison::any_slower() const {
 std::string comparison_text(const BenchComparison& comparison) {
   TextTable text({"row", "before [us]", "now [us]", "now / before", ""}, 1);
   for (const BenchChange& change : comparison.changes) {
-    text.add({change.name, microseconds(change.before), microseconds(change.now),
+    text.add({change.name, microseconds_text(change.before), microseconds_text(change.now),
               fmt::format("{:.3f}", change.ratio()), change.slower ? "SLOWER" : ""});
   }
   std::string result = "compared with " + comparison.path + "\n\n" + text.text() + "\n";

@@ -99,6 +99,8 @@ class Document {
 
   /// Where a value, or the key of a member, begins in the text.
   [[nodiscard]] std::uint32_t offset(NodeId id) const { return node(id).begin; }
+  /// Where it ends: the character behind its last one.
+  [[nodiscard]] std::uint32_t end_offset(NodeId id) const { return node(id).end; }
   [[nodiscard]] std::uint32_t key_offset(NodeId id) const { return node(id).key_begin; }
   [[nodiscard]] Location location(std::uint32_t offset) const;
   /// The value as it stands in the text, shortened for a message; empty for long containers.

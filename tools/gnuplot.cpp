@@ -1,0 +1,68 @@
+#include "tools/gnuplot.h"
+
+#include <cstdint>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "tools/failure.h"
+
+#if SHEAVE_HAS_RENDER
+#include "render/child_process.h"
+#include "render/output_file.h"
+#endif
+
+namespace sheave::tools {
+
+void check_chart_name(const std::string& path) {
+  if (path.ends_with(".png") || path.ends_with(".svg")) return;
+  throw Failure(ExitCode::usage, "--chart " + path + ": the name must end in .png or .svg");
+}
+
+std::string gnuplot_quoted(const std::string& text) {
+  std::string result = "'";
+  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
+  return result + "'";
+}
+
+std::string gnuplot_terminal(const std::string& output, int height) {
+  const char* const kind = output.ends_with(".svg")
+                               ? "svg size 1000,{} font 'DejaVu Sans,13' background 'white'"
+                               : "pngcairo size 1000,{} font 'DejaVu Sans,11'";
+  return "set terminal " + fmt::format(fmt::runtime(kind), height) + "\nset output " +
+         gnuplot_quoted(output) + "\n";
+}
+
+#if SHEAVE_HAS_RENDER
+
+void draw_with_gnuplot(const std::string& path,
+                       const std::function<std::string(const std::string& output)>& script_for) {
+  check_chart_name(path);
+  Result<render::OutputFile> file = render::OutputFile::create(path);
+  if (!file) throw Failure(ExitCode::io, to_text(file.errors()));
+  // Only the name was wanted: gnuplot opens the file itself. It keeps the extension.
+  if (const Errors errors = file->close(); !errors.empty())
+    throw Failure(ExitCode::io, to_text(errors));
+  Result<render::ChildProcess> gnuplot = render::ChildProcess::start({"gnuplot", "-"});
+  if (!gnuplot) {
+    throw Failure(ExitCode::io, to_text(gnuplot.errors()) +
+                                    "; charts need gnuplot (Debian: apt install gnuplot-nox)");
+  }
+  const std::string script = script_for(file->temporary_path());
+  const std::vector<std::uint8_t> bytes(script.begin(), script.end());
+  Errors errors = gnuplot->write(bytes);
+  if (const Errors end = gnuplot->finish(); errors.empty()) errors = end;
+  if (errors.empty()) errors = file->commit();
+  if (!errors.empty()) throw Failure(ExitCode::io, path + ": " + to_text(errors));
+}
+
+#else
+
+void draw_with_gnuplot(const std::string& path,
+                       const std::function<std::string(const std::string& output)>&) {
+  throw Failure(ExitCode::io, path + ": this build cannot start gnuplot (SHEAVE_RENDER is off)");
+}
+
+#endif
+
+}  // namespace sheave::tools

@@ -1,0 +1,236 @@
+// sheave trade: what accuracy costs in the user's own scene, and the setting that answers a question.
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "scenes/scene_text.h"
+#include "tools/command.h"
+#include "tools/gnuplot.h"
+#include "tools/interrupt.h"
+#include "tools/output_file.h"
+#include "tools/scene_options.h"
+#include "tools/terminal.h"
+#include "tools/trade_table.h"
+
+namespace sheave::tools {
+namespace {
+
+struct TradeArguments {
+  SceneOptions scene;
+  TradeOptions trade;
+  std::vector<std::string> solvers, integrators, tangents;
+  std::string budget, error;
+  std::string csv, markdown, chart;
+  bool json = false;
+  bool apply = false;
+};
+
+/// Words of a closed list as values; all of them if there are no words.
+template <class Kind, std::size_t Count>
+std::vector<Kind> chosen(const std::vector<std::string>& words,
+                         const std::array<std::string_view, Count>& names) {
+  std::vector<Kind> kinds;
+  for (std::size_t i = 0; i < Count; ++i) {
+    const bool wanted = std::find(words.begin(), words.end(), names[i]) != words.end();
+    if (wanted || words.empty()) kinds.push_back(static_cast<Kind>(i));
+  }
+  return kinds;
+}
+
+template <std::size_t Count>
+CLI::IsMember one_of(const std::array<std::string_view, Count>& names) {
+  return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
+}
+
+void no_doubles(std::vector<int>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+/// Refuses what would only be found wrong after minutes of measuring.
+TradeQuestion check_trade_arguments(const TradeArguments& arguments) {
+  if (!arguments.chart.empty()) check_chart_name(arguments.chart);
+  TradeQuestion question;
+  if (!arguments.budget.empty()) question.seconds_per_frame = budget_seconds(arguments.budget);
+  if (!arguments.error.empty()) question.error = error_share(arguments.error);
+  if (!arguments.apply) return question;
+  if (arguments.budget.empty() && arguments.error.empty()) {
+    throw Failure(ExitCode::usage, "--apply needs --budget or --error, which choose a setting");
+  }
+  if (arguments.scene.path == "-") {
+    throw Failure(ExitCode::usage, "--apply needs a scene file, not standard input");
+  }
+  return question;
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Failure(ExitCode::io, path + ": cannot be opened for reading");
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// Writes the setting into the scene's file; everything else in it stays as it is.
+void apply_setting(const std::string& path, const TradeSetting& setting) {
+  std::string text = text_of(path);
+  const SceneResult from = load_scene_text(text, path);
+  if (!from) throw Failure(exit_code(from), to_text(from));
+  const Scene wanted = setting.applied(*from);
+  for (const Override& change : step_changes(*from, wanted)) {
+    Result<std::string> changed = with_setting(text, change.pointer, change.value);
+    if (!changed) throw Failure(ExitCode::bad_scene, path + ": " + to_text(changed.errors()));
+    text = std::move(changed).value();
+  }
+  const SceneResult now = load_scene_text(text, path);
+  if (!now) throw Failure(ExitCode::internal, "the changed scene is not valid: " + to_text(now));
+  write_file(path, text);
+}
+
+/// Says which setting answers, and applies it if that is wanted. Whether there is one.
+bool answer_question(const TradeArguments& arguments, const TradeTable& table,
+                     const TradeQuestion& question) {
+  const std::string asked =
+      question.error ? "--error " + arguments.error : "--budget " + arguments.budget;
+  const std::optional<std::size_t> choice = answer(table, question);
+  if (!choice) {
+    print_warning(asked + ": none of these settings; finer ones: --substeps, --iterations");
+    return false;
+  }
+  const TradeRow& row = table.rows[*choice];
+  const std::string line = fmt::format("{}: {} ({:.3g} ms per frame, position error {})", asked,
+                                       row.setting.name(), 1e3 * table.dt * row.seconds.median,
+                                       error_text(row.error.position, table.doubt.position));
+  // Standard output has one object and nothing else.
+  if (arguments.json) {
+    print_note(line);
+  } else {
+    print("\n" + line + "\n");
+  }
+  if (arguments.apply) {
+    apply_setting(arguments.scene.path, row.setting);
+    print_note("written into " + arguments.scene.path);
+  }
+  return true;
+}
+
+ExitCode trade(TradeArguments& arguments) {
+  const TradeQuestion question = check_trade_arguments(arguments);
+  TradeGrid& grid = arguments.trade.grid;
+  no_doubles(grid.substeps);
+  no_doubles(grid.iterations);
+  grid.solvers = chosen<SolverKind>(arguments.solvers, solver_names);
+  grid.integrators = chosen<IntegratorKind>(arguments.integrators, integrator_names);
+  grid.tangents = chosen<TangentUpdate>(arguments.tangents, tangent_update_names);
+  Scene scene = load(arguments.scene);
+  if (scene.name.empty()) scene.name = std::filesystem::path(arguments.scene.path).stem().string();
+  catch_interrupts();
+  const TradeTable table = measure_trade(scene, arguments.trade);
+  print(arguments.json ? trade_json(table) : trade_text(table));
+  if (table.machine.assertions) print_warning("built with assertions: the times mean nothing");
+  if (!arguments.csv.empty()) write_file(arguments.csv, trade_csv(table));
+  if (!arguments.markdown.empty()) write_file(arguments.markdown, trade_markdown(table));
+  if (!arguments.chart.empty()) {
+    draw_with_gnuplot(arguments.chart,
+                      [&](const std::string& output) { return trade_chart_script(table, output); });
+  }
+  if (arguments.budget.empty() && arguments.error.empty()) return ExitCode::done;
+  return answer_question(arguments, table, question) ? ExitCode::done : ExitCode::check_failed;
+}
+
+void add_trade_scene(CLI::App& app, SceneOptions& scene) {
+  app.add_option("scene", scene.path, "Scene file (JSON); - reads standard input")
+      ->required()
+      ->option_text("SCENE");
+  app.add_option("--dt", scene.dt, "time per frame [s] instead of the scene's")
+      ->check(CLI::Number)
+      ->option_text("X");
+  app.add_option("--duration", scene.duration, "time to simulate [s] instead of the scene's")
+      ->check(CLI::Number)
+      ->option_text("X");
+}
+
+void add_trade_grid(CLI::App& app, TradeArguments& arguments) {
+  TradeGrid& grid = arguments.trade.grid;
+  const char* const group = "What is varied";
+  app.add_option("--substeps", grid.substeps, "default: 1,2,4,8,16,32")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(1, 100'000))
+      ->group(group)
+      ->option_text("N,...");
+  app.add_option("--iterations", grid.iterations, "of gauss-seidel; default: 1,10,100")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(CLI::Range(1, 1'000'000))
+      ->group(group)
+      ->option_text("N,...");
+  app.add_option("--solver", arguments.solvers, "gauss-seidel,direct; default: both")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(one_of(solver_names))
+      ->group(group)
+      ->option_text("NAME,...");
+  app.add_option("--integrator", arguments.integrators, "xpbd,rattle; default: both")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(one_of(integrator_names))
+      ->group(group)
+      ->option_text("NAME,...");
+  app.add_option("--tangents", arguments.tangents,
+                 "when the cables' tangents follow the bodies: iteration,substep; default: both")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(one_of(tangent_update_names))
+      ->group(group)
+      ->option_text("NAME,...");
+}
+
+}  // namespace
+
+Action declare_trade(CLI::App& app) {
+  auto arguments = std::make_shared<TradeArguments>();
+  add_trade_scene(app, arguments->scene);
+  add_trade_grid(app, *arguments);
+  CLI::Option* const budget =
+      app.add_option("--budget", arguments->budget,
+                     "name the most accurate setting within this time, e.g. 2ms/frame; exit code "
+                     "1 if there is none")
+          ->option_text("TIME");
+  app.add_option("--error", arguments->error,
+                 "name the cheapest setting within this position error, e.g. 0.1%; exit code 1 "
+                 "if there is none")
+      ->option_text("SHARE")
+      ->excludes(budget);
+  app.add_flag("--apply", arguments->apply,
+               "write that setting into the scene file, whose comments stay");
+  app.add_option("--repetitions", arguments->trade.repetitions,
+                 "samples of each setting's time; default: 5")
+      ->check(CLI::Range(1, 1000))
+      ->option_text("N");
+  app.add_option("--reference-seconds", arguments->trade.reference_seconds,
+                 "CPU time after which the step of the reference is halved no further; default: 30")
+      ->check(CLI::Range(0.0, 1e6))
+      ->option_text("X");
+  app.add_flag("--json", arguments->json, "print one JSON object instead of the table");
+  app.add_option("--csv", arguments->csv, "write the table as CSV")->option_text("FILE");
+  app.add_option("--markdown", arguments->markdown, "write the report as Markdown")
+      ->option_text("FILE");
+  app.add_option("--chart", arguments->chart, "draw errors over times with gnuplot, .png or .svg")
+      ->option_text("FILE");
+  app.footer(R"(Examples:
+  sheave trade scenes/paper/simple.json --chart simple.png
+  sheave trade scenes/paper/gym.json --solver direct --substeps 1,2,4
+  sheave trade scenes/paper/pulley.json --error 0.1%
+  sheave trade my-scene.json --budget 2ms/frame --apply
+
+Keep the machine quiet, and the program on one core: taskset -c 1 sheave trade ...)");
+  return [arguments] { return trade(*arguments); };
+}
+
+}  // namespace sheave::tools

@@ -1,0 +1,130 @@
+// sheave trade: the numbers for programs, as JSON and CSV.
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tools/trade_table.h"
+
+namespace sheave::tools {
+namespace {
+
+using TradeJson = nlohmann::ordered_json;
+
+TradeJson trade_error_json(const measure::RunError& error) {
+  return {{"position", error.position},
+          {"position_end", error.position_end},
+          {"tension", error.tension},
+          {"energy", error.energy}};
+}
+
+TradeJson trade_setting_json(const TradeSetting& setting) {
+  const StepSettings& step = setting.step;
+  TradeJson json{{"dt", step.dt},
+                 {"substeps", step.substeps},
+                 {"iterations", step.iterations},
+                 {"solver", solver_names[static_cast<std::size_t>(step.solver)]},
+                 {"integrator", integrator_names[static_cast<std::size_t>(step.integrator)]}};
+  if (setting.tangents) {
+    json["tangent_update"] = tangent_update_names[static_cast<std::size_t>(*setting.tangents)];
+  }
+  return json;
+}
+
+TradeJson trade_row_json(const TradeRow& row) {
+  TradeJson json{{"name", row.setting.name()}, {"settings", trade_setting_json(row.setting)}};
+  if (!row.measured()) {
+    json["fault"] = row.fault;
+    return json;
+  }
+  json["seconds_per_simulated_second"] = {{"median", row.seconds.median},
+                                          {"lower_quartile", row.seconds.lower},
+                                          {"upper_quartile", row.seconds.upper},
+                                          {"minimum", row.seconds.minimum},
+                                          {"samples", row.seconds.count}};
+  json["row_solves_per_simulated_second"] = row.row_solves;
+  json["error"] = trade_error_json(row.error);
+  json["stretch"] = row.stretch;
+  json["length_error"] = row.length_error;
+  json["fallbacks"] = row.fallbacks;
+  json["on_front"] = row.on_front;
+  return json;
+}
+
+TradeJson reference_json(const TradeTable& table) {
+  const measure::Reference& reference = table.reference;
+  return {{"solver", "direct"},
+          {"integrator", integrator_names[static_cast<std::size_t>(reference.integrator)]},
+          {"substeps", reference.substeps},
+          {"order", reference.order},
+          {"good", reference.good},
+          {"error", trade_error_json(reference.estimate)},
+          {"error_compared", trade_error_json(table.doubt)},
+          {"chaos_rate", table.chaos_rate ? TradeJson(*table.chaos_rate) : TradeJson()}};
+}
+
+/// Quoted where a comma or a quote asks for it.
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string cell = "\"";
+  for (const char c : text) cell += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return cell + "\"";
+}
+
+}  // namespace
+
+std::string trade_json(const TradeTable& table) {
+  TradeJson json{{"format", "sheave-trade/1"},
+                 {"version", table.version},
+                 {"machine",
+                  {{"cpu", table.machine.cpu},
+                   {"cores", table.machine.cores},
+                   {"compiler", table.machine.compiler},
+                   {"assertions", table.machine.assertions}}},
+                 {"scene", table.scene},
+                 {"repetitions", table.repetitions},
+                 {"simulated_seconds", table.simulated_seconds},
+                 {"compared_seconds", table.compared_seconds},
+                 {"reference", reference_json(table)},
+                 {"rows", TradeJson::array()},
+                 {"orders", TradeJson::array()},
+                 {"cheapest", TradeJson::array()}};
+  for (const TradeRow& row : table.rows) json["rows"].push_back(trade_row_json(row));
+  for (const TradeFamily& family : table.families) {
+    json["orders"].push_back({{"family", family.name},
+                              {"order", family.fit ? TradeJson(family.fit->order) : TradeJson()},
+                              {"steps", family.fit ? family.fit->points : 0}});
+  }
+  for (const double level : trade_levels) {
+    const auto choice = answer(table, {.error = level});
+    json["cheapest"].push_back(
+        {{"error", level},
+         {"row", choice ? TradeJson(table.rows[*choice].setting.name()) : TradeJson()}});
+  }
+  return json.dump(2) + "\n";
+}
+
+std::string trade_csv(const TradeTable& table) {
+  std::string text =
+      "solver,integrator,substeps,iterations,tangent_update,seconds_per_simulated_second,"
+      "lower_quartile,upper_quartile,row_solves_per_simulated_second,position_error,"
+      "reference_error,tension_error,energy_error,stretch,length_error,on_front,fault\n";
+  for (const TradeRow& row : table.rows) {
+    const StepSettings& step = row.setting.step;
+    const auto tangents = row.setting.tangents;
+    text += fmt::format("{},{},{},{},{},", solver_names[static_cast<std::size_t>(step.solver)],
+                        integrator_names[static_cast<std::size_t>(step.integrator)], step.substeps,
+                        step.iterations,
+                        tangents ? tangent_update_names[static_cast<std::size_t>(*tangents)] : "");
+    if (row.measured()) {
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},\n", row.seconds.median,
+                          row.seconds.lower, row.seconds.upper, row.row_solves, row.error.position,
+                          table.doubt.position, row.error.tension, row.error.energy, row.stretch,
+                          row.length_error, row.on_front ? 1 : 0);
+    } else {
+      text += ",,,,,,,,,,," + csv_cell(row.fault) + "\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace sheave::tools

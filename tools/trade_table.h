@@ -1,0 +1,124 @@
+#pragma once
+// Speed against accuracy of one scene, as data: what `sheave trade` measures, prints and chooses from.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/error_growth.h"
+#include "measure/reference_run.h"
+#include "measure/spread.h"
+#include "measure/work_precision.h"
+#include "tools/error_text.h"
+#include "tools/machine_info.h"
+
+namespace sheave::tools {
+
+/// What is varied: every combination that differs in what it does is run. Lists must not be empty.
+struct TradeGrid {
+  std::vector<int> substeps{1, 2, 4, 8, 16, 32};
+  std::vector<int> iterations{1, 10,
+                              100};  ///< of Gauss-Seidel; the direct solver keeps the scene's
+  std::vector<SolverKind> solvers{SolverKind::gauss_seidel, SolverKind::direct};
+  std::vector<IntegratorKind> integrators{IntegratorKind::xpbd, IntegratorKind::rattle};
+  /// Of all cables; of no meaning for a scene without.
+  std::vector<TangentUpdate> tangents{TangentUpdate::iteration, TangentUpdate::substep};
+};
+
+/// One way to run the scene.
+struct TradeSetting {
+  StepSettings step;
+  std::optional<TangentUpdate> tangents;  ///< nothing: the scene has no cables
+
+  /// "gauss-seidel 4 x 10, rattle, tangents per substep".
+  [[nodiscard]] std::string name() const;
+  /// The scene with this setting.
+  [[nodiscard]] Scene applied(const Scene& scene) const;
+};
+
+/// All settings of a grid for a scene, in the grid's order.
+[[nodiscard]] std::vector<TradeSetting> trade_settings(const TradeGrid& grid, const Scene& scene);
+
+struct TradeRow {
+  TradeSetting setting;
+  std::string fault;        ///< why there are no numbers; empty if there are
+  measure::Spread seconds;  ///< CPU time per simulated second
+  /// Of positions and tensions within TradeTable::compared_seconds, tensions NaN without cables; of the energy in the whole
+  /// run, NaN if that of the reference is rounding.
+  measure::RunError error;
+  double stretch = 0.0;        ///< measure::Trajectory::stretch
+  double length_error = 0.0;   ///< measure::Trajectory::length_error
+  double row_solves = 0.0;     ///< per simulated second
+  std::int64_t fallbacks = 0;  ///< measure::Trajectory::fallbacks
+  bool on_front = false;       ///< nothing is faster and as accurate
+
+  [[nodiscard]] bool measured() const { return fault.empty(); }
+};
+
+/// How the error of one solver and integrator falls with the step.
+struct TradeFamily {
+  std::string name;
+  std::optional<measure::FittedOrder> fit;
+};
+
+struct TradeTable {
+  std::string scene;  ///< its name, or the file's
+  double dt = 0.0;    ///< time of a frame [s]
+  double simulated_seconds = 0.0;
+  /// Positions and tensions are compared up to here [s]: less than the whole run if the reference does not know what comes later.
+  double compared_seconds = 0.0;
+  measure::Reference reference;      ///< without its frames
+  measure::RunError doubt;           ///< the reference's own error in what is compared
+  std::optional<double> chaos_rate;  ///< measure::ErrorGrowth::rate
+  std::vector<TradeRow> rows;
+  std::vector<TradeFamily> families;
+  MachineInfo machine;
+  std::string version;
+  int repetitions = 0;
+
+  /// Cost in seconds per simulated second and the bound of the position error of each row.
+  [[nodiscard]] std::vector<measure::WorkPoint> points() const;
+};
+
+struct TradeOptions {
+  TradeGrid grid;
+  int repetitions = 5;
+  double reference_seconds = 30.0;  ///< CPU time of one reference, about
+  bool quiet = false;               ///< no progress bar
+};
+
+/// Measures the scene. A Failure if there is no reference (75) or if a signal came (130).
+[[nodiscard]] TradeTable measure_trade(const Scene& scene, const TradeOptions& options);
+
+/// Fills in families and front from the rows.
+void judge(TradeTable& table);
+
+/// The levels that the report names a setting for: 1 %, 0.1 %, 0.01 %.
+inline constexpr std::array<double, 3> trade_levels{1e-2, 1e-3, 1e-4};
+
+/// For people.
+[[nodiscard]] std::string trade_text(const TradeTable& table);
+[[nodiscard]] std::string trade_markdown(const TradeTable& table);
+/// One JSON object with a line break.
+[[nodiscard]] std::string trade_json(const TradeTable& table);
+/// A line of names, then one line per row (RFC 4180).
+[[nodiscard]] std::string trade_csv(const TradeTable& table);
+/// What gnuplot is told to draw the work-precision chart.
+[[nodiscard]] std::string trade_chart_script(const TradeTable& table, const std::string& output);
+
+/// What a user asks for: one of them.
+struct TradeQuestion {
+  std::optional<double> seconds_per_frame{};  ///< at most this time [s]: the most accurate
+  std::optional<double> error{};              ///< at most this position error: the cheapest
+};
+/// "2ms/frame", "500us/frame"; a Failure (2) for anything else.
+[[nodiscard]] double budget_seconds(const std::string& text);
+/// "0.1%", "1e-3"; a Failure (2) for anything else.
+[[nodiscard]] double error_share(const std::string& text);
+/// The row that answers; nothing if none does.
+[[nodiscard]] std::optional<std::size_t> answer(const TradeTable& table,
+                                                const TradeQuestion& question);
+
+}  // namespace sheave::tools
