@@ -7,11 +7,7 @@
 
 #include "tools/bench_table.h"
 #include "tools/failure.h"
-
-#if SHEAVE_HAS_RENDER
-#include "render/child_process.h"
-#include "render/output_file.h"
-#endif
+#include "tools/gnuplot.h"
 
 namespace sheave::tools {
 namespace {
@@ -48,13 +44,6 @@ double place_of(const std::vector<std::string>& names, const std::string& scene)
   return static_cast<double>(std::find(names.begin(), names.end(), scene) - names.begin());
 }
 
-/// In single quotes, as gnuplot takes text literally.
-std::string chart_quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
-  return result + "'";
-}
-
 /// Data blocks: $paper, then $series0, 1, ...: place, time, its quartiles, error.
 std::string data_blocks(const BenchTable& table, const std::vector<std::string>& names) {
   std::string text = "$paper << end\n";
@@ -86,10 +75,8 @@ std::string data_blocks(const BenchTable& table, const std::vector<std::string>&
 
 std::string chart_script(const BenchTable& table, const std::string& output) {
   const std::vector<std::string> names = scene_names(table);
-  const bool svg = output.ends_with(".svg");
   std::string script = data_blocks(table, names);
-  script += svg ? "set terminal svg size 1000,800 font 'DejaVu Sans,13' background 'white'\n"
-                : "set terminal pngcairo size 1000,800 font 'DejaVu Sans,11'\n";
+  script += chart_terminal(output, 1000, 800);
   script += "set output " + chart_quoted(output) + "\n";
   script += "set logscale y\nset format y '10^{%T}'\nset grid y\nset xtics (";
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -122,37 +109,12 @@ std::string chart_script(const BenchTable& table, const std::string& output) {
   return script + "\nunset multiplot\nset output\n";
 }
 
-#if SHEAVE_HAS_RENDER
-
 void draw_chart(const BenchTable& table, const std::string& path) {
   if (!path.ends_with(".png") && !path.ends_with(".svg")) {
     throw Failure(ExitCode::usage, "--chart " + path + ": the name must end in .png or .svg");
   }
   if (scene_names(table).empty()) throw Failure(ExitCode::io, path + ": there is nothing to draw");
-  Result<render::OutputFile> file = render::OutputFile::create(path);
-  if (!file) throw Failure(ExitCode::io, to_text(file.errors()));
-  // Only the name was wanted: gnuplot opens the file itself. It keeps the extension.
-  if (const Errors errors = file->close(); !errors.empty())
-    throw Failure(ExitCode::io, to_text(errors));
-  Result<render::ChildProcess> gnuplot = render::ChildProcess::start({"gnuplot", "-"});
-  if (!gnuplot) {
-    throw Failure(ExitCode::io, to_text(gnuplot.errors()) +
-                                    "; charts need gnuplot (Debian: apt install gnuplot-nox)");
-  }
-  const std::string script = chart_script(table, file->temporary_path());
-  const std::vector<std::uint8_t> bytes(script.begin(), script.end());
-  Errors errors = gnuplot->write(bytes);
-  if (const Errors end = gnuplot->finish(); errors.empty()) errors = end;
-  if (errors.empty()) errors = file->commit();
-  if (!errors.empty()) throw Failure(ExitCode::io, path + ": " + to_text(errors));
+  draw_with_gnuplot(path, [&](const std::string& output) { return chart_script(table, output); });
 }
-
-#else
-
-void draw_chart(const BenchTable&, const std::string& path) {
-  throw Failure(ExitCode::io, path + ": this build cannot start gnuplot (SHEAVE_RENDER is off)");
-}
-
-#endif
 
 }  // namespace sheave::tools

@@ -36,12 +36,39 @@ void append_cable_warnings(const CableSystem& cables, std::vector<Warning>& warn
   }
 }
 
+/// A rigid cable that is longer than it can be by much of the way that things have moved did not hold them: the solver has
+/// not converged, and accelerations and tensions are wrong by about that share. What is left of a first sag counts for less
+/// the farther things move, and in a cable of the size of a machine a millionth is nothing.
+void append_stretch_warnings(const Simulation& simulation, const RunMonitor& monitor,
+                             std::vector<Warning>& warnings) {
+  constexpr double share_limit = 0.05;
+  constexpr double negligible = 1e-6;
+  const std::vector<CableReport> reports = simulation.cable_reports();
+  for (std::size_t i = 0; i < monitor.cables().size(); ++i) {
+    const CableCourse& course = monitor.cables()[i];
+    const bool small =
+        course.excess <= std::max(share_limit * course.way, negligible * course.length);
+    if (small) continue;
+    std::string name(reports[i].name);
+    std::string message = fmt::format(
+        "cable {} is {:.3g} m longer at the end than it can be, and nothing on it has moved by "
+        "more "
+        "than {:.3g} m: the solver did not converge, and motion and tensions are wrong by about "
+        "that share; more iterations or the direct solver avoid that",
+        name, course.excess, course.way);
+    warnings.push_back({"stretched", std::move(name), std::move(message)});
+  }
+}
+
 }  // namespace
 
-std::vector<Warning> collect_warnings(const Simulation& simulation,
-                                      const RunStatistics& statistics) {
+std::vector<Warning> collect_warnings(const Simulation& simulation, const RunStatistics& statistics,
+                                      const RunMonitor& monitor) {
   std::vector<Warning> warnings;
-  if (simulation.cables != nullptr) append_cable_warnings(*simulation.cables, warnings);
+  if (simulation.cables != nullptr) {
+    append_cable_warnings(*simulation.cables, warnings);
+    append_stretch_warnings(simulation, monitor, warnings);
+  }
   if (statistics.solver_fallbacks > 0) {
     std::string message = fmt::format(
         "the direct solver did not find which rows act in {} {} and left {} to Gauss-Seidel "
