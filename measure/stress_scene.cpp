@@ -3,7 +3,7 @@
 // gravity     gravity times a factor, also none and reversed: judged by what is wrong in any machine (diverged, energy gain,
 //             lost length), and by how much longer than allowed its rigid cables are.
 // mass,       all masses or all lengths times a factor, with everything that goes with them: such a run is similar to the
-// length      original (measure/similarity.h), so its error is known.
+// length      original (scenes/scaling.h), so its error is known.
 // random      every mass, force, stiffness and damping times a random factor of its own, up to so many decades either way;
 //             each row is another draw. Judged like gravity.
 //
@@ -15,8 +15,8 @@
 #include <iterator>
 #include <random>
 
-#include "measure/similarity.h"
 #include "measure/stress_map.h"
+#include "scenes/scaling.h"
 
 namespace sheave::measure {
 namespace {
