@@ -22,7 +22,8 @@ double excess_of(const CableReport& cable) {
 
 }  // namespace
 
-RunMonitor::RunMonitor(std::int64_t steps) : stride_(std::max<std::int64_t>(1, steps / 2000)) {}
+RunMonitor::RunMonitor(std::int64_t steps)
+    : stride_(std::max<std::int64_t>(1, steps / 2000)), half_(steps / 2) {}
 
 void RunMonitor::observe(const Simulation& simulation) {
   final_ = simulation.world.energy();
@@ -31,7 +32,10 @@ void RunMonitor::observe(const Simulation& simulation) {
     start_ = simulation.world.state().bodies;
   }
   max_drift_ = std::max(max_drift_, std::abs(final_.total() - initial_.total()));
-  if (observed_ % stride_ == 0) observe_cables(simulation);
+  if (observed_ % stride_ == 0 || observed_ == half_) observe_cables(simulation);
+  if (observed_ == half_) {
+    for (CableCourse& course : cables_) course.excess_at_half = course.excess;
+  }
   ++observed_;
 }
 

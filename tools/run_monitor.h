@@ -15,6 +15,7 @@ struct CableCourse {
   double length = 0.0;        ///< CableReport::total_length at the end [m]
   /// How much longer than allowed all its spans together are at the end, if it is rigid [m].
   double excess = 0.0;
+  double excess_at_half = 0.0;  ///< the same after half of the run [m]
   /// The farthest that a body which it is on has moved from where it was at first, or that a wheel's rim has turned [m].
   double way = 0.0;
 };
@@ -42,6 +43,7 @@ class RunMonitor {
   [[nodiscard]] double way_of(const World& world, const LinkReport& link) const;
 
   std::int64_t stride_;        // steps between looks at the cables
+  std::int64_t half_;          // of the steps
   std::int64_t observed_ = 0;  // calls of observe()
   Energy initial_;
   Energy final_;

@@ -36,25 +36,23 @@ void append_cable_warnings(const CableSystem& cables, std::vector<Warning>& warn
   }
 }
 
-/// A rigid cable that is longer than it can be by much of the way that things have moved did not hold them: the solver has
-/// not converged, and accelerations and tensions are wrong by about that share. What is left of a first sag counts for less
-/// the farther things move, and in a cable of the size of a machine a millionth is nothing.
+/// A rigid cable that grows longer by much of the way that things move does not hold them: the solver has not converged, and
+/// accelerations and tensions are wrong by about that share. A sag that stays what it was is none: there the forces are
+/// right. Growth by less than 1e-7 of the cable is of no interest.
 void append_stretch_warnings(const Simulation& simulation, const RunMonitor& monitor,
                              std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.05;
-  constexpr double negligible = 1e-6;
+  constexpr double negligible = 1e-7;
   const std::vector<CableReport> reports = simulation.cable_reports();
   for (std::size_t i = 0; i < monitor.cables().size(); ++i) {
     const CableCourse& course = monitor.cables()[i];
-    const bool small =
-        course.excess <= std::max(share_limit * course.way, negligible * course.length);
-    if (small) continue;
+    const double growth = course.excess - course.excess_at_half;
+    if (growth <= std::max(share_limit * course.way, negligible * course.length)) continue;
     std::string name(reports[i].name);
     std::string message = fmt::format(
-        "cable {} is {:.3g} m longer at the end than it can be, and nothing on it has moved by "
-        "more "
-        "than {:.3g} m: the solver did not converge, and motion and tensions are wrong by about "
-        "that share; more iterations or the direct solver avoid that",
+        "cable {} grew longer than it can be, by {:.3g} m at the end, while nothing on it moved by "
+        "more than {:.3g} m: the solver did not converge, and motion and tensions are wrong by "
+        "about that share; more iterations or the direct solver avoid that",
         name, course.excess, course.way);
     warnings.push_back({"stretched", std::move(name), std::move(message)});
   }
