@@ -14,7 +14,7 @@ namespace sheave {
 
 /// One cable over a row of wheels on fixed axles, with a weight at each end.
 struct WheelTrainOptions {
-  int wheels = 16;          ///< 1 ... 10 000
+  int wheels = 16;          ///< 1 ... 100 000
   double radius = 0.5;      ///< of each wheel [m], > 0
   double wheel_mass = 1.0;  ///< of each, a solid disc [kg], > 0
   double first_mass = 1.0;  ///< weight before the first wheel [kg], > 0

@@ -29,5 +29,6 @@ Action declare_reference(CLI::App& app);
 Action declare_generate(CLI::App& app);
 Action declare_bench(CLI::App& app);
 Action declare_trade(CLI::App& app);
+Action declare_stress(CLI::App& app);
 
 }  // namespace sheave::tools

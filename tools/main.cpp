@@ -16,11 +16,12 @@
 namespace sheave::tools {
 namespace {
 
-constexpr std::array<Command, 8> commands{{
+constexpr std::array<Command, 9> commands{{
     {"run", "Simulate a scene; write tables, print a summary", declare_run},
     {"render", "Simulate a scene; write a video or pictures", declare_render},
     {"bench", "Measure the paper's scenes: time per frame, with the error", declare_bench},
     {"trade", "Measure speed against accuracy of a scene; choose a setting", declare_trade},
+    {"stress", "Map where extreme numbers break machines, or a scene", declare_stress},
     {"validate", "Check scenes without running them", declare_validate},
     {"generate", "Write a scene of a given kind and size", declare_generate},
     {"schema", "Print the JSON Schema of scenes", declare_schema},

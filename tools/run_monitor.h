@@ -12,6 +12,12 @@ namespace sheave::tools {
 struct CableCourse {
   double length_error = 0.0;  ///< relative error of the length invariant, the largest in size
   double max_stretch = 0.0;   ///< the largest CableReport::max_stretch
+  double length = 0.0;        ///< CableReport::total_length at the end [m]
+  /// How much longer than allowed all its spans together are at the end, if it is rigid [m].
+  double excess = 0.0;
+  double excess_at_half = 0.0;  ///< the same after half of the run [m]
+  /// The farthest that a body which it is on has moved from where it was at first, or that a wheel's rim has turned [m].
+  double way = 0.0;
 };
 
 /// Follows a simulation: energy in every step; cables, whose reports cost as much as a solver
@@ -34,13 +40,16 @@ class RunMonitor {
 
  private:
   void observe_cables(const Simulation& simulation);
+  [[nodiscard]] double way_of(const World& world, const LinkReport& link) const;
 
   std::int64_t stride_;        // steps between looks at the cables
+  std::int64_t half_;          // of the steps
   std::int64_t observed_ = 0;  // calls of observe()
   Energy initial_;
   Energy final_;
   double max_drift_ = 0.0;
   std::vector<CableCourse> cables_;
+  std::vector<BodyState> start_;  // what observe() saw first
 };
 
 }  // namespace sheave::tools

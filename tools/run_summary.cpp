@@ -36,12 +36,37 @@ void append_cable_warnings(const CableSystem& cables, std::vector<Warning>& warn
   }
 }
 
+/// A rigid cable that grows longer by much of the way that things move does not hold them: the solver has not converged, and
+/// accelerations and tensions are wrong by about that share. A sag that stays what it was is none: there the forces are
+/// right. Growth by less than 1e-7 of the cable is of no interest.
+void append_stretch_warnings(const Simulation& simulation, const RunMonitor& monitor,
+                             std::vector<Warning>& warnings) {
+  constexpr double share_limit = 0.05;
+  constexpr double negligible = 1e-7;
+  const std::vector<CableReport> reports = simulation.cable_reports();
+  for (std::size_t i = 0; i < monitor.cables().size(); ++i) {
+    const CableCourse& course = monitor.cables()[i];
+    const double growth = course.excess - course.excess_at_half;
+    if (growth <= std::max(share_limit * course.way, negligible * course.length)) continue;
+    std::string name(reports[i].name);
+    std::string message = fmt::format(
+        "cable {} grew longer than it can be, by {:.3g} m at the end, while nothing on it moved by "
+        "more than {:.3g} m: the solver did not converge, and motion and tensions are wrong by "
+        "about that share; more iterations or the direct solver avoid that",
+        name, course.excess, course.way);
+    warnings.push_back({"stretched", std::move(name), std::move(message)});
+  }
+}
+
 }  // namespace
 
-std::vector<Warning> collect_warnings(const Simulation& simulation,
-                                      const RunStatistics& statistics) {
+std::vector<Warning> collect_warnings(const Simulation& simulation, const RunStatistics& statistics,
+                                      const RunMonitor& monitor) {
   std::vector<Warning> warnings;
-  if (simulation.cables != nullptr) append_cable_warnings(*simulation.cables, warnings);
+  if (simulation.cables != nullptr) {
+    append_cable_warnings(*simulation.cables, warnings);
+    append_stretch_warnings(simulation, monitor, warnings);
+  }
   if (statistics.solver_fallbacks > 0) {
     std::string message = fmt::format(
         "the direct solver did not find which rows act in {} {} and left {} to Gauss-Seidel "

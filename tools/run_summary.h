@@ -50,10 +50,11 @@ struct RunSummary {
   [[nodiscard]] bool checks_passed() const;
 };
 
-/// Warnings about the course of a run: spans that had no tangent, wraps that found no place, substeps that the direct
-/// solver left to the other one.
+/// Warnings about the course of a run: spans that had no tangent, wraps that found no place, rigid cables that are longer
+/// than they can be, substeps that the direct solver left to the other one.
 [[nodiscard]] std::vector<Warning> collect_warnings(const Simulation& simulation,
-                                                    const RunStatistics& statistics);
+                                                    const RunStatistics& statistics,
+                                                    const RunMonitor& monitor);
 
 /// One JSON object in one line, keys as in the documentation. Numbers that are not finite or not
 /// known are null.

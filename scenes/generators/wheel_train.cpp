@@ -38,7 +38,7 @@ int sufficient_iterations(const WheelTrainOptions& options) {
 std::span<const Field> WheelTrainOptions::field_table() {
   using Options = WheelTrainOptions;
   static const std::array table{
-      field<&Options::wheels>("wheels", "", between(1, 10000), optional, "number of wheels"),
+      field<&Options::wheels>("wheels", "", between(1, 100000), optional, "number of wheels"),
       field<&Options::radius>("radius", "m", above(0.0), optional, "of each wheel"),
       field<&Options::wheel_mass>("wheel_mass", "kg", above(0.0), optional,
                                   "of each wheel, a solid disc"),

@@ -203,7 +203,7 @@ TEST(generators, explain_what_is_wrong) {
   EXPECT_THAT(to_string(generate_scene("wheel-train", {{"wheel", "3"}}).errors.at(0)),
               HasSubstr("/wheel: unknown key in a wheel-train, did you mean \"wheels\"?"));
   EXPECT_THAT(to_string(generate_scene("wheel-train", {{"wheels", "2.5"}}).errors.at(0)),
-              HasSubstr("/wheels: value 2.5: must be an integer 1 ... 10000"));
+              HasSubstr("/wheels: value 2.5: must be an integer 1 ... 100000"));
   EXPECT_THAT(to_string(generate_scene("block-and-tackle", {{"parts", "65"}}).errors.at(0)),
               HasSubstr("/parts: value 65: must be 2 ... 64"));
   EXPECT_EQ(generate_scene("block-and-tackle", {{"parts", "1"}, {"load", "x"}}).errors.size(), 2U);

@@ -250,6 +250,25 @@ TEST(RunCommand, ASpanWithoutTangentIsAWarningWithItsName) {
   EXPECT_THAT(result.err, HasSubstr("rope.1"));
 }
 
+TEST(RunCommand, ARigidCableThatDidNotHoldIsAWarning) {
+  // Wheels of a billionth of the weights' mass swallow what a sweep corrects: the weights fall freely, 4.9 m in a second,
+  // on a cable of which they hang 16 wheels apart.
+  const TemporaryFolder folder;
+  const std::string scene = folder.path("train.json");
+  ASSERT_EQ(run_sheave({"generate", "wheel-train", "--wheel-mass", "1e-9", "--iterations", "10",
+                        "--out", scene})
+                .exit_code,
+            0);
+  const json rough = run_json({scene});
+  ASSERT_EQ(rough["warnings"].size(), 1U);
+  EXPECT_EQ(rough["warnings"][0]["kind"], "stretched");
+  EXPECT_EQ(rough["warnings"][0]["subject"], "cable");
+  EXPECT_TRUE(run_json({scene, "--solver", "direct"})["warnings"].empty());
+  // A cable that may stretch is not meant.
+  const json elastic = run_json({scene, "--set", "/cables/0/compliance=0.1"});
+  EXPECT_TRUE(elastic["warnings"].empty());
+}
+
 TEST(RunCommand, TheTextShowsWrapsAndTheFirstEvents) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("wrap.json", wrap_scene);

@@ -1,0 +1,13 @@
+#pragma once
+// How far a scene is from one that it must be similar to (scenes/scaling.h).
+
+#include "scenes/scene.h"
+
+namespace sheave::measure {
+
+/// The larger of the errors of positions and tensions (measure/run_error.h) of `scene` against `original`, in the original's
+/// units. Infinite if either diverges; an error if one does not build.
+[[nodiscard]] Result<double> similarity_error(const Scene& scene, const Scene& original,
+                                              double length_factor, double mass_factor);
+
+}  // namespace sheave::measure

@@ -1,0 +1,146 @@
+#include "measure/stress_judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scenes/format.h"
+
+namespace sheave::measure {
+namespace {
+
+constexpr double length_error_limit = 1e-9;
+constexpr double energy_gain_limit = 0.1;  // of the largest kinetic energy
+/// Of positions relative to the scene's size, and of potential energy: some thousand roundings.
+constexpr double rounding = 1e-12;
+constexpr double slack_limit = 1e-6;      // of the tension that there should be
+constexpr double tolerance_share = 1e-3;  // what a tolerance of a generated check is of its size
+
+/// Whether there is a field with such a name that is not zero, or not the first of its choices.
+bool is_set(std::span<const Field> fields, const void* settings, std::string_view suffix) {
+  for (const Field& field : fields) {
+    if (!field.name.ends_with(suffix)) continue;
+    const FieldSlot slot = slot_of(field, settings);
+    if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) {
+      if (choice->get(choice->object) != 0) return true;
+    } else if (const auto* number = std::get_if<double*>(&slot)) {
+      if (**number != 0.0) return true;
+    }
+  }
+  return false;
+}
+
+bool is_driven(const BodyDef& body) {
+  return body.mobility == Mobility::kinematic || body.drive != DriveKind::none ||
+         body.torque != Vector3::Zero();
+}
+
+bool is_driven(const JointDef& joint) {
+  const auto types = joint_types();
+  const auto type = std::find_if(types.begin(), types.end(),
+                                 [&](const auto& entry) { return entry.name == joint.type(); });
+  return type != types.end() && is_set(type->fields(), joint.settings(), "drive");
+}
+
+bool is_fed(const CableDef& cable) {
+  return std::any_of(cable.links.begin(), cable.links.end(), [](const auto& link) {
+    const auto types = link_types();
+    const auto type = std::find_if(types.begin(), types.end(),
+                                   [&](const auto& entry) { return entry.name == link->type(); });
+    return type != types.end() && is_set(type->fields(), link->settings(), "feed_speed");
+  });
+}
+
+double moving_mass(const BodyProperties& body) {
+  const bool moves = body.mobility != Mobility::fixed && body.mobility != Mobility::kinematic;
+  return moves ? body.mass : 0.0;
+}
+
+bool wants_pull(const CheckDef& check) {
+  return check.quantity.ends_with(".tension") && check.statistic == Statistic::mean &&
+         check.equals > check.allowed_error();
+}
+
+/// By how much more than its length a rigid cable is stretched, relative to it; 0 for elastic ones.
+double stretch_of(const CableReport& cable) {
+  if (!(cable.max_stretch > 0.0) || cable.cut) return 0.0;
+  double excess = 0.0;
+  for (const SpanReport& span : cable.spans) {
+    excess += std::max(0.0, span.length - span.rest_length);
+  }
+  return excess / cable.total_length;
+}
+
+}  // namespace
+
+bool is_conservative(const Scene& scene) {
+  return std::none_of(scene.model.bodies.begin(), scene.model.bodies.end(),
+                      [](const BodyDef& body) { return is_driven(body); }) &&
+         std::none_of(scene.model.joints.begin(), scene.model.joints.end(),
+                      [](const auto& joint) { return is_driven(*joint); }) &&
+         std::none_of(scene.cables.begin(), scene.cables.end(),
+                      [](const CableDef& cable) { return is_fed(cable); });
+}
+
+StressJudge::StressJudge(const Scene& scene, const Simulation& simulation)
+    : checks_(scene, simulation),
+      checked_(!scene.checks.empty()),
+      conservative_(is_conservative(scene)) {
+  const BodySet& bodies = simulation.world.bodies();
+  double mass = 0.0;
+  for (int i = 0; i < bodies.count(); ++i) mass += moving_mass(bodies[i]);
+  const StepSettings& step = scene.model.step;
+  const double slowest = rounding * bodies.scale() * step.substeps / step.dt;
+  rounding_energy_ = mass * slowest * slowest;
+}
+
+void StressJudge::observe(const Simulation& simulation) {
+  checks_.record(simulation);
+  const Energy energy = simulation.world.energy();
+  if (!first_energy_) first_energy_ = energy.total();
+  last_energy_ = energy.total();
+  most_potential_ = std::max(most_potential_, std::abs(energy.potential) + energy.elastic);
+  most_kinetic_ = std::max(most_kinetic_, energy.kinetic);
+}
+
+StressVerdict StressJudge::verdict(const Simulation& simulation,
+                                   const std::optional<Divergence>& divergence) const {
+  if (divergence) {
+    return {StressKind::diverged, std::numeric_limits<double>::infinity(), divergence->message};
+  }
+  StressVerdict verdict;
+  bool slack = false;
+  for (const CheckResult& result : checks_.results()) {
+    const double error = tolerance_share * std::abs(result.error) / result.tolerance;
+    if (wants_pull(result.check) && result.measured < slack_limit * result.check.equals) {
+      slack = true;
+    }
+    // Written so that NaN counts as large.
+    if (!(error <= verdict.error)) {
+      verdict.error = std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
+      verdict.detail = result.message;
+    }
+  }
+  for (const CableReport& cable : simulation.cable_reports()) {
+    if (!checked_ && stretch_of(cable) > verdict.error) {
+      verdict.error = stretch_of(cable);
+      verdict.detail = std::string(cable.name) + ": is longer than it can be";
+    }
+    if (std::abs(cable.length_error) <= length_error_limit) continue;
+    verdict.kind = StressKind::lost_length;
+    verdict.detail = std::string(cable.name) + ": its length no longer adds up";
+    return verdict;
+  }
+  if (slack) {
+    verdict.kind = StressKind::false_slack;
+  } else if (conservative_ && first_energy_ &&
+             last_energy_ - *first_energy_ > energy_gain_limit * most_kinetic_ +
+                                                 rounding * most_potential_ + rounding_energy_) {
+    verdict.kind = StressKind::energy_gain;
+  } else if (verdict.error > stress_error_limit) {
+    verdict.kind = StressKind::wrong;
+  }
+  return verdict;
+}
+
+}  // namespace sheave::measure

@@ -1,0 +1,41 @@
+#pragma once
+// Stability maps: one machine over two numbers that go to their extremes.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "measure/stress_cell.h"
+
+namespace sheave::measure {
+
+struct StressAxis {
+  std::string name;  ///< with its unit
+  std::vector<double> values;
+};
+
+struct StressMap {
+  std::string name;     ///< by which it is chosen: letters and hyphens
+  std::string meaning;  ///< one sentence: the machine, and its closed form
+  StressAxis x, y;
+  std::vector<StressCell> cells;  ///< row by row: x changes fastest
+
+  /// A map whose cells `make` makes of their coordinates.
+  [[nodiscard]] static StressMap over(
+      std::string name, std::string meaning, StressAxis x, StressAxis y,
+      const std::function<StressCell(double across, double down)>& make);
+};
+
+struct StressRange {
+  /// Fewer values per axis and shorter runs: for a first look, and for tests.
+  bool quick = false;
+};
+
+/// Machines with closed forms: measure/stress_machines.cpp derives them.
+[[nodiscard]] std::vector<StressMap> standard_stress_maps(const StressRange& range);
+
+/// Maps of any scene file: measure/stress_scene.cpp tells how they are judged. Errors are those of reading the file.
+[[nodiscard]] Result<std::vector<StressMap>> scene_stress_maps(const std::string& path,
+                                                               const StressRange& range);
+
+}  // namespace sheave::measure

@@ -1,0 +1,136 @@
+// Stability maps of any scene, which has no closed form for what these maps do to it.
+//
+// gravity     gravity times a factor, also none and reversed: judged by what is wrong in any machine (diverged, energy gain,
+//             lost length), and by how much longer than allowed its rigid cables are.
+// mass,       all masses or all lengths times a factor, with everything that goes with them: such a run is similar to the
+// length      original (scenes/scaling.h), so its error is known.
+// random      every mass, force, stiffness and damping times a random factor of its own, up to so many decades either way;
+//             each row is another draw. Judged like gravity.
+//
+// The runs are short: what fails does so early, or grows.
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include "measure/stress_map.h"
+#include "scenes/scaling.h"
+
+namespace sheave::measure {
+namespace {
+
+/// Makes the cells of one scene.
+class SceneMaps {
+ public:
+  SceneMaps(std::string path, const Scene& scene, std::vector<ScalableSetting> settings,
+            const StressRange& range)
+      : path_(std::move(path)),
+        gravity_(scene.model.gravity),
+        duration_(scene.duration),
+        settings_(std::move(settings)),
+        quick_(range.quick) {}
+
+  [[nodiscard]] StressMap gravity() const {
+    StressAxis factors{"gravity / that of the scene",
+                       quick_ ? std::vector{0.0, -1.0, 100.0}
+                              : std::vector{0.0, -1.0, 1e-3, 0.1, 1.0, 10.0, 100.0, 1e3, 1e6}};
+    return StressMap::over("gravity", "Gravity times a factor.", std::move(factors), steps(),
+                           [&](double factor, double dt) {
+                             StressCell cell = shortened(dt);
+                             const Vector3 scaled_gravity = factor * gravity_;
+                             cell.replace("/gravity", "[" + stress_number(scaled_gravity.x()) +
+                                                          ", " + stress_number(scaled_gravity.y()) +
+                                                          ", " + stress_number(scaled_gravity.z()) +
+                                                          "]");
+                             return cell;
+                           });
+  }
+  [[nodiscard]] StressMap mass() const {
+    return StressMap::over("mass", "All masses times a factor, and all forces with them.",
+                           {"mass factor", factors()}, steps(),
+                           [&](double factor, double dt) { return similar(dt, 1.0, factor); });
+  }
+  [[nodiscard]] StressMap length() const {
+    return StressMap::over("length",
+                           "All lengths times a factor, and gravity and forces with them.",
+                           {"length factor", factors()}, steps(),
+                           [&](double factor, double dt) { return similar(dt, factor, 1.0); });
+  }
+  [[nodiscard]] StressMap random() const {
+    const int draws = quick_ ? 2 : 10;
+    StressAxis seeds{"seed", {}};
+    for (int i = 1; i <= draws; ++i) seeds.values.push_back(i);
+    StressAxis decades{
+        "decades", quick_ ? std::vector{1.0, 6.0} : std::vector{0.1, 0.5, 1.0, 2.0, 3.0, 6.0, 9.0}};
+    return StressMap::over(
+        "random", "Masses, forces, stiffnesses and damping times random factors.",
+        std::move(decades), std::move(seeds), [&](double most, double seed) {
+          StressCell cell = shortened(1.0 / 60.0);
+          std::mt19937_64 generator(static_cast<std::uint64_t>(seed));
+          for (const ScalableSetting& setting : settings_) {
+            if (setting.powers.mass == 0) continue;
+            // The standard's distributions differ from library to library.
+            const double share = static_cast<double>(generator() >> 11U) / 0x1p53;
+            cell.overrides.push_back(scaled(setting, std::pow(10.0, most * (2.0 * share - 1.0))));
+          }
+          return cell;
+        });
+  }
+
+ private:
+  [[nodiscard]] StressAxis steps() const {
+    if (quick_) return {"step [s]", {1.0 / 60.0, 0.1}};
+    return {"step [s]", {1e-4, 1e-3, 1e-2, 1.0 / 60.0, 1.0 / 30.0, 0.1}};
+  }
+  [[nodiscard]] std::vector<double> factors() const {
+    if (quick_) return {1e-6, 1e6};
+    return {1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6};
+  }
+
+  /// The scene with this step, for 10 to 200 steps, without its checks.
+  [[nodiscard]] StressCell shortened(double dt) const {
+    StressCell cell;
+    cell.path = path_;
+    const double steps = std::clamp(std::round(duration_ / dt), 10.0, quick_ ? 30.0 : 200.0);
+    cell.replace("/step/dt", stress_number(dt));
+    cell.replace("/duration", stress_number(steps * dt));
+    cell.replace("/checks", "[]");
+    return cell;
+  }
+  [[nodiscard]] StressCell similar(double dt, double length_factor, double mass_factor) const {
+    StressCell cell = shortened(dt);
+    cell.similar_to = cell.overrides;
+    cell.length_factor = length_factor;
+    cell.mass_factor = mass_factor;
+    for (Override& change : similar_scene(settings_, length_factor, mass_factor)) {
+      cell.overrides.push_back(std::move(change));
+    }
+    return cell;
+  }
+  std::string path_;
+  Vector3 gravity_;
+  double duration_;
+  std::vector<ScalableSetting> settings_;
+  bool quick_;
+};
+
+}  // namespace
+
+Result<std::vector<StressMap>> scene_stress_maps(const std::string& path,
+                                                 const StressRange& range) {
+  const SceneResult scene = load_scene(path);
+  if (!scene) {
+    Errors errors;
+    for (const SceneError& error : scene.errors) errors.push_back({"", to_string(error)});
+    return errors;
+  }
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) return Error{path, "cannot be read"};
+  const SceneMaps maps(path, *scene, scalable_settings(text), range);
+  return std::vector<StressMap>{maps.gravity(), maps.mass(), maps.length(), maps.random()};
+}
+
+}  // namespace sheave::measure

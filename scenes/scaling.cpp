@@ -1,0 +1,152 @@
+#include "scenes/scaling.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "scenes/format.h"
+
+namespace sheave {
+namespace {
+
+using SettingJson = nlohmann::ordered_json;
+
+/// Splits at any of the characters; no empty parts.
+std::vector<std::string_view> parts_of(std::string_view text, std::string_view separators) {
+  std::vector<std::string_view> parts;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(separators), text.size());
+    if (end > 0) parts.push_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return parts;
+}
+
+/// Of one factor of a unit: "m", "m2", "N".
+std::optional<UnitPowers> factor_powers(std::string_view factor) {
+  int power = 1;
+  if (!factor.empty() && factor.back() >= '2' && factor.back() <= '9') {
+    power = factor.back() - '0';
+    factor.remove_suffix(1);
+  }
+  if (factor == "m") return UnitPowers{power, 0};
+  if (factor == "kg") return UnitPowers{0, power};
+  if (factor == "N") return UnitPowers{power, power};
+  if (factor == "s" || factor == "rad" || factor == "Hz" || factor == "1") return UnitPowers{};
+  return std::nullopt;
+}
+
+/// The unit of a field whose table lists several, "rad/s, rad or N m": one for each choice of the drive beside it but the
+/// first, "none".
+std::string_view unit_of(const Field& field, const std::vector<const Field*>& fields,
+                         const SettingJson& object) {
+  const std::size_t comma = field.unit.find(", ");
+  const std::size_t either = field.unit.find(" or ");
+  if (comma == std::string_view::npos || either == std::string_view::npos) return field.unit;
+  const std::array<std::string_view, 3> units{field.unit.substr(0, comma),
+                                              field.unit.substr(comma + 2, either - comma - 2),
+                                              field.unit.substr(either + 4)};
+  const std::string_view drive = field.name.substr(0, field.name.find("drive") + 5);
+  for (const Field* other : fields) {
+    if (other->name != drive || !object.contains(drive)) continue;
+    for (std::size_t i = 1; i < other->choices.size() && i <= units.size(); ++i) {
+      if (object[std::string(drive)] == other->choices[i]) return units[i - 1];
+    }
+  }
+  return "";
+}
+
+class Walk {
+ public:
+  void object(const SettingJson& object, const ObjectFormat& format, const std::string& pointer) {
+    std::vector<const Field*> fields;
+    for (const TableFormat& table : format.tables) append(table, fields);
+    if (object.contains("type")) {
+      if (const Variant* variant = format.variant(object["type"].get<std::string>())) {
+        append(variant->table, fields);
+      }
+    }
+    for (const auto& [key, value] : object.items()) {
+      const std::string place = pointer + "/" + key;
+      if (const Member* member = format.member(key)) {
+        follow(value, *member, place);
+        continue;
+      }
+      for (const Field* field : fields) {
+        if (field->name == key) setting(value, unit_of(*field, fields, object), place);
+      }
+    }
+  }
+  std::vector<ScalableSetting> found;
+
+ private:
+  static void append(const TableFormat& table, std::vector<const Field*>& fields) {
+    for (const Field& field : table.fields) fields.push_back(&field);
+  }
+  void follow(const SettingJson& value, const Member& member, const std::string& place) {
+    if (member.name == "camera" || member.name == "paint" || member.name == "checks") return;
+    if (!value.is_array()) return object(value, *member.format, place);
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      object(value[i], *member.format, place + "/" + std::to_string(i));
+    }
+  }
+  void setting(const SettingJson& value, std::string_view unit, const std::string& place) {
+    const std::optional<UnitPowers> powers = unit_powers(unit);
+    if (!powers || *powers == UnitPowers{}) return;
+    found.push_back({place, value.dump(), *powers});
+  }
+};
+
+void multiply(SettingJson& value, double factor) {
+  if (value.is_number()) {
+    value = value.get<double>() * factor;
+  } else if (value.is_array()) {
+    for (SettingJson& element : value) multiply(element, factor);
+  }
+}
+
+}  // namespace
+
+std::optional<UnitPowers> unit_powers(std::string_view unit) {
+  UnitPowers sum;
+  const std::size_t slash = std::min(unit.find('/'), unit.size());
+  for (const int sign : {1, -1}) {
+    const std::string_view side =
+        sign > 0 ? unit.substr(0, slash) : unit.substr(std::min(slash + 1, unit.size()));
+    for (const std::string_view factor : parts_of(side, " ()")) {
+      const std::optional<UnitPowers> powers = factor_powers(factor);
+      if (!powers) return std::nullopt;
+      sum.length += sign * powers->length;
+      sum.mass += sign * powers->mass;
+    }
+  }
+  return sum;
+}
+
+std::vector<ScalableSetting> scalable_settings(std::string_view text) {
+  const SettingJson scene = SettingJson::parse(text, nullptr, false, true);
+  Walk walk;
+  if (scene.is_object()) walk.object(scene, scene_format(), "");
+  return std::move(walk.found);
+}
+
+Override scaled(const ScalableSetting& setting, double factor) {
+  SettingJson value = SettingJson::parse(setting.value);
+  multiply(value, factor);
+  return {setting.pointer, value.dump(), "--set " + setting.pointer};
+}
+
+std::vector<Override> similar_scene(const std::vector<ScalableSetting>& settings,
+                                    double length_factor, double mass_factor) {
+  std::vector<Override> overrides;
+  for (const ScalableSetting& setting : settings) {
+    const double factor =
+        std::pow(length_factor, setting.powers.length) * std::pow(mass_factor, setting.powers.mass);
+    overrides.push_back(scaled(setting, factor));
+  }
+  return overrides;
+}
+
+}  // namespace sheave

@@ -1,0 +1,123 @@
+// sheave stress: maps for people, as text and as Markdown.
+
+#include <cmath>
+
+#include <sheave_version.h>
+
+#include <fmt/format.h>
+
+#include "tools/stress_table.h"
+#include "tools/text_table.h"
+
+namespace sheave::tools {
+namespace {
+
+using measure::StressKind;
+
+constexpr std::size_t commands_shown = 1;  // of each map and setting
+
+std::string count_text(int count) { return count == 0 ? "-" : fmt::format("{}", count); }
+
+/// "1e-5", "wrong 3e+01", "diverged", with "!" behind what nobody is warned of.
+std::string cell_text(const StressOutcome& outcome) {
+  const measure::StressVerdict& verdict = outcome.verdict;
+  std::string text;
+  if (verdict.kind == StressKind::right) {
+    text = fmt::format("{:.0e}", verdict.error);
+  } else if (verdict.kind == StressKind::wrong) {
+    text = fmt::format("**{:.0e}**", verdict.error);
+  } else {
+    text =
+        fmt::format("**{}**", measure::stress_kind_names[static_cast<std::size_t>(verdict.kind)]);
+  }
+  return text + (outcome.silent() ? " !" : "");
+}
+
+const std::vector<std::string> stress_head{"map",         "setting",     "cells",   "worst error",
+                                           "wrong",       "diverged",    "refused", "energy gain",
+                                           "false slack", "lost length", "silent"};
+
+std::vector<std::string> summary_cells(const StressResult& result) {
+  return {result.map.name,
+          result.settings.name(),
+          fmt::format("{}", result.outcomes.size()),
+          fmt::format("{:.1e}", result.worst_error()),
+          count_text(result.count(StressKind::wrong)),
+          count_text(result.count(StressKind::diverged)),
+          count_text(result.count(StressKind::refused)),
+          count_text(result.count(StressKind::energy_gain)),
+          count_text(result.count(StressKind::false_slack)),
+          count_text(result.count(StressKind::lost_length)),
+          count_text(result.silent())};
+}
+
+/// What failed worst, and how to run it again.
+std::string worst_text(const StressResult& result, std::string_view bullet) {
+  std::string text;
+  for (const std::size_t i : result.worst(commands_shown)) {
+    const measure::StressCell& cell = result.map.cells[i];
+    const StressOutcome& outcome = result.outcomes[i];
+    text +=
+        fmt::format("{}{}, {}: {} {:.3g}, {} {:.3g}: {}{}; {}\n    {}\n", bullet, result.map.name,
+                    result.settings.name(), result.map.x.name, cell.x, result.map.y.name, cell.y,
+                    measure::stress_kind_names[static_cast<std::size_t>(outcome.verdict.kind)],
+                    outcome.silent() ? ", without a warning" : "", outcome.verdict.detail,
+                    cell.command(result.settings.solver, result.settings.integrator));
+  }
+  return text;
+}
+
+std::string table_row(const std::vector<std::string>& cells) {
+  std::string line = "|";
+  for (const std::string& cell : cells) line += " " + cell + " |";
+  return line + "\n";
+}
+
+std::string map_table(const StressResult& result) {
+  const measure::StressMap& map = result.map;
+  std::vector<std::string> head{map.y.name + " \\ " + map.x.name};
+  for (const double x : map.x.values) head.push_back(fmt::format("{:.2g}", x));
+  std::string text = table_row(head) + table_row(std::vector<std::string>(head.size(), "---"));
+  std::size_t i = 0;
+  for (const double y : map.y.values) {
+    std::vector<std::string> row{fmt::format("{:.2g}", y)};
+    for (std::size_t k = 0; k < map.x.values.size(); ++k) {
+      row.push_back(cell_text(result.outcomes[i++]));
+    }
+    text += table_row(row);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string stress_text(const std::vector<StressResult>& results) {
+  TextTable table(stress_head, 2);
+  std::string worst;
+  for (const StressResult& result : results) {
+    table.add(summary_cells(result));
+    worst += worst_text(result, "  ");
+  }
+  return table.text() + (worst.empty() ? "" : "\nThe worst cells:\n" + worst);
+}
+
+std::string stress_markdown(const std::vector<StressResult>& results) {
+  std::string text = "# Stability at the extremes\n\n";
+  text += fmt::format(
+      "Made by `sheave stress --markdown`, sheave {}. Errors are relative to closed forms, the "
+      "largest of each run; above {:g}\nthey are bold. `!`: a failure of which `sheave run` does "
+      "not warn.\n\n",
+      version_string, measure::stress_error_limit);
+  text += table_row(stress_head) + table_row(std::vector<std::string>(stress_head.size(), "---"));
+  for (const StressResult& result : results) text += table_row(summary_cells(result));
+  for (const StressResult& result : results) {
+    text += fmt::format("\n## {}, {}\n\n{}\n\n", result.map.name, result.settings.name(),
+                        result.map.meaning);
+    text += map_table(result);
+    const std::string worst = worst_text(result, "");
+    if (!worst.empty()) text += "\n```\n" + worst + "```\n";
+  }
+  return text;
+}
+
+}  // namespace sheave::tools
