@@ -70,8 +70,11 @@ double CableSystem::friction_exponent(const Substep& substep, int link,
 double CableSystem::sweep_runs(Substep& substep, int cable_index) {
   const CompiledCable& cable = cables_[at(cable_index)];
   double correction = 0.0;
-  for_each_run(cable,
-               [&](Run run) { correction = std::max(correction, solve_run(substep, cable, run)); });
+  for_each_run(cable, [&](Run run) {
+    const double corrected =
+        run.count == 1 ? solve_span(substep, run.first) : solve_run(substep, cable, run);
+    correction = std::max(correction, corrected);
+  });
   const int sweeps = ++sweeps_[at(cable_index)];
   if (cable.has_friction && sweeps < substep.iterations) update_slip(substep, cable);
   return correction;

@@ -75,17 +75,22 @@ double CableSystem::sweep(Substep& substep) {
   return correction;
 }
 
+double CableSystem::solve_span(Substep& substep, int span) {
+  Row& row = row_;
+  row.clear();
+  const SpanGeometry geometry = evaluate(substep, span, row);
+  if (spans_[at(span)].kind == SpanKind::spatial) {
+    references_[at(span)].ends = {geometry.start, geometry.end};
+  }
+  double& multiplier = multipliers_[at(span)];
+  if (row.value >= 0.0 && multiplier == 0.0) return 0.0;  // slack
+  return solve_row(row, substep.h, multiplier, substep.moving);
+}
+
 double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
   double correction = 0.0;
-  Row row;
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
-    if (!spans_[at(k)].active) continue;
-    row.clear();
-    const SpanGeometry span = evaluate(substep, k, row);
-    if (spans_[at(k)].kind == SpanKind::spatial) references_[at(k)].ends = {span.start, span.end};
-    double& multiplier = multipliers_[at(k)];
-    if (row.value >= 0.0 && multiplier == 0.0) continue;  // slack
-    correction = std::max(correction, solve_row(row, substep.h, multiplier, substep.moving));
+    if (spans_[at(k)].active) correction = std::max(correction, solve_span(substep, k));
   }
   return correction;
 }

@@ -173,6 +173,8 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] double friction_exponent(const Substep& substep, int link,
                                          const SpanGeometry& incoming,
                                          const SpanGeometry& outgoing) const;
+  /// One step of XPBD for one span; returns what solve_row() does.
+  double solve_span(Substep& substep, int span);
   double sweep_spans(Substep& substep, const CompiledCable& cable);
   double sweep_runs(Substep& substep, int cable_index);
   void linearise_run(Substep& substep, const CompiledCable& cable, Run run,
@@ -294,6 +296,7 @@ class CableSystem final : public ConstraintBatch {
   std::vector<int> sweeps_;             ///< per cable, in this substep
   std::vector<int> flips_;              ///< per link: how often that has changed in this substep
   std::vector<double> stored_lengths_;  ///< per link, at the start of the substep [m]
+  Row row_;  ///< scratch of solve_span()
   // Scratch of solve_run().
   std::vector<Row> run_rows_;
   std::vector<SpanGeometry> run_spans_;

@@ -7,7 +7,8 @@
 namespace sheave {
 
 /// Centre of the link's circle now; bodies that hold it at their centre of mass need no rotation.
-inline Vector3 center_of(const Substep& substep, const LinkGeometry& link, int corner) {
+[[gnu::always_inline]] inline Vector3 center_of(const Substep& substep, const LinkGeometry& link,
+                                                int corner) {
   if (link.outline) return substep.point(link.carrier, link.outline->corners[at(corner)]);
   if (link.still) return link.center;
   const bool on_mounted_rotor = link.mounted && link.carrier == link.body;
@@ -17,8 +18,22 @@ inline Vector3 center_of(const Substep& substep, const LinkGeometry& link, int c
 
 /// Whether both ends of a span move with one rigid body, so that nothing changes its length. What rounding leaves of its
 /// gradient would have to pull with 1e16 times its error.
-inline bool on_one_body(const LinkGeometry& first, const LinkGeometry& second) {
+[[gnu::always_inline]] inline bool on_one_body(const LinkGeometry& first,
+                                               const LinkGeometry& second) {
   return first.body == second.body && first.carrier == first.body && second.carrier == second.body;
+}
+
+/// Adds a unit force along `direction` at the world point `point` of the link's body.
+[[gnu::always_inline]] inline void add_link_force(const Substep& substep, Row& row,
+                                                  const LinkGeometry& link, const Vector3& point,
+                                                  const Vector3& direction) {
+  if (link.mounted) {
+    substep.add_force(row, link.body, point, direction);
+    return;
+  }
+  const MovingBody& body = substep.moving[at(link.body)];
+  if (!body.translates && !body.rotates && !body.prescribed) return;
+  row.add(link.body, direction, cross(point - body.position, direction));
 }
 
 /// Unit vector from the centre of `circle` to `point` on it.

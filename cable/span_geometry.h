@@ -44,7 +44,8 @@ struct SpanGuess {
 };
 
 /// The span between two points.
-[[nodiscard]] inline SpanGeometry straight_span(const Vector3& start, const Vector3& end) {
+[[nodiscard, gnu::always_inline]] inline SpanGeometry straight_span(const Vector3& start,
+                                                                    const Vector3& end) {
   SpanGeometry span{start, end, end - start, 0.0, true};
   span.length = span.direction.norm();
   if (span.length > 0.0) span.direction /= span.length;
@@ -52,9 +53,11 @@ struct SpanGuess {
 }
 
 /// The span between two coplanar circles with the common unit normal `normal`.
-[[nodiscard]] inline SpanGeometry planar_span(const Vector3& center1, double signed_radius1,
-                                              const Vector3& center2, double signed_radius2,
-                                              const Vector3& normal) {
+[[nodiscard, gnu::always_inline]] inline SpanGeometry planar_span(const Vector3& center1,
+                                                                  double signed_radius1,
+                                                                  const Vector3& center2,
+                                                                  double signed_radius2,
+                                                                  const Vector3& normal) {
   SpanGeometry span;
   const Vector3 apart = center2 - center1;
   const Vector3 across = cross(normal, apart);
@@ -83,13 +86,9 @@ struct SpanGuess {
 [[nodiscard]] SpanGeometry spatial_span(const LinkCircle& first, const LinkCircle& second,
                                         const SpanGuess* guess = nullptr);
 
-/// The angle from unit vector `from` to unit vector `to`, both perpendicular to the unit vector
-/// `normal`, about it, in (-pi, pi]. Small angles, which are the rule between two evaluations in
-/// one substep, come from the series of the arc sine to full precision, large ones from atan2.
-[[nodiscard]] inline double angle_between(const Vector3& from, const Vector3& to,
-                                          const Vector3& normal) {
-  const double sine = dot(normal, cross(from, to));
-  const double cosine = dot(from, to);
+/// The angle [rad, (-pi, pi]] with this sine and cosine. Small angles, which are the rule between two evaluations in one
+/// substep, come from the series of the arc sine to full precision, large ones from atan2.
+[[nodiscard, gnu::always_inline]] inline double angle_of(double sine, double cosine) {
   const double s = sine * sine;
   if (s < 1e-3 && cosine > 0.0) {
     // The first term left out is 63/2816 s^5 < 3e-17.
@@ -97,6 +96,13 @@ struct SpanGuess {
            (1.0 + s * (1.0 / 6.0 + s * (3.0 / 40.0 + s * (15.0 / 336.0 + s * (105.0 / 3456.0)))));
   }
   return std::atan2(sine, cosine);
+}
+
+/// The angle from unit vector `from` to unit vector `to`, both perpendicular to the unit vector
+/// `normal`, about it, in (-pi, pi].
+[[nodiscard]] inline double angle_between(const Vector3& from, const Vector3& to,
+                                          const Vector3& normal) {
+  return angle_of(dot(normal, cross(from, to)), dot(from, to));
 }
 
 /// `angle` plus the multiple of 2 pi that brings it closest to `expected` [rad].

@@ -3,23 +3,12 @@
 #include <algorithm>
 
 #include "cable/link_contact.h"
+#include "cable/span_planar.h"
 #include "cable/span_skew.h"
 #include "engine/index.h"
 
 namespace sheave {
 namespace {
-
-/// Adds a unit force along `direction` at the world point `point` of the link's body.
-inline void add_link_force(const Substep& substep, Row& row, const LinkGeometry& link,
-                           const Vector3& point, const Vector3& direction) {
-  if (link.mounted) {
-    substep.add_force(row, link.body, point, direction);
-    return;
-  }
-  const MovingBody& body = substep.moving[at(link.body)];
-  if (!body.translates && !body.rotates && !body.prescribed) return;
-  row.add(link.body, direction, cross(point - body.position, direction));
-}
 
 /// Where the link's centre (of an outline: its origin, which is near enough for a guess) would be `time` after the start
 /// of the substep [m] if its body went on as it moves there.
@@ -101,23 +90,9 @@ double tilt_loss(const LinkGeometry& link, int from, int to, double along, const
   return along > 0.0 ? loss : -loss;
 }
 
-/// Without a tangent the length stays 0 and the span's direction is perpendicular to the line between the centres. That
-/// line turns by motion / distance, which moves cable by q times that: q / d times what the force of 1 at the
-/// tangent points stands for. The rest of it acts at the centres; at d = q, where the tangent ends, there is none.
-void add_turning_terms(const Substep& substep, const SpanSetup& setup, const LinkGeometry& first,
-                       const LinkGeometry& second, const SpanGeometry& span, Row& row) {
-  const Vector3 first_center = center_of(substep, first, 0);
-  const Vector3 second_center = center_of(substep, second, 0);
-  const double distance = (second_center - first_center).norm();
-  if (!(distance > 0.0)) return;
-  const double more = std::abs(setup.second_radius - setup.first_radius) / distance - 1.0;
-  add_link_force(substep, row, first, first_center, more * span.direction);
-  add_link_force(substep, row, second, second_center, -more * span.direction);
-}
-
-inline SpanGeometry span_between(const Substep& substep, const SpanSetup& setup,
-                                 const LinkGeometry& first, const LinkGeometry& second,
-                                 int first_corner, int second_corner, const SpanGuess* guess) {
+[[gnu::always_inline]] inline SpanGeometry span_between(
+    const Substep& substep, const SpanSetup& setup, const LinkGeometry& first,
+    const LinkGeometry& second, int first_corner, int second_corner, const SpanGuess* guess) {
   switch (setup.kind) {
     case SpanKind::straight:
       return straight_span(center_of(substep, first, 0), center_of(substep, second, 0));
@@ -163,9 +138,11 @@ SpanGeometry outlined_span(const Substep& substep, const SpanSetup& setup,
   return span;
 }
 
-inline SpanGeometry span_geometry_now(const Substep& substep, const SpanSetup& setup,
-                                      const LinkGeometry& first, const LinkGeometry& second,
-                                      const SpanGuess* guess) {
+[[gnu::always_inline]] inline SpanGeometry span_geometry_now(const Substep& substep,
+                                                             const SpanSetup& setup,
+                                                             const LinkGeometry& first,
+                                                             const LinkGeometry& second,
+                                                             const SpanGuess* guess) {
   if (setup.outlined) return outlined_span(substep, setup, first, second);
   return span_between(substep, setup, first, second, 0, 0, guess);
 }
@@ -194,6 +171,7 @@ SpanReference span_reference(const Substep& substep, const SpanSetup& setup,
   }
   if (setup.kind == SpanKind::planar) {
     reference.direction = span.direction;
+    reference.left = cross(setup.normal, span.direction);
     const Vector3 apart = center_of(substep, second, span.second_corner) -
                           center_of(substep, first, span.first_corner);
     reference.expected_turn = expected_turn(substep, first, second, apart, setup.normal);
@@ -223,6 +201,9 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
     case SpanKind::straight:
       break;
     case SpanKind::planar: {
+      if (!setup.outlined) {
+        return planar_transport(substep, setup, first, second, reference, geometry);
+      }
       const double turn =
           unwrapped(angle_between(reference.direction, geometry.direction, setup.normal),
                     reference.expected_turn);
@@ -231,19 +212,13 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
       };
       const double first_turn = turn - body_turn(first);
       const double second_turn = turn - body_turn(second);
-      if (setup.outlined) {
-        // The outline counts about its own normal, which may be opposite to the span's.
-        transport.from_first =
-            -first.side * way_along(first, setup.first_sense * first_turn, reference.first_corner,
-                                    reference.first_angle, geometry.first_corner);
-        transport.from_second =
-            second.side * way_along(second, setup.second_sense * second_turn,
-                                    reference.second_corner, reference.second_angle,
-                                    geometry.second_corner);
-        break;
-      }
-      transport.from_first = -setup.first_radius * first_turn - layer_gain(first, first_turn);
-      transport.from_second = setup.second_radius * second_turn - layer_gain(second, second_turn);
+      // The outline counts about its own normal, which may be opposite to the span's.
+      transport.from_first =
+          -first.side * way_along(first, setup.first_sense * first_turn, reference.first_corner,
+                                  reference.first_angle, geometry.first_corner);
+      transport.from_second =
+          second.side * way_along(second, setup.second_sense * second_turn, reference.second_corner,
+                                  reference.second_angle, geometry.second_corner);
       break;
     }
     case SpanKind::spatial: {
@@ -282,6 +257,9 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
 SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
                            const LinkGeometry& first, const LinkGeometry& second,
                            const SpanReference& reference, Row& row) {
+  if (setup.kind == SpanKind::planar && !setup.outlined) {
+    return evaluate_planar_span(substep, setup, first, second, reference, row);
+  }
   if (setup.kind == SpanKind::spatial && !setup.outlined) {
     return evaluate_skew_span(substep, first, second, reference, row);
   }
@@ -296,9 +274,6 @@ SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
   }
   add_link_force(substep, row, first, span.start, span.direction);
   add_link_force(substep, row, second, span.end, -span.direction);
-  if (setup.kind == SpanKind::planar && !span.has_tangent && !setup.outlined) {
-    add_turning_terms(substep, setup, first, second, span, row);
-  }
   return span;
 }
 

@@ -63,6 +63,7 @@ struct SpanReference {
   double rest_length = 0.0;                 ///< at the start of the substep [m]
   SpanGuess ends;                           ///< spatial: where the span was last
   Vector3 direction = Vector3::Zero();      ///< planar: u at the start
+  Vector3 left = Vector3::Zero();           ///< planar: n x u at the start
   double expected_turn = 0.0;               ///< planar: of u over the substep [rad]
   Vector3 first_radial = Vector3::Zero();   ///< spatial: e1 at the start, carrier's own frame
   Vector3 second_radial = Vector3::Zero();  ///< spatial: e2 at the start

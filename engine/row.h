@@ -96,7 +96,7 @@ struct Row {
   }
   /// Adds to the gradient of `body`. Contributions to the same body are summed, because w needs
   /// the body's whole gradient (a cable that touches one body twice).
-  void add(int body, const Vector3& linear, const Vector3& angular) {
+  [[gnu::always_inline]] void add(int body, const Vector3& linear, const Vector3& angular) {
     for (int i = 0; i < term_count; ++i) {
       RowTerm& term = terms[static_cast<std::size_t>(i)];
       if (term.body != body) continue;
@@ -116,11 +116,13 @@ struct Row {
 struct RowResponse {
   std::array<Vector3, Row::max_terms> linear;   ///< [m per unit]
   std::array<Vector3, Row::max_terms> angular;  ///< [rad per unit]
+  std::array<bool, Row::max_terms> turns;       ///< whether `angular` can be other than 0
   double inverse_mass = 0.0;  ///< w = grad C W grad C^T [1/kg]: how easily the row yields
 };
 
 /// The response of `row` at the bodies' current inverse masses.
-inline void respond(const Row& row, std::span<const MovingBody> bodies, RowResponse& response) {
+[[gnu::always_inline]] inline void respond(const Row& row, std::span<const MovingBody> bodies,
+                                           RowResponse& response) {
   double w = 0.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(row.term_count); ++i) {
     const RowTerm& term = row.terms[i];
@@ -129,9 +131,13 @@ inline void respond(const Row& row, std::span<const MovingBody> bodies, RowRespo
       response.linear[i] = times(body.inverse_mass, term.linear);
       w += dot(term.linear, response.linear[i]);
     }
-    if (body.rotates) {
+    // A load that hangs by its centre of mass is common.
+    response.turns[i] = body.rotates && !is_zero(term.angular);
+    if (response.turns[i]) {
       response.angular[i] = times(body.inverse_inertia, term.angular);
       w += dot(term.angular, response.angular[i]);
+    } else {
+      response.angular[i] = Vector3::Zero();
     }
   }
   response.inverse_mass = w;
@@ -148,12 +154,13 @@ inline void respond(const Row& row, std::span<const MovingBody> bodies, RowRespo
 }
 
 /// x <- x + W grad C^T increment.
-inline void apply_multiplier(const Row& row, const RowResponse& response, double increment,
-                             std::span<MovingBody> bodies) {
+[[gnu::always_inline]] inline void apply_multiplier(const Row& row, const RowResponse& response,
+                                                    double increment,
+                                                    std::span<MovingBody> bodies) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(row.term_count); ++i) {
     MovingBody& body = bodies[static_cast<std::size_t>(row.terms[i].body)];
     if (body.translates) body.position = sum(body.position, increment, response.linear[i]);
-    if (body.rotates) body.rotate(increment * response.angular[i]);
+    if (response.turns[i]) body.rotate(increment * response.angular[i]);
   }
 }
 

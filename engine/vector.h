@@ -43,6 +43,11 @@ constexpr double pi = 3.14159265358979323846;
   return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
 }
 
+/// Whether all components are 0.
+[[nodiscard]] inline bool is_zero(const Vector3& v) {
+  return v[2] == 0.0 && v[0] == 0.0 && v[1] == 0.0;
+}
+
 /// q v, in Eigen's order of operations.
 [[nodiscard]] inline Vector3 rotated(const Quaternion& q, const Vector3& v) {
   const Vector3 axis{q.x(), q.y(), q.z()};
@@ -62,10 +67,17 @@ constexpr double pi = 3.14159265358979323846;
   double half_sinc = 0.0;  // sin(half angle) / half angle
   if (half_squared < 0.01) {
     const double t = half_squared;
+    // Times constants, because a division takes as long as ten products.
     half_cosine =
-        1.0 - t / 2.0 * (1.0 - t / 12.0 * (1.0 - t / 30.0 * (1.0 - t / 56.0 * (1.0 - t / 90.0))));
+        1.0 - t * (1.0 / 2.0) *
+                  (1.0 - t * (1.0 / 12.0) *
+                             (1.0 - t * (1.0 / 30.0) *
+                                        (1.0 - t * (1.0 / 56.0) * (1.0 - t * (1.0 / 90.0)))));
     half_sinc =
-        1.0 - t / 6.0 * (1.0 - t / 20.0 * (1.0 - t / 42.0 * (1.0 - t / 72.0 * (1.0 - t / 110.0))));
+        1.0 - t * (1.0 / 6.0) *
+                  (1.0 - t * (1.0 / 20.0) *
+                             (1.0 - t * (1.0 / 42.0) *
+                                        (1.0 - t * (1.0 / 72.0) * (1.0 - t * (1.0 / 110.0)))));
   } else {
     const double half_angle = std::sqrt(half_squared);
     half_cosine = std::cos(half_angle);

@@ -46,6 +46,12 @@ Vector3 turn_of(const Substep& substep, int body) {
 
 void choose_tangents(const Vector3& sliding, Contact& contact) {
   const Vector3 along = sliding - contact.normal * dot(contact.normal, sliding);
+  if (contact.plane_axis) {
+    const Vector3 tangent = cross(*contact.plane_axis, contact.normal);
+    contact.tangents[0] = dot(tangent, along) < 0.0 ? Vector3(-tangent) : tangent;
+    contact.tangents[1] = *contact.plane_axis;
+    return;
+  }
   const double length = along.norm();
   contact.tangents[0] =
       length > 1e-9 * sliding.norm() ? Vector3(along / length) : any_perpendicular(contact.normal);
@@ -107,7 +113,7 @@ void prepare_contact(const Substep& substep, const ContactMaterial& material,
     const double stoppable = h * material.friction * pressing;
     const bool slow = sliding.norm() <= stoppable;
     if (is_new) contact.stuck = slow;
-    contact.rows = slow ? 3 : 2;
+    contact.rows = slow && !contact.plane_axis ? 3 : 2;
     // A velocity much below that is mostly rounding.
     if (contact.stuck || sliding.norm() <= 0.01 * stoppable) {
       choose_tangents(held.squaredNorm() > 0.0 ? Vector3(-held) : free_acceleration, contact);

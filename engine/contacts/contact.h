@@ -13,6 +13,7 @@
 // difference. The multipliers are forces x h^2.
 
 #include <array>
+#include <optional>
 
 #include "engine/contacts/contact_finder.h"
 
@@ -33,6 +34,8 @@ struct Contact {
   double radius_a = 0.0;
   double radius_b = 0.0;
   double start_gap = 0.0;
+  std::optional<Vector3>
+      plane_axis;  ///< unit normal of the only plane they move in (planar_contact.h)
   Vector3 slipped = Vector3::Zero();  ///< s
   double friction = 0.0;              ///< coefficient that counts in this substep
   double compliance = 0.0;            ///< [m/N]

@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "engine/contacts/contact_state.h"
+#include "engine/contacts/planar_contact.h"
 #include "engine/contacts/rebound.h"
 #include "engine/model.h"
 
@@ -55,7 +56,7 @@ class ContactBatch final : public ConstraintBatch {
   void begin(const Substep& substep, const FeatureState& state) override {
     contacts_.clear();
     std::size_t old = 0;
-    finder_.find(substep, [&](const FormPair& pair, const Manifold& manifold) {
+    finder_.find(substep, [&](const FormPair& pair, Manifold& manifold) {
       add_manifold(substep, state, pair, manifold, old);
     });
     multipliers_.assign(3 * contacts_.size(), 0.0);
@@ -175,7 +176,10 @@ class ContactBatch final : public ConstraintBatch {
  private:
   /// Appends the points of one pair. `old` is the first record of the state that is not of an earlier pair.
   void add_manifold(const Substep& substep, const FeatureState& state, const FormPair& pair,
-                    const Manifold& manifold, std::size_t& old) {
+                    Manifold& manifold, std::size_t& old) {
+    const std::optional<Vector3> plane = plane_of_motion(
+        substep.bodies, finder_.forms()[at(pair.a)].body, finder_.forms()[at(pair.b)].body);
+    if (plane) merge_behind(*plane, smaller_spread(pair), manifold);
     const auto key = [](const FormPair& p) { return std::minmax(p.a, p.b); };
     const std::size_t count = contact_count(state);
     records_.clear();
@@ -202,6 +206,7 @@ class ContactBatch final : public ConstraintBatch {
       contact.radius_a = point.radius_a;
       contact.radius_b = point.radius_b;
       contact.start_gap = point.gap;
+      if (plane && lies_in_plane(contact.normal, *plane)) contact.plane_axis = plane;
       contact.own_a = own_point(substep, contact.body_a, point.core_a);
       contact.own_b = own_point(substep, contact.body_b, point.core_b);
       const ContactRecord* last = take_record(contact, manifold.points.size());
@@ -223,6 +228,13 @@ class ContactBatch final : public ConstraintBatch {
     }
   }
 
+  /// Size of the smaller form; a half-space has none [m].
+  [[nodiscard]] double smaller_spread(const FormPair& pair) const {
+    const double size = finder_.forms()[at(pair.a)].spread;
+    const double other = finder_.forms()[at(pair.b)].spread;
+    return other > 0.0 ? std::min(size, other) : size;
+  }
+
   static Vector3 own_point(const Substep& substep, int body, const Vector3& point) {
     return substep.orientation(body).conjugate() * (point - substep.position(body));
   }
@@ -240,9 +252,7 @@ class ContactBatch final : public ConstraintBatch {
       best = &record;
     }
     if (best == nullptr) return nullptr;
-    double size = finder_.forms()[at(contact.forms.a)].spread;
-    const double other = finder_.forms()[at(contact.forms.b)].spread;
-    if (other > 0.0) size = std::min(size, other);
+    const double size = smaller_spread(contact.forms);
     if (nearest > same_point * size && (points > 1 || records_.size() > 1)) return nullptr;
     best->forms.a = -1;
     return best;

@@ -1,0 +1,84 @@
+#pragma once
+// The row of a span between circles or points that stay in one plane: what cable/span_row.h derives for coplanar circles.
+// Internal to the cable library. Most spans of most scenes are of this kind, so all of it is inlined into one function
+// without a call.
+
+#include "cable/link_contact.h"
+
+namespace sheave {
+
+/// Without a tangent the length stays 0 and the span's direction is perpendicular to the line between the centres. That
+/// line turns by motion / distance, which moves cable by q times that: q / d times what the force of 1 at the
+/// tangent points stands for. The rest of it acts at the centres; at d = q, where the tangent ends, there is none.
+inline void add_turning_terms(const Substep& substep, const SpanSetup& setup,
+                              const LinkGeometry& first, const LinkGeometry& second,
+                              const SpanGeometry& span, Row& row) {
+  const Vector3 first_center = center_of(substep, first, 0);
+  const Vector3 second_center = center_of(substep, second, 0);
+  const double distance = (second_center - first_center).norm();
+  if (!(distance > 0.0)) return;
+  const double more = std::abs(setup.second_radius - setup.first_radius) / distance - 1.0;
+  add_link_force(substep, row, first, first_center, more * span.direction);
+  add_link_force(substep, row, second, second_center, -more * span.direction);
+}
+
+[[gnu::always_inline]] inline SpanGeometry planar_geometry(const Substep& substep,
+                                                           const SpanSetup& setup,
+                                                           const LinkGeometry& first,
+                                                           const LinkGeometry& second) {
+  return planar_span(center_of(substep, first, 0), setup.first_radius,
+                     center_of(substep, second, 0), setup.second_radius, setup.normal);
+}
+
+/// span_transport() for such a span.
+[[gnu::always_inline]] inline SpanTransport planar_transport(
+    const Substep& substep, const SpanSetup& setup, const LinkGeometry& first,
+    const LinkGeometry& second, const SpanReference& reference, const SpanGeometry& span) {
+  const double turn = unwrapped(
+      angle_of(dot(reference.left, span.direction), dot(reference.direction, span.direction)),
+      reference.expected_turn);
+  SpanTransport transport;
+  if (first.wraps()) {
+    const double own = turn - dot(setup.normal, substep.moving[at(first.body)].turn);
+    transport.from_first = -setup.first_radius * own;
+    if (first.layer_pitch > 0.0) transport.from_first -= layer_gain(first, own);
+  }
+  if (second.wraps()) {
+    const double own = turn - dot(setup.normal, substep.moving[at(second.body)].turn);
+    transport.from_second = setup.second_radius * own;
+    if (second.layer_pitch > 0.0) transport.from_second -= layer_gain(second, own);
+  }
+  return transport;
+}
+
+/// Adds a unit force along `direction` at an end of the span, `point`, to the row. `radius` is the signed radius there, with
+/// the sign of the force along u: about the centre the force has the arm -q n x u and so the torque q n. That is all of it
+/// where the centre is the centre of mass, or on the axle of a wheel, which nothing else turns.
+[[gnu::always_inline]] inline void add_planar_force(const Substep& substep, const SpanSetup& setup,
+                                                    const LinkGeometry& link, double radius,
+                                                    const Vector3& point, const Vector3& direction,
+                                                    Row& row) {
+  if (link.mounted || !(link.still || link.centered)) {
+    add_link_force(substep, row, link, point, direction);
+    return;
+  }
+  const MovingBody& body = substep.moving[at(link.body)];
+  if (!body.translates && !body.rotates && !body.prescribed) return;
+  row.add(link.body, direction, radius * setup.normal);
+}
+
+/// evaluate_span() for such a span.
+inline SpanGeometry evaluate_planar_span(const Substep& substep, const SpanSetup& setup,
+                                         const LinkGeometry& first, const LinkGeometry& second,
+                                         const SpanReference& reference, Row& row) {
+  const SpanGeometry span = planar_geometry(substep, setup, first, second);
+  const SpanTransport transport = planar_transport(substep, setup, first, second, reference, span);
+  row.value = reference.rest_length + transport.from_first + transport.from_second - span.length;
+  if (on_one_body(first, second)) return span;
+  add_planar_force(substep, setup, first, setup.first_radius, span.start, span.direction, row);
+  add_planar_force(substep, setup, second, -setup.second_radius, span.end, -span.direction, row);
+  if (!span.has_tangent) add_turning_terms(substep, setup, first, second, span, row);
+  return span;
+}
+
+}  // namespace sheave
