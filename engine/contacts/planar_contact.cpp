@@ -8,24 +8,6 @@ namespace {
 /// Farther apart than this share of the smaller form, points are not behind one another.
 constexpr double same_place = 1e-6;
 
-/// Whether a body moves in the plane with the unit normal `axis` or not at all.
-bool keeps_plane(const BodySet& bodies, int body, const Vector3& axis) {
-  if (body == bodies.count()) return true;
-  const BodyProperties& own = bodies[body];
-  switch (own.mobility) {
-    case Mobility::fixed:
-      return true;
-    case Mobility::planar:
-    case Mobility::rotor:
-      return own.mount < 0 && cross(own.axis, axis).norm() < 1e-9;
-    case Mobility::free:
-    case Mobility::slider:
-    case Mobility::kinematic:
-      break;
-  }
-  return false;
-}
-
 bool has_plane(const BodySet& bodies, int body) {
   return body != bodies.count() && bodies[body].mobility == Mobility::planar;
 }
@@ -35,7 +17,7 @@ bool has_plane(const BodySet& bodies, int body) {
 std::optional<Vector3> plane_of_motion(const BodySet& bodies, int a, int b) {
   if (!has_plane(bodies, a) && !has_plane(bodies, b)) return std::nullopt;
   const Vector3& axis = bodies[has_plane(bodies, a) ? a : b].axis;
-  if (!keeps_plane(bodies, a, axis) || !keeps_plane(bodies, b, axis)) return std::nullopt;
+  if (!bodies.stays_in_plane(a, axis) || !bodies.stays_in_plane(b, axis)) return std::nullopt;
   return axis;
 }
 

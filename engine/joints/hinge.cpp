@@ -1,5 +1,6 @@
 // Locks: the anchors coincide; A's axis is perpendicular to two directions of B that are perpendicular to B's axis
-// (lock_rows.h). Coordinate: the angle about the axis.
+// (lock_rows.h). Coordinate: the angle about the axis. Between bodies that keep the plane perpendicular to the axis, two
+// directions of this plane are all there is to lock.
 
 #include "engine/joints/hinge.h"
 
@@ -14,10 +15,16 @@ struct HingeKernel : AnchorPair {  // z of the frame is the axis
   static constexpr std::array<JointCoordinateInfo, 1> coordinates{{{"angle", true}}};
   double compliance = 0.0;
   double angular_compliance = 0.0;
+  /// Unit vectors of the plane that both bodies keep; 0 if there is none.
+  std::array<Vector3, 2> in_plane{Vector3::Zero(), Vector3::Zero()};
 
+  [[nodiscard]] bool keeps_plane() const { return !is_zero(in_plane[0]); }
   [[nodiscard]] bool elastic() const { return compliance > 0.0 || angular_compliance > 0.0; }
   void lock(int index, JointTerms& terms) const {
-    if (index < 3) {
+    if (keeps_plane()) {
+      lock_point_along(a, b, in_plane[at(index)], terms);
+      terms.set_compliance(compliance);
+    } else if (index < 3) {
       lock_point(a, b, index, terms);
       terms.set_compliance(compliance);
     } else {
@@ -66,6 +73,13 @@ std::unique_ptr<ConstraintBatch> HingeJoint::make_batch(
                                                        joint.anchor, frame_along(joint.axis)),
                                   joint.compliance, joint.angular_compliance},
                                  {}};
+    const Vector3 normal = joint.axis.normalized();
+    if (bodies.stays_in_plane(bodies.index(joint.body_a), normal) &&
+        bodies.stays_in_plane(bodies.index(joint.body_b), normal)) {
+      part.kernel.in_plane[0] = any_perpendicular(normal);
+      part.kernel.in_plane[1] = cross(normal, part.kernel.in_plane[0]);
+      part.lock_count = 2;
+    }
     append_effects(joint.angle, 0, part.effects);
     parts.push_back(std::move(part));
   }

@@ -29,7 +29,8 @@ template <class Kernel>
 struct JointParts {
   Kernel kernel;
   std::vector<JointEffect> effects;
-  bool counts_coordinates = true;  ///< whether the state has their values; effects need them
+  bool counts_coordinates = true;       ///< whether the state has their values; effects need them
+  int lock_count = Kernel::lock_count;  ///< fewer where mobilities keep bodies from moving, too
 };
 
 /// All joints of one type. State, reals: generalised force per row [N or N m] of the last substep along the row's gradient,
@@ -48,7 +49,8 @@ class JointBatch final : public JointFeature {
                   static_cast<int>(joints[j].effects.size()),
                   joints[j].counts_coordinates ? coordinate : -1};
       const JointDef& definition = *definitions[j];
-      row += Kernel::lock_count + joint.effect_count;
+      joint.lock_count = joints[j].lock_count;
+      row += joint.lock_count + joint.effect_count;
       if (joint.first_coordinate >= 0) coordinate += coordinate_count;
       joint.restricted =
           is_restricted(bodies, definition.body_a) || is_restricted(bodies, definition.body_b);
@@ -94,7 +96,7 @@ class JointBatch final : public JointFeature {
       if (intact_[j] == 0) continue;
       const Joint& joint = joints_[j];
       auto multiplier = multipliers_.begin() + joint.first_row;
-      for (int i = 0; i < Kernel::lock_count + joint.effect_count; ++i) {
+      for (int i = 0; i < joint.lock_count + joint.effect_count; ++i) {
         evaluate(substep, joint, i, row);
         correction = std::max(correction, solve_row(row, substep.h, *multiplier++, substep.moving));
       }
@@ -106,7 +108,7 @@ class JointBatch final : public JointFeature {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       if (intact_[j] == 0) continue;
       const Joint& joint = joints_[j];
-      for (int i = 0; i < Kernel::lock_count + joint.effect_count; ++i) {
+      for (int i = 0; i < joint.lock_count + joint.effect_count; ++i) {
         Row& row = rows.emplace_back();
         evaluate(substep, joint, i, row);
         row.index = joint.first_row + i;
@@ -142,8 +144,8 @@ class JointBatch final : public JointFeature {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       if (broken_at(own, j) >= 0.0) continue;
       const Joint& joint = joints_[j];
-      for (int i = 0; i < Kernel::lock_count + joint.effect_count; ++i) {
-        if (i >= Kernel::lock_count && !effect(joint, i).elastic()) continue;
+      for (int i = 0; i < joint.lock_count + joint.effect_count; ++i) {
+        if (i >= joint.lock_count && !effect(joint, i).elastic()) continue;
         evaluate_at(now, joint, i, coordinates(own), row);
         const bool slack =
             (row.value > 0.0 && row.lower == 0.0) || (row.value < 0.0 && row.upper == 0.0);
@@ -179,6 +181,7 @@ class JointBatch final : public JointFeature {
     int first_coordinate = -1;  // < 0: none are counted
     int reported = 0;           // how many coordinates reports tell; more than the pose is counted
     bool restricted = false;    // whether a body has a restricted mobility
+    int lock_count = 0;
   };
   struct BreakingLimits {
     std::optional<double> force;
@@ -192,7 +195,7 @@ class JointBatch final : public JointFeature {
            mobility == Mobility::rotor;
   }
   [[nodiscard]] const JointEffect& effect(const Joint& joint, int row) const {
-    return effects_[at(joint.first_effect + row - Kernel::lock_count)];
+    return effects_[at(joint.first_effect + row - joint.lock_count)];
   }
   [[nodiscard]] std::span<const double> coordinates(const FeatureState& state) const {
     return std::span(state.reals).subspan(multipliers_.size(), starts_.size());
@@ -222,7 +225,7 @@ class JointBatch final : public JointFeature {
   void evaluate_at(const Substep& substep, const Joint& joint, int i,
                    std::span<const double> starts, Row& row) const {
     row.clear();
-    if (i < Kernel::lock_count) {
+    if (i < joint.lock_count) {
       JointTerms terms(substep, row);
       joint.kernel.lock(i, terms);
       return;
@@ -256,14 +259,14 @@ class JointBatch final : public JointFeature {
                                 const FeatureState& state) const {
     Wrench wrench;
     wrench.about = joint.kernel.anchor(substep);
-    for (int i = 0; i < Kernel::lock_count + joint.effect_count; ++i) {
+    for (int i = 0; i < joint.lock_count + joint.effect_count; ++i) {
       const double force = state.reals[at(joint.first_row + i)];
       if (force == 0.0) continue;
       Row row;
       const auto on_b = [&](double scale) {
         return JointTerms(substep, row, joint.kernel.anchor_body(), scale, wrench);
       };
-      if (i < Kernel::lock_count) {
+      if (i < joint.lock_count) {
         JointTerms terms = on_b(force);
         joint.kernel.lock(i, terms);
       } else if constexpr (coordinate_count > 0) {
@@ -302,7 +305,7 @@ class JointBatch final : public JointFeature {
         const BodyState& body = now.start.bodies[at(term.body)];
         coordinate.rate += term.linear.dot(body.velocity) + term.angular.dot(body.angular_velocity);
       }
-      for (int i = Kernel::lock_count; i < Kernel::lock_count + joint.effect_count; ++i) {
+      for (int i = joint.lock_count; i < joint.lock_count + joint.effect_count; ++i) {
         const JointEffect& acting = effect(joint, i);
         if (acting.coordinate != k || !acting.is_drive()) continue;
         coordinate.drive_force = own.reals[at(joint.first_row + i)];

@@ -9,13 +9,19 @@
 
 namespace sheave {
 
-/// The anchors coincide: C = e . (p_a - p_b) with the world axis e of `index` (0, 1, 2).
-inline void lock_point(const Anchor& a, const Anchor& b, int index, JointTerms& terms) {
+/// The anchors coincide along the world direction e: C = e . (p_a - p_b).
+inline void lock_point_along(const Anchor& a, const Anchor& b, const Vector3& direction,
+                             JointTerms& terms) {
   const Vector3 at_a = a.position(terms.substep());
   const Vector3 at_b = b.position(terms.substep());
-  terms.set_value(at_a[index] - at_b[index]);
-  terms.add_force(a.body, at_a, Vector3::Unit(index));
-  terms.add_force(b.body, at_b, -Vector3::Unit(index));
+  terms.set_value(dot(direction, at_a - at_b));
+  terms.add_force(a.body, at_a, direction);
+  terms.add_force(b.body, at_b, -direction);
+}
+
+/// The same along the world axis `index` (0, 1, 2).
+inline void lock_point(const Anchor& a, const Anchor& b, int index, JointTerms& terms) {
+  lock_point_along(a, b, Vector3::Unit(index), terms);
 }
 
 /// How far B's anchor has moved along the axis `index` of A's frame: C = n . (p_b - p_a).

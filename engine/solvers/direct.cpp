@@ -7,22 +7,29 @@ namespace sheave {
 void DirectSolver::solve(Substep& substep, Features features) {
   const double enough = tolerance * substep.bodies.scale();
   double violated = 0.0;
+  double first = 0.0;
   bool revised = false;
   bool adding_up = false;
+  system_.move_on(substep);
   for (int round = 0; round < substep.iterations; ++round) {
     const double before = violated;
-    system_.linearise(substep, features, RowSystem::Rule::backward, round == 0 || adding_up);
+    system_.linearise(substep, features, RowSystem::Rule::backward, adding_up);
     violated = system_.violation();
     if (round > 0 && !revised && violated <= enough) break;
     // Rows that nothing can satisfy, between driven bodies, stay violated however many rounds there are.
     if (round > 2 && adding_up && !revised && violated > stagnation * before) break;
-    if (round > 1 && !adding_up && !revised && violated > slow * before) {
+    if (round == 0) first = violated;
+    const bool lost = !(violated <= growth * first);
+    if (round > 1 && !adding_up && (lost || (!revised && violated > slow * before))) {
       adding_up = true;
+      // What has run away is no start for Newton's method.
+      if (lost) system_.start_again(substep, features);
       system_.linearise(substep, features, RowSystem::Rule::backward, true);
     }
     if (!system_.solve(substep)) {
       substep.statistics.rows = system_.row_count();
       ++substep.statistics.solver_fallbacks;
+      if (round == 0) system_.start_again(substep, features);
       sweeps_.solve(substep, features);
       return;
     }

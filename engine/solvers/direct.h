@@ -24,6 +24,8 @@ class DirectSolver {
   /// Rounds that shrink the violation by less than this are no fixed-point iteration worth going on with: from then on
   /// corrections are added up (engine/solvers/row_system.h).
   static constexpr double slow = 0.5;
+  /// The same once the violation is larger by this than that of the first round, whatever the features decide meanwhile.
+  static constexpr double growth = 10.0;
 
   void solve(Substep& substep, Features features);
 

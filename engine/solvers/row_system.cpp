@@ -25,6 +25,7 @@ void RowSystem::collect_rows(Substep& substep, Features features) {
 }
 
 void RowSystem::remember_start(Substep& substep, Features features) {
+  begin_rounds();
   collect_rows(substep, features);
   start_rows_ = rows_;
   start_responses_.resize(rows_.size());
@@ -78,6 +79,7 @@ bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool f
       set_midpoint(substep, g);
     }
   }
+  recall_sides();
   from_here_ = from_here;
   if (from_here) {
     remember_origin(substep);
@@ -196,7 +198,31 @@ void RowSystem::remember_origin(const Substep& substep) {
   }
 }
 
+void RowSystem::move_on(Substep& substep) {
+  begin_rounds();
+  remember_origin(substep);
+  for (int i = 0; i < substep.bodies.count(); ++i) {
+    const BodyState& start = substep.start.bodies[at(i)];
+    MovingBody& body = substep.moving[at(i)];
+    if (body.translates) body.position = sum(body.start_position, substep.h, start.velocity);
+    if (body.rotates) body.rotate(substep.h * start.angular_velocity - body.turn);
+  }
+}
+
+void RowSystem::start_again(Substep& substep, Features features) {
+  begin_rounds();
+  for (const auto& feature : features) {
+    std::fill(feature->multipliers().begin(), feature->multipliers().end(), 0.0);
+  }
+  for (std::size_t b = 0; b < origin_.size(); ++b) {
+    MovingBody& body = substep.moving[b];
+    if (body.translates) body.position = origin_[b].position;
+    if (body.rotates) body.rotate(origin_[b].turn - body.turn);
+  }
+}
+
 void RowSystem::linearise_among_others(Substep& substep, Features features, bool first_round) {
+  if (first_round) begin_rounds();
   if (!first_round) {
     for (std::size_t b = 0; b < placed_.size(); ++b) {
       const MovingBody& body = substep.moving[b];
@@ -269,7 +295,29 @@ void RowSystem::relax(Substep& substep, int sweeps) {
   substep.statistics.row_solves += static_cast<std::int64_t>(rows_.size()) * sweeps;
 }
 
+void RowSystem::remember_sides(Features features) {
+  sides_.resize(features.size());
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    sides_[f].assign(features[f]->multipliers().size(), -1);
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      sides_[f][at(rows_[at(i)].index)] = problem_.free[at(group_of_[at(i)])];
+    }
+  }
+}
+
+void RowSystem::recall_sides() {
+  for (std::size_t f = 0; f < sides_.size(); ++f) {
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      const char side = sides_[f][at(rows_[at(i)].index)];
+      const std::size_t g = at(group_of_[at(i)]);
+      // A multiplier that is given (friction where nothing presses) has nothing to be found.
+      if (side >= 0 && problem_.lower[g] != problem_.upper[g]) problem_.free[g] = side;
+    }
+  }
+}
+
 void RowSystem::apply(Substep& substep, Features features) {
+  remember_sides(features);
   motion_.assign(substep.moving.size(), RowTerm{});
   const std::span<const double> change = active_set_.solution();
   for (std::size_t f = 0; f < features.size(); ++f) {

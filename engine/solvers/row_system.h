@@ -51,9 +51,15 @@ class RowSystem {
   /// Keeps the rows at the start of the substep, whose gradients the midpoint rule lets multipliers act along.
   void remember_start(Substep& substep, Features features);
   /// The problem at the current positions. `from_here`: bodies will move from these positions by what the unknowns gain;
-  /// otherwise from those of the last call with it. In the first round, with multipliers of 0 at the predicted positions,
-  /// it must be set. False if a row touches other bodies than at the remembered start.
+  /// otherwise from those of the last call with it, or of move_on(). In the first round, with multipliers of 0 at the
+  /// predicted positions, one of these it must be. False if a row touches other bodies than at the remembered start.
   bool linearise(Substep& substep, Features features, Rule rule, bool from_here);
+  /// Keeps the predicted positions, from which bodies will move, and puts the bodies where they would be if they went on as they
+  /// move at the start of the substep: constraints have the same forces from one substep to the next, more or less, and without
+  /// them bodies are much farther from the solution. So the first round has better gradients.
+  void move_on(Substep& substep);
+  /// Puts bodies back to what move_on() has kept, with multipliers of 0.
+  void start_again(Substep& substep, Features features);
   /// The problem at the current positions, of features among others that have moved the bodies, too, since the last round:
   /// their motion counts as part of what bodies move from.
   void linearise_among_others(Substep& substep, Features features, bool first_round);
@@ -74,6 +80,8 @@ class RowSystem {
   /// Changes the velocities and adds h m to the multipliers, whose mean force over the substep is l / h^2 + m / h.
   void apply_impulses(Substep& substep, Features features);
 
+  /// Forgets what rounds of this substep leave for the next one.
+  void begin_rounds() { sides_.clear(); }
   [[nodiscard]] int row_count() const { return static_cast<int>(rows_.size()); }
 
  private:
@@ -115,6 +123,9 @@ class RowSystem {
   /// Whether a row that was not active is likely to act: a first guess, which the active set corrects.
   [[nodiscard]] bool is_pushed(const Row& row, double value) const;
   void set_bounds(std::size_t group, bool pushed, bool active);
+  /// Which bounds rows are at in the solution: what the next round of the substep begins with.
+  void remember_sides(Features features);
+  void recall_sides();
   void remember_origin(const Substep& substep);
   void settle(const Substep& substep);
   void find_pattern(const Substep& substep);
@@ -137,6 +148,8 @@ class RowSystem {
   std::vector<double> start_values_;  ///< per row
   std::vector<Group> groups_;
   std::vector<int> group_of_;
+  /// Per feature and index of multiplier: ComplementarityProblem::free in the last round, -1 if there was none.
+  std::vector<std::vector<char>> sides_;
   std::vector<Pose> origin_;  ///< per body: where it moves from, in the first round its prediction
   std::vector<Pose> placed_;  ///< per body: where the last round among others has left it
   bool from_here_ = true;
