@@ -166,5 +166,32 @@ TEST(ElasticAtwood, StableAtAnyStiffness) {
   }
 }
 
+// Nothing can move, but the spring is as long as it is.
+TEST(Elastic, ASpringBetweenDrivenBodiesHasItsForce) {
+  for (const SolverKind solver : both_solvers) {
+    for (const IntegratorKind integrator : both_integrators) {
+      test::Machine m;
+      m.model.step = test::settings(0.01, 1, 5);
+      m.model.step.solver = solver;
+      m.model.step.integrator = integrator;
+      for (const double x : {0.0, 1.0}) {
+        BodyDef end;
+        end.name = x > 0.0 ? "driven" : "fixed";
+        end.mobility = x > 0.0 ? Mobility::kinematic : Mobility::fixed;
+        end.position = {x, 0.0, 0.0};
+        if (x > 0.0) end.velocity = {0.1, 0.0, 0.0};
+        m.model.add(end);
+      }
+      m.cables.push_back(test::cable("spring", {test::attach({0}), test::attach({1})}));
+      m.cables[0].compliance = 1e-3;
+      Simulation s = test::start(m);
+      for (int i = 0; i < 50; ++i) ASSERT_TRUE(s.world.step().ok());
+      // 0.05 m at 1000 N/m. `rattle` tells the mean of the last substep, which is half a substep behind.
+      const double behind = integrator == IntegratorKind::rattle ? 0.5 : 0.0;
+      EXPECT_NEAR(s.cable_reports()[0].spans[0].tension, 50.0 - behind, 1e-9);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sheave
