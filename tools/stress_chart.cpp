@@ -27,7 +27,7 @@ std::string mark_of(const StressOutcome& outcome) {
   if (kind == StressKind::right) {
     return outcome.verdict.error > 0.0
                ? fmt::format("{:.0f}", std::ceil(std::log10(outcome.verdict.error)))
-               : "0";
+               : "exact";
   }
   return std::string(letters[static_cast<std::size_t>(kind)]) + (outcome.silent() ? "!" : "");
 }
