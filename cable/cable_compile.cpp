@@ -32,6 +32,9 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
   s.initial_.reals = rest_lengths_;
   s.initial_.reals.insert(s.initial_.reals.end(), stored_lengths_.begin(), stored_lengths_.end());
   s.initial_.reals.resize(s.plane_index(planes_), 0.0);
+  for (std::size_t k = 0; k < remainders_.size(); ++k) {
+    s.initial_.reals[s.remainder_index(static_cast<int>(k), 0)] = remainders_[k];
+  }
   s.initial_.integers.assign(s.cut_index(static_cast<int>(s.cables_.size())), 0);
   for (std::size_t i = 0; i < links; ++i) {
     const auto link = static_cast<int>(i);

@@ -176,6 +176,9 @@ void CableCompiler::store(const CableDef& def) {
   int exponent = 0;
   static_cast<void>(std::frexp(total, &exponent));
   cable.quantum = std::ldexp(1.0, exponent - 50);
+  for (int k = 0; k < cable.listed_spans; ++k) {
+    remainders_.push_back(lengths[at(k)] - cable.quantised(lengths[at(k)]));
+  }
   for (double& length : lengths) length = cable.quantised(length);
   for (const double length : lengths) cable.start_length += length;
   const auto spans_end = lengths.begin() + cable.listed_spans;
@@ -183,6 +186,7 @@ void CableCompiler::store(const CableDef& def) {
   stored_lengths_.insert(stored_lengths_.end(), spans_end, lengths.end());
   append_places(cable);
   rest_lengths_.resize(s.spans_.size() + spans_.size(), 0.0);
+  remainders_.resize(rest_lengths_.size(), 0.0);
   stored_lengths_.resize(s.links_.size() + links_.size(), 0.0);
   s.links_.insert(s.links_.end(), links_.begin(), links_.end());
   s.spans_.insert(s.spans_.end(), spans_.begin(), spans_.end());

@@ -68,6 +68,7 @@ class CableCompiler {
   std::set<int> massless_wheels_;
   std::map<int, double> bare_radii_;  ///< of drums with layers, by their index among all links
   std::vector<double> rest_lengths_;
+  std::vector<double> remainders_;  ///< per span what its rest length is rounded by [m]
   std::vector<double> stored_lengths_;
   std::vector<std::int64_t> next_links_;
   int planes_ = 0;  ///< places for wraps of all cables

@@ -31,9 +31,13 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     was_taut_[k] = state.reals[tension_index(static_cast<int>(k))] > 0.0 ? 1 : 0;
     const LinkGeometry& first = links_[at(setup.first)];
     const LinkGeometry& second = links_[at(setup.second)];
-    references_[k] = span_reference(substep, setup, first, second, state.reals[k]);
+    // What is smaller than the quantum counts in the row, too: left out of 1e5 spans, it amounts to more than gravity does.
+    const int span_index = static_cast<int>(k);
+    const double below_quantum =
+        state.reals[remainder_index(span_index, 0)] + state.reals[remainder_index(span_index, 1)];
+    references_[k] = span_reference(substep, setup, first, second, state.reals[k] + below_quantum);
     if (first.feed_speed != 0.0 || second.feed_speed != 0.0) {
-      feed(state, substep.h, static_cast<int>(k));
+      feed(state, substep.h, span_index);
       references_[k].rest_length += fed_[k][0] + fed_[k][1];
     }
     if (cables_[at(setup.cable)].tangent_update == TangentUpdate::substep) {
@@ -139,7 +143,13 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     };
     if (first.feed_speed != 0.0) feed_in(setup.first, 0);
     if (second.feed_speed != 0.0) feed_in(setup.second, 1);
-    next.reals[tension_index(k)] = multipliers_[at(k)] * inverse_square;
+    double& tension = next.reals[tension_index(k)];
+    const double pull = multipliers_[at(k)] * inverse_square;
+    if (substep.load_share == 1.0 && (cable.compliance > 0.0 || cable.inverse_stiffness > 0.0)) {
+      substep.statistics.numerical_damping += numerical_damping(
+          cable, {tension, pull}, span.length - rest_length, rest_length, substep.h);
+    }
+    tension = pull;
   }
   for (const CompiledCable& cable : cables_) {
     if (cable.shares) share_lengths(substep, cable, next);
@@ -149,6 +159,26 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     cut(substep, next);
     leave_and_touch(substep, next);
   }
+}
+
+// Implicit Euler on a spring: with the change dx of its length, a dv of the relative velocity and the mass m of both ends,
+// energy falls by dx^2 / 2a + m dv^2 / 2 per substep, and in a vibration both parts are equal in the mean. Without damping
+// dx = a dT; with damping b the row asks for a T = x + a b dx / h. A slack span has no spring, and at time 0 tensions are not
+// known: 0 means either.
+double CableSystem::numerical_damping(const CompiledCable& cable, std::array<double, 2> tensions,
+                                      double stretch, double rest_length, double h) const {
+  // Less damping than this share of the spring's force is lost in the rounding of the stretch.
+  constexpr double negligible = 1e-6;
+  const double compliance = compliance_of(cable, rest_length);
+  const double share = cable.damping * compliance / h;
+  const auto [before, now] = tensions;
+  double change = before > 0.0 ? compliance * (now - before) : 0.0;
+  if (share > negligible) {
+    if (now == 0.0) return 0.0;
+    const double before_it = stretch - (compliance * now - stretch) / share;
+    change = std::max(stretch, 0.0) - std::max(before_it, 0.0);
+  }
+  return change * change / compliance;
 }
 
 SpanGeometry CableSystem::geometry_of(const Substep& substep, int span) const {

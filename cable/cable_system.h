@@ -1,6 +1,7 @@
 #pragma once
 // All cables of a world: one unilateral distance row per free span.
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -60,7 +61,7 @@ struct CompiledCable {
 /// The feature "cables" of a world. Layout of its state, with the spans and links of all cables in order:
 ///
 /// reals: rest length per span [m], stored length per link [m], tension per span [N], transport below the quantum per
-/// span end (first, second) [m], slip per link [m]: cable that has slid over it towards the next span, of an attachment
+/// span end (first, second) [m], which rows count as rest length, slip per link [m]: cable that has slid over it towards the next span, of an attachment
 /// cable that was fed, angle of a hybrid end's attachment per link [rad], plane per place for a wrap: centre [m] and
 /// normal, own frame of the body.
 ///
@@ -255,6 +256,9 @@ class CableSystem final : public ConstraintBatch {
   void cut(const Substep& substep, FeatureState& next);
   void feed(const FeatureState& state, double h, int span);
   void turn_massless_wheel(Substep& substep, int link, double length) const;
+  /// Energy that implicit Euler takes from a span's vibration in a substep [J], from its tensions before and now [N].
+  [[nodiscard]] double numerical_damping(const CompiledCable& cable, std::array<double, 2> tensions,
+                                         double stretch, double rest_length, double h) const;
   [[nodiscard]] double compliance_of(const CompiledCable& cable, double rest_length) const;
   // Reports: cable/cable_report.cpp.
   /// A state as it is reported: the geometry that belongs to it, and where its spans are.

@@ -33,6 +33,8 @@ struct StepStatistics {
   int contacts = 0;  ///< the most points in one substep, those about to touch among them
   double deepest_overlap = 0.0;           ///< [m]
   std::int64_t integrator_fallbacks = 0;  ///< substeps of `rattle` that were left to `xpbd`
+  /// Energy that `xpbd` took from the vibration of elastic cables [J], which is none of their damping's.
+  double numerical_damping = 0.0;
 };
 
 /// The working data of one substep. Stages read the state at its start and write into `moving`;

@@ -1,6 +1,7 @@
 #include "measure/stress_cell.h"
 
 #include "engine/field_check.h"
+#include "measure/stress_scenes.h"
 
 namespace sheave::measure {
 namespace {
@@ -35,6 +36,7 @@ SceneResult StressCell::scene(SolverKind solver, IntegratorKind integrator) cons
   std::vector<Override> all = overrides;
   all.push_back({"/step/solver", std::string(name_of(solver)), "--solver"});
   all.push_back({"/step/integrator", std::string(name_of(integrator)), "--integrator"});
+  if (!built_in.empty()) return load_scene_text(*stress_scene(built_in), built_in, all);
   if (kind.empty()) return load_scene(path, all);
   SceneResult generated = generate_scene(kind, settings);
   if (!generated) return generated;
@@ -60,7 +62,10 @@ std::string StressCell::command(SolverKind solver, IntegratorKind integrator) co
     }
     text += " | ";
   }
-  text += "sheave run " + (kind.empty() ? shell_word(path) : "- --check");
+  if (!built_in.empty()) text += "sheave stress --print " + shell_word(built_in) + " | ";
+  text += "sheave run " + (!kind.empty()       ? "- --check"
+                           : !built_in.empty() ? "-"
+                                               : shell_word(path));
   text += " --solver " + std::string(name_of(solver));
   text += " --integrator " + std::string(name_of(integrator));
   for (const Override& change : overrides) {

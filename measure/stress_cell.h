@@ -12,8 +12,9 @@ namespace sheave::measure {
 /// Where a scene comes from and what is changed in it, in the words of the command line, so that a cell that fails can be
 /// run again by anybody.
 struct StressCell {
-  std::string kind;  ///< of a generator; empty: `path` is a scene file
-  std::string path;
+  std::string kind;                        ///< of a generator; empty: `path` or `built_in`
+  std::string path;                        ///< of a scene file
+  std::string built_in;                    ///< name of a stress_scene()
   std::vector<GeneratorSetting> settings;  ///< of the generator
   std::vector<Override> overrides;         ///< of the scene
   double x = 0.0, y = 0.0;                 ///< the map's coordinates

@@ -16,26 +16,48 @@
 #include <random>
 
 #include "measure/stress_map.h"
+#include "measure/stress_scenes.h"
 #include "scenes/scaling.h"
 
 namespace sheave::measure {
 namespace {
 
+/// How many cells, and how long they run.
+struct Extent {
+  std::vector<double> gravities, steps, factors, decades;
+  int draws = 0;
+  double most_steps = 0.0;
+};
+
+const Extent quick_extent{{0.0, -1.0, 100.0}, {1.0 / 60.0, 0.1}, {1e-6, 1e6}, {1.0, 6.0}, 2, 30.0};
+const Extent full_extent{{0.0, -1.0, 1e-3, 0.1, 1.0, 10.0, 100.0, 1e3, 1e6},
+                         {1e-4, 1e-3, 1e-2, 1.0 / 60.0, 1.0 / 30.0, 0.1},
+                         {1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6},
+                         {0.1, 0.5, 1.0, 2.0, 3.0, 6.0, 9.0},
+                         10,
+                         200.0};
+/// Of scenes that take milliseconds per step.
+const Extent built_in_extent{{0.0, -1.0, 0.1, 1.0, 10.0, 100.0, 1e6},
+                             {1e-3, 1.0 / 60.0, 1.0 / 30.0},
+                             {1e-6, 1e-3, 1e3, 1e6},
+                             {0.1, 1.0, 3.0, 9.0},
+                             3,
+                             60.0};
+
 /// Makes the cells of one scene.
 class SceneMaps {
  public:
-  SceneMaps(std::string path, const Scene& scene, std::vector<ScalableSetting> settings,
-            const StressRange& range)
-      : path_(std::move(path)),
+  /// `origin` is a cell without overrides.
+  SceneMaps(StressCell origin, const Scene& scene, std::vector<ScalableSetting> settings,
+            const Extent& extent)
+      : origin_(std::move(origin)),
         gravity_(scene.model.gravity),
         duration_(scene.duration),
         settings_(std::move(settings)),
-        quick_(range.quick) {}
+        extent_(extent) {}
 
   [[nodiscard]] StressMap gravity() const {
-    StressAxis factors{"gravity / that of the scene",
-                       quick_ ? std::vector{0.0, -1.0, 100.0}
-                              : std::vector{0.0, -1.0, 1e-3, 0.1, 1.0, 10.0, 100.0, 1e3, 1e6}};
+    StressAxis factors{"gravity / that of the scene", extent_.gravities};
     return StressMap::over("gravity", "Gravity times a factor.", std::move(factors), steps(),
                            [&](double factor, double dt) {
                              StressCell cell = shortened(dt);
@@ -49,21 +71,19 @@ class SceneMaps {
   }
   [[nodiscard]] StressMap mass() const {
     return StressMap::over("mass", "All masses times a factor, and all forces with them.",
-                           {"mass factor", factors()}, steps(),
+                           {"mass factor", extent_.factors}, steps(),
                            [&](double factor, double dt) { return similar(dt, 1.0, factor); });
   }
   [[nodiscard]] StressMap length() const {
     return StressMap::over("length",
                            "All lengths times a factor, and gravity and forces with them.",
-                           {"length factor", factors()}, steps(),
+                           {"length factor", extent_.factors}, steps(),
                            [&](double factor, double dt) { return similar(dt, factor, 1.0); });
   }
   [[nodiscard]] StressMap random() const {
-    const int draws = quick_ ? 2 : 10;
     StressAxis seeds{"seed", {}};
-    for (int i = 1; i <= draws; ++i) seeds.values.push_back(i);
-    StressAxis decades{
-        "decades", quick_ ? std::vector{1.0, 6.0} : std::vector{0.1, 0.5, 1.0, 2.0, 3.0, 6.0, 9.0}};
+    for (int i = 1; i <= extent_.draws; ++i) seeds.values.push_back(i);
+    StressAxis decades{"decades", extent_.decades};
     return StressMap::over(
         "random", "Masses, forces, stiffnesses and damping times random factors.",
         std::move(decades), std::move(seeds), [&](double most, double seed) {
@@ -78,22 +98,17 @@ class SceneMaps {
           return cell;
         });
   }
+  [[nodiscard]] std::vector<StressMap> all() const {
+    return {gravity(), mass(), length(), random()};
+  }
 
  private:
-  [[nodiscard]] StressAxis steps() const {
-    if (quick_) return {"step [s]", {1.0 / 60.0, 0.1}};
-    return {"step [s]", {1e-4, 1e-3, 1e-2, 1.0 / 60.0, 1.0 / 30.0, 0.1}};
-  }
-  [[nodiscard]] std::vector<double> factors() const {
-    if (quick_) return {1e-6, 1e6};
-    return {1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6};
-  }
+  [[nodiscard]] StressAxis steps() const { return {"step [s]", extent_.steps}; }
 
   /// The scene with this step, for 10 to 200 steps, without its checks.
   [[nodiscard]] StressCell shortened(double dt) const {
-    StressCell cell;
-    cell.path = path_;
-    const double steps = std::clamp(std::round(duration_ / dt), 10.0, quick_ ? 30.0 : 200.0);
+    StressCell cell = origin_;
+    const double steps = std::clamp(std::round(duration_ / dt), 10.0, extent_.most_steps);
     cell.replace("/step/dt", stress_number(dt));
     cell.replace("/duration", stress_number(steps * dt));
     cell.replace("/checks", "[]");
@@ -109,11 +124,12 @@ class SceneMaps {
     }
     return cell;
   }
-  std::string path_;
+
+  StressCell origin_;
   Vector3 gravity_;
   double duration_;
   std::vector<ScalableSetting> settings_;
-  bool quick_;
+  const Extent& extent_;
 };
 
 }  // namespace
@@ -129,8 +145,30 @@ Result<std::vector<StressMap>> scene_stress_maps(const std::string& path,
   std::ifstream file(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) return Error{path, "cannot be read"};
-  const SceneMaps maps(path, *scene, scalable_settings(text), range);
-  return std::vector<StressMap>{maps.gravity(), maps.mass(), maps.length(), maps.random()};
+  StressCell origin;
+  origin.path = path;
+  const SceneMaps maps(std::move(origin), *scene, scalable_settings(text),
+                       range.quick ? quick_extent : full_extent);
+  return maps.all();
+}
+
+std::vector<StressMap> built_in_stress_maps(const StressRange& range) {
+  std::vector<StressMap> all;
+  for (const std::string_view name : stress_scene_names) {
+    const std::string_view text = *stress_scene(name);
+    const SceneResult scene = load_scene_text(text, std::string(name));
+    if (!scene) continue;  // a test says that they are valid
+    StressCell origin;
+    origin.built_in = name;
+    const SceneMaps maps(std::move(origin), *scene, scalable_settings(text),
+                         range.quick ? quick_extent : built_in_extent);
+    for (StressMap& map : maps.all()) {
+      map.name = std::string(name) + "-" + map.name;
+      map.meaning = scene->name + ". " + map.meaning;
+      all.push_back(std::move(map));
+    }
+  }
+  return all;
 }
 
 }  // namespace sheave::measure

@@ -134,7 +134,7 @@ ExitCode run(const RunOptions& options) {
     state_file->write(to_bytes(simulation.world.state()));
     state_file->commit();
   }
-  for (Warning& warning : collect_warnings(simulation, outcome.statistics, monitor)) {
+  for (Warning& warning : collect_warnings(scene, simulation, outcome.statistics, monitor)) {
     warnings.push_back(std::move(warning));
   }
   std::vector<JointReport> joints = joint_reports(simulation.world);

@@ -27,15 +27,11 @@ RunMonitor::RunMonitor(std::int64_t steps)
 
 void RunMonitor::observe(const Simulation& simulation) {
   final_ = simulation.world.energy();
-  if (observed_ == 0) {
-    initial_ = final_;
-    start_ = simulation.world.state().bodies;
-  }
+  if (observed_ == 0) initial_ = final_;
+  max_gain_ = std::max(max_gain_, final_.total() - initial_.total());
+  most_vivid_ = std::max(most_vivid_, final_.kinetic + final_.elastic);
   max_drift_ = std::max(max_drift_, std::abs(final_.total() - initial_.total()));
   if (observed_ % stride_ == 0 || observed_ == half_) observe_cables(simulation);
-  if (observed_ == half_) {
-    for (CableCourse& course : cables_) course.excess_at_half = course.excess;
-  }
   ++observed_;
 }
 
@@ -57,19 +53,28 @@ void RunMonitor::observe_cables(const Simulation& simulation) {
     }
     course.max_stretch = std::max(course.max_stretch, reports[i].max_stretch);
     course.length = reports[i].total_length;
-    course.excess = excess_of(reports[i]);
-    for (const LinkReport& link : reports[i].links) {
-      course.way = std::max(course.way, way_of(simulation.world, link));
+    const double excess = excess_of(reports[i]);
+    if (observed_ > 0) {
+      const std::size_t half = observed_ > half_ ? 1 : 0;
+      double way = 0.0;
+      for (const LinkReport& link : reports[i].links) {
+        way = std::max(way, way_of(simulation.world, link));
+      }
+      course.way[half] += way;
+      course.stretching[half] += std::abs(excess - course.excess);
     }
+    course.excess = excess;
   }
+  last_seen_ = simulation.world.state().bodies;
 }
 
 double RunMonitor::way_of(const World& world, const LinkReport& link) const {
-  if (link.body.is_world() || start_.empty()) return 0.0;
+  if (link.body.is_world() || last_seen_.empty()) return 0.0;
   const auto body = static_cast<std::size_t>(link.body.index);
   const BodyState& now = world.state().bodies[body];
-  const double moved = (now.position - start_[body].position).norm();
-  return std::max(moved, link.radius * std::abs(now.angle - start_[body].angle));
+  const BodyState& before = last_seen_[body];
+  const double moved = (now.position - before.position).norm();
+  return std::max(moved, link.radius * std::abs(now.angle - before.angle));
 }
 
 }  // namespace sheave::tools

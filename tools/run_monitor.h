@@ -1,6 +1,7 @@
 #pragma once
 // What the summary of a run tells about its course, and not only about its end.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,9 +16,10 @@ struct CableCourse {
   double length = 0.0;        ///< CableReport::total_length at the end [m]
   /// How much longer than allowed all its spans together are at the end, if it is rigid [m].
   double excess = 0.0;
-  double excess_at_half = 0.0;  ///< the same after half of the run [m]
-  /// The farthest that a body which it is on has moved from where it was at first, or that a wheel's rim has turned [m].
-  double way = 0.0;
+  // In the first and in the second half of the run:
+  std::array<double, 2> stretching{};  ///< by how much that has changed, to and fro all in all [m]
+  /// The way of the body on it that has moved farthest at each time, or of a wheel's rim [m].
+  std::array<double, 2> way{};
 };
 
 /// Follows a simulation: energy in every step; cables, whose reports cost as much as a solver
@@ -33,6 +35,10 @@ class RunMonitor {
 
   [[nodiscard]] const Energy& initial_energy() const { return initial_; }
   [[nodiscard]] const Energy& final_energy() const { return final_; }
+  /// The largest sum of kinetic and elastic energy [J].
+  [[nodiscard]] double most_vivid_energy() const { return most_vivid_; }
+  /// The largest total energy less its value at the start [J], >= 0.
+  [[nodiscard]] double max_energy_gain() const { return max_gain_; }
   /// The largest |total energy - its value at the start| [J].
   [[nodiscard]] double max_energy_drift() const { return max_drift_; }
   /// One per cable.
@@ -40,6 +46,7 @@ class RunMonitor {
 
  private:
   void observe_cables(const Simulation& simulation);
+  /// What the link has moved since the last look [m].
   [[nodiscard]] double way_of(const World& world, const LinkReport& link) const;
 
   std::int64_t stride_;        // steps between looks at the cables
@@ -48,8 +55,10 @@ class RunMonitor {
   Energy initial_;
   Energy final_;
   double max_drift_ = 0.0;
+  double max_gain_ = 0.0;
+  double most_vivid_ = 0.0;
   std::vector<CableCourse> cables_;
-  std::vector<BodyState> start_;  // what observe() saw first
+  std::vector<BodyState> last_seen_;  // at the last look at the cables
 };
 
 }  // namespace sheave::tools

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "engine/field_check.h"
+#include "engine/integrators/loads.h"
+#include "measure/stress_judge.h"
 
 namespace sheave::tools {
 
@@ -36,37 +38,135 @@ void append_cable_warnings(const CableSystem& cables, std::vector<Warning>& warn
   }
 }
 
-/// A rigid cable that grows longer by much of the way that things move does not hold them: the solver has not converged, and
-/// accelerations and tensions are wrong by about that share. A sag that stays what it was is none: there the forces are
-/// right. Growth by less than 1e-7 of the cable is of no interest.
+/// A rigid cable that is much longer than it can be at the end puts bodies in the wrong place.
+///
+/// One whose length changes by much of the way that things move does not hold them: the solver has not converged,
+/// and accelerations and tensions are wrong by about that share. A sag that stays what it was is none: there the forces are
+/// right. Sweeps that do not converge act like a spring, so that the excess may well come and go. Changes by less than 1e-7
+/// of the cable are of no interest.
 void append_stretch_warnings(const Simulation& simulation, const RunMonitor& monitor,
                              std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.05;
-  constexpr double negligible = 1e-7;
+  constexpr double length_limit = 0.05;
+  constexpr double negligible_share = 1e-7;
   const std::vector<CableReport> reports = simulation.cable_reports();
   for (std::size_t i = 0; i < monitor.cables().size(); ++i) {
     const CableCourse& course = monitor.cables()[i];
-    const double growth = course.excess - course.excess_at_half;
-    if (growth <= std::max(share_limit * course.way, negligible * course.length)) continue;
+    if (course.excess > length_limit * course.length) {
+      std::string name(reports[i].name);
+      std::string message = fmt::format(
+          "cable {} is {:.3g} m longer than it can be at the end: the solver did not converge; "
+          "more "
+          "iterations or the direct solver avoid that",
+          name, course.excess);
+      warnings.push_back({"stretched", std::move(name), std::move(message)});
+      continue;
+    }
+    const double negligible = negligible_share * course.length;
+    const auto gives_way = [&](double stretching, double way) {
+      return stretching > std::max(share_limit * way, negligible);
+    };
+    const double stretching = course.stretching[0] + course.stretching[1];
+    const double way = course.way[0] + course.way[1];
+    // What gives way only at first matters if things go on moving: else it is a sag, and nothing else has moved.
+    const bool moves_on = course.way[1] > stretching;
+    if (!gives_way(course.stretching[1], course.way[1]) &&
+        !(moves_on && gives_way(stretching, way))) {
+      continue;
+    }
     std::string name(reports[i].name);
     std::string message = fmt::format(
-        "cable {} grew longer than it can be, by {:.3g} m at the end, while nothing on it moved by "
-        "more than {:.3g} m: the solver did not converge, and motion and tensions are wrong by "
-        "about that share; more iterations or the direct solver avoid that",
-        name, course.excess, course.way);
+        "cable {} did not keep its length: it gave way by {:.3g} m all in all while nothing on it "
+        "moved by more than {:.3g} m; the solver did not converge, and motion and tensions are "
+        "wrong by about that share; more iterations or the direct solver avoid that",
+        name, stretching, way);
     warnings.push_back({"stretched", std::move(name), std::move(message)});
+  }
+}
+
+/// xpbd damps vibrations by half of w^2 h, with the frequency w; rattle does not.
+void append_damping_warning(const RunStatistics& statistics, const RunMonitor& monitor,
+                            std::vector<Warning>& warnings) {
+  constexpr double share_limit = 0.1;  // of energy: 5 % of speeds
+  const double energy = monitor.most_vivid_energy();
+  if (statistics.numerical_damping <= share_limit * energy) return;
+  std::string message = fmt::format(
+      "the step is too long for the vibration of elastic cables: xpbd took {:.3g} J from it, where "
+      "kinetic and elastic energy were {:.3g} J at most; more substeps or rattle avoid that",
+      statistics.numerical_damping, energy);
+  warnings.push_back({"damped_vibration", "", std::move(message)});
+}
+
+/// Where nothing puts energy into a scene, there is never more than at first. Steps too long for what swings or spins in them
+/// do make energy: a light weight on a taut cable, pulled round a wheel; the gyroscopic motion of long bodies. So do springs
+/// that are stretched without a force, because sweeps have not got to it.
+void append_energy_warning(const Scene& scene, const RunMonitor& monitor,
+                           std::vector<Warning>& warnings) {
+  constexpr double share_limit = 0.1;
+  constexpr double rounding = 1e-12;  // of the potential energy
+  if (!measure::is_conservative(scene)) return;
+  const double size = monitor.most_vivid_energy();
+  const double gain = monitor.max_energy_gain();
+  const double potential = std::abs(monitor.initial_energy().potential);
+  if (gain <= share_limit * size + rounding * (size + potential)) return;
+  std::string message = fmt::format(
+      "there was {:.3g} J more energy than at the start, although nothing puts any into the scene, "
+      "and kinetic and elastic energy were {:.3g} J at most: the step is too long for what moves, "
+      "or "
+      "the solver did not converge, and the motion means little; more substeps, more iterations or "
+      "the direct solver avoid that",
+      gain, size);
+  warnings.push_back({"energy_gain", "", std::move(message)});
+}
+
+/// The last digit of a position [m] in the direction in which the body is accelerated most, over what that acceleration moves
+/// it by in a substep; 0 without acceleration.
+double rounding_of_motion(const World& world, int body) {
+  const BodySet& bodies = world.bodies();
+  const BodyProperties& properties = bodies[body];
+  if (!(properties.mass > 0.0) || properties.mobility == Mobility::kinematic) return 0.0;
+  const Vector3 loads = bodies.gravity() + bodies.definition(body).force / properties.mass;
+  const Vector3 acceleration = allowed_velocity(properties, loads);
+  Eigen::Index axis = 0;
+  const double most = acceleration.cwiseAbs().maxCoeff(&axis);
+  if (!(most > 0.0)) return 0.0;
+  const StepSettings& step = world.model().step;
+  const double h = step.dt / step.substeps;
+  const double position =
+      std::abs(world.state().bodies[static_cast<std::size_t>(body)].position[axis]);
+  const double digit = std::nextafter(position, std::numeric_limits<double>::infinity()) - position;
+  return digit / (most * h * h);
+}
+
+/// Velocities are differences of positions, which loads change by a h^2 per substep. Where the last digit of a position is no
+/// small share of that, half of it is what accelerations are wrong by.
+void append_rounding_warning(const World& world, std::vector<Warning>& warnings) {
+  constexpr double share_limit = 0.1;
+  for (int i = 0; i < world.bodies().count(); ++i) {
+    const double share = rounding_of_motion(world, i);
+    if (share <= share_limit) continue;
+    const std::string& name = world.bodies().name(i);
+    std::string message = fmt::format(
+        "the substep is too short: what accelerates body {} moves it by little more than the "
+        "rounding of its position, {:.2g} of it, so that its velocity is wrong by about that share",
+        name, share);
+    warnings.push_back({"rounding", name, std::move(message)});
+    return;  // others will be alike
   }
 }
 
 }  // namespace
 
-std::vector<Warning> collect_warnings(const Simulation& simulation, const RunStatistics& statistics,
-                                      const RunMonitor& monitor) {
+std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simulation,
+                                      const RunStatistics& statistics, const RunMonitor& monitor) {
   std::vector<Warning> warnings;
   if (simulation.cables != nullptr) {
     append_cable_warnings(*simulation.cables, warnings);
     append_stretch_warnings(simulation, monitor, warnings);
   }
+  append_damping_warning(statistics, monitor, warnings);
+  append_energy_warning(scene, monitor, warnings);
+  append_rounding_warning(simulation.world, warnings);
   if (statistics.solver_fallbacks > 0) {
     std::string message = fmt::format(
         "the direct solver did not find which rows act in {} {} and left {} to Gauss-Seidel "

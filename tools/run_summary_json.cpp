@@ -41,7 +41,8 @@ Json statistics(const RunStatistics& statistics) {
           {"redundant_rows", statistics.redundant_rows},
           {"integrator_fallbacks", statistics.integrator_fallbacks},
           {"contacts", statistics.contacts},
-          {"deepest_overlap", statistics.deepest_overlap}};
+          {"deepest_overlap", statistics.deepest_overlap},
+          {"numerical_damping", statistics.numerical_damping}};
 }
 
 Json json(const SpanReport& span, bool known) {

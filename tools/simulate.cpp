@@ -28,6 +28,7 @@ void accumulate(const StepStatistics& step, RunStatistics& total) {
   total.redundant_rows = std::max(total.redundant_rows, step.redundant_rows);
   total.integrator_fallbacks += step.integrator_fallbacks;
   total.contacts = std::max(total.contacts, step.contacts);
+  total.numerical_damping += step.numerical_damping;
   total.deepest_overlap = std::max(total.deepest_overlap, step.deepest_overlap);
 }
 

@@ -6,7 +6,9 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "measure/stress_scenes.h"
 #include "tools/command.h"
 #include "tools/gnuplot.h"
 #include "tools/interrupt.h"
@@ -19,9 +21,10 @@ namespace {
 
 struct StressArguments {
   StressOptions stress;
-  std::string solver, integrator, markdown, chart;
+  std::string solver, integrator, markdown, chart, print;
   bool json = false;
   bool list = false;
+  bool only_failed = false;
 };
 
 /// The enumeration's values whose names fit; "" fits all. A Failure (2) if none does.
@@ -38,28 +41,48 @@ std::vector<Kind> chosen(const char* option, const std::string& name,
   throw Failure(ExitCode::usage, fmt::format("{} {}: allowed: {}", option, name, allowed));
 }
 
-std::string file_name(const StressResult& result) {
-  return fmt::format("{}-{}-{}", result.map.name,
-                     solver_names[static_cast<std::size_t>(result.settings.solver)],
-                     integrator_names[static_cast<std::size_t>(result.settings.integrator)]);
+bool is_drawn(const StressArguments& arguments, const StressResult& result) {
+  return !arguments.chart.empty() && (!arguments.only_failed || result.failed() > 0);
+}
+
+/// The path of a result's picture from the page.
+std::string picture_of(const StressArguments& arguments, const StressResult& result) {
+  if (!is_drawn(arguments, result)) return "";
+  const auto page = std::filesystem::absolute(arguments.markdown).parent_path();
+  const auto picture =
+      std::filesystem::absolute(arguments.chart) / (stress_chart_name(result) + ".png");
+  return picture.lexically_relative(page).generic_string();
 }
 
 /// Each map as .png and .svg in the folder, which is made if need be.
-void draw_maps(const std::vector<StressResult>& results, const std::string& folder) {
+void draw_maps(const std::vector<StressResult>& results, const StressArguments& arguments) {
+  const std::string& folder = arguments.chart;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw Failure(ExitCode::io, folder + ": " + error.message());
   for (const StressResult& result : results) {
+    if (!is_drawn(arguments, result)) continue;
     for (const char* extension : {".png", ".svg"}) {
       const std::string path =
-          (std::filesystem::path(folder) / (file_name(result) + extension)).string();
+          (std::filesystem::path(folder) / (stress_chart_name(result) + extension)).string();
       draw_with_gnuplot(path,
                         [&](const std::string& output) { return stress_script(result, output); });
     }
   }
 }
 
+/// Prints the text of a scene that is part of the program.
+ExitCode print_scene(const std::string& name) {
+  if (const auto text = measure::stress_scene(name)) {
+    print(std::string(*text));
+    return ExitCode::done;
+  }
+  throw Failure(ExitCode::usage, fmt::format("--print {}: allowed: {}", name,
+                                             fmt::join(measure::stress_scene_names, ", ")));
+}
+
 ExitCode stress(StressArguments& arguments) {
+  if (!arguments.print.empty()) return print_scene(arguments.print);
   StressOptions& options = arguments.stress;
   options.settings.clear();
   for (const auto integrator :
@@ -79,8 +102,12 @@ ExitCode stress(StressArguments& arguments) {
   catch_interrupts();
   const std::vector<StressResult> results = measure_stress(options);
   print(arguments.json ? stress_json(results) : stress_text(results));
-  if (!arguments.markdown.empty()) write_file(arguments.markdown, stress_markdown(results));
-  if (!arguments.chart.empty()) draw_maps(results, arguments.chart);
+  if (!arguments.markdown.empty()) {
+    write_file(arguments.markdown, stress_markdown(results, [&](const StressResult& result) {
+                 return picture_of(arguments, result);
+               }));
+  }
+  if (!arguments.chart.empty()) draw_maps(results, arguments);
   return ExitCode::done;
 }
 
@@ -88,10 +115,15 @@ ExitCode stress(StressArguments& arguments) {
 
 Action declare_stress(CLI::App& app) {
   auto arguments = std::make_shared<StressArguments>();
-  app.add_option("scene", arguments->stress.scene,
-                 "Scene file (JSON); without one, machines with closed forms")
+  app.add_option(
+         "scene", arguments->stress.scene,
+         "Scene file (JSON); without one, machines with closed forms, and the hand, the gym "
+         "machine and the bow")
       ->option_text("[SCENE]");
   app.add_option("--map", arguments->stress.map, "only the map of this name")->option_text("NAME");
+  app.add_option("--print", arguments->print,
+                 "only print one of the scenes that are part of the program: hand, gym, bow")
+      ->option_text("NAME");
   app.add_flag("--list", arguments->list, "only print the names and meanings of the maps");
   app.add_option("--solver", arguments->solver, "only this one; default: all")->option_text("NAME");
   app.add_option("--integrator", arguments->integrator, "only this one; default: all")
@@ -100,13 +132,16 @@ Action declare_stress(CLI::App& app) {
   app.add_flag("--json", arguments->json, "print one JSON object with all cells");
   app.add_option("--markdown", arguments->markdown, "write all cells as Markdown tables")
       ->option_text("FILE");
-  app.add_option("--chart", arguments->chart,
-                 "draw heat maps with gnuplot, a .png and a .svg each, into this folder")
-      ->option_text("DIR");
+  CLI::Option* chart =
+      app.add_option("--chart", arguments->chart,
+                     "draw heat maps with gnuplot, a .png and a .svg each, into this folder")
+          ->option_text("DIR");
+  app.add_flag("--only-failed", arguments->only_failed, "draw only maps in which a cell failed")
+      ->needs(chart);
   app.footer(R"(Examples:
   sheave stress --quick
   sheave stress --map atwood --solver direct
-  sheave stress --markdown bench/STRESS.md --chart bench/stress
+  sheave stress --markdown STRESS.md --chart stress --only-failed
   sheave stress crane.json --json | jq '.maps[].cells[] | select(.silent) | .command'
 
 A cell is right if no number is off by more than a tenth of its closed form. What fails is told apart: diverged

@@ -55,7 +55,7 @@ StressOutcome run_cell(const measure::StressCell& cell, const StressSettings& se
   if (run.status == RunStatus::interrupted) throw Failure(ExitCode::interrupted, "interrupted");
   StressOutcome outcome{judge.verdict(*simulation, run.divergence), {}};
   if (!cell.similar_to.empty() && !run.divergence) compare(cell, settings, *scene, outcome.verdict);
-  for (const Warning& warning : collect_warnings(*simulation, run.statistics, monitor)) {
+  for (const Warning& warning : collect_warnings(*scene, *simulation, run.statistics, monitor)) {
     outcome.warnings.push_back(warning.kind);
   }
   return outcome;
@@ -87,6 +87,12 @@ int StressResult::silent() const {
                     [](const StressOutcome& outcome) { return outcome.silent(); }));
 }
 
+int StressResult::failed() const {
+  return static_cast<int>(
+      std::count_if(outcomes.begin(), outcomes.end(),
+                    [](const StressOutcome& outcome) { return outcome.verdict.failed(); }));
+}
+
 double StressResult::worst_error() const {
   double worst = 0.0;
   for (const StressOutcome& outcome : outcomes) {
@@ -114,6 +120,9 @@ std::vector<measure::StressMap> choose_maps(const StressOptions& options) {
   const measure::StressRange range{options.quick};
   if (options.scene.empty()) {
     maps = measure::standard_stress_maps(range);
+    for (measure::StressMap& map : measure::built_in_stress_maps(range)) {
+      maps.push_back(std::move(map));
+    }
   } else {
     const SceneResult scene = load_scene(options.scene);
     if (!scene) throw Failure(exit_code(scene), to_text(scene));

@@ -1,6 +1,7 @@
 #pragma once
 // Stability maps as data: what `sheave stress` measures, prints and draws.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct StressResult {
 
   [[nodiscard]] int count(measure::StressKind kind) const;
   [[nodiscard]] int silent() const;
+  [[nodiscard]] int failed() const;
   /// Largest error of cells that did not diverge and were not refused.
   [[nodiscard]] double worst_error() const;
   /// Cells that failed, the worst first, at most so many.
@@ -57,8 +59,12 @@ struct StressOptions {
 
 /// For people: a summary of each map, and the commands of the worst cells.
 [[nodiscard]] std::string stress_text(const std::vector<StressResult>& results);
-/// Every cell, as a page with a table per map.
-[[nodiscard]] std::string stress_markdown(const std::vector<StressResult>& results);
+/// Name of the picture of a result, without its ending: "atwood-direct-xpbd".
+[[nodiscard]] std::string stress_chart_name(const StressResult& result);
+/// Every cell, as a page with a table per map. `picture` gives the path of a result's picture from the page, empty: none.
+[[nodiscard]] std::string stress_markdown(
+    const std::vector<StressResult>& results,
+    const std::function<std::string(const StressResult&)>& picture);
 /// Every cell with its command, one JSON object in one line.
 [[nodiscard]] std::string stress_json(const std::vector<StressResult>& results);
 /// A gnuplot script that draws the heat map of one result.

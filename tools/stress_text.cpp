@@ -101,18 +101,21 @@ std::string stress_text(const std::vector<StressResult>& results) {
   return table.text() + (worst.empty() ? "" : "\nThe worst cells:\n" + worst);
 }
 
-std::string stress_markdown(const std::vector<StressResult>& results) {
+std::string stress_markdown(const std::vector<StressResult>& results,
+                            const std::function<std::string(const StressResult&)>& picture) {
   std::string text = "# Stability at the extremes\n\n";
   text += fmt::format(
-      "Made by `sheave stress --markdown`, sheave {}. Errors are relative to closed forms, the "
-      "largest of each run; above {:g}\nthey are bold. `!`: a failure of which `sheave run` does "
-      "not warn.\n\n",
+      "Made by `sheave stress --markdown`, sheave {}. Errors are relative to closed forms, to the "
+      "same machine in other units, or of\nrigid cables' lengths, the largest of each run; above "
+      "{:g} they are bold. `!`: a failure of which `sheave run` does not warn.\n\n",
       version_string, measure::stress_error_limit);
   text += table_row(stress_head) + table_row(std::vector<std::string>(stress_head.size(), "---"));
   for (const StressResult& result : results) text += table_row(summary_cells(result));
   for (const StressResult& result : results) {
     text += fmt::format("\n## {}, {}\n\n{}\n\n", result.map.name, result.settings.name(),
                         result.map.meaning);
+    const std::string path = picture(result);
+    if (!path.empty()) text += fmt::format("![{}]({})\n\n", result.map.name, path);
     text += map_table(result);
     const std::string worst = worst_text(result, "");
     if (!worst.empty()) text += "\n```\n" + worst + "```\n";

@@ -4,12 +4,15 @@
 #include "measure/stress_map.h"
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "measure/stress_judge.h"
+#include "measure/stress_scenes.h"
 
 namespace sheave::measure {
 namespace {
@@ -158,6 +161,24 @@ TEST(StressMaps, OfASceneFile) {
     }
   }
   EXPECT_FALSE(scene_stress_maps("nowhere.json", {}));
+}
+
+TEST(StressMaps, OfTheScenesInTheProgram) {
+  const auto maps = built_in_stress_maps({});
+  EXPECT_EQ(maps.size(), 4 * stress_scene_names.size());
+  for (const StressMap& map : maps) {
+    SCOPED_TRACE(map.name);
+    const StressCell& cell = map.cells.front();
+    EXPECT_TRUE(cell.scene(SolverKind::direct, IntegratorKind::xpbd));
+    EXPECT_THAT(cell.command(SolverKind::direct, IntegratorKind::xpbd),
+                HasSubstr("sheave stress --print " + cell.built_in + " | sheave run - --solver"));
+  }
+  for (const std::string_view name : stress_scene_names) {
+    std::ifstream file(std::string(SHEAVE_SOURCE_DIR) + "/scenes/paper/" + std::string(name) +
+                       ".json");
+    EXPECT_EQ(*stress_scene(name), std::string(std::istreambuf_iterator<char>(file), {})) << name;
+  }
+  EXPECT_FALSE(stress_scene("foot"));
 }
 
 }  // namespace

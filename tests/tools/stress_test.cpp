@@ -22,6 +22,15 @@ TEST(Stress, ListsItsMaps) {
   EXPECT_THAT(result.out, HasSubstr("spin: "));
 }
 
+TEST(Stress, PrintsTheScenesInTheProgram) {
+  const ProcessResult result = run_sheave({"stress", "--print", "gym"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, HasSubstr("\"format\": \"sheave-scene/1\""));
+  const ProcessResult unknown = run_sheave({"stress", "--print", "foot"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("hand, gym, bow"));
+}
+
 TEST(Stress, JsonHasEveryCellAndItsCommand) {
   const ProcessResult result = run_sheave({"stress", "--quick", "--map", "atwood", "--solver",
                                            "direct", "--integrator", "rattle", "--json"});
@@ -66,6 +75,7 @@ TEST(Stress, WritesMarkdownAndCharts) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("spans"));
   EXPECT_THAT(read_file(page), HasSubstr("## spans, direct + xpbd"));
+  EXPECT_EQ(read_file(page).find("charts/spans-direct-xpbd.png") != std::string::npos, gnuplot);
   if (!gnuplot) GTEST_SKIP() << "no gnuplot";
   EXPECT_THAT(read_file(folder.path("charts/spans-direct-xpbd.png")), HasSubstr("PNG"));
   EXPECT_THAT(read_file(folder.path("charts/spans-direct-xpbd.svg")), HasSubstr("</svg>"));

@@ -1,0 +1,105 @@
+// Each way in which a run can be wrong without an error has a warning, which a run that is right has not.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/process.h"
+#include "tests/tools/scenes.h"
+
+namespace sheave::test {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+std::string train(const TemporaryFolder& folder, std::vector<std::string> options) {
+  const std::string scene = folder.path("train.json");
+  options.insert(options.begin(), {"generate", "wheel-train", "--out", scene});
+  EXPECT_EQ(run_sheave(options).exit_code, 0);
+  return scene;
+}
+
+/// Kinds of the warnings, separated by spaces.
+std::string warned(const std::vector<std::string>& arguments) {
+  std::string kinds;
+  std::vector<std::string> command{"run", "--json", "--quiet"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  const json summary = json::parse(run_sheave(command).out);
+  for (const json& warning : summary["warnings"]) {
+    kinds += (kinds.empty() ? "" : " ") + warning["kind"].get<std::string>();
+  }
+  return kinds;
+}
+
+TEST(Warnings, SweepsThatActLikeASpringAreAWarning) {
+  // The cable gives way and comes back, so that at the end it is hardly longer than at half time; accelerations are wrong by
+  // 25 %.
+  const TemporaryFolder folder;
+  const std::string swinging = train(
+      folder, {"--wheel-mass", "1e-4", "--iterations", "10", "--dt", "1e-5", "--duration", "0.02"});
+  EXPECT_EQ(warned({swinging}), "stretched");
+  EXPECT_EQ(warned({swinging, "--solver", "direct"}), "");
+  // It gives way in the beginning only, but things go on moving.
+  const std::string short_run =
+      train(folder, {"--wheels", "10", "--iterations", "10", "--duration", "0.16666666666666666"});
+  EXPECT_EQ(warned({short_run, "--integrator", "rattle"}), "stretched");
+}
+
+TEST(Warnings, AVibrationThatTheStepDampsIsAWarning) {
+  // w = 8.7 rad/s: in half a second xpbd takes w^2 h 0.5 s = 1.2 of it at 1/30 s, a hundredth of that at 1/3000 s.
+  const TemporaryFolder folder;
+  const std::string scene = train(folder, {"--wheels", "1", "--iterations", "10", "--dt",
+                                           "0.03333333333333333", "--duration", "0.5"});
+  const std::vector<std::string> run{scene, "--set", "/cables/0/compliance=0.01", "--set",
+                                     "/bodies/1/spin_inertia=0"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), run.begin(), run.end());
+    return more;
+  };
+  EXPECT_EQ(warned(run), "damped_vibration");
+  EXPECT_EQ(warned(with({"--integrator", "rattle"})), "");
+  EXPECT_EQ(warned(with({"--substeps", "100"})), "");
+}
+
+TEST(Warnings, MotionInTheRoundingOfPositionsIsAWarning) {
+  // g h^2 = 5e-16 m, and the last digit of 2 m is 4e-16 m.
+  const TemporaryFolder folder;
+  const std::string scene = train(folder, {"--wheels", "1", "--dt", "1e-5", "--duration", "0.02"});
+  EXPECT_EQ(warned({scene, "--set", "/gravity=[0, 5e-6, 0]"}), "rounding");
+  EXPECT_EQ(warned({scene, "--set", "/gravity=[0, 5e-3, 0]"}), "");
+  EXPECT_EQ(warned({scene}), "");
+}
+
+TEST(Warnings, EnergyFromNowhereIsAWarning) {
+  // A block of 16 t pulls the light effort of its tackle round the wheel at 400 m/s, where it swings by some radians per
+  // substep; ten times shorter ones resolve that.
+  const std::string scene = std::string(SHEAVE_SOURCE_DIR) + "/scenes/paper/pulley.json";
+  const std::vector<std::string> extreme{scene,
+                                         "--solver",
+                                         "direct",
+                                         "--duration",
+                                         "1.2",
+                                         "--set",
+                                         "/bodies/4/mass=16393.075247154153",
+                                         "--set",
+                                         "/bodies/1/mass=528",
+                                         "--set",
+                                         "/bodies/2/mass=252.6",
+                                         "--set",
+                                         "/bodies/3/mass=100.9",
+                                         "--set",
+                                         "/bodies/5/mass=0.0658",
+                                         "--set",
+                                         "/bodies/6/mass=0.01307",
+                                         "--set",
+                                         "/bodies/7/mass=0.2447"};
+  EXPECT_THAT(warned(extreme), HasSubstr("energy_gain"));
+  std::vector<std::string> resolved = extreme;
+  resolved.insert(resolved.end(), {"--substeps", "40"});
+  EXPECT_EQ(warned(resolved), "");
+  EXPECT_EQ(warned({scene, "--solver", "direct"}), "");
+}
+
+}  // namespace
+}  // namespace sheave::test
