@@ -61,8 +61,8 @@ struct CompiledCable {
 /// The feature "cables" of a world. Layout of its state, with the spans and links of all cables in order:
 ///
 /// reals: rest length per span [m], stored length per link [m], tension per span [N], transport below the quantum per
-/// span end (first, second) [m], which rows count as rest length, slip per link [m]: cable that has slid over it towards the next span, of an attachment
-/// cable that was fed, angle of a hybrid end's attachment per link [rad], plane per place for a wrap: centre [m] and
+/// span end (first, second) [m], which rows count as rest length, slip per link [m]: cable that has slid over it towards the
+/// next span, of an attachment cable that was fed, angle of a hybrid end's attachment per link [rad], plane per place for a wrap: centre [m] and
 /// normal, own frame of the body.
 ///
 /// integers: per link with friction which way the cable slides: +1 towards the next span, -1 towards the last, 0 not at
@@ -300,7 +300,7 @@ class CableSystem final : public ConstraintBatch {
   std::vector<int> sweeps_;             ///< per cable, in this substep
   std::vector<int> flips_;              ///< per link: how often that has changed in this substep
   std::vector<double> stored_lengths_;  ///< per link, at the start of the substep [m]
-  Row row_;  ///< scratch of solve_span()
+  Row row_;                             ///< scratch of solve_span()
   // Scratch of solve_run().
   std::vector<Row> run_rows_;
   std::vector<SpanGeometry> run_spans_;

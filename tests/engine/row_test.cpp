@@ -86,14 +86,18 @@ TEST(SolveRow, ClampsTheAccumulatedMultiplierNotTheIncrement) {
   EXPECT_EQ(solve_row(row, 0.01, multiplier, bodies), 0.0);
 }
 
-TEST(SolveRow, BetweenImmovableBodiesDoesNothing) {
+TEST(SolveRow, BetweenImmovableBodiesMovesNothing) {
   std::array<MovingBody, 2> bodies{};
   double multiplier = 0.0;
   EXPECT_EQ(solve_row(pull(-0.4), 0.01, multiplier, bodies), 0.0);
   EXPECT_EQ(multiplier, 0.0);
   Row soft = pull(-0.4);
   soft.compliance = 0.1;
+  // A spring has its force all the same, 0.4 m / 0.1 m/N, whoever holds its ends.
+  EXPECT_EQ(solve_row(soft, 0.01, multiplier, bodies), 0.4);
+  EXPECT_NEAR(multiplier / (0.01 * 0.01), 4.0, 1e-12);
   EXPECT_EQ(solve_row(soft, 0.01, multiplier, bodies), 0.0);
+  EXPECT_EQ(bodies[0].position, Vector3::Zero());
 }
 
 TEST(SolveRow, ScalesFromMicrogramsToMegatons) {
