@@ -9,9 +9,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double square_displacement(const TrackedBody& body, const BodyPose& pose, const BodyPose& right) {
-  const double turned = body.turns_by_angle ? pose.angle - right.angle
-                                            : pose.orientation.angularDistance(right.orientation);
+double square_displacement(const TrackedBody& body, const TrackedBody& other, const BodyPose& pose,
+                           const BodyPose& right) {
+  // Of one body in two models, one may count its turns and the other not.
+  const double turned = body.turns_by_angle && other.turns_by_angle
+                            ? pose.angle - right.angle
+                            : pose.orientation.angularDistance(right.orientation);
   const double rim = body.reach * turned;
   return (pose.position - right.position).squaredNorm() + rim * rim;
 }
@@ -20,7 +23,7 @@ double position_error(const Trajectory& run, const Trajectory& reference, std::s
   if (run.bodies.empty()) return 0.0;
   double sum = 0.0;
   for (std::size_t i = 0; i < run.bodies.size(); ++i) {
-    sum += square_displacement(run.bodies[i], run.frames[frame].poses[i],
+    sum += square_displacement(run.bodies[i], reference.bodies[i], run.frames[frame].poses[i],
                                reference.frames[frame].poses[i]);
   }
   return std::sqrt(sum / static_cast<double>(run.bodies.size())) / reference.scale;
