@@ -24,7 +24,7 @@ std::string saved_text(double now, double before) {
 }
 
 std::vector<std::string> ladder_cells(const TradeLadder& ladder, const LadderRow& row) {
-  std::vector<std::string> cells{row.name, fmt::format("{} {}", row.changed, row.things)};
+  std::vector<std::string> cells{row.name, fmt::format("{}: {}", row.things, row.changed)};
   if (!row.fault.empty()) {
     cells.emplace_back("not possible");
     cells.resize(ladder_head.size());
