@@ -31,10 +31,9 @@ RungScene on_rung(const ModelRung& rung, const Scene& scene) {
 
 ModelDifference model_difference(const Trajectory& rung, const Trajectory& written) {
   const auto [own, other] = with_common_bodies(rung, written);
-  const RunError forces = error_of(without_bodies(rung), without_bodies(written));
-  const double none = std::numeric_limits<double>::quiet_NaN();
-  return {error_of(own, other).position, has_tensions(written) ? forces.tension : none,
-          forces.energy};
+  const double position = error_of(own, other).position;
+  if (!has_tensions(written)) return {position, std::numeric_limits<double>::quiet_NaN()};
+  return {position, error_of(without_bodies(rung), without_bodies(written)).tension};
 }
 
 }  // namespace sheave::measure

@@ -40,7 +40,6 @@ struct RungScene {
 struct ModelDifference {
   double position = 0.0;  ///< largest of all frames, over the bodies that both runs have
   double tension = 0.0;   ///< NaN without cables
-  double energy = 0.0;
 };
 /// Infinite for runs that are not complete. Both must be of one scene, or of its rungs, with the same frames.
 [[nodiscard]] ModelDifference model_difference(const Trajectory& rung, const Trajectory& written);

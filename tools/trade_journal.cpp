@@ -85,9 +85,7 @@ json ladder_row_json(const LadderRow& row) {
           {"change", row.change},
           {"changed", row.changed},
           {"fault", row.fault},
-          {"difference",
-           {number(row.difference.position), number(row.difference.tension),
-            number(row.difference.energy)}},
+          {"difference", {number(row.difference.position), number(row.difference.tension)}},
           {"seconds", spread_json(row.seconds)},
           {"row_solves", row.row_solves}};
 }
@@ -98,7 +96,7 @@ LadderRow ladder_row_from(const json& own) {
           own.at("change"),
           own.at("changed"),
           own.at("fault"),
-          {number_of(difference.at(0)), number_of(difference.at(1)), number_of(difference.at(2))},
+          {number_of(difference.at(0)), number_of(difference.at(1))},
           spread_from(own.at("seconds")),
           own.at("row_solves")};
 }

@@ -75,9 +75,7 @@ TradeJson ladder_row_json(const LadderRow& row) {
     json["fault"] = row.fault;
     return json;
   }
-  json["difference"] = {{"position", row.difference.position},
-                        {"tension", row.difference.tension},
-                        {"energy", row.difference.energy}};
+  json["difference"] = {{"position", row.difference.position}, {"tension", row.difference.tension}};
   json["seconds_per_simulated_second"] = trade_spread_json(row.seconds);
   json["row_solves_per_simulated_second"] = row.row_solves;
   return json;

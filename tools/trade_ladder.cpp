@@ -18,6 +18,9 @@
 namespace sheave::tools {
 namespace {
 
+/// Beyond this error of the scene as written, what a rung changes is not told from what the setting does wrong.
+constexpr double useless_setting = 0.1;
+
 /// The cheapest for 0.1 %, or the most accurate one.
 std::optional<std::size_t> ladder_setting(const TradeTable& table) {
   constexpr double wanted = 1e-3;
@@ -42,6 +45,11 @@ class Ladder {
   }
 
   TradeLadder climb() {
+    if (!(ladder_.setting_error <= useless_setting)) {
+      ladder_.skipped = fmt::format("no setting has an error that is known to be below {:g} %",
+                                    100.0 * useless_setting);
+      return std::move(ladder_);
+    }
     find_rungs();
     const double expected = chosen_.run_seconds * static_cast<double>(valid_.size());
     const double errors = expected / run_.threads();

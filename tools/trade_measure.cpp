@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <map>
 #include <mutex>
 #include <utility>
 
@@ -53,18 +54,44 @@ void judge_run(const TradeRun& run, const measure::Trajectory& own, TradeRow& ro
   row.fallbacks = own.fallbacks;
 }
 
-/// Runs of settings side by side, cheapest first.
+/// Runs of settings side by side, of each solver with each integrator the cheapest first.
 class ErrorStage {
+  struct Family {
+    std::vector<TradeRow*> rows;
+    std::size_t next = 0;
+    double spent = 0.0;  // on those before it, about
+  };
+
  public:
   explicit ErrorStage(TradeRun& run) : run_(run), limit_(run.limit.part(errors_share)) {
+    // Each solver with each integrator gets its share, or all the time would go to what is merely cheap.
+    std::map<std::pair<SolverKind, IntegratorKind>, Family> families;
     for (TradeRow& row : run.table.rows) {
       if (!row.measured() || run.journal.restore(row)) continue;
-      rows_.push_back(&row);
+      families[{row.setting.step.solver, row.setting.step.integrator}].rows.push_back(&row);
       total_ += row.expected_seconds;
     }
-    std::stable_sort(rows_.begin(), rows_.end(), [](const TradeRow* a, const TradeRow* b) {
-      return a->expected_seconds < b->expected_seconds;
-    });
+    for (auto& [key, family] : families) {
+      std::stable_sort(family.rows.begin(), family.rows.end(),
+                       [](const TradeRow* a, const TradeRow* b) {
+                         return a->expected_seconds < b->expected_seconds;
+                       });
+    }
+    const auto spent = [](const auto& entry) {
+      const Family& family = entry.second;
+      return family.next < family.rows.size() ? family.spent
+                                              : std::numeric_limits<double>::infinity();
+    };
+    while (!families.empty()) {
+      const auto least =
+          std::min_element(families.begin(), families.end(),
+                           [&](const auto& a, const auto& b) { return spent(a) < spent(b); });
+      Family& family = least->second;
+      if (family.next == family.rows.size()) break;
+      TradeRow* const row = family.rows[family.next++];
+      family.spent += row->expected_seconds;
+      rows_.push_back(row);
+    }
   }
 
   [[nodiscard]] bool empty() const { return rows_.empty(); }

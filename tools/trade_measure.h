@@ -55,7 +55,8 @@ struct TradeRun {
 void plan_trade(TradeRun& run);
 /// The reference, and until when it can judge. Settings that are finer than it are skipped.
 void make_reference(TradeRun& run);
-/// The error of every setting, over the cores, in the order of their expected cost, as long as there is time.
+/// The error of every setting, over the cores, as long as there is time: of each solver with each integrator, which share it, the
+/// cheapest first.
 void measure_errors(TradeRun& run);
 /// The time of every setting that has an error, on this thread alone.
 void measure_times(TradeRun& run);

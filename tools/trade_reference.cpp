@@ -31,13 +31,16 @@ constexpr int most_doublings = 6;
 
 /// Share of the time for everything after which no finer run is begun, and after which one that is running is given up.
 constexpr double reference_share = 0.2;
-constexpr double reference_end = 0.5;
+constexpr double reference_end = 0.4;
+/// Share of the time for everything that one look at what a run costs may take.
+constexpr double pilot_share = 0.002;
+/// How many times fewer substeps a reference gets if it was not done in time.
+constexpr int coarser = 4;
 
 /// CPU time of a whole run [s], from its first frames; 0 if it cannot be run.
-double pilot_seconds(const TradeSetting& setting, const Scene& scene) {
+double pilot_seconds(const TradeSetting& setting, const Scene& scene, double enough) {
   const Result<measure::Contender> contender = measure::scene_contender("", setting.applied(scene));
   if (!contender) return 0.0;
-  constexpr double enough = 0.01;
   const double start = measure::thread_time();
   std::int64_t frames = 0;
   double seconds = 0.0;
@@ -53,7 +56,8 @@ double pilot_seconds(const TradeSetting& setting, const Scene& scene) {
 /// What runs cost: a part per substep and one per sweep of gauss-seidel, for each solver, integrator and tangent update.
 class CostModel {
  public:
-  explicit CostModel(const Scene& scene) : scene_(scene) {}
+  /// `enough`: CPU time for a look [s], one frame at least.
+  CostModel(const Scene& scene, double enough) : scene_(scene), enough_(enough) {}
 
   double seconds(const TradeSetting& setting) {
     const StepSettings& step = setting.step;
@@ -67,19 +71,21 @@ class CostModel {
  private:
   [[nodiscard]] std::array<double, 2> measured(TradeSetting setting) const {
     setting.step.substeps = 1;
-    if (setting.step.solver == SolverKind::direct) return {pilot_seconds(setting, scene_), 0.0};
+    if (setting.step.solver == SolverKind::direct)
+      return {pilot_seconds(setting, scene_, enough_), 0.0};
     constexpr int few = 1;
     constexpr int more = 11;
     setting.step.iterations = few;
-    const double first = pilot_seconds(setting, scene_);
+    const double first = pilot_seconds(setting, scene_, enough_);
     setting.step.iterations = more;
-    const double second = pilot_seconds(setting, scene_);
+    const double second = pilot_seconds(setting, scene_, enough_);
     const double sweep = std::max(0.0, (second - first) / (more - few));
     return {std::max(0.0, first - few * sweep), sweep};
   }
 
   using Key = std::tuple<SolverKind, IntegratorKind, std::optional<TangentUpdate>>;
   const Scene& scene_;
+  double enough_;
   std::map<Key, std::array<double, 2>> parts_;
 };
 
@@ -107,8 +113,8 @@ measure::Reference choose(Result<measure::Reference>& second_order,
   return better ? std::move(first_order).value() : std::move(second_order).value();
 }
 
-/// Both references side by side; that of `xpbd` is given up if that of `rattle` is good.
-measure::Reference both_references(TradeRun& run) {
+/// Both references side by side; that of `xpbd` is given up if that of `rattle` is good. Nothing if the time was too short.
+std::optional<measure::Reference> both_references(TradeRun& run) {
   const double limit =
       std::min(run.options.reference_seconds, reference_share * run.limit.seconds());
   Progress progress("reference, at most", 0.0, 1.0, run.options.quiet);
@@ -136,13 +142,20 @@ measure::Reference both_references(TradeRun& run) {
   run_parallel(2, run.threads(), make,
                [&] { progress.update(1.0 - end.left() / end.seconds(), ""); });
   if (interrupted()) stop_interrupted();
-  if (!results[0] && !results[1] && end.left() <= 0.0) {
-    throw Failure(ExitCode::check_failed,
-                  fmt::format("two runs of the reference, with {} and {} substeps, take more than "
-                              "half of {:g} minutes; give more with --minutes",
-                              run.first_substeps, 2 * run.first_substeps, run.options.minutes));
-  }
+  if (!results[0] && !results[1] && end.left() <= 0.0) return {};
   return choose(results[0], results[1], run.table.dt);
+}
+
+measure::Reference new_reference(TradeRun& run) {
+  while (true) {
+    if (std::optional<measure::Reference> made = both_references(run)) return std::move(*made);
+    if (run.first_substeps == 1) break;
+    run.first_substeps = std::max(1, run.first_substeps / coarser);
+  }
+  throw Failure(ExitCode::check_failed,
+                fmt::format("two runs of the reference, with 1 and 2 substeps, take more than {:g} "
+                            "minutes allow; give more with --minutes",
+                            run.options.minutes));
 }
 
 /// To the time up to which the reference is known. If it knows nothing but time 0 the whole run is compared, and the
@@ -189,7 +202,7 @@ bool needs_truth(TradeRun& run) {
 }  // namespace
 
 void plan_trade(TradeRun& run) {
-  CostModel model(run.scene);
+  CostModel model(run.scene, pilot_share * run.limit.seconds());
   for (TradeRow& row : run.table.rows) {
     if (interrupted()) stop_interrupted();
     row.expected_seconds = model.seconds(row.setting);
@@ -216,7 +229,7 @@ void make_reference(TradeRun& run) {
   if (std::optional<measure::Reference> known = run.journal.reference()) {
     table.reference = std::move(*known);
   } else {
-    table.reference = both_references(run);
+    table.reference = new_reference(run);
     run.truth = std::exchange(table.reference.trajectory, {});
     run.journal.keep(table.reference);
   }

@@ -405,7 +405,7 @@ TEST(TradeText, ShowsTheLadderWithItsFaults) {
   ladder.row_solves = 1000.0;
   ladder.absent = {"no ground"};
   tools::LadderRow rigid{"rigid cables", "cables", "no compliance", 3, {}};
-  rigid.difference = {1.5e-3, 2.5e-2, 0.0};
+  rigid.difference = {1.5e-3, 2.5e-2};
   rigid.seconds = {1.5e-3, 1.4e-3, 1.6e-3, 1.4e-3, 5};
   rigid.row_solves = 900.0;
   ladder.rows = {rigid, {"massless wheels", "wheels", "", 2, "diverged: the drum"}};
