@@ -151,20 +151,21 @@ TradeJournal::~TradeJournal() {
   }
 }
 
-void TradeJournal::keep(const measure::Reference& reference) {
+void TradeJournal::keep(const measure::Reference& reference, double motion) {
   json differences = json::array();
   for (const double difference : reference.differences) differences.push_back(number(difference));
   (*data_)["reference"] = {{"substeps", reference.substeps},
                            {"integrator", static_cast<int>(reference.integrator)},
                            {"order", number(reference.order)},
                            {"good", reference.good},
+                           {"motion", number(motion)},
                            {"estimate", error_of(reference.estimate)},
                            {"differences", std::move(differences)}};
   changed_ = true;
   save();
 }
 
-std::optional<measure::Reference> TradeJournal::reference() const {
+std::optional<std::pair<measure::Reference, double>> TradeJournal::reference() const {
   if (!data_->contains("reference")) return {};
   const json& own = data_->at("reference");
   measure::Reference reference;
@@ -176,7 +177,7 @@ std::optional<measure::Reference> TradeJournal::reference() const {
   for (const json& difference : own.at("differences")) {
     reference.differences.push_back(number_of(difference));
   }
-  return reference;
+  return std::pair(std::move(reference), number_of(own.at("motion")));
 }
 
 void TradeJournal::keep(const TradeRow& row) {

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -31,8 +32,10 @@ class TradeJournal {
   TradeJournal(const TradeJournal&) = delete;
   TradeJournal& operator=(const TradeJournal&) = delete;
 
-  void keep(const measure::Reference& reference);
-  [[nodiscard]] std::optional<measure::Reference> reference() const;  ///< without its frames
+  /// The reference and the motion in what is compared.
+  void keep(const measure::Reference& reference, double motion);
+  /// The reference without its frames, and the motion.
+  [[nodiscard]] std::optional<std::pair<measure::Reference, double>> reference() const;
 
   /// The error of a setting, or its fault.
   void keep(const TradeRow& row);

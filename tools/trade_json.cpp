@@ -118,6 +118,7 @@ std::string trade_json(const TradeTable& table) {
                  {"repetitions", table.repetitions},
                  {"simulated_seconds", table.simulated_seconds},
                  {"compared_seconds", table.compared_seconds},
+                 {"motion", table.motion},
                  {"reference", reference_json(table)},
                  {"rows", TradeJson::array()},
                  {"orders", TradeJson::array()},

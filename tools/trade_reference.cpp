@@ -226,16 +226,21 @@ void plan_trade(TradeRun& run) {
 
 void make_reference(TradeRun& run) {
   TradeTable& table = run.table;
-  if (std::optional<measure::Reference> known = run.journal.reference()) {
-    table.reference = std::move(*known);
+  auto known = run.journal.reference();
+  if (known) {
+    std::tie(table.reference, table.motion) = std::move(*known);
   } else {
     table.reference = new_reference(run);
     run.truth = std::exchange(table.reference.trajectory, {});
-    run.journal.keep(table.reference);
   }
   table.doubt = table.reference.estimate;
   table.compared_seconds = table.simulated_seconds;
   limit_comparison(run);
+  if (!known) {
+    const std::size_t frames = run.frames > 0 ? run.frames : run.truth.frames.size();
+    table.motion = measure::motion_of(measure::first_frames(run.truth, frames));
+    run.journal.keep(table.reference, table.motion);
+  }
   for (TradeRow& row : table.rows) {
     if (row.setting.step.substeps <= table.reference.substeps) continue;
     row.skipped = fmt::format("finer than the reference that the time allows ({} substeps)",

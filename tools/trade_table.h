@@ -100,6 +100,7 @@ struct TradeTable {
   double compared_seconds = 0.0;
   measure::Reference reference;      ///< without its frames
   measure::RunError doubt;           ///< the reference's own error in what is compared
+  double motion = 0.0;               ///< measure::motion_of the reference in what is compared
   std::optional<double> chaos_rate;  ///< measure::ErrorGrowth::rate
   std::vector<TradeRow> rows;
   std::vector<TradeFamily> families;
@@ -130,6 +131,9 @@ struct TradeOptions {
 
 /// Fills in families and front from the rows.
 void judge(TradeTable& table);
+
+/// A motion below this part of the scene's size makes errors relative to the size look small; the report says so.
+inline constexpr double little_motion = 0.1;
 
 /// The levels that the report names a setting for: 1 %, 0.1 %, 0.01 %.
 inline constexpr std::array<double, 3> trade_levels{1e-2, 1e-3, 1e-4};

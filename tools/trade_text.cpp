@@ -64,6 +64,12 @@ std::vector<std::string> span_lines(const TradeTable& table) {
         "judged better than that",
         table.doubt.position));
   }
+  if (table.motion > 0.0 && table.motion < little_motion) {
+    lines.push_back(
+        fmt::format("the bodies move by no more than {:.1e} of the scene's size: relative to their "
+                    "motion the errors are {:.3g} times those shown",
+                    table.motion, 1.0 / table.motion));
+  }
   if (table.chaos_rate) {
     lines.push_back(
         fmt::format("chaotic: differences grow by a factor of e every {:.3g} s, so that later "

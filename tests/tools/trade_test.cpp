@@ -259,7 +259,7 @@ TEST_F(TradeOfAFile, GoesOnAfterAnInterrupt) {
   EXPECT_EQ(stopped.out, "");
   ASSERT_GT(kept(), 0U);
   std::vector<std::string> rest = common;
-  rest.insert(rest.end(), {"--minutes", "0.1", "--substeps", "1,2", "--iterations", "2"});
+  rest.insert(rest.end(), {"--minutes", "3", "--substeps", "1,2", "--iterations", "2"});
   const ProcessResult resumed = run_sheave(rest);
   EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_THAT(resumed.err, testing::ContainsRegex("[1-9][0-9]* settings are known"));
@@ -301,10 +301,10 @@ TEST_F(TradeOfAFile, OneThreadFindsWhatManyFind) {
 }
 
 TEST_F(TradeOfAFile, SkipsWhatTakesTooLongAndSaysSo) {
-  // Three seconds; a million sweeps over two rows in each of 100 frames take ten, in 64 substeps ten minutes.
+  // Six seconds; a million sweeps over two rows in each of 100 frames take ten, in 64 substeps ten minutes.
   const ProcessResult result =
-      run_sheave({"trade", path, "--json", "--minutes", "0.05", "--substeps", "1,64",
-                  "--iterations", "2,1000000", "--tangents", "iteration"});
+      run_sheave({"trade", path, "--json", "--minutes", "0.1", "--substeps", "1,64", "--iterations",
+                  "2,1000000", "--tangents", "iteration"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json table = json::parse(result.out);
   int skipped = 0;
