@@ -166,13 +166,17 @@ def setting_cells(scene, row):
     return [row["name"], scene.error(row), digits(1e3 * cost(row)), f"{solves(row):.3g}"]
 
 
+def gain_text(ratio, less="less"):
+    """A ratio of costs in words."""
+    return f"{digits(ratio)} times {less}" if ratio >= 1.0 else f"{digits(1.0 / ratio)} times more"
+
+
 def causes_of(scene, direct, sweeps):
     """Why the ratio is less than what was asked for: few solves to save, or dear ones."""
     work = solves(sweeps) / solves(direct)
     causes = []
     if work < ASKED:
-        causes.append(f"Gauss-Seidel with {sweeps['name'].split(' ', 1)[1]} is already accurate enough, so there are only {digits(work)} times "
-                      "as many solves to save")
+        causes.append(f"Gauss-Seidel with {sweeps['name'].split(' ', 1)[1]} is already accurate enough, so that there are few solves to save")
     if ns_per_solve(direct) > ns_per_solve(sweeps):
         causes.append("a solve of the direct solver, which assembles, factors and checks its rows, and carries all that a substep costs "
                       f"whatever the solver, takes {digits(ns_per_solve(direct) / ns_per_solve(sweeps))} times as long")
@@ -182,7 +186,7 @@ def causes_of(scene, direct, sweeps):
 def explanation(scene, measure, level, direct, sweeps, within):
     """The ratio as how many solves, times what each costs."""
     times, work = cost(sweeps) / cost(direct), solves(sweeps) / solves(direct)
-    text = (f"* **{scene.name}**, {measure}: {digits(times)} times less time = {digits(work)} times fewer row solves at "
+    text = (f"* **{scene.name}**, {measure}: {gain_text(times)} time, with {gain_text(work, 'fewer')} row solves at "
             f"{digits(ns_per_solve(direct))} ns each instead of {digits(ns_per_solve(sweeps))} ns (all of the step's time, for each row solve).")
     if not within:
         skipped = sum(matches(row, "gauss-seidel", "xpbd") for row in scene.skipped)
@@ -193,7 +197,7 @@ def explanation(scene, measure, level, direct, sweeps, within):
         text += f" Not {ASKED:g} times: " + "; and ".join(causes_of(scene, direct, sweeps)) + "."
         lighter = scene.cheapest(level, "direct", "xpbd")
         if lighter is not None and cost(lighter) < 0.9 * cost(direct):
-            text += f" `direct` with `xpbd` ({lighter['name']}) is {digits(cost(sweeps) / cost(lighter))} times cheaper."
+            text += f" `direct` with `xpbd` ({lighter['name']}) takes {gain_text(cost(sweeps) / cost(lighter))} time than Gauss-Seidel."
     return text
 
 
