@@ -363,6 +363,25 @@ def limit_lines(scenes):
     return lines + [""]
 
 
+def stress_lines(text):
+    """Of the table of maps on the page of sheave stress: all maps of a setting together."""
+    cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line.startswith("|")]
+    head = next((row for row in cells if "setting" in row and "cells" in row), None)
+    if head is None:
+        return []
+    counted = head[head.index("cells"):]
+    sums = {}
+    for row in cells:
+        found = dict(zip(head, row))
+        if len(row) != len(head) or not found["cells"].isdigit():
+            continue
+        own = sums.setdefault(found["setting"], dict.fromkeys(counted, 0))
+        for name in counted:
+            own[name] += int(found[name]) if found[name].isdigit() else 0
+    names = [name for name in counted if name != "worst error"]
+    return table(["setting"] + names, [[setting] + [own[name] or "-" for name in names] for setting, own in sums.items()])
+
+
 def other_lines(folder):
     """Pages that other commands have made, if they are there."""
     others = [("STRESS.md", "Where extreme numbers break machines", "sheave stress --markdown bench/STRESS.md"),
@@ -373,8 +392,7 @@ def other_lines(folder):
         lines.append(f"* {what}: [{name}]({name})." if there else f"* {what}: not made yet, `{command}`.")
     stress = pathlib.Path(folder) / "STRESS.md"
     if stress.exists():
-        worst = [line for line in stress.read_text().splitlines() if "worst" in line.lower()][:6]
-        lines += [""] + [f"  > {line}" for line in worst if line.strip() and not line.startswith("|")]
+        lines += [""] + stress_lines(stress.read_text())
     return lines + [""]
 
 

@@ -54,15 +54,16 @@ json report_result(const json& rows) {
 }
 
 /// What tools/report_page.py writes about these results.
-std::string page_of(const TemporaryFolder& folder, const json& results) {
+std::string page_of(const TemporaryFolder& folder, const json& results,
+                    const std::string& others = "/nowhere") {
   const std::string input = folder.write("results.json", results.dump());
   const std::string output = folder.path("page.md");
   const std::string script =
       "import json, sys; sys.dont_write_bytecode = True; sys.path.insert(0, sys.argv[1]); "
       "import report_page; open(sys.argv[3], 'w').write(report_page.page("
-      "json.load(open(sys.argv[2])), ['machine'], '/nowhere'))";
+      "json.load(open(sys.argv[2])), ['machine'], sys.argv[4]))";
   const std::string command =
-      "python3 -c \"" + script + "\" " + tools_folder + " " + input + " " + output;
+      "python3 -c \"" + script + "\" " + tools_folder + " " + input + " " + output + " " + others;
   EXPECT_EQ(std::system(command.c_str()), 0);
   return read_file(output);
 }
@@ -116,6 +117,22 @@ TEST(Report, SaysWhereNoSettingIsGoodEnough) {
   EXPECT_THAT(page,
               HasSubstr("times as large; 1 of 4 settings failed; 1 of 4 settings were skipped"));
   EXPECT_THAT(page, HasSubstr("lost: not measured: exit code 75"));
+}
+
+TEST(Report, SumsUpTheStabilityPage) {
+  if (!has_python()) GTEST_SKIP() << "no python3";
+  const TemporaryFolder folder;
+  folder.write("STRESS.md",
+               "# Stability\n\n| map | setting | cells | worst error | wrong | silent |\n"
+               "| --- | --- | --- | --- | --- | --- |\n"
+               "| atwood | direct + xpbd | 91 | 2.5e-05 | - | - |\n"
+               "| train | direct + xpbd | 9 | **4.0e+00** | 53 | 2 |\n"
+               "| train | direct + rattle | 9 | 1.0e-06 | - | - |\n");
+  const std::string page = page_of(folder, json::object(), folder.path(""));
+  EXPECT_THAT(page, HasSubstr("[STRESS.md](STRESS.md)"));
+  EXPECT_THAT(page, HasSubstr("| setting | cells | wrong | silent |"));
+  EXPECT_THAT(page, HasSubstr("| direct + xpbd | 100 | 53 | 2 |"));
+  EXPECT_THAT(page, HasSubstr("| direct + rattle | 9 | - | - |"));
 }
 
 TEST(Report, MeasuresASceneOnce) {
