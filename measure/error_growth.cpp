@@ -11,11 +11,14 @@ constexpr double rounding = 1e-12;
 constexpr double saturated = 0.03;
 constexpr std::size_t fewest_frames = 10;
 constexpr double least_growth = 100.0;
+/// Part of the variance that a law may leave unexplained. An impact is a leap and no growth: no law has it.
+constexpr double unexplained = 0.1;
 
 /// A straight line through points by least squares.
 struct Line {
   double slope = 0.0;
   double residual = 0.0;  ///< sum of squares
+  double total = 0.0;     ///< the same of a line without slope
 };
 
 double mean_of(const std::vector<double>& values) {
@@ -35,7 +38,7 @@ Line fit(const std::vector<double>& x, const std::vector<double>& y) {
     xy += (x[i] - x_mean) * (y[i] - y_mean);
     yy += (y[i] - y_mean) * (y[i] - y_mean);
   }
-  return {xy / xx, yy - xy * xy / xx};
+  return {xy / xx, yy - xy * xy / xx, yy};
 }
 
 }  // namespace
@@ -60,7 +63,8 @@ ErrorGrowth error_growth(std::span<const double> errors, double dt, double level
   if (log_errors.back() - log_errors.front() < std::log(least_growth)) return growth;
   const Line exponential = fit(times, log_errors);
   const Line power = fit(log_times, log_errors);
-  if (exponential.residual < power.residual) growth.rate = exponential.slope;
+  const bool fits = exponential.residual < unexplained * exponential.total;
+  if (fits && exponential.residual < power.residual) growth.rate = exponential.slope;
   return growth;
 }
 

@@ -39,6 +39,8 @@ Result<Reference> reference_run(Scene scene, const ReferenceOptions& options) {
     first_difference = false;
     step.substeps *= 2;
     Result<Trajectory> finer = record(scene, options.observe);
+    // What there was before still holds if the observer ends a finer run.
+    if (!finer && !reference.differences.empty()) break;
     if (!finer) return finer.errors();
     const RunError difference = error_of(reference.trajectory, *finer);
     reference.order = order_of(reference.estimate.position, difference.position);

@@ -39,7 +39,8 @@ struct ReferenceOptions {
   double most_seconds = 60.0;
   /// Whether the estimate is small enough; default: never, so that the limit decides.
   std::function<bool(const Reference&)> good_enough;
-  FrameObserver observe;  ///< of every run
+  /// Of every run. If it ends one, the runs before are the reference; of fewer than two there is none.
+  FrameObserver observe;
 };
 
 /// The finest run within the options. Errors are those of record(), and that the finest run diverged.

@@ -9,19 +9,23 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double square_displacement(const TrackedBody& body, const BodyPose& pose, const BodyPose& right) {
-  const double turned = body.turns_by_angle ? pose.angle - right.angle
-                                            : pose.orientation.angularDistance(right.orientation);
+double square_displacement(const TrackedBody& body, const TrackedBody& other, const BodyPose& pose,
+                           const BodyPose& right) {
+  // Of one body in two models, one may count its turns and the other not.
+  const double turned = body.turns_by_angle && other.turns_by_angle
+                            ? pose.angle - right.angle
+                            : pose.orientation.angularDistance(right.orientation);
   const double rim = body.reach * turned;
   return (pose.position - right.position).squaredNorm() + rim * rim;
 }
 
-double position_error(const Trajectory& run, const Trajectory& reference, std::size_t frame) {
+double position_error(const Trajectory& run, std::size_t frame, const Trajectory& reference,
+                      std::size_t reference_frame) {
   if (run.bodies.empty()) return 0.0;
   double sum = 0.0;
   for (std::size_t i = 0; i < run.bodies.size(); ++i) {
-    sum += square_displacement(run.bodies[i], run.frames[frame].poses[i],
-                               reference.frames[frame].poses[i]);
+    sum += square_displacement(run.bodies[i], reference.bodies[i], run.frames[frame].poses[i],
+                               reference.frames[reference_frame].poses[i]);
   }
   return std::sqrt(sum / static_cast<double>(run.bodies.size())) / reference.scale;
 }
@@ -57,10 +61,18 @@ double energy_error(const Trajectory& run, const Trajectory& reference) {
 
 }  // namespace
 
+double motion_of(const Trajectory& run) {
+  double motion = 0.0;
+  for (std::size_t f = 0; f < run.frames.size(); ++f) {
+    motion = std::max(motion, position_error(run, f, run, 0));
+  }
+  return motion;
+}
+
 std::vector<double> position_errors(const Trajectory& run, const Trajectory& reference) {
   std::vector<double> errors;
   const std::size_t frames = std::min(run.frames.size(), reference.frames.size());
-  for (std::size_t f = 0; f < frames; ++f) errors.push_back(position_error(run, reference, f));
+  for (std::size_t f = 0; f < frames; ++f) errors.push_back(position_error(run, f, reference, f));
   return errors;
 }
 

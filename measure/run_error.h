@@ -33,6 +33,11 @@ struct RunError {
 /// Compares frame by frame; both runs must be of one scene and have frames at the same times.
 [[nodiscard]] RunError error_of(const Trajectory& run, const Trajectory& reference);
 
+/// How far the bodies of a run get from where they started: the same measure of all its frames against that of time 0, largest of
+/// all. An error relative to the scene's size, divided by this, is one relative to the motion; where a large machine moves a
+/// little, the first says little.
+[[nodiscard]] double motion_of(const Trajectory& run);
+
 /// Of each frame its position error, for fits of how errors grow.
 [[nodiscard]] std::vector<double> position_errors(const Trajectory& run,
                                                   const Trajectory& reference);

@@ -79,7 +79,7 @@ std::vector<Timing> time_interleaved(const std::vector<Contender>& contenders,
       if (options.observe && !options.observe(round * count + i, rounds * count, contender.name)) {
         return {};
       }
-      if (round == 0) {
+      if (round == 0 && options.warm_up) {
         contender.restart();
         run(contender, std::min(contender.frames, warm_up_frames));
       }

@@ -33,6 +33,7 @@ struct Timing {
 struct TimingOptions {
   int repetitions = 7;         ///< >= 1
   double least_sample = 0.02;  ///< [s]
+  bool warm_up = true;         ///< whether each contender runs a while before its first sample
   /// Called before each sample with the samples done, their number and the contender's name; false ends the measurement.
   std::function<bool(std::int64_t done, std::int64_t of, const std::string& name)> observe;
 };

@@ -217,6 +217,21 @@ Action declare_trade(CLI::App& app) {
                  "CPU time after which the step of the reference is halved no further; default: 30")
       ->check(CLI::Range(0.0, 1e6))
       ->option_text("X");
+  app.add_option("--minutes", arguments->trade.minutes,
+                 "time for everything, about; settings that do not fit are named and skipped, the "
+                 "most expensive first; default: 5")
+      ->check(CLI::Range(0.01, 1e6))
+      ->option_text("X");
+  app.add_option("--parallel", arguments->trade.threads,
+                 "threads that measure errors; times are taken by one; default: one per core")
+      ->check(CLI::Range(1, 1024))
+      ->option_text("N");
+  app.add_option("--resume", arguments->trade.resume,
+                 "keep what is measured in this file and go on from there; what it has of another "
+                 "scene, setting or build is not used")
+      ->option_text("FILE");
+  app.add_flag("--ladder,!--no-ladder", arguments->trade.ladder,
+               "whether to leave out effects of the model one by one; default: yes");
   app.add_flag("--json", arguments->json, "print one JSON object instead of the table");
   app.add_option("--csv", arguments->csv, "write the table as CSV")->option_text("FILE");
   app.add_option("--markdown", arguments->markdown, "write the report as Markdown")
@@ -229,7 +244,9 @@ Action declare_trade(CLI::App& app) {
   sheave trade scenes/paper/pulley.json --error 0.1%
   sheave trade my-scene.json --budget 2ms/frame --apply
 
-Keep the machine quiet, and the program on one core: taskset -c 1 sheave trade ...)");
+  sheave trade my-scene.json --minutes 30 --resume my-scene.trade
+
+Keep the machine quiet: times are those of one thread, but whatever else runs slows it down.)");
   return [arguments] { return trade(*arguments); };
 }
 

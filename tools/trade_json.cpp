@@ -30,17 +30,23 @@ TradeJson trade_setting_json(const TradeSetting& setting) {
   return json;
 }
 
+TradeJson trade_spread_json(const measure::Spread& spread) {
+  return {{"median", spread.median},
+          {"lower_quartile", spread.lower},
+          {"upper_quartile", spread.upper},
+          {"minimum", spread.minimum},
+          {"samples", spread.count}};
+}
+
 TradeJson trade_row_json(const TradeRow& row) {
   TradeJson json{{"name", row.setting.name()}, {"settings", trade_setting_json(row.setting)}};
+  json["expected_seconds"] = row.expected_seconds;
   if (!row.measured()) {
-    json["fault"] = row.fault;
+    json[row.skipped.empty() ? "fault" : "skipped"] = row.skipped.empty() ? row.fault : row.skipped;
     return json;
   }
-  json["seconds_per_simulated_second"] = {{"median", row.seconds.median},
-                                          {"lower_quartile", row.seconds.lower},
-                                          {"upper_quartile", row.seconds.upper},
-                                          {"minimum", row.seconds.minimum},
-                                          {"samples", row.seconds.count}};
+  json["timed_alone"] = row.timed_alone;
+  json["seconds_per_simulated_second"] = trade_spread_json(row.seconds);
   json["row_solves_per_simulated_second"] = row.row_solves;
   json["error"] = trade_error_json(row.error);
   json["stretch"] = row.stretch;
@@ -60,6 +66,34 @@ TradeJson reference_json(const TradeTable& table) {
           {"error", trade_error_json(reference.estimate)},
           {"error_compared", trade_error_json(table.doubt)},
           {"chaos_rate", table.chaos_rate ? TradeJson(*table.chaos_rate) : TradeJson()}};
+}
+
+TradeJson ladder_row_json(const LadderRow& row) {
+  TradeJson json{
+      {"name", row.name}, {"change", row.change}, {"changed", row.changed}, {"things", row.things}};
+  if (!row.fault.empty()) {
+    json["fault"] = row.fault;
+    return json;
+  }
+  json["difference"] = {{"position", row.difference.position}, {"tension", row.difference.tension}};
+  json["seconds_per_simulated_second"] = trade_spread_json(row.seconds);
+  json["row_solves_per_simulated_second"] = row.row_solves;
+  return json;
+}
+
+TradeJson ladder_json(const TradeTable& table) {
+  if (!table.ladder) return {};
+  const TradeLadder& ladder = *table.ladder;
+  if (!ladder.skipped.empty()) return {{"skipped", ladder.skipped}};
+  TradeJson json{{"setting", ladder.setting.name()},
+                 {"settings", trade_setting_json(ladder.setting)},
+                 {"setting_error", ladder.setting_error},
+                 {"seconds_per_simulated_second", trade_spread_json(ladder.seconds)},
+                 {"row_solves_per_simulated_second", ladder.row_solves},
+                 {"rungs", TradeJson::array()},
+                 {"absent", ladder.absent}};
+  for (const LadderRow& row : ladder.rows) json["rungs"].push_back(ladder_row_json(row));
+  return json;
 }
 
 /// Quoted where a comma or a quote asks for it.
@@ -84,10 +118,14 @@ std::string trade_json(const TradeTable& table) {
                  {"repetitions", table.repetitions},
                  {"simulated_seconds", table.simulated_seconds},
                  {"compared_seconds", table.compared_seconds},
+                 {"motion", table.motion},
                  {"reference", reference_json(table)},
                  {"rows", TradeJson::array()},
                  {"orders", TradeJson::array()},
-                 {"cheapest", TradeJson::array()}};
+                 {"cheapest", TradeJson::array()},
+                 {"minutes", table.most_minutes},
+                 {"limits", table.limits},
+                 {"ladder", ladder_json(table)}};
   for (const TradeRow& row : table.rows) json["rows"].push_back(trade_row_json(row));
   for (const TradeFamily& family : table.families) {
     json["orders"].push_back({{"family", family.name},
@@ -107,7 +145,8 @@ std::string trade_csv(const TradeTable& table) {
   std::string text =
       "solver,integrator,substeps,iterations,tangent_update,seconds_per_simulated_second,"
       "lower_quartile,upper_quartile,row_solves_per_simulated_second,position_error,"
-      "reference_error,tension_error,energy_error,stretch,length_error,on_front,fault\n";
+      "reference_error,tension_error,energy_error,stretch,length_error,on_front,fault,skipped,"
+      "samples\n";
   for (const TradeRow& row : table.rows) {
     const StepSettings& step = row.setting.step;
     const auto tangents = row.setting.tangents;
@@ -116,12 +155,12 @@ std::string trade_csv(const TradeTable& table) {
                         step.iterations,
                         tangents ? tangent_update_names[static_cast<std::size_t>(*tangents)] : "");
     if (row.measured()) {
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},\n", row.seconds.median,
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},,,{}\n", row.seconds.median,
                           row.seconds.lower, row.seconds.upper, row.row_solves, row.error.position,
                           table.doubt.position, row.error.tension, row.error.energy, row.stretch,
-                          row.length_error, row.on_front ? 1 : 0);
+                          row.length_error, row.on_front ? 1 : 0, row.seconds.count);
     } else {
-      text += ",,,,,,,,,,," + csv_cell(row.fault) + "\n";
+      text += ",,,,,,,,,,," + csv_cell(row.fault) + "," + csv_cell(row.skipped) + ",\n";
     }
   }
   return text;

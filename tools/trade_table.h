@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "measure/error_growth.h"
+#include "measure/model_rung.h"
 #include "measure/reference_run.h"
 #include "measure/spread.h"
 #include "measure/work_precision.h"
@@ -43,8 +44,14 @@ struct TradeSetting {
 
 struct TradeRow {
   TradeSetting setting;
-  std::string fault;        ///< why there are no numbers; empty if there are
-  measure::Spread seconds;  ///< CPU time per simulated second
+  std::string fault;    ///< why there are no numbers; empty if there are
+  std::string skipped;  ///< why it was not run: it takes more time than there was; empty if it was
+  double expected_seconds = 0.0;  ///< CPU time of a run, about, from the first frames
+  double run_seconds = 0.0;       ///< CPU time of the run that the error is from
+  /// CPU time per simulated second. One sample where more cannot bring the setting to the front.
+  measure::Spread seconds;
+  /// Whether the time was taken with nothing else running; otherwise it is that of the run that the error is from.
+  bool timed_alone = false;
   /// Of positions and tensions within TradeTable::compared_seconds, tensions NaN without cables; of the energy in the whole
   /// run, NaN if that of the reference is rounding.
   measure::RunError error;
@@ -54,7 +61,29 @@ struct TradeRow {
   std::int64_t fallbacks = 0;  ///< measure::Trajectory::fallbacks
   bool on_front = false;       ///< nothing is faster and as accurate
 
-  [[nodiscard]] bool measured() const { return fault.empty(); }
+  [[nodiscard]] bool measured() const { return fault.empty() && skipped.empty(); }
+};
+
+/// What one change of the model loses and saves.
+struct LadderRow {
+  std::string name, things, change;  ///< those of the measure::ModelRung
+  int changed = 0;                   ///< things
+  std::string fault;  ///< why there are no numbers: no valid scene, diverged; empty if there are
+  /// From the scene as written with the same setting, as long as positions are compared.
+  measure::ModelDifference difference{};
+  measure::Spread seconds{};  ///< CPU time per simulated second
+  double row_solves = 0.0;    ///< per simulated second
+};
+
+/// The same scene with one effect after the other changed, all with one setting.
+struct TradeLadder {
+  TradeSetting setting;
+  double setting_error = 0.0;  ///< bound of its position error in the scene as written
+  measure::Spread seconds;     ///< of the scene as written
+  double row_solves = 0.0;     ///< of the scene as written
+  std::vector<LadderRow> rows;
+  std::vector<std::string> absent;  ///< names of the rungs of which the scene has nothing to change
+  std::string skipped;              ///< why there are no rows; empty if there are
 };
 
 /// How the error of one solver and integrator falls with the step.
@@ -71,12 +100,16 @@ struct TradeTable {
   double compared_seconds = 0.0;
   measure::Reference reference;      ///< without its frames
   measure::RunError doubt;           ///< the reference's own error in what is compared
+  double motion = 0.0;               ///< measure::motion_of the reference in what is compared
   std::optional<double> chaos_rate;  ///< measure::ErrorGrowth::rate
   std::vector<TradeRow> rows;
   std::vector<TradeFamily> families;
+  std::optional<TradeLadder> ladder;  ///< nothing: not wanted
+  std::vector<std::string> limits;    ///< what the time did not suffice for, a line each
   MachineInfo machine;
   std::string version;
   int repetitions = 0;
+  double most_minutes = 0.0;  ///< that the command was given
 
   /// Cost in seconds per simulated second and the bound of the position error of each row.
   [[nodiscard]] std::vector<measure::WorkPoint> points() const;
@@ -86,7 +119,11 @@ struct TradeOptions {
   TradeGrid grid;
   int repetitions = 5;
   double reference_seconds = 30.0;  ///< CPU time of one reference, about
-  bool quiet = false;               ///< no progress bar
+  double minutes = 5.0;  ///< wall time of everything, about; what does not fit is skipped and said
+  int threads = 0;       ///< that measure errors; 0: one per core
+  bool ladder = true;    ///< whether rungs of the model are measured
+  std::string resume;    ///< file that keeps what is measured (tools/trade_journal.h); empty: none
+  bool quiet = false;    ///< no progress bar
 };
 
 /// Measures the scene. A Failure if there is no reference (75) or if a signal came (130).
@@ -95,11 +132,17 @@ struct TradeOptions {
 /// Fills in families and front from the rows.
 void judge(TradeTable& table);
 
+/// A motion below this part of the scene's size makes errors relative to the size look small; the report says so.
+inline constexpr double little_motion = 0.1;
+
 /// The levels that the report names a setting for: 1 %, 0.1 %, 0.01 %.
 inline constexpr std::array<double, 3> trade_levels{1e-2, 1e-3, 1e-4};
 
 /// For people.
 [[nodiscard]] std::string trade_text(const TradeTable& table);
+/// The model ladder, as part of the text and of the Markdown; empty if there is none.
+[[nodiscard]] std::string ladder_text(const TradeTable& table);
+[[nodiscard]] std::string ladder_markdown(const TradeTable& table);
 [[nodiscard]] std::string trade_markdown(const TradeTable& table);
 /// One JSON object with a line break.
 [[nodiscard]] std::string trade_json(const TradeTable& table);

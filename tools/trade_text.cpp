@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/progress.h"
 #include "tools/text_table.h"
 #include "tools/trade_table.h"
 
@@ -20,14 +21,15 @@ std::string milliseconds_text(double seconds) { return fmt::format("{:.3g}", 1e3
 std::vector<std::string> trade_cells(const TradeRow& row, const measure::RunError& doubt) {
   std::vector<std::string> cells{row.setting.name(), row.on_front ? "*" : ""};
   if (!row.measured()) {
-    cells.emplace_back("failed");
+    cells.emplace_back(row.skipped.empty() ? "failed" : "skipped");
     cells.resize(trade_head.size());
     return cells;
   }
   const auto& time = row.seconds;
   const std::vector<std::string> numbers{
       milliseconds_text(time.median),
-      milliseconds_text(time.lower) + " - " + milliseconds_text(time.upper),
+      time.count > 1 ? milliseconds_text(time.lower) + " - " + milliseconds_text(time.upper)
+                     : "one sample",
       error_text(row.error.position, doubt.position),
       error_text(row.error.tension, doubt.tension),
       error_text(row.error.energy, doubt.energy),
@@ -55,6 +57,18 @@ std::vector<std::string> span_lines(const TradeTable& table) {
         "positions and tensions are compared for {:.4g} of {:.4g} s: until then the reference is "
         "known to {:.1e}, later it is not. Energy, stretch and length are those of the whole run",
         table.compared_seconds, table.simulated_seconds, table.doubt.position));
+  }
+  if (table.compared_seconds >= table.simulated_seconds && table.doubt.position > 1e-2) {
+    lines.push_back(fmt::format(
+        "the reference itself is only known to {:.1e}, from the first frames on: no setting can be "
+        "judged better than that",
+        table.doubt.position));
+  }
+  if (table.motion > 0.0 && table.motion < little_motion) {
+    lines.push_back(
+        fmt::format("the bodies move by no more than {:.1e} of the scene's size: relative to their "
+                    "motion the errors are {:.3g} times those shown",
+                    table.motion, 1.0 / table.motion));
   }
   if (table.chaos_rate) {
     lines.push_back(
@@ -92,6 +106,7 @@ std::vector<std::string> trade_remarks(const TradeTable& table) {
   }
   int left = 0;
   for (const TradeRow& row : table.rows) {
+    if (!row.skipped.empty()) continue;
     if (!row.measured()) {
       lines.push_back(fmt::format("{}: failed: {}", row.setting.name(), row.fault));
     } else if (row.fallbacks > 0) {
@@ -102,6 +117,32 @@ std::vector<std::string> trade_remarks(const TradeTable& table) {
     lines.push_back(fmt::format(
         "{} settings left substeps to gauss-seidel or xpbd (--json tells how many)", left));
   }
+  return lines;
+}
+
+/// What was not run for want of time, cheapest first.
+std::vector<std::string> skipped_lines(const TradeTable& table) {
+  std::vector<const TradeRow*> skipped;
+  double seconds = 0.0;
+  for (const TradeRow& row : table.rows) {
+    if (row.skipped.empty()) continue;
+    skipped.push_back(&row);
+    seconds += row.expected_seconds;
+  }
+  std::stable_sort(skipped.begin(), skipped.end(), [](const TradeRow* a, const TradeRow* b) {
+    return a->expected_seconds < b->expected_seconds;
+  });
+  std::vector<std::string> lines = table.limits;
+  if (skipped.empty()) return lines;
+  std::string names;
+  for (const TradeRow* row : skipped) {
+    names += (names.empty() ? "" : "; ") + row->setting.name() + " (" +
+             duration_text(row->expected_seconds) + ")";
+  }
+  lines.push_back(fmt::format(
+      "{} of {} settings were skipped, for which {:g} minutes are too few (--minutes). Their runs "
+      "take about {} of CPU time, cheapest first: {}",
+      skipped.size(), table.rows.size(), table.most_minutes, duration_text(seconds), names));
   return lines;
 }
 
@@ -127,7 +168,8 @@ std::string trade_text(const TradeTable& table) {
   for (const TradeRow& row : table.rows) text.add(trade_cells(row, table.doubt));
   result += "\n" + text.text() + "\n  * nothing is faster and at least as accurate\n\n";
   for (const std::string& line : trade_remarks(table)) result += "  " + line + "\n";
-  return result;
+  for (const std::string& line : skipped_lines(table)) result += "  " + line + "\n";
+  return result + ladder_text(table);
 }
 
 std::string trade_markdown(const TradeTable& table) {
@@ -137,7 +179,9 @@ std::string trade_markdown(const TradeTable& table) {
   for (const std::string& line : span_lines(table)) result += "* " + line + "\n";
   result += fmt::format(
       "\nms / s: CPU time per simulated second, median and quartiles of {} interleaved "
-      "repetitions of the whole scene.\nPosition error: largest of all frames, root mean square "
+      "repetitions of the whole scene; one sample for "
+      "settings that are twice as slow as one that is as accurate.\nPosition error: largest of all "
+      "frames, root mean square "
       "over the bodies, relative to the scene's size; tension and\nenergy error: "
       "measure/run_error.h. Setting: solver, substeps (x iterations). *: nothing is faster and at "
       "least as accurate.\n\n",
@@ -149,7 +193,8 @@ std::string trade_markdown(const TradeTable& table) {
   }
   result += "\n";
   for (const std::string& line : trade_remarks(table)) result += "* " + line + "\n";
-  return result;
+  for (const std::string& line : skipped_lines(table)) result += "* " + line + "\n";
+  return result + ladder_markdown(table);
 }
 
 }  // namespace sheave::tools

@@ -119,5 +119,20 @@ TEST(RunError, OfARunThatDivergedIsInfinite) {
   EXPECT_TRUE(std::isinf(error_of(run, reference).tension));
 }
 
+TEST(RunError, MotionIsTheWayFromTheStart) {
+  // Two bodies in a scene of 4 m: one goes 3 m and comes back, one turns by 2 rad with a reach of 0.5 m.
+  Trajectory run;
+  run.scale = 4.0;
+  run.bodies = {{BodyId{0}, "goes", 0.0, false}, {BodyId{1}, "turns", 0.5, true}};
+  for (const double part : {0.0, 1.0, 0.0}) {
+    Frame frame;
+    frame.poses.resize(2);
+    frame.poses[0].position = {7.0, 3.0 * part, 0.0};
+    frame.poses[1].angle = 5.0 + 2.0 * part;
+    run.frames.push_back(frame);
+  }
+  EXPECT_NEAR(motion_of(run), std::sqrt((9.0 + 1.0) / 2.0) / 4.0, 1e-15);
+}
+
 }  // namespace
 }  // namespace sheave::measure

@@ -1,9 +1,13 @@
 // sheave trade: orders of both integrators, answers, what --apply writes, errors of options. No time is judged.
 
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <string>
+#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,6 +50,11 @@ TEST(Trade, FindsTheOrderOfTheIntegrators) {
   // at most for xpbd, 0.08 for rattle, what is neglected changes the slope by the order of w h T / 2 = 0.02 and 0.006.
   EXPECT_NEAR(order_on_the_pendulum("xpbd", "32,64,128,256"), 1.0, 0.03);
   EXPECT_NEAR(order_on_the_pendulum("rattle", "2,4,8,16"), 2.0, 0.03);
+}
+
+/// Empty if the file is not there (yet).
+std::string read_file_or_nothing(const std::string& path) {
+  return std::filesystem::exists(path) ? read_file(path) : std::string();
 }
 
 /// Runs on a file with two weights over a wheel.
@@ -138,6 +147,8 @@ TEST_F(TradeOfAFile, WrongUsage) {
   EXPECT_THAT(refused({"--apply", "--json"}), HasSubstr("--apply needs --budget or --error"));
   EXPECT_THAT(refused({"--solver", "magic"}), HasSubstr("magic"));
   EXPECT_THAT(refused({"--substeps", "1,0"}), HasSubstr("0"));
+  EXPECT_THAT(refused({"--minutes", "0"}), HasSubstr("--minutes"));
+  EXPECT_THAT(refused({"--parallel", "0"}), HasSubstr("--parallel"));
   EXPECT_THAT(refused({"--chart", "picture.gif"}), HasSubstr(".png or .svg"));
   EXPECT_THAT(refused({"--error", "1%", "--budget", "1ms/frame"}), HasSubstr("excludes"));
   EXPECT_EQ(trade(folder.path("none.json"), {}).exit_code, 66);
@@ -156,13 +167,158 @@ TEST_F(TradeOfAFile, WritesTablesAndCharts) {
   const auto lines = split(read_file(csv), '\n');
   ASSERT_GE(lines.size(), 9U);
   EXPECT_THAT(lines[0], testing::StartsWith("solver,integrator,substeps,"));
-  for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(split(lines[i] + "x", ',').size(), 17U) << lines[i];
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(split(lines[i] + "x", ',').size(), 19U) << lines[i];
   if (std::system("gnuplot --version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no gnuplot";
   for (const std::string name : {"chart.png", "chart.svg"}) {
     const ProcessResult result = trade(path, {"--substeps", "1,2", "--chart", folder.path(name)});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(read_file(folder.path(name)), HasSubstr(name.ends_with(".png") ? "PNG" : "</svg>"));
   }
+}
+
+TEST_F(TradeOfAFile, LadderTellsWhatTheWheelIsWorth) {
+  const ProcessResult result =
+      trade(path, {"--json", "--solver", "direct", "--integrator", "rattle", "--substeps", "1"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json ladder = json::parse(result.out)["ladder"];
+  EXPECT_EQ(ladder["setting"], "direct 1, rattle");
+  bool found = false;
+  for (const json& rung : ladder["rungs"]) {
+    SCOPED_TRACE(rung["name"].get<std::string>());
+    ASSERT_FALSE(rung.contains("fault"));
+    EXPECT_GT(rung["seconds_per_simulated_second"]["median"], 0.0);
+    if (rung["name"] == "rotors as bodies with hinges") {
+      EXPECT_LT(rung["difference"]["position"], 1e-9);
+      EXPECT_GT(rung["row_solves_per_simulated_second"], ladder["row_solves_per_simulated_second"]);
+    }
+    if (rung["name"] != "massless wheels") continue;
+    found = true;
+    EXPECT_EQ(rung["changed"], 1);
+    // 40/3 N on both sides instead of 12 and 16 N.
+    EXPECT_NEAR(rung["difference"]["tension"], std::hypot(4.0 / 3.0, 8.0 / 3.0) / 20.0, 1e-6);
+  }
+  EXPECT_TRUE(found);
+  EXPECT_THAT(ladder["absent"], testing::Contains("no contacts"));
+  EXPECT_EQ(
+      json::parse(trade(path, {"--json", "--no-ladder", "--solver", "direct", "--substeps", "1"})
+                      .out)["ladder"],
+      json());
+}
+
+TEST_F(TradeOfAFile, ResumesWhatItHasMeasured) {
+  const std::string journal = folder.path("weights.trade");
+  const std::vector<std::string> options{"--json", "--resume",   journal, "--solver",
+                                         "direct", "--substeps", "1,2"};
+  const ProcessResult first = trade(path, options);
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const ProcessResult again = trade(path, options);
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  const json before = json::parse(first.out);
+  json after = json::parse(again.out);
+  ASSERT_EQ(after["rows"].size(), before["rows"].size());
+  // Times are random to the last digit: where they are the same, they are those of the first run.
+  for (std::size_t i = 0; i < after["rows"].size(); ++i) {
+    after["rows"][i]["expected_seconds"] = before["rows"][i]["expected_seconds"];
+  }
+  EXPECT_EQ(after["rows"], before["rows"]);
+  EXPECT_EQ(after["ladder"], before["ladder"]);
+  EXPECT_EQ(after["reference"], before["reference"]);
+  EXPECT_THAT(again.err, HasSubstr("8 settings are known"));
+  // Another half: only the settings that are new are run, against the same reference. An error is a number that both tell.
+  json half = json::parse(read_file(journal));
+  half["rows"].erase("direct 2");
+  half.erase("times");
+  folder.write("weights.trade", half.dump());
+  const ProcessResult rest = trade(path, options);
+  ASSERT_EQ(rest.exit_code, 0) << rest.err;
+  EXPECT_THAT(rest.err, HasSubstr("7 settings are known"));
+  for (std::size_t i = 0; i < before["rows"].size(); ++i) {
+    EXPECT_EQ(json::parse(rest.out)["rows"][i]["error"], before["rows"][i]["error"]);
+  }
+}
+
+TEST_F(TradeOfAFile, GoesOnAfterAnInterrupt) {
+  // The first settings take milliseconds, the last ones minutes.
+  const std::string journal = folder.path("weights.trade");
+  const std::vector<std::string> common{"trade",      path,        "--resume",     journal,
+                                        "--tangents", "iteration", "--integrator", "xpbd"};
+  std::vector<std::string> endless = common;
+  endless.insert(endless.end(),
+                 {"--minutes", "1000", "--substeps", "1,2", "--iterations", "2,1000000"});
+  Process process(endless);
+  const auto kept = [&] {
+    const json found = json::parse(read_file_or_nothing(journal), nullptr, false);
+    return found.is_object() && found.contains("rows") ? found["rows"].size() : 0U;
+  };
+  for (int i = 0; i < 600 && kept() == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  process.send(SIGINT);
+  const ProcessResult stopped = process.wait();
+  EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
+  EXPECT_EQ(stopped.out, "");
+  ASSERT_GT(kept(), 0U);
+  std::vector<std::string> rest = common;
+  rest.insert(rest.end(), {"--minutes", "3", "--substeps", "1,2", "--iterations", "2"});
+  const ProcessResult resumed = run_sheave(rest);
+  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_THAT(resumed.err, testing::ContainsRegex("[1-9][0-9]* settings are known"));
+}
+
+TEST_F(TradeOfAFile, TakesNothingFromAnotherScene) {
+  const std::string journal = folder.path("weights.trade");
+  const std::vector<std::string> options{"--json", "--resume",   journal, "--solver",
+                                         "direct", "--substeps", "1"};
+  ASSERT_EQ(trade(path, options).exit_code, 0);
+  std::string text = read_file(path);
+  text.replace(text.find("\"mass\": 4"), 9, "\"mass\": 5");
+  const std::string other = folder.write("other.json", text);
+  const ProcessResult result = trade(other, options);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("of another scene, setting, machine or build; begun anew"));
+  // A comment is no other scene.
+  const ProcessResult same = trade(folder.write("same.json", "// Heavier.\n" + text), options);
+  EXPECT_THAT(same.err, HasSubstr("4 settings are known"));
+  // A file that is none of ours is not overwritten.
+  const ProcessResult wrong = trade(path, {"--resume", path});
+  EXPECT_EQ(wrong.exit_code, 65);
+  EXPECT_THAT(wrong.err, HasSubstr("none that sheave trade has written"));
+  EXPECT_THAT(read_file(path), HasSubstr("Two weights"));
+}
+
+TEST_F(TradeOfAFile, OneThreadFindsWhatManyFind) {
+  const auto errors = [&](const std::string& threads) {
+    const ProcessResult result = trade(path, {"--json", "--no-ladder", "--parallel", threads,
+                                              "--substeps", "1,2", "--iterations", "3"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    json list = json::array();
+    const json table = json::parse(result.out);
+    for (const json& row : table["rows"]) list.push_back(row["error"]);
+    list.push_back(table["reference"]);
+    return list;
+  };
+  EXPECT_EQ(errors("1"), errors("4"));
+}
+
+TEST_F(TradeOfAFile, SkipsWhatTakesTooLongAndSaysSo) {
+  // Six seconds; a million sweeps over two rows in each of 100 frames take ten, in 64 substeps ten minutes.
+  const ProcessResult result =
+      run_sheave({"trade", path, "--json", "--minutes", "0.1", "--substeps", "1,64", "--iterations",
+                  "2,1000000", "--tangents", "iteration"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json table = json::parse(result.out);
+  int skipped = 0;
+  for (const json& row : table["rows"]) {
+    SCOPED_TRACE(row["name"].get<std::string>());
+    const bool endless =
+        row["settings"]["iterations"] == 1000000 && row["settings"]["substeps"] == 64;
+    if (endless) {
+      EXPECT_TRUE(row.contains("skipped"));
+    }
+    skipped += row.contains("skipped") ? 1 : 0;
+    EXPECT_GT(row["expected_seconds"], 0.0);
+  }
+  EXPECT_LT(skipped, static_cast<int>(table["rows"].size()));
 }
 
 TEST(Trade, KnowsAChaoticScene) {
@@ -217,6 +373,52 @@ TEST(TradeText, ShowsFailuresAndChoosesByWhatIsKnown) {
   EXPECT_THAT(text, HasSubstr("cheapest setting for 0.1 %: none of these"));
   EXPECT_EQ(tools::answer(table, {.seconds_per_frame = 0.025}), 1U);
   EXPECT_THAT(tools::trade_chart_script(table, "a.svg"), HasSubstr("1 of 4 settings failed"));
+}
+
+TEST(TradeText, NamesWhatWasSkippedCheapestFirst) {
+  tools::TradeTable table;
+  table.dt = 0.01;
+  table.most_minutes = 2.0;
+  table.rows = {trade_row(1, 1.0, 1e-5), trade_row(8, 0.0, 0.0), trade_row(4, 0.0, 0.0)};
+  table.rows[1].skipped = "takes about 80 s, and 20 s are left";
+  table.rows[1].expected_seconds = 80.0;
+  table.rows[2].skipped = "takes about 40 s, and 20 s are left";
+  table.rows[2].expected_seconds = 40.0;
+  tools::judge(table);
+  EXPECT_THAT(
+      tools::trade_text(table),
+      HasSubstr("2 of 3 settings were skipped, for which 2 minutes are too few (--minutes). "
+                "Their runs take about 2 min 00 s of CPU time, cheapest first: direct 4 (40 "
+                "s); direct 8 (1 min 20 s)"));
+  EXPECT_THAT(tools::trade_csv(table), HasSubstr("\"takes about 40 s, and 20 s are left\""));
+}
+
+TEST(TradeText, ShowsTheLadderWithItsFaults) {
+  tools::TradeTable table;
+  table.dt = 0.01;
+  table.compared_seconds = 3.0;
+  table.rows = {trade_row(1, 1.0, 1e-5)};
+  tools::TradeLadder ladder;
+  ladder.setting = table.rows[0].setting;
+  ladder.setting_error = 2e-4;
+  ladder.seconds = {2e-3, 1.9e-3, 2.1e-3, 1.8e-3, 5};
+  ladder.row_solves = 1000.0;
+  ladder.absent = {"no ground"};
+  tools::LadderRow rigid{"rigid cables", "cables", "no compliance", 3, {}};
+  rigid.difference = {1.5e-3, 2.5e-2};
+  rigid.seconds = {1.5e-3, 1.4e-3, 1.6e-3, 1.4e-3, 5};
+  rigid.row_solves = 900.0;
+  ladder.rows = {rigid, {"massless wheels", "wheels", "", 2, "diverged: the drum"}};
+  table.ladder = ladder;
+  tools::judge(table);
+  const std::string text = tools::trade_text(table);
+  EXPECT_THAT(text, HasSubstr("in the first 3 s"));
+  EXPECT_THAT(text, testing::ContainsRegex("rigid cables +cables: 3 +1.5e-03 +2.5e-02 +1.5 +1.4 - "
+                                           "1.6 +25 % +10 %"));
+  EXPECT_THAT(text, testing::ContainsRegex("massless wheels +wheels: 2 +not possible"));
+  EXPECT_THAT(text, HasSubstr("massless wheels: diverged: the drum"));
+  EXPECT_THAT(text, HasSubstr("nothing to change in this scene: no ground"));
+  EXPECT_THAT(tools::trade_markdown(table), HasSubstr("| rigid cables | cables: 3 | 1.5e-03 |"));
 }
 
 TEST(TradeText, ReadsQuestions) {

@@ -1,0 +1,25 @@
+#pragma once
+// Rungs that set fields to their defaults, by the field tables: what a type says of itself is all they need.
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/joint.h"
+#include "scenes/scene.h"
+
+namespace sheave::measure {
+
+/// Names of fields. Those of joints with several coordinates begin with the coordinate's: "damping" is also "twist_damping".
+using FieldNames = std::vector<std::string_view>;
+
+/// Each returns how many things it changed.
+[[nodiscard]] int reset_bodies(Scene& scene, const FieldNames& fields);
+[[nodiscard]] int reset_joints(Scene& scene, const FieldNames& fields);
+[[nodiscard]] int reset_cables(Scene& scene, const FieldNames& fields);
+/// Of links of one type.
+[[nodiscard]] int reset_links(Scene& scene, std::string_view type, const FieldNames& fields);
+[[nodiscard]] int reset_colliders(Scene& scene, const FieldNames& fields);
+
+}  // namespace sheave::measure

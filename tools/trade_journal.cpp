@@ -1,0 +1,274 @@
+#include "tools/trade_journal.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include <sheave_version.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tools/failure.h"
+#include "tools/machine_info.h"
+#include "tools/output_file.h"
+#include "tools/terminal.h"
+
+namespace sheave::tools {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* journal_format = "sheave-trade-journal/1";
+
+/// FNV-1a, 64 bits.
+class Hash {
+ public:
+  void add(std::string_view bytes) {
+    for (const char c : bytes) {
+      value_ = (value_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+    }
+    // Two texts are not the same as one that is both.
+    value_ = (value_ ^ 0xffULL) * 0x100000001b3ULL;
+  }
+  [[nodiscard]] std::string text() const { return fmt::format("{:016x}", value_); }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325ULL;
+};
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+double now_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// JSON has neither infinity nor NaN.
+json number(double value) {
+  if (std::isfinite(value)) return value;
+  return fmt::format("{}", value);
+}
+double number_of(const json& value) {
+  return value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr)
+                           : value.get<double>();
+}
+
+json error_of(const measure::RunError& error) {
+  return {number(error.position), number(error.position_end), number(error.tension),
+          number(error.energy)};
+}
+measure::RunError error_from(const json& list) {
+  return {number_of(list.at(0)), number_of(list.at(1)), number_of(list.at(2)),
+          number_of(list.at(3))};
+}
+
+json spread_json(const measure::Spread& spread) {
+  return {spread.median, spread.lower, spread.upper, spread.minimum, spread.count};
+}
+measure::Spread spread_from(const json& list) {
+  return {list.at(0), list.at(1), list.at(2), list.at(3), list.at(4)};
+}
+
+json ladder_row_json(const LadderRow& row) {
+  return {{"name", row.name},
+          {"things", row.things},
+          {"change", row.change},
+          {"changed", row.changed},
+          {"fault", row.fault},
+          {"difference", {number(row.difference.position), number(row.difference.tension)}},
+          {"seconds", spread_json(row.seconds)},
+          {"row_solves", row.row_solves}};
+}
+LadderRow ladder_row_from(const json& own) {
+  const json& difference = own.at("difference");
+  return {own.at("name"),
+          own.at("things"),
+          own.at("change"),
+          own.at("changed"),
+          own.at("fault"),
+          {number_of(difference.at(0)), number_of(difference.at(1))},
+          spread_from(own.at("seconds")),
+          own.at("row_solves")};
+}
+
+/// What decides how numbers come about.
+std::string ladder_key(const TradeSetting& setting) {
+  return fmt::format("{} of {}", setting.name(), setting.step.dt);
+}
+
+}  // namespace
+
+std::string trade_key(const Scene& scene, const TradeOptions& options) {
+  Hash hash;
+  hash.add(journal_format);
+  hash.add(version_string);
+  // Two builds of one version differ in their bytes.
+  hash.add(bytes_of("/proc/self/exe"));
+  hash.add(machine_info().cpu);
+  hash.add(write_scene(scene));
+  hash.add(fmt::format("{} {}", options.repetitions, options.reference_seconds));
+  for (const int substeps : options.grid.substeps) hash.add(fmt::format("{}", substeps));
+  return hash.text();
+}
+
+TradeJournal::TradeJournal(std::string path, const std::string& key)
+    : path_(std::move(path)), data_(std::make_unique<json>(json::object())) {
+  json& data = *data_;
+  if (!path_.empty() && std::filesystem::exists(path_)) {
+    json found = json::parse(bytes_of(path_), nullptr, false);
+    if (!found.is_object() || found.value("format", "") != journal_format) {
+      throw Failure(ExitCode::bad_scene,
+                    "--resume " + path_ + ": the file is none that sheave trade has written");
+    }
+    if (found.value("key", "") == key) {
+      data = std::move(found);
+      print_note(fmt::format("{}: {} settings are known", path_,
+                             data.value("rows", json::object()).size()));
+      return;
+    }
+    print_note(path_ + ": of another scene, setting, machine or build; begun anew");
+  }
+  data["format"] = journal_format;
+  data["key"] = key;
+  data["rows"] = json::object();
+}
+
+TradeJournal::~TradeJournal() {
+  try {
+    save();
+  } catch (const std::exception& error) {
+    print_warning(error.what());
+  }
+}
+
+void TradeJournal::keep(const measure::Reference& reference, double motion) {
+  json differences = json::array();
+  for (const double difference : reference.differences) differences.push_back(number(difference));
+  (*data_)["reference"] = {{"substeps", reference.substeps},
+                           {"integrator", static_cast<int>(reference.integrator)},
+                           {"order", number(reference.order)},
+                           {"good", reference.good},
+                           {"motion", number(motion)},
+                           {"estimate", error_of(reference.estimate)},
+                           {"differences", std::move(differences)}};
+  changed_ = true;
+  save();
+}
+
+std::optional<std::pair<measure::Reference, double>> TradeJournal::reference() const {
+  if (!data_->contains("reference")) return {};
+  const json& own = data_->at("reference");
+  measure::Reference reference;
+  reference.substeps = own.at("substeps");
+  reference.integrator = static_cast<IntegratorKind>(own.at("integrator").get<int>());
+  reference.order = number_of(own.at("order"));
+  reference.good = own.at("good");
+  reference.estimate = error_from(own.at("estimate"));
+  for (const json& difference : own.at("differences")) {
+    reference.differences.push_back(number_of(difference));
+  }
+  return std::pair(std::move(reference), number_of(own.at("motion")));
+}
+
+void TradeJournal::keep(const TradeRow& row) {
+  json own{{"fault", row.fault}};
+  if (row.measured()) {
+    own["error"] = error_of(row.error);
+    own["stretch"] = number(row.stretch);
+    own["length_error"] = number(row.length_error);
+    own["row_solves"] = row.row_solves;
+    own["fallbacks"] = row.fallbacks;
+    own["run_seconds"] = row.run_seconds;
+  }
+  (*data_)["rows"][row.setting.name()] = std::move(own);
+  changed_ = true;
+}
+
+bool TradeJournal::restore(TradeRow& row) const {
+  const json& rows = data_->at("rows");
+  const auto found = rows.find(row.setting.name());
+  if (found == rows.end()) return false;
+  row.fault = found->at("fault");
+  if (!row.fault.empty()) return true;
+  row.error = error_from(found->at("error"));
+  row.stretch = number_of(found->at("stretch"));
+  row.length_error = number_of(found->at("length_error"));
+  row.row_solves = found->at("row_solves");
+  row.fallbacks = found->at("fallbacks");
+  row.run_seconds = found->at("run_seconds");
+  return true;
+}
+
+void TradeJournal::keep_times(const std::vector<TradeRow>& rows) {
+  json times = json::object();
+  for (const TradeRow& row : rows) {
+    if (row.skipped.empty()) {
+      times[row.setting.name()] = {spread_json(row.seconds), row.timed_alone, row.fault};
+    }
+  }
+  (*data_)["times"] = std::move(times);
+  changed_ = true;
+  save();
+}
+
+bool TradeJournal::restore_times(std::vector<TradeRow>& rows) const {
+  if (!data_->contains("times")) return false;
+  const json& times = data_->at("times");
+  for (const TradeRow& row : rows) {
+    if (row.measured() && !times.contains(row.setting.name())) return false;
+  }
+  for (TradeRow& row : rows) {
+    if (!row.measured()) continue;
+    const json& own = times.at(row.setting.name());
+    row.seconds = spread_from(own.at(0));
+    row.timed_alone = own.at(1);
+    row.fault = own.at(2);
+  }
+  return true;
+}
+
+void TradeJournal::keep(const TradeLadder& ladder) {
+  json rows = json::array();
+  for (const LadderRow& row : ladder.rows) rows.push_back(ladder_row_json(row));
+  (*data_)["ladder"] = {{"setting", ladder_key(ladder.setting)},
+                        {"seconds", spread_json(ladder.seconds)},
+                        {"row_solves", ladder.row_solves},
+                        {"rows", std::move(rows)},
+                        {"absent", ladder.absent}};
+  changed_ = true;
+  save();
+}
+
+std::optional<TradeLadder> TradeJournal::ladder(const TradeSetting& setting) const {
+  if (!data_->contains("ladder")) return {};
+  const json& own = data_->at("ladder");
+  if (own.at("setting") != ladder_key(setting)) return {};
+  TradeLadder ladder{setting, 0.0, spread_from(own.at("seconds")), own.at("row_solves"), {},
+                     {},      {}};
+  for (const json& row : own.at("rows")) ladder.rows.push_back(ladder_row_from(row));
+  ladder.absent = own.at("absent").get<std::vector<std::string>>();
+  return ladder;
+}
+
+void TradeJournal::save() {
+  if (path_.empty() || !changed_) return;
+  write_file(path_, data_->dump(1) + "\n");
+  changed_ = false;
+  saved_at_ = now_seconds();
+}
+
+void TradeJournal::save_sometimes() {
+  if (now_seconds() - saved_at_ > 1.0) save();
+}
+
+}  // namespace sheave::tools
