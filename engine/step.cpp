@@ -3,7 +3,7 @@
 // Cost of a substep: bodies x (predict + derive) + rows x (begin + finish), and for the rows in between
 //   gauss-seidel:  iterations x rows x (evaluate + solve)
 //   direct:        rounds x (rows x evaluate + assemble and factor), linear in the rows of a chain, mostly 2 rounds
-// `rattle` evaluates the rows twice more, solves once more (for velocities), and goes over the bodies once more.
+// `rattle` evaluates the rows once more, solves once more (for velocities), and goes over the bodies once more.
 
 #include "engine/step.h"
 

@@ -31,7 +31,7 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   bool revised = false;
   bool settled = false;
   // One linearisation more than rounds: whether x1 is a solution or the substep must be left to xpbd is decided by what
-  // the last round has left, which only the rows at x1 tell.
+  // the last round has left, which only the rows at x1 tell. The velocities need these rows, too.
   positions_.move_on(substep);
   for (int round = 0; round <= substep.iterations; ++round) {
     if (!positions_.linearise(substep, features, RowSystem::Rule::midpoint, false)) return false;
@@ -87,7 +87,7 @@ void RattleSolver::solve_positions(Substep& substep, Features features) {
 void RattleSolver::solve_velocities(Substep& substep, Features features) {
   if (left_to_xpbd(substep)) return;
   substep.update_inertias();
-  velocities_.linearise_velocities(substep, features);
+  velocities_.linearise_velocities(substep, positions_);
   const bool direct = solver_ == SolverKind::direct;
   if (!direct || !velocities_.solve(substep)) {
     if (direct) ++substep.statistics.solver_fallbacks;

@@ -66,8 +66,9 @@ class RowSystem {
   /// To be called after apply(), if the next round is one among others.
   void remember_places(const Substep& substep);
   /// The problem of the velocities in substep.next, with K = J at the current positions: the impulses m [N s] for which
-  /// dC/dt = 0 (or >= 0) on rows that have acted or are closed. Springs have acted and get none.
-  void linearise_velocities(Substep& substep, Features features);
+  /// dC/dt = 0 (or >= 0) on rows that have acted or are closed. Springs have acted and get none. Rows are those of `positions`,
+  /// whose last linearise() must have been at the current positions.
+  void linearise_velocities(Substep& substep, const RowSystem& positions);
 
   /// The largest violation [m or rad; m/s or rad/s] of what the problem asks for, before it is solved.
   [[nodiscard]] double violation() const;

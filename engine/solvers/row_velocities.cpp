@@ -19,12 +19,14 @@ double RowSystem::rate_of(const Substep& substep, const Row& row) const {
   return rate;
 }
 
-void RowSystem::linearise_velocities(Substep& substep, Features features) {
+void RowSystem::linearise_velocities(Substep& substep, const RowSystem& positions) {
   // Closer than this a row counts as closed: far below what a substep moves, far above what the solver leaves.
   const double closed = 1e-8 * substep.bodies.scale();
   const double share =
       0.5 / substep.h;  // of the bounds, for an impulse in the second half of the substep
-  collect_rows(substep, features);
+  rows_ = positions.rows_;
+  feature_rows_ = positions.feature_rows_;
+  previous_ = positions.previous_;
   problem_.rounding = value_rounding * substep.bodies.scale() / substep.h;
   responses_.resize(rows_.size());
   symmetric_rows_ = true;
