@@ -116,7 +116,7 @@ struct Row {
 struct RowResponse {
   std::array<Vector3, Row::max_terms> linear;   ///< [m per unit]
   std::array<Vector3, Row::max_terms> angular;  ///< [rad per unit]
-  std::array<bool, Row::max_terms> turns;       ///< whether `angular` can be other than 0
+  std::array<bool, Row::max_terms> turns{};     ///< whether `angular` can be other than 0
   double inverse_mass = 0.0;  ///< w = grad C W grad C^T [1/kg]: how easily the row yields
 };
 
