@@ -347,7 +347,9 @@ def limit_lines(scenes):
             notes.append(f"the reference is known for the first {digits(compared)} of {digits(simulated)} s only")
         elif not scene.doubt <= 1e-4:
             notes.append(f"the reference's own error is {scene.doubt:.1e}")
-        if 0.0 < scene.motion < 0.1:
+        if scene.motion < 1e-9:
+            notes.append("the bodies rest, so that errors tell how far they are pushed off, and nothing of motion")
+        elif scene.motion < 0.1:
             notes.append(f"the bodies move by no more than {scene.motion:.1e} of the size, so that relative to their motion errors are "
                          f"{digits(1.0 / scene.motion)} times as large")
         if scene.failed:
