@@ -62,8 +62,8 @@ struct CompiledCable {
 ///
 /// reals: rest length per span [m], stored length per link [m], tension per span [N], transport below the quantum per
 /// span end (first, second) [m], which rows count as rest length, slip per link [m]: cable that has slid over it towards the
-/// next span, of an attachment cable that was fed, angle of a hybrid end's attachment per link [rad], plane per place for a wrap: centre [m] and
-/// normal, own frame of the body.
+/// next span, of an attachment cable that was fed, angle of a hybrid end's attachment per link [rad], plane per place for a
+/// wrap: centre [m] and normal, own frame of the body.
 ///
 /// integers: per link with friction which way the cable slides: +1 towards the next span, -1 towards the last, 0 not at
 /// all; per link its mode: 0 as defined, 1 wound the other way round, 2 attached (hybrid ends), 3 left by the cable,
