@@ -2,6 +2,14 @@
 
 namespace sheave {
 
+StepSettings StepSettings::paper() {
+  return {1.0 / 60.0, 1, 10, SolverKind::gauss_seidel, IntegratorKind::xpbd};
+}
+
+StepSettings StepSettings::of(StepPreset preset) {
+  return preset == StepPreset::paper ? paper() : StepSettings{};
+}
+
 std::span<const Field> StepSettings::field_table() {
   static const std::array table{
       field<&StepSettings::dt>("dt", "s", above(0.0), optional, "time per step, one frame"),

@@ -21,6 +21,13 @@ enum class IntegratorKind {
 };
 inline constexpr std::array<std::string_view, 2> integrator_names{"xpbd", "rattle"};
 
+/// Where the step settings that are not given come from.
+enum class StepPreset {
+  standard,  ///< StepSettings{}
+  paper,     ///< StepSettings::paper()
+};
+inline constexpr std::array<std::string_view, 2> step_preset_names{"standard", "paper"};
+
 /// Accuracy against cost, chosen per scene.
 struct StepSettings {
   double dt = 1.0 / 60.0;  ///< time per step, one frame [s], > 0
@@ -28,6 +35,14 @@ struct StepSettings {
   int iterations = 10;     ///< sweeps over all rows per substep, or rounds at most; 1 ... 1 000 000
   SolverKind solver = SolverKind::gauss_seidel;
   IntegratorKind integrator = IntegratorKind::xpbd;
+
+  /// What "Cable Joints" (2018) steps with unless it says otherwise: Gauss-Seidel, XPBD, one substep of a frame of
+  /// 1/60 s, 10 iterations.
+  [[nodiscard]] static StepSettings paper();
+  /// The settings that the preset stands for.
+  [[nodiscard]] static StepSettings of(StepPreset preset);
+
+  [[nodiscard]] bool operator==(const StepSettings&) const = default;
 
   static std::span<const Field> field_table();
 };

@@ -149,8 +149,10 @@ const ObjectFormat& scene_format() {
 }
 
 const ObjectFormat& step_format() {
-  static const ObjectFormat format =
-      plain_format<StepSettings>("step", "how the scene is stepped through time");
+  static const ObjectFormat format{"step", "how the scene is stepped through time",
+                                   false,  {table_of<StepPresetDef>(), table_of<StepSettings>()},
+                                   {},     {},
+                                   {}};
   return format;
 }
 
@@ -259,6 +261,20 @@ bool same_value(const Field& field, const void* a, const void* b) {
         }
       },
       slot_of(field, a));
+}
+
+void copy_value(const Field& field, const void* from, void* to) {
+  const FieldSlot target = field.slot(to);
+  std::visit(
+      [&]<class Slot>(const Slot& source) {
+        const Slot& slot = std::get<Slot>(target);
+        if constexpr (std::is_same_v<Slot, ChoiceSlot>) {
+          slot.set(slot.object, source.get(source.object));
+        } else {
+          *slot = *source;
+        }
+      },
+      slot_of(field, from));
 }
 
 bool is_absent(const FieldSlot& slot) {

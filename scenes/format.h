@@ -82,6 +82,8 @@ inline constexpr double quaternion_tolerance = 1e-6;
 [[nodiscard]] FieldSlot slot_of(const Field& field, const void* object);
 /// Whether two objects of a table's type have bit for bit the same value in a field.
 [[nodiscard]] bool same_value(const Field& field, const void* a, const void* b);
+/// Gives `to` the value of a field of `from`; both are objects of a table's type.
+void copy_value(const Field& field, const void* from, void* to);
 /// Whether an optional slot holds no value; false for slots that always do.
 [[nodiscard]] bool is_absent(const FieldSlot& slot);
 

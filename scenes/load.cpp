@@ -30,7 +30,7 @@ class SceneReader {
     const NodeId root = document_.root();
     if (!reader_.read_object(root, scene_format(), pointers(&scene))) return scene;
     reader_.declare_bodies(list(root, scene_format(), "bodies"));
-    read_plain("step", step_format(), &scene.model.step);
+    read_step(scene);
     for (const NodeId node : list(root, scene_format(), "bodies")) read_body(node, scene.model);
     for (const NodeId node : list(root, scene_format(), "joints")) read_joint(node, scene.model);
     for (const NodeId node : list(root, scene_format(), "cables")) {
@@ -67,6 +67,22 @@ class SceneReader {
   void read_plain(std::string_view key, const ObjectFormat& format, void* object) {
     if (has(key)) {
       reader_.read_object(document_.member(document_.root(), key), format, pointers(object));
+    }
+  }
+
+  /// The preset first, because the settings that are given replace its own.
+  void read_step(Scene& scene) {
+    const NodeId node = document_.member(document_.root(), "step");
+    if (node == no_node) return;
+    StepPresetDef& named = scene.step_preset;
+    StepSettings given;
+    const std::array<void*, 2> objects{&named, &given};
+    if (!reader_.read_object(node, step_format(), objects)) return;
+    scene.model.step = StepSettings::of(named.preset);
+    for (const Field& field : StepSettings::field_table()) {
+      if (document_.member(node, field.name) != no_node) {
+        copy_value(field, &given, &scene.model.step);
+      }
     }
   }
 

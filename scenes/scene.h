@@ -79,12 +79,21 @@ struct CheckDef {
   [[nodiscard]] double allowed_error() const;
 };
 
+/// How a scene names its step settings.
+struct StepPresetDef {
+  StepPreset preset = StepPreset::standard;  ///< gives the settings that "step" does not
+
+  static std::span<const Field> field_table();
+};
+
 /// A model with everything that is told beside it.
 struct Scene {
   SceneFormat format = SceneFormat::v1;
   std::string name;
   std::string description;
   double duration = 0.0;  ///< of the simulation [s], > 0
+  /// Tells the loader and the writer which settings need no mention; what counts is model.step.
+  StepPresetDef step_preset;
   Model model;
   std::vector<CableDef> cables;
   std::optional<CameraDef> camera;

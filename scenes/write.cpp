@@ -19,7 +19,7 @@ class SceneWriter {
     const Model& model = scene_.model;
     Json root = Json::object();
     add_fields(root, scene_format().tables[0], &scene_);
-    Json step = plain(step_format(), &model.step);
+    Json step = write_step();
     if (!step.empty()) root["step"] = std::move(step);
     add_list(root, "bodies", model.bodies, [&](const BodyDef& body) { return write_body(body); });
     add_list(root, "joints", model.joints, [&](const std::shared_ptr<const JointDef>& joint) {
@@ -47,10 +47,14 @@ class SceneWriter {
 
   /// The fields that are required or not what they are by default.
   void add_fields(Json& object, const TableFormat& table, const void* values) const {
+    add_fields(object, table, values, table.defaults.get());
+  }
+  void add_fields(Json& object, const TableFormat& table, const void* values,
+                  const void* defaults) const {
     for (const Field& field : table.fields) {
       const FieldSlot slot = slot_of(field, values);
       if (field.presence == Presence::optional) {
-        if (is_absent(slot) || same_value(field, values, table.defaults.get())) continue;
+        if (is_absent(slot) || same_value(field, values, defaults)) continue;
       }
       object[std::string(field.name)] = field_json(field, slot, name_of_);
     }
@@ -79,6 +83,13 @@ class SceneWriter {
     for (const Element& element : elements) list.push_back(write(element));
   }
 
+  [[nodiscard]] Json write_step() const {
+    Json object = Json::object();
+    const StepSettings preset = StepSettings::of(scene_.step_preset.preset);
+    add_fields(object, step_format().tables[0], &scene_.step_preset);
+    add_fields(object, step_format().tables[1], &scene_.model.step, &preset);
+    return object;
+  }
   [[nodiscard]] Json write_body(const BodyDef& body) const {
     Json object = plain(body_format(), &body);
     const auto write_shape = [&](const PlacedShape& placed) {

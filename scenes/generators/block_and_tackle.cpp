@@ -62,10 +62,9 @@ class BlockAndTackle {
     scene_.description = "A load on several parts of one rope, and the effort at its free end.";
     scene_.duration = options_.duration;
     scene_.model.gravity = {0.0, -options_.gravity, 0.0};
-    scene_.model.step.dt = options_.dt;
-    scene_.model.step.substeps = options_.substeps;
-    scene_.model.step.iterations =
-        options_.iterations > 0 ? options_.iterations : sufficient_iterations(options_);
+    generators::step_as_the_paper(
+        scene_, options_.dt, options_.substeps,
+        options_.iterations > 0 ? options_.iterations : sufficient_iterations(options_));
     add_beam_and_block();
     add_rope();
     add_checks();

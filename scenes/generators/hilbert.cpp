@@ -51,9 +51,7 @@ class Hilbert {
     scene_.name =
         fmt::format("Hilbert curve of order {}{}", options_.order, loose() ? ", loose" : "");
     scene_.model.gravity = {0.0, -options_.gravity, 0.0};
-    scene_.model.step.dt = options_.dt;
-    scene_.model.step.substeps = options_.substeps;
-    scene_.model.step.iterations = options_.iterations;
+    generators::step_as_the_paper(scene_, options_.dt, options_.substeps, options_.iterations);
     scene_.model.step.solver = SolverKind::direct;
     cable_.name = "cable";
     add_drum();

@@ -56,9 +56,7 @@ class NaiveRope {
   Scene make() {
     Model& model = scene_.model;
     model.gravity = {0.0, -options_.gravity, 0.0};
-    model.step.dt = options_.dt;
-    model.step.substeps = options_.substeps;
-    model.step.iterations = options_.iterations;
+    generators::step_as_the_paper(scene_, options_.dt, options_.substeps, options_.iterations);
     scene_.duration = options_.duration;
     add_machine();
     if (options_.cable) {

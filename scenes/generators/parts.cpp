@@ -72,4 +72,12 @@ CameraDef side_view() {
   return camera;
 }
 
+void step_as_the_paper(Scene& scene, double dt, int substeps, int iterations) {
+  scene.step_preset.preset = StepPreset::paper;
+  scene.model.step = StepSettings::paper();
+  scene.model.step.dt = dt;
+  scene.model.step.substeps = substeps;
+  scene.model.step.iterations = iterations;
+}
+
 }  // namespace sheave::generators

@@ -26,6 +26,9 @@ namespace sheave::generators {
 [[nodiscard]] CheckDef check(std::string quantity, Statistic statistic, double equals, double scale,
                              std::string because);
 
+/// Steps of the paper's kind, whose iterations a generator counts.
+void step_as_the_paper(Scene& scene, double dt, int substeps, int iterations);
+
 /// A view nearly along the axles, framed automatically.
 [[nodiscard]] CameraDef side_view();
 

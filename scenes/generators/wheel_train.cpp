@@ -73,10 +73,9 @@ Result<Scene> generate_wheel_train(const WheelTrainOptions& options) {
   scene.description = "One cable over wheels on fixed axles, with a weight at each end.";
   scene.duration = options.duration;
   scene.model.gravity = {0.0, -options.gravity, 0.0};
-  scene.model.step.dt = options.dt;
-  scene.model.step.substeps = options.substeps;
-  scene.model.step.iterations =
-      options.iterations > 0 ? options.iterations : sufficient_iterations(options);
+  generators::step_as_the_paper(
+      scene, options.dt, options.substeps,
+      options.iterations > 0 ? options.iterations : sufficient_iterations(options));
 
   // Room for the way that the weights go, a margin, and their own size.
   const double travel = 1.1 * 0.5 * std::abs(a) * options.duration * options.duration;

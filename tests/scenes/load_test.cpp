@@ -11,6 +11,7 @@
 namespace sheave::test {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -75,6 +76,47 @@ TEST(load, reads_every_kind_of_setting) {
   ASSERT_EQ(scene->checks.size(), 1U);
   EXPECT_EQ(scene->checks[0].statistic, Statistic::mean);
   EXPECT_EQ(scene->checks[0].because, "why");
+}
+
+std::string bare_scene(const std::string& step) {
+  return R"({"format": "sheave-scene/1", "gravity": [0, 0, 0], "duration": 1)" + step + "}";
+}
+
+TEST(load, a_preset_gives_the_step_settings_that_are_not_given) {
+  const auto step_of = [](const std::string& step, const std::vector<Override>& overrides = {}) {
+    const SceneResult scene = load(bare_scene(step), overrides);
+    EXPECT_TRUE(scene) << step;
+    return scene->model.step;
+  };
+  const StepSettings paper = step_of(R"(, "step": {"preset": "paper"})");
+  EXPECT_EQ(paper, StepSettings::paper());
+  EXPECT_EQ(paper.dt, 1.0 / 60.0);
+  EXPECT_EQ(paper.substeps, 1);
+  EXPECT_EQ(paper.iterations, 10);
+  EXPECT_EQ(paper.solver, SolverKind::gauss_seidel);
+  EXPECT_EQ(paper.integrator, IntegratorKind::xpbd);
+  // Whichever stands first, and whatever the value would be without the preset.
+  StepSettings some = StepSettings::paper();
+  some.substeps = 7;
+  some.integrator = IntegratorKind::rattle;
+  EXPECT_EQ(step_of(R"(, "step": {"substeps": 7, "integrator": "rattle", "preset": "paper"})"),
+            some);
+  EXPECT_EQ(step_of("", {{"/step/preset", "paper", {}},
+                         {"/step/integrator", "rattle", {}},
+                         {"/step/substeps", "7", {}}}),
+            some);
+  EXPECT_EQ(step_of(""), StepSettings{});
+  EXPECT_EQ(step_of(R"(, "step": {"preset": "standard"})"), StepSettings{});
+  EXPECT_EQ(step_of(R"(, "step": {"preset": "paper"})", {{"/step/preset", "standard", {}}}),
+            StepSettings{});
+}
+
+TEST(load, faults_of_a_step_with_a_preset_are_told_once) {
+  const SceneResult scene =
+      load(bare_scene(R"(, "step": {"preset": "papr", "substeps": 0, "solver": 3})"));
+  EXPECT_THAT(errors_of(scene),
+              ElementsAre(AllOf(HasSubstr("/step/preset"), HasSubstr("did you mean \"paper\"")),
+                          HasSubstr("/step/substeps"), HasSubstr("/step/solver")));
 }
 
 TEST(load, reports_all_faults_in_the_order_of_the_file) {

@@ -84,6 +84,8 @@ class RandomScene {
 
   Scene make() {
     random_.fill(Scene::field_table(), &scene_, 0);
+    random_.fill(StepPresetDef::field_table(), &scene_.step_preset, 0);
+    scene_.model.step = StepSettings::of(scene_.step_preset.preset);
     random_.fill(StepSettings::field_table(), &scene_.model.step, 0);
     for (int i = 0; i < 12; ++i) attempt([&] { add_body(); });
     for (int i = 0; i < 40; ++i) attempt([&] { add_joint(); });

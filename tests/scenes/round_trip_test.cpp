@@ -78,7 +78,9 @@ TEST(round_trip, negative_zero_and_extreme_numbers_survive) {
   scene.model.gravity = {-0.0, 5e-324, -1.7976931348623157e308};
   scene.model.bodies.clear();
   scene.model.joints.clear();
+  scene.model.colliders.clear();
   scene.cables.clear();
+  scene.paint.clear();
   scene.checks.clear();
   scene.duration = 1.0 / 3.0;
   expect_exact(scene);
@@ -91,6 +93,18 @@ TEST(write_scene, leaves_defaults_out) {
   EXPECT_EQ(
       write_scene(scene),
       "{\n  \"format\": \"sheave-scene/1\",\n  \"gravity\": [0, -10, 0],\n  \"duration\": 1\n}\n");
+}
+
+TEST(write_scene, names_the_preset_and_what_differs_from_it) {
+  Scene scene;
+  scene.duration = 1.0;
+  scene.step_preset.preset = StepPreset::paper;
+  scene.model.step = StepSettings::paper();
+  EXPECT_THAT(write_scene(scene), testing::HasSubstr(R"("step": {"preset": "paper"})"));
+  scene.model.step.solver = SolverKind::direct;
+  EXPECT_THAT(write_scene(scene),
+              testing::HasSubstr(R"("step": {"preset": "paper", "solver": "direct"})"));
+  expect_exact(scene);
 }
 
 TEST(write_scene, numbers_that_are_not_finite_do_not_load) {

@@ -58,6 +58,7 @@ class Printer {
   }
   void add(const Scene& scene) {
     add("", Scene::field_table(), &scene);
+    add("/step", StepPresetDef::field_table(), &scene.step_preset);
     add("/step", StepSettings::field_table(), &scene.model.step);
     for (const BodyDef& body : scene.model.bodies) {
       add("/body", BodyDef::field_table(), &body);
