@@ -13,8 +13,7 @@
 // is exact in one visit. (The paper's Algorithm 1 instead moves rest length across each pinhole so that the ratios of
 // length to rest length become equal; as printed it swaps the two excesses, see tests/physics/pinhole_test.cpp.)
 //
-// Whether a link with friction sticks or slides is found in the sweeps: it starts to slide when the ratio of the
-// multipliers passes the limit, and sticks again when cable would have to slide against the pull.
+// Whether a link with friction sticks or slides is found in the sweeps: cable/cable_friction.cpp.
 //
 // When the substep is complete, rest length is moved within each run so that every span has its tension; what passed a
 // link is its slip, or turns the massless wheel. A slack run is not touched, except that a span that has become longer
@@ -28,9 +27,6 @@
 
 namespace sheave {
 namespace {
-
-/// More changes of a link between sticking and sliding in one substep are rounding or a solver far from convergence.
-constexpr int most_flips = 4;
 
 /// Takes what spans with a negative entry of `spare` lack from the nearest ones with a positive entry. Of two equally
 /// near, each gives the same share as far as it can, so a cable's mirror image does the mirror image.
@@ -57,14 +53,6 @@ void pull_slack(std::vector<double>& spare) {
 
 bool CableSystem::shared(int link) const {
   return links_[at(link)].frictionless() || slip_[at(link)] != 0;
-}
-
-double CableSystem::friction_exponent(const Substep& substep, int link,
-                                      const SpanGeometry& incoming,
-                                      const SpanGeometry& outgoing) const {
-  const LinkGeometry& geometry = links_[at(link)];
-  return geometry.friction *
-         wrap_angle(substep, geometry, incoming, outgoing, stored_lengths_[at(link)]);
 }
 
 double CableSystem::sweep_runs(Substep& substep, int cable_index) {
@@ -172,10 +160,13 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
   double weight = 0.0;  // its logarithm
   double heaviest = 0.0;
   SpanGeometry last;
+  // Where nothing can yield a multiplier does nothing: the links around decide what the spans carry.
+  const bool open = cable.has_friction && is_open(substep, cable, run);
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     Row& row = rows.emplace_back();
     const SpanGeometry span = evaluate(substep, k, row);
     row.index = k;
+    if (open) row.upper = 0.0;
     row.active = was_taut_[at(k)] != 0;
     row.tied = i > 0;
     const int link = spans_[at(k)].first;
@@ -190,18 +181,6 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     rows[i].weight =
         heaviest == 0.0 && rows[i].weight == 0.0 ? 1.0 : std::exp(rows[i].weight - heaviest);
   }
-}
-
-bool CableSystem::revise(Substep& substep) {
-  bool changed = false;
-  for (const CompiledCable& cable : cables_) {
-    if (!cable.has_friction) continue;
-    const auto begin = slip_.begin() + cable.first_link;
-    revised_.assign(begin, begin + cable.link_count);
-    update_slip(substep, cable);
-    changed = changed || !std::equal(revised_.begin(), revised_.end(), begin);
-  }
-  return changed;
 }
 
 const std::vector<double>& CableSystem::run_spare(const Substep& substep,
@@ -236,48 +215,18 @@ const std::vector<double>& CableSystem::run_spare(const Substep& substep,
     for (std::size_t i = 0; i < spare.size(); ++i) spare[i] -= kept[i];
     return spare;
   }
-  // What the solver has left over is spread evenly.
+  // What the solver has left over is spread evenly over spans that it has something to do with.
+  if (cable.has_friction) {
+    length = 0.0;
+    for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+      if (is_open(substep, cable, {k, 1})) lengths[at(i)] = 0.0;
+      length += lengths[at(i)];
+    }
+  }
   for (std::size_t i = 0; i < spare.size() && length > 0.0; ++i) {
     spare[i] -= total * lengths[i] / length;
   }
   return spare;
-}
-
-void CableSystem::update_slip(const Substep& substep, const CompiledCable& cable) {
-  // Links that slide: has the cable moved with the pull?
-  for_each_run(cable, [&](Run run) {
-    if (run.count == 1) return;
-    const std::vector<double>& spare = run_spare(substep, cable, run);
-    double passed = 0.0;
-    for (int i = 0, k = run.first; i + 1 < run.count; ++i, k = next_span(cable, k)) {
-      passed += spare[at(i)];
-      const int link = spans_[at(k)].second;
-      if (links_[at(link)].frictionless()) continue;
-      int& slip = pending_slip_[at(link)];
-      if (passed * slip > 0.0 || flips_[at(link)] >= most_flips) continue;
-      slip = 0;
-      ++flips_[at(link)];
-    }
-  });
-  // Links that stick: do they hold?
-  for (int i = 0; i < cable.span_count; ++i) {
-    const int incoming = cable.first_span + i;
-    if (!spans_[at(incoming)].active) continue;
-    if (!cable.closed && spans_[at(incoming)].second == cable.last_listed_link()) continue;
-    const int outgoing = next_span(cable, incoming);
-    const int link = spans_[at(incoming)].second;
-    if (!links_[at(link)].passes() || shared(link)) continue;
-    const double before = multipliers_[at(incoming)];
-    const double after = multipliers_[at(outgoing)];
-    if (before == after || flips_[at(link)] >= most_flips) continue;
-    const double limit = std::exp(friction_exponent(substep, link, geometry_of(substep, incoming),
-                                                    geometry_of(substep, outgoing)));
-    const int slip = after > limit * before ? 1 : before > limit * after ? -1 : 0;
-    if (slip == 0) continue;
-    pending_slip_[at(link)] = slip;
-    ++flips_[at(link)];
-  }
-  slip_ = pending_slip_;
 }
 
 void CableSystem::share_lengths(Substep& substep, const CompiledCable& cable, FeatureState& next) {

@@ -107,6 +107,9 @@ void CableSystem::linearise(Substep& substep, std::vector<Row>& rows) {
 
 void CableSystem::finish(Substep& substep, FeatureState& next) {
   const double inverse_square = 1.0 / (substep.h * substep.h);
+  for (const CompiledCable& cable : cables_) {
+    if (cable.has_friction) hold_tensions(substep, cable, next);
+  }
   for (int k = 0; k < row_count(); ++k) {
     const SpanSetup& setup = spans_[at(k)];
     if (!setup.active) continue;

@@ -170,10 +170,6 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] bool shared(int link) const;
   template <class Visit>
   void for_each_run(const CompiledCable& cable, Visit visit) const;
-  /// Friction times wrap angle at a link, now.
-  [[nodiscard]] double friction_exponent(const Substep& substep, int link,
-                                         const SpanGeometry& incoming,
-                                         const SpanGeometry& outgoing) const;
   /// One step of XPBD for one span; returns what solve_row() does.
   double solve_span(Substep& substep, int span);
   double sweep_spans(Substep& substep, const CompiledCable& cable);
@@ -186,9 +182,62 @@ class CableSystem final : public ConstraintBatch {
   double solve_run(Substep& substep, const CompiledCable& cable, Run run);
   /// Per span of the run: rest length that has to leave it [m], so that all have their tensions.
   const std::vector<double>& run_spare(const Substep& substep, const CompiledCable& cable, Run run);
-  void update_slip(const Substep& substep, const CompiledCable& cable);
   void share_lengths(Substep& substep, const CompiledCable& cable, FeatureState& next);
   void share_run(Substep& substep, const CompiledCable& cable, Run run, FeatureState& next);
+  // Links with friction: cable/cable_friction.cpp.
+  /// A run, as the links that stick at its ends see it. Pulls are logarithms of multipliers.
+  struct Piece {
+    enum class Kind {
+      moves,      ///< bodies decide its tension
+      open,       ///< rigid, and no body can lengthen it: its tension is what its neighbours hold
+      too_long,   ///< the same, and slack
+      too_short,  ///< the same, and cable has to come in
+    };
+    Run run;
+    int last = 0;  ///< its last span
+    Kind kind = Kind::moves;
+    int link = -1;  ///< behind it, where cable can pass; -1: none
+    double first_pull = 0.0;
+    double last_pull = 0.0;
+    double rise =
+        0.0;  ///< of the pull from its first span to its last, where it is not Kind::moves
+    /// Friction times wrap angle at `link`; NaN: not asked for yet.
+    double grip = std::numeric_limits<double>::quiet_NaN();
+    // Of one too long or too short: the pull that either side would give it, NaN if there is none, the pieces where that
+    // comes from, and which of them do.
+    double from_before = std::numeric_limits<double>::quiet_NaN();
+    double from_behind = std::numeric_limits<double>::quiet_NaN();
+    std::size_t before = 0;
+    std::size_t behind = 0;
+    bool fed_before = false;
+    bool fed_behind = false;
+    bool served = false;
+    // Of one that is held: the pulls that what lies behind allows.
+    double low = 0.0;
+    double high = 0.0;
+  };
+  /// Friction times wrap angle at a link, now.
+  [[nodiscard]] double friction_exponent(const Substep& substep, int link,
+                                         const SpanGeometry& incoming,
+                                         const SpanGeometry& outgoing) const;
+  /// Whether the run is rigid and nothing that the solver does can lengthen it.
+  [[nodiscard]] bool is_open(const Substep& substep, const CompiledCable& cable, Run run) const;
+  void collect_pieces(const Substep& substep, const CompiledCable& cable);
+  /// Piece::grip.
+  double grip(const Substep& substep, std::size_t piece);
+  /// Of the links between two pieces.
+  void set_slip(std::size_t from, std::size_t to, int slip);
+  /// Of pieces `first` to `last`, between dead ends: lets cable slide into those too short and out of those too long.
+  void serve_pieces(const Substep& substep, std::size_t first, std::size_t last);
+  void serve(std::size_t index);
+  void judge_links(const Substep& substep, std::size_t first, std::size_t last);
+  void update_slip(const Substep& substep, const CompiledCable& cable);
+  /// Gives spans whose tension is open one that their neighbours hold. `start`: the state at the start of the substep.
+  void hold_tensions(const Substep& substep, const CompiledCable& cable, const FeatureState& start);
+  void hold_between(const Substep& substep, const CompiledCable& cable, const FeatureState& start,
+                    std::size_t first, std::size_t last);
+  void apply_held(const Substep& substep, const CompiledCable& cable, const Piece& piece,
+                  double pull);
   // Ends that change: cable/cable_ends.cpp.
   /// Puts what follows from the cables' state into links and spans.
   void refresh(const BodySet& bodies, const FeatureState& own, std::vector<LinkGeometry>& links,
@@ -308,6 +357,7 @@ class CableSystem final : public ConstraintBatch {
   std::vector<RowTerm> run_gradient_;  ///< per body; `body` is not used
   std::vector<double> run_spare_;
   std::vector<double> run_lengths_;
+  std::vector<Piece> pieces_;  ///< of one cable
   // Of leave_and_touch(): on which side of its candidates a span was at the start, span by span; and what has left.
   std::vector<std::vector<WrapSide>> sides_;
   std::vector<char> changed_links_;
