@@ -52,6 +52,7 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
   s.references_.resize(spans);
   s.multipliers_.resize(spans);
   s.was_taut_.resize(spans);
+  s.ends_.resize(spans);
   s.fallbacks_.resize(spans);
   s.sides_.resize(spans);
   s.fed_.resize(spans);

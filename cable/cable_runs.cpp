@@ -9,7 +9,8 @@
 //   sum_i (C_i + k_i a~_i l) = 0,   motion  x += W sum_i grad C_i d(k_i l)
 //   =>  l' = (-sum C_i + sum_j w_j l_j) / sum_j k_j (w_j + a~_j),   w_j = (sum_i grad C_i) W grad C_j^T
 //
-// with l_j the multiplier that span j has so far. Without friction that is one ordinary row, so any number of pinholes
+// with l_j the multiplier that span j has so far. Damping acts on the change of the sum, too, because what passes between
+// the spans stretches nothing: of that, span i has the share a_i k_i, so g = b / h sum a_i^2 k_i / sum a_i k_i. Without friction that is one ordinary row, so any number of pinholes
 // is exact in one visit. (The paper's Algorithm 1 instead moves rest length across each pinhole so that the ratios of
 // length to rest length become equal; as printed it swaps the two excesses, see tests/physics/pinhole_test.cpp.)
 //
@@ -69,19 +70,18 @@ double CableSystem::sweep_runs(Substep& substep, int cable_index) {
 }
 
 double CableSystem::evaluate_run(const Substep& substep, const CompiledCable& cable, Run run,
-                                 double& error) {
+                                 RunValue& value) {
   double heaviest = 0.0;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     Row& row = run_rows_[at(i)];
     row.clear();
     run_spans_[at(i)] = evaluate(substep, k, row);
-    const double gamma = row.compliance * row.damping / substep.h;
-    error += row.value;
-    if (gamma > 0.0) error += gamma * substep_change(row, substep.moving);
+    value.error += row.value;
+    if (row.damping > 0.0) value.change += substep_change(row, substep.moving);
     for (const RowTerm& term : row.active_terms()) {
       RowTerm& sum = run_gradient_[at(term.body)];
-      sum.linear += (1.0 + gamma) * term.linear;
-      sum.angular += (1.0 + gamma) * term.angular;
+      sum.linear += term.linear;
+      sum.angular += term.angular;
     }
     double& weight = run_weights_[at(i)];
     weight = 0.0;
@@ -105,17 +105,25 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   run_gradient_.resize(substep.moving.size());
   const double inverse_square = 1.0 / (substep.h * substep.h);
 
-  double error = 0.0;
-  const double heaviest = evaluate_run(substep, cable, run, error);
+  RunValue value;
+  const double heaviest = evaluate_run(substep, cable, run, value);
 
   // Weights relative to the heaviest, so that no number of turns overflows.
-  double numerator = -error;
+  double deflection = 0.0;
+  double damped = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    run_weights_[i] = std::exp(run_weights_[i] - heaviest);
+    const double share = run_weights_[i] * run_rows_[i].compliance;
+    deflection += share;
+    damped += share * run_rows_[i].compliance * cable.damping;
+  }
+  const double gamma = damped > 0.0 ? damped / deflection / substep.h : 0.0;
+  double numerator = -(value.error + gamma * value.change);
   double denominator = 0.0;
   double parts = 0.0;  // the same without what cancels between the spans
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     const Row& row = run_rows_[at(i)];
-    double& weight = run_weights_[at(i)];
-    weight = std::exp(weight - heaviest);
+    const double weight = run_weights_[at(i)];
     double yield = 0.0;  // w_j
     for (const RowTerm& term : row.active_terms()) {
       const MovingBody& body = substep.moving[at(term.body)];
@@ -131,6 +139,7 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
         parts += weight * dot(term.angular, moved);
       }
     }
+    yield *= 1.0 + gamma;
     numerator += yield * multipliers_[at(k)];
     denominator += weight * (yield + row.compliance * inverse_square);
   }

@@ -147,20 +147,31 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     if (first.feed_speed != 0.0) feed_in(setup.first, 0);
     if (second.feed_speed != 0.0) feed_in(setup.second, 1);
     double& tension = next.reals[tension_index(k)];
-    const double pull = multipliers_[at(k)] * inverse_square;
-    if (substep.load_share == 1.0 && (cable.compliance > 0.0 || cable.inverse_stiffness > 0.0)) {
-      substep.statistics.numerical_damping += numerical_damping(
-          cable, {tension, pull}, span.length - rest_length, rest_length, substep.h);
-    }
-    tension = pull;
+    ends_[at(k)] = {tension, span.length};
+    tension = multipliers_[at(k)] * inverse_square;
   }
   for (const CompiledCable& cable : cables_) {
     if (cable.shares) share_lengths(substep, cable, next);
   }
+  if (substep.load_share == 1.0) count_numerical_damping(substep, next);
   if (!changing_links_.empty()) change_ends(substep, next);
   if (course_changes_) {
     cut(substep, next);
     leave_and_touch(substep, next);
+  }
+}
+
+void CableSystem::count_numerical_damping(Substep& substep, const FeatureState& next) const {
+  for (int k = 0; k < row_count(); ++k) {
+    const CompiledCable& cable = cables_[at(spans_[at(k)].cable)];
+    if (!spans_[at(k)].active || (cable.compliance == 0.0 && cable.inverse_stiffness == 0.0)) {
+      continue;
+    }
+    const double rest_length = next.reals[rest_length_index(k)];
+    const auto [before, length] = ends_[at(k)];
+    substep.statistics.numerical_damping +=
+        numerical_damping(cable, {before, next.reals[tension_index(k)]}, length - rest_length,
+                          rest_length, substep.h);
   }
 }
 

@@ -176,9 +176,14 @@ class CableSystem final : public ConstraintBatch {
   double sweep_runs(Substep& substep, int cable_index);
   void linearise_run(Substep& substep, const CompiledCable& cable, Run run,
                      std::vector<Row>& rows) const;
-  /// Evaluates the spans of a run; sums their gradients body by body and their values into `error`, and collects the
-  /// logarithms of the weights k_i. Returns the largest of these.
-  double evaluate_run(const Substep& substep, const CompiledCable& cable, Run run, double& error);
+  /// The sum of the values of a run's rows [m], and its change since the start of the substep where it is damped.
+  struct RunValue {
+    double error = 0.0;
+    double change = 0.0;
+  };
+  /// Evaluates the spans of a run; sums their gradients body by body and their values, and collects the logarithms of the
+  /// weights k_i. Returns the largest of these.
+  double evaluate_run(const Substep& substep, const CompiledCable& cable, Run run, RunValue& value);
   double solve_run(Substep& substep, const CompiledCable& cable, Run run);
   /// Per span of the run: rest length that has to leave it [m], so that all have their tensions.
   const std::vector<double>& run_spare(const Substep& substep, const CompiledCable& cable, Run run);
@@ -305,6 +310,7 @@ class CableSystem final : public ConstraintBatch {
   void cut(const Substep& substep, FeatureState& next);
   void feed(const FeatureState& state, double h, int span);
   void turn_massless_wheel(Substep& substep, int link, double length) const;
+  void count_numerical_damping(Substep& substep, const FeatureState& next) const;
   /// Energy that implicit Euler takes from a span's vibration in a substep [J], from its tensions before and now [N].
   [[nodiscard]] double numerical_damping(const CompiledCable& cable, std::array<double, 2> tensions,
                                          double stretch, double rest_length, double h) const;
@@ -350,6 +356,8 @@ class CableSystem final : public ConstraintBatch {
   std::vector<int> flips_;              ///< per link: how often that has changed in this substep
   std::vector<double> stored_lengths_;  ///< per link, at the start of the substep [m]
   Row row_;                             ///< scratch of solve_span()
+  /// Per span, for finish(): the tension at the start [N], and the length at the end of the substep [m].
+  std::vector<std::array<double, 2>> ends_;
   // Scratch of solve_run().
   std::vector<Row> run_rows_;
   std::vector<SpanGeometry> run_spans_;

@@ -59,8 +59,7 @@ double RowSystem::coupling(const Substep& substep, Touch gradient, Touch motion)
 }
 
 void RowSystem::assemble(const Substep& substep) {
-  // The factor 1 + g that damping gives a row's gradient is that of its group's S, so A has neither. (Where it differs
-  // within a group A is not exact; r still is, so another round or two find the same solution.)
+  // The factor 1 + g that damping gives a row's gradient is that of its group's S, so A has neither.
   problem_.values.assign(entries_.size(), 0.0);
   // What rounding leaves where the rows of a group cancel (nothing but a wheel that the cable slides over can move) is no
   // yield: such a group keeps its unknown.

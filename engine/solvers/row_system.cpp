@@ -132,22 +132,36 @@ void RowSystem::set_bounds(std::size_t g, bool pushed, bool active) {
   problem_.free[g] = !given && (bilateral || active || pushed || group.multiplier != 0.0) ? 1 : 0;
 }
 
+double RowSystem::damping_share(const Group& group) const {
+  if (group.row_count == 1) {
+    const Row& row = rows_[at(group.first_row)];
+    return row.compliance * row.damping;
+  }
+  double share = 0.0;
+  double compliance = 0.0;
+  for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
+    const Row& row = rows_[at(i)];
+    const double stretch = row.weight * row.compliance;
+    share += stretch * row.compliance * row.damping;
+    compliance += stretch;
+  }
+  return share > 0.0 ? share / compliance : 0.0;
+}
+
 void RowSystem::set_backward(const Substep& substep, std::size_t g) {
   Group& group = groups_[g];
+  const double gamma = damping_share(group) / substep.h;
   double value = 0.0;
   double compliance = 0.0;
-  double softest = 0.0;
   bool active = false;
   for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
     const Row& row = rows_[at(i)];
-    const double gamma = row.compliance * row.damping / substep.h;
     value += row.value;
     if (gamma > 0.0) value += gamma * substep_change(row, substep.moving);
     compliance += row.weight * (row.compliance / (substep.h * substep.h) + row.softness);
-    softest = std::max(softest, gamma);
     active = active || row.active;
   }
-  group.scale = 1.0 / (1.0 + softest);
+  group.scale = 1.0 / (1.0 + gamma);
   problem_.diagonal[g] = group.scale * compliance;
   problem_.constant[g] = group.scale * (value + compliance * group.multiplier);
   set_bounds(g, is_pushed(rows_[at(group.first_row)], value), active);
@@ -156,11 +170,11 @@ void RowSystem::set_backward(const Substep& substep, std::size_t g) {
 void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
   Group& group = groups_[g];
   const Row& first = rows_[at(group.first_row)];
+  const double gamma = 2.0 * damping_share(group) / substep.h;
   double value = 0.0;
   double start = 0.0;
   double compliance = 0.0;
   double softness = 0.0;
-  double gamma = 0.0;
   bool active = false;
   for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
     const Row& row = rows_[at(i)];
@@ -168,7 +182,6 @@ void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
     start += start_values_[at(i)];
     compliance += row.weight * row.compliance * 4.0 / (substep.h * substep.h);
     softness += row.weight * row.softness;
-    gamma = std::max(gamma, 2.0 * row.compliance * row.damping / substep.h);
     active = active || row.active;
   }
   if (first.lower == 0.0) start = std::min(start, 0.0);

@@ -119,6 +119,10 @@ class RowSystem {
   void collect_rows(Substep& substep, Features features);
   bool match_start();
   void make_groups();
+  /// a b of the group: with the shares a_i k_i that rows of the weights k_i have of its value, sum of a_i b_i a_i k_i over
+  /// that of a_i k_i. (What moves between its rows, cable that runs over a wheel, deflects no spring and moves no damper, so
+  /// only the change of their sum counts.)
+  [[nodiscard]] double damping_share(const Group& group) const;
   void set_backward(const Substep& substep, std::size_t group);
   void set_midpoint(const Substep& substep, std::size_t group);
   /// Whether a row that was not active is likely to act: a first guess, which the active set corrects.
