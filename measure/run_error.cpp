@@ -12,11 +12,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 double square_displacement(const TrackedBody& body, const TrackedBody& other, const BodyPose& pose,
                            const BodyPose& right) {
   // Of one body in two models, one may count its turns and the other not.
-  const double turned = body.turns_by_angle && other.turns_by_angle
-                            ? pose.angle - right.angle
-                            : pose.orientation.angularDistance(right.orientation);
-  const double rim = body.reach * turned;
-  return (pose.position - right.position).squaredNorm() + rim * rim;
+  const PoseDifference apart =
+      pose_difference(pose, right, body.turns_by_angle && other.turns_by_angle);
+  return apart.position.squaredNorm() + body.reach * body.reach * apart.turn.squaredNorm();
 }
 
 double position_error(const Trajectory& run, std::size_t frame, const Trajectory& reference,
@@ -60,6 +58,13 @@ double energy_error(const Trajectory& run, const Trajectory& reference) {
 }
 
 }  // namespace
+
+PoseDifference pose_difference(const BodyPose& pose, const BodyPose& from, bool by_angle) {
+  const Vector3 moved = pose.position - from.position;
+  if (by_angle) return {moved, Vector3(0.0, 0.0, pose.angle - from.angle)};
+  const Eigen::AngleAxisd turned(pose.orientation * from.orientation.conjugate());
+  return {moved, turned.angle() * turned.axis()};
+}
 
 double motion_of(const Trajectory& run) {
   double motion = 0.0;

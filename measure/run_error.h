@@ -30,6 +30,15 @@ struct RunError {
   double energy = 0.0;
 };
 
+/// How far a body is from another place.
+struct PoseDifference {
+  Vector3 position = Vector3::Zero();  ///< [m]
+  Vector3 turn =
+      Vector3::Zero();  ///< rotation vector [rad]; compared by angles: along z, with all turns
+};
+[[nodiscard]] PoseDifference pose_difference(const BodyPose& pose, const BodyPose& from,
+                                             bool by_angle);
+
 /// Compares frame by frame; both runs must be of one scene and have frames at the same times.
 [[nodiscard]] RunError error_of(const Trajectory& run, const Trajectory& reference);
 

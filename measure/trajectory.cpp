@@ -18,6 +18,52 @@ double reach_of(const BodyDef& body) {
   return reach;
 }
 
+bool is_rigid(const CableDef& cable) {
+  return cable.compliance.value_or(0.0) == 0.0 && !cable.axial_stiffness;
+}
+
+Frame frame_from(const Simulation& simulation, const std::vector<TrackedBody>& bodies,
+                 const std::vector<CableReport>& reports) {
+  Frame frame;
+  const World& world = simulation.world;
+  for (const TrackedBody& body : bodies) {
+    const double angle = world.state().bodies[static_cast<std::size_t>(body.id.index)].angle;
+    frame.poses.push_back({world.position(body.id), world.orientation(body.id), angle});
+  }
+  for (const CableReport& cable : reports) {
+    for (const SpanReport& span : cable.spans) frame.tensions.push_back(span.tension);
+  }
+  const Energy energy = world.energy();
+  frame.energy = energy.total();
+  frame.kinetic_energy = energy.kinetic;
+  return frame;
+}
+
+/// Adds a frame and what it says about the cables' lengths.
+void add_frame(const Scene& scene, const Simulation& simulation, Trajectory& trajectory) {
+  const std::vector<CableReport> reports = simulation.cable_reports();
+  std::size_t spans = 0;
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const CableReport& cable = reports[i];
+    double excess = 0.0;
+    spans += cable.spans.size() + cable.wraps.size();
+    for (const SpanReport& span : cable.spans) {
+      excess += std::max(0.0, span.length - span.rest_length);
+    }
+    for (const WrapReport& wrap : cable.wraps) {
+      excess += std::max(0.0, wrap.span.length - wrap.span.rest_length);
+    }
+    trajectory.length_error = std::max(trajectory.length_error, std::abs(cable.length_error));
+    if (is_rigid(scene.cables[i]) && !cable.cut && cable.total_length > 0.0) {
+      trajectory.stretch = std::max(trajectory.stretch, excess / cable.total_length);
+    }
+  }
+  trajectory.most_spans = std::max(trajectory.most_spans, static_cast<int>(spans));
+  trajectory.frames.push_back(frame_from(simulation, trajectory.bodies, reports));
+}
+
+}  // namespace
+
 std::vector<TrackedBody> tracked_bodies(const BodySet& bodies) {
   std::vector<TrackedBody> tracked;
   for (int i = 0; i < bodies.count(); ++i) {
@@ -31,44 +77,9 @@ std::vector<TrackedBody> tracked_bodies(const BodySet& bodies) {
   return tracked;
 }
 
-bool is_rigid(const CableDef& cable) {
-  return cable.compliance.value_or(0.0) == 0.0 && !cable.axial_stiffness;
+Frame frame_of(const Simulation& simulation, const std::vector<TrackedBody>& bodies) {
+  return frame_from(simulation, bodies, simulation.cable_reports());
 }
-
-/// Adds a frame and what it says about the cables' lengths.
-void add_frame(const Scene& scene, const Simulation& simulation, Trajectory& trajectory) {
-  Frame frame;
-  const World& world = simulation.world;
-  for (const TrackedBody& body : trajectory.bodies) {
-    const double angle = world.state().bodies[static_cast<std::size_t>(body.id.index)].angle;
-    frame.poses.push_back({world.position(body.id), world.orientation(body.id), angle});
-  }
-  const std::vector<CableReport> reports = simulation.cable_reports();
-  std::size_t spans = 0;
-  for (std::size_t i = 0; i < reports.size(); ++i) {
-    const CableReport& cable = reports[i];
-    double excess = 0.0;
-    spans += cable.spans.size() + cable.wraps.size();
-    for (const SpanReport& span : cable.spans) {
-      frame.tensions.push_back(span.tension);
-      excess += std::max(0.0, span.length - span.rest_length);
-    }
-    for (const WrapReport& wrap : cable.wraps) {
-      excess += std::max(0.0, wrap.span.length - wrap.span.rest_length);
-    }
-    trajectory.length_error = std::max(trajectory.length_error, std::abs(cable.length_error));
-    if (is_rigid(scene.cables[i]) && !cable.cut && cable.total_length > 0.0) {
-      trajectory.stretch = std::max(trajectory.stretch, excess / cable.total_length);
-    }
-  }
-  trajectory.most_spans = std::max(trajectory.most_spans, static_cast<int>(spans));
-  const Energy energy = world.energy();
-  frame.energy = energy.total();
-  frame.kinetic_energy = energy.kinetic;
-  trajectory.frames.push_back(std::move(frame));
-}
-
-}  // namespace
 
 std::array<Trajectory, 2> with_common_bodies(const Trajectory& run, const Trajectory& other) {
   std::array<Trajectory, 2> common{run, other};

@@ -67,6 +67,11 @@ struct Trajectory {
 [[nodiscard]] std::array<Trajectory, 2> with_common_bodies(const Trajectory& run,
                                                            const Trajectory& other);
 
+/// The bodies of a scene that are compared, in the order of the model.
+[[nodiscard]] std::vector<TrackedBody> tracked_bodies(const BodySet& bodies);
+/// What those bodies and all cables do at this moment.
+[[nodiscard]] Frame frame_of(const Simulation& simulation, const std::vector<TrackedBody>& bodies);
+
 /// Called after each frame with the frames done and their number; false ends the run, which is then no trajectory.
 using FrameObserver = std::function<bool(std::int64_t done, std::int64_t of)>;
 

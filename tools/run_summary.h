@@ -1,11 +1,13 @@
 #pragma once
 // What a run says at its end.
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "engine/joint_report.h"
+#include "measure/error_estimate.h"
 #include "scenes/check.h"
 #include "scenes/scene.h"
 #include "tools/run_monitor.h"
@@ -46,6 +48,7 @@ struct RunSummary {
   std::vector<Warning> warnings;
   bool checked = false;  ///< whether checks were asked for
   std::vector<CheckResult> checks;
+  std::optional<measure::ErrorEstimate> error_estimate;  ///< if it was asked for
 
   [[nodiscard]] bool checks_passed() const;
 };

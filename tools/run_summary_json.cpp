@@ -3,24 +3,25 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "tools/error_estimate_text.h"
 #include "tools/run_summary.h"
 
 namespace sheave::tools {
 namespace {
 
 // Keeps the keys in the order in which people expect them. NaN and infinity become null.
-using Json = nlohmann::ordered_json;
+using RunJson = nlohmann::ordered_json;
 
-Json json(const Vector3& v) { return Json::array({v.x(), v.y(), v.z()}); }
-Json json(const Quaternion& q) { return Json::array({q.w(), q.x(), q.y(), q.z()}); }
-Json json(const Energy& energy) {
+RunJson run_json(const Vector3& v) { return RunJson::array({v.x(), v.y(), v.z()}); }
+RunJson run_json(const Quaternion& q) { return RunJson::array({q.w(), q.x(), q.y(), q.z()}); }
+RunJson run_json(const Energy& energy) {
   return {{"kinetic", energy.kinetic},
           {"potential", energy.potential},
           {"elastic", energy.elastic},
           {"total", energy.total()}};
 }
 
-Json settings(const Scene& scene) {
+RunJson settings(const Scene& scene) {
   const StepSettings& step = scene.model.step;
   return {{"dt", step.dt},
           {"substeps", step.substeps},
@@ -30,7 +31,7 @@ Json settings(const Scene& scene) {
           {"duration", scene.duration}};
 }
 
-Json statistics(const RunStatistics& statistics) {
+RunJson statistics(const RunStatistics& statistics) {
   return {{"rows", statistics.rows},
           {"row_solves", statistics.row_solves},
           {"last_correction", statistics.last_correction},
@@ -45,40 +46,40 @@ Json statistics(const RunStatistics& statistics) {
           {"numerical_damping", statistics.numerical_damping}};
 }
 
-Json json(const SpanReport& span, bool known) {
-  return {{"tension", known ? Json(span.tension) : Json()},
+RunJson run_json(const SpanReport& span, bool known) {
+  return {{"tension", known ? RunJson(span.tension) : RunJson()},
           {"length", span.length},
           {"rest_length", span.rest_length}};
 }
 
-Json json(const LinkReport& link) {
+RunJson run_json(const LinkReport& link) {
   return {{"type", link.type},
           {"stored_length", link.stored_length},
           {"wrap_angle", link.wrap_angle},
           {"slip", link.slip},
           {"fed", link.fed},
-          {"entry", json(link.entry)},
-          {"exit", json(link.exit)}};
+          {"entry", run_json(link.entry)},
+          {"exit", run_json(link.exit)}};
 }
 
-Json cables(const RunSummary& summary) {
-  Json list = Json::array();
+RunJson cables(const RunSummary& summary) {
+  RunJson list = RunJson::array();
   // Before the first step nobody knows the tensions.
   const bool known = summary.simulation.world.state().steps > 0;
   const std::vector<CableReport> reports = summary.simulation.cable_reports();
   for (std::size_t i = 0; i < reports.size(); ++i) {
-    Json spans = Json::array();
-    for (const SpanReport& span : reports[i].spans) spans.push_back(json(span, known));
-    Json links = Json::array();
-    for (const LinkReport& link : reports[i].links) links.push_back(json(link));
-    Json wraps = Json::array();
+    RunJson spans = RunJson::array();
+    for (const SpanReport& span : reports[i].spans) spans.push_back(run_json(span, known));
+    RunJson links = RunJson::array();
+    for (const LinkReport& link : reports[i].links) links.push_back(run_json(link));
+    RunJson wraps = RunJson::array();
     for (const WrapReport& wrap : reports[i].wraps) {
       wraps.push_back({{"after_link", wrap.after},
                        {"body", summary.simulation.world.model()
                                     .bodies[static_cast<std::size_t>(wrap.link.body.index)]
                                     .name},
-                       {"link", json(wrap.link)},
-                       {"span", json(wrap.span, known)}});
+                       {"link", run_json(wrap.link)},
+                       {"span", run_json(wrap.span, known)}});
     }
     list.push_back({{"name", reports[i].name},
                     {"total_length", reports[i].total_length},
@@ -92,30 +93,30 @@ Json cables(const RunSummary& summary) {
   return list;
 }
 
-Json joints(const RunSummary& summary) {
-  Json list = Json::array();
+RunJson joints(const RunSummary& summary) {
+  RunJson list = RunJson::array();
   // Before the first step nobody knows the forces.
   const bool known = summary.simulation.world.state().steps > 0;
   for (const JointReport& joint : summary.joints) {
-    Json coordinates = Json::array();
+    RunJson coordinates = RunJson::array();
     for (const JointCoordinateReport& coordinate : joint.coordinates) {
       coordinates.push_back({{"name", coordinate.name},
                              {"value", coordinate.value},
                              {"rate", coordinate.rate},
-                             {"drive_force", known ? Json(coordinate.drive_force) : Json()}});
+                             {"drive_force", known ? RunJson(coordinate.drive_force) : RunJson()}});
     }
     list.push_back({{"name", joint.name},
                     {"type", joint.type},
-                    {"force", known ? json(joint.force) : Json()},
-                    {"torque", known ? json(joint.torque) : Json()},
+                    {"force", known ? run_json(joint.force) : RunJson()},
+                    {"torque", known ? run_json(joint.torque) : RunJson()},
                     {"coordinates", std::move(coordinates)},
-                    {"broken_at", joint.broken_at ? Json(*joint.broken_at) : Json()}});
+                    {"broken_at", joint.broken_at ? RunJson(*joint.broken_at) : RunJson()}});
   }
   return list;
 }
 
-Json events(const RunSummary& summary) {
-  Json list = Json::array();
+RunJson events(const RunSummary& summary) {
+  RunJson list = RunJson::array();
   for (const RunEvent& event : summary.events) {
     if (event.of_joint) {
       list.push_back({{"time", event.time}, {"joint", event.subject}, {"kind", event.kind}});
@@ -130,36 +131,36 @@ Json events(const RunSummary& summary) {
   return list;
 }
 
-Json bodies(const World& world) {
-  Json list = Json::array();
+RunJson bodies(const World& world) {
+  RunJson list = RunJson::array();
   for (int i = 0; i < world.bodies().count(); ++i) {
     const BodyId id{i};
     list.push_back({{"name", world.bodies().name(i)},
-                    {"position", json(world.position(id))},
-                    {"orientation", json(world.orientation(id))},
-                    {"velocity", json(world.velocity(id))},
-                    {"angular_velocity", json(world.angular_velocity(id))}});
+                    {"position", run_json(world.position(id))},
+                    {"orientation", run_json(world.orientation(id))},
+                    {"velocity", run_json(world.velocity(id))},
+                    {"angular_velocity", run_json(world.angular_velocity(id))}});
   }
   return list;
 }
 
-Json contacts(const World& world) {
-  Json list = Json::array();
+RunJson contacts(const World& world) {
+  RunJson list = RunJson::array();
   for (const ContactReport& contact : world.contacts()) {
     list.push_back({{"body_a", world.bodies().name(contact.body_a.index)},
                     {"body_b", world.bodies().name(contact.body_b.index)},
-                    {"point", json(contact.point)},
-                    {"normal", json(contact.normal)},
+                    {"point", run_json(contact.point)},
+                    {"normal", run_json(contact.normal)},
                     {"gap", contact.gap},
                     {"normal_force", contact.normal_force},
-                    {"friction_force", json(contact.friction_force)},
+                    {"friction_force", run_json(contact.friction_force)},
                     {"sticks", contact.sticks}});
   }
   return list;
 }
 
-Json warnings(const std::vector<Warning>& warnings) {
-  Json list = Json::array();
+RunJson warnings(const std::vector<Warning>& warnings) {
+  RunJson list = RunJson::array();
   for (const Warning& warning : warnings) {
     list.push_back(
         {{"kind", warning.kind}, {"subject", warning.subject}, {"message", warning.message}});
@@ -167,8 +168,8 @@ Json warnings(const std::vector<Warning>& warnings) {
   return list;
 }
 
-Json checks(const std::vector<CheckResult>& results) {
-  Json list = Json::array();
+RunJson checks(const std::vector<CheckResult>& results) {
+  RunJson list = RunJson::array();
   for (const CheckResult& result : results) {
     const auto statistic = static_cast<std::size_t>(result.check.statistic);
     list.push_back({{"quantity", result.check.quantity},
@@ -184,10 +185,51 @@ Json checks(const std::vector<CheckResult>& results) {
   return list;
 }
 
-Json divergence(const Divergence& divergence, const World& world) {
+RunJson divergence(const Divergence& divergence, const World& world) {
   return {{"body", world.bodies().name(divergence.body.index)},
           {"time", divergence.time},
           {"message", divergence.message}};
+}
+
+RunJson run_json(const measure::StepDifference& difference) {
+  return {{"largest", difference.largest},
+          {"time", difference.time},
+          {"at_end", difference.at_end},
+          {"scale", difference.scale},
+          {"relative", difference.relative()},
+          {"order", difference.order ? RunJson(*difference.order) : RunJson()},
+          {"error", difference.error()}};
+}
+
+RunJson error_estimate(const measure::ErrorEstimate& estimate, const World& world) {
+  RunJson bodies = RunJson::array();
+  for (const measure::BodyDifference& body : estimate.bodies) {
+    bodies.push_back({{"name", body.name},
+                      {"position", run_json(body.position)},
+                      {"turn", run_json(body.turn)}});
+  }
+  RunJson spans = RunJson::array();
+  for (const measure::SpanDifference& span : estimate.spans) {
+    spans.push_back({{"name", span.name}, {"tension", run_json(span.tension)}});
+  }
+  const auto kind = [](measure::StepErrorKind of) {
+    return measure::step_error_kind_names[static_cast<std::size_t>(of)];
+  };
+  RunJson object{{"substeps", estimate.substeps},
+                 {"end", estimate.end},
+                 {"position", run_json(estimate.position)},
+                 {"position_kind", kind(estimate.position_kind)},
+                 {"tension", run_json(estimate.tension)},
+                 {"tension_kind", kind(estimate.tension_kind)},
+                 {"motion", estimate.motion},
+                 {"events", estimate.changes.count()},
+                 {"growth", estimate.growth ? RunJson(*estimate.growth) : RunJson()},
+                 {"trusted_time", estimate.trusted_time},
+                 {"bodies", std::move(bodies)},
+                 {"spans", std::move(spans)},
+                 {"conclusion", error_estimate_conclusion(estimate)}};
+  if (estimate.divergence) object["divergence"] = divergence(*estimate.divergence, world);
+  return object;
 }
 
 }  // namespace
@@ -195,36 +237,39 @@ Json divergence(const Divergence& divergence, const World& world) {
 std::string to_json(const RunSummary& summary) {
   const World& world = summary.simulation.world;
   const RunOutcome& outcome = summary.outcome;
-  Json object{{"scene", summary.scene_path},
-              {"name", summary.scene.name},
-              {"version", version_string},
-              {"status", name_of(outcome.status)},
-              {"steps", outcome.steps},
-              {"sim_time", world.state().time},
-              {"wall_time", outcome.wall_time},
-              {"us_per_step", 1e6 * time_per_step(outcome)},
-              {"settings", settings(summary.scene)},
-              {"energy",
-               {{"initial", summary.monitor.initial_energy().total()},
-                {"final", summary.monitor.final_energy().total()},
-                {"max_drift", summary.monitor.max_energy_drift()},
-                {"parts", json(summary.monitor.final_energy())}}},
-              {"cables", cables(summary)},
-              {"joints", joints(summary)},
-              {"bodies", bodies(world)},
-              {"statistics", statistics(outcome.statistics)},
-              {"events", events(summary)},
-              {"warnings", warnings(summary.warnings)}};
+  RunJson object{{"scene", summary.scene_path},
+                 {"name", summary.scene.name},
+                 {"version", version_string},
+                 {"status", name_of(outcome.status)},
+                 {"steps", outcome.steps},
+                 {"sim_time", world.state().time},
+                 {"wall_time", outcome.wall_time},
+                 {"us_per_step", 1e6 * time_per_step(outcome)},
+                 {"settings", settings(summary.scene)},
+                 {"energy",
+                  {{"initial", summary.monitor.initial_energy().total()},
+                   {"final", summary.monitor.final_energy().total()},
+                   {"max_drift", summary.monitor.max_energy_drift()},
+                   {"parts", run_json(summary.monitor.final_energy())}}},
+                 {"cables", cables(summary)},
+                 {"joints", joints(summary)},
+                 {"bodies", bodies(world)},
+                 {"statistics", statistics(outcome.statistics)},
+                 {"events", events(summary)},
+                 {"warnings", warnings(summary.warnings)}};
   if (!world.model().colliders.empty()) object["contacts"] = contacts(world);
   if (summary.checked) {
     object["checks"] = checks(summary.checks);
     object["checks_passed"] = summary.checks_passed();
   }
+  if (summary.error_estimate) {
+    object["error_estimate"] = error_estimate(*summary.error_estimate, world);
+  }
   if (outcome.divergence) object["divergence"] = divergence(*outcome.divergence, world);
   // As text: JSON numbers of this size lose digits in most programs.
   object["state_hash"] = fmt::format("{:016x}", hash(world.state()));
   // File names need not be UTF-8.
-  return object.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return object.dump(-1, ' ', false, RunJson::error_handler_t::replace) + "\n";
 }
 
 }  // namespace sheave::tools

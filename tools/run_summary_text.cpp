@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/error_estimate_text.h"
 #include "tools/run_summary.h"
 #include "tools/text_table.h"
 
@@ -173,6 +174,7 @@ std::string checks_text(const std::vector<CheckResult>& checks) {
 std::string to_text(const RunSummary& summary) {
   std::string text = head(summary) + body_lines(summary.simulation.world) + cable_lines(summary) +
                      joint_lines(summary) + event_lines(summary) + invariants(summary);
+  if (summary.error_estimate) text += "\n" + error_estimate_text(*summary.error_estimate);
   if (summary.checked) text += "\n" + checks_text(summary.checks);
   return text;
 }

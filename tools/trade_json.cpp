@@ -19,15 +19,15 @@ TradeJson trade_error_json(const measure::RunError& error) {
 
 TradeJson trade_setting_json(const TradeSetting& setting) {
   const StepSettings& step = setting.step;
-  TradeJson json{{"dt", step.dt},
-                 {"substeps", step.substeps},
-                 {"iterations", step.iterations},
-                 {"solver", solver_names[static_cast<std::size_t>(step.solver)]},
-                 {"integrator", integrator_names[static_cast<std::size_t>(step.integrator)]}};
+  TradeJson object{{"dt", step.dt},
+                   {"substeps", step.substeps},
+                   {"iterations", step.iterations},
+                   {"solver", solver_names[static_cast<std::size_t>(step.solver)]},
+                   {"integrator", integrator_names[static_cast<std::size_t>(step.integrator)]}};
   if (setting.tangents) {
-    json["tangent_update"] = tangent_update_names[static_cast<std::size_t>(*setting.tangents)];
+    object["tangent_update"] = tangent_update_names[static_cast<std::size_t>(*setting.tangents)];
   }
-  return json;
+  return object;
 }
 
 TradeJson trade_spread_json(const measure::Spread& spread) {
@@ -39,21 +39,22 @@ TradeJson trade_spread_json(const measure::Spread& spread) {
 }
 
 TradeJson trade_row_json(const TradeRow& row) {
-  TradeJson json{{"name", row.setting.name()}, {"settings", trade_setting_json(row.setting)}};
-  json["expected_seconds"] = row.expected_seconds;
+  TradeJson object{{"name", row.setting.name()}, {"settings", trade_setting_json(row.setting)}};
+  object["expected_seconds"] = row.expected_seconds;
   if (!row.measured()) {
-    json[row.skipped.empty() ? "fault" : "skipped"] = row.skipped.empty() ? row.fault : row.skipped;
-    return json;
+    object[row.skipped.empty() ? "fault" : "skipped"] =
+        row.skipped.empty() ? row.fault : row.skipped;
+    return object;
   }
-  json["timed_alone"] = row.timed_alone;
-  json["seconds_per_simulated_second"] = trade_spread_json(row.seconds);
-  json["row_solves_per_simulated_second"] = row.row_solves;
-  json["error"] = trade_error_json(row.error);
-  json["stretch"] = row.stretch;
-  json["length_error"] = row.length_error;
-  json["fallbacks"] = row.fallbacks;
-  json["on_front"] = row.on_front;
-  return json;
+  object["timed_alone"] = row.timed_alone;
+  object["seconds_per_simulated_second"] = trade_spread_json(row.seconds);
+  object["row_solves_per_simulated_second"] = row.row_solves;
+  object["error"] = trade_error_json(row.error);
+  object["stretch"] = row.stretch;
+  object["length_error"] = row.length_error;
+  object["fallbacks"] = row.fallbacks;
+  object["on_front"] = row.on_front;
+  return object;
 }
 
 TradeJson reference_json(const TradeTable& table) {
@@ -68,32 +69,33 @@ TradeJson reference_json(const TradeTable& table) {
           {"chaos_rate", table.chaos_rate ? TradeJson(*table.chaos_rate) : TradeJson()}};
 }
 
-TradeJson ladder_row_json(const LadderRow& row) {
-  TradeJson json{
+TradeJson trade_rung_json(const LadderRow& row) {
+  TradeJson object{
       {"name", row.name}, {"change", row.change}, {"changed", row.changed}, {"things", row.things}};
   if (!row.fault.empty()) {
-    json["fault"] = row.fault;
-    return json;
+    object["fault"] = row.fault;
+    return object;
   }
-  json["difference"] = {{"position", row.difference.position}, {"tension", row.difference.tension}};
-  json["seconds_per_simulated_second"] = trade_spread_json(row.seconds);
-  json["row_solves_per_simulated_second"] = row.row_solves;
-  return json;
+  object["difference"] = {{"position", row.difference.position},
+                          {"tension", row.difference.tension}};
+  object["seconds_per_simulated_second"] = trade_spread_json(row.seconds);
+  object["row_solves_per_simulated_second"] = row.row_solves;
+  return object;
 }
 
 TradeJson ladder_json(const TradeTable& table) {
   if (!table.ladder) return {};
   const TradeLadder& ladder = *table.ladder;
   if (!ladder.skipped.empty()) return {{"skipped", ladder.skipped}};
-  TradeJson json{{"setting", ladder.setting.name()},
-                 {"settings", trade_setting_json(ladder.setting)},
-                 {"setting_error", ladder.setting_error},
-                 {"seconds_per_simulated_second", trade_spread_json(ladder.seconds)},
-                 {"row_solves_per_simulated_second", ladder.row_solves},
-                 {"rungs", TradeJson::array()},
-                 {"absent", ladder.absent}};
-  for (const LadderRow& row : ladder.rows) json["rungs"].push_back(ladder_row_json(row));
-  return json;
+  TradeJson object{{"setting", ladder.setting.name()},
+                   {"settings", trade_setting_json(ladder.setting)},
+                   {"setting_error", ladder.setting_error},
+                   {"seconds_per_simulated_second", trade_spread_json(ladder.seconds)},
+                   {"row_solves_per_simulated_second", ladder.row_solves},
+                   {"rungs", TradeJson::array()},
+                   {"absent", ladder.absent}};
+  for (const LadderRow& row : ladder.rows) object["rungs"].push_back(trade_rung_json(row));
+  return object;
 }
 
 /// Quoted where a comma or a quote asks for it.
@@ -107,38 +109,38 @@ std::string csv_cell(const std::string& text) {
 }  // namespace
 
 std::string trade_json(const TradeTable& table) {
-  TradeJson json{{"format", "sheave-trade/1"},
-                 {"version", table.version},
-                 {"machine",
-                  {{"cpu", table.machine.cpu},
-                   {"cores", table.machine.cores},
-                   {"compiler", table.machine.compiler},
-                   {"assertions", table.machine.assertions}}},
-                 {"scene", table.scene},
-                 {"repetitions", table.repetitions},
-                 {"simulated_seconds", table.simulated_seconds},
-                 {"compared_seconds", table.compared_seconds},
-                 {"motion", table.motion},
-                 {"reference", reference_json(table)},
-                 {"rows", TradeJson::array()},
-                 {"orders", TradeJson::array()},
-                 {"cheapest", TradeJson::array()},
-                 {"minutes", table.most_minutes},
-                 {"limits", table.limits},
-                 {"ladder", ladder_json(table)}};
-  for (const TradeRow& row : table.rows) json["rows"].push_back(trade_row_json(row));
+  TradeJson object{{"format", "sheave-trade/1"},
+                   {"version", table.version},
+                   {"machine",
+                    {{"cpu", table.machine.cpu},
+                     {"cores", table.machine.cores},
+                     {"compiler", table.machine.compiler},
+                     {"assertions", table.machine.assertions}}},
+                   {"scene", table.scene},
+                   {"repetitions", table.repetitions},
+                   {"simulated_seconds", table.simulated_seconds},
+                   {"compared_seconds", table.compared_seconds},
+                   {"motion", table.motion},
+                   {"reference", reference_json(table)},
+                   {"rows", TradeJson::array()},
+                   {"orders", TradeJson::array()},
+                   {"cheapest", TradeJson::array()},
+                   {"minutes", table.most_minutes},
+                   {"limits", table.limits},
+                   {"ladder", ladder_json(table)}};
+  for (const TradeRow& row : table.rows) object["rows"].push_back(trade_row_json(row));
   for (const TradeFamily& family : table.families) {
-    json["orders"].push_back({{"family", family.name},
-                              {"order", family.fit ? TradeJson(family.fit->order) : TradeJson()},
-                              {"steps", family.fit ? family.fit->points : 0}});
+    object["orders"].push_back({{"family", family.name},
+                                {"order", family.fit ? TradeJson(family.fit->order) : TradeJson()},
+                                {"steps", family.fit ? family.fit->points : 0}});
   }
   for (const double level : trade_levels) {
     const auto choice = answer(table, {.error = level});
-    json["cheapest"].push_back(
+    object["cheapest"].push_back(
         {{"error", level},
          {"row", choice ? TradeJson(table.rows[*choice].setting.name()) : TradeJson()}});
   }
-  return json.dump(2) + "\n";
+  return object.dump(2) + "\n";
 }
 
 std::string trade_csv(const TradeTable& table) {

@@ -1,0 +1,218 @@
+#include "measure/error_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/joint_report.h"
+#include "measure/error_growth.h"
+#include "measure/run_error.h"
+
+namespace sheave::measure {
+namespace {
+
+constexpr double trusted_level = 1e-3;
+constexpr int most_substeps = 100'000;
+
+std::size_t touching_points(const World& world) {
+  const std::vector<ContactReport> contacts = world.contacts();
+  return static_cast<std::size_t>(
+      std::count_if(contacts.begin(), contacts.end(),
+                    [](const ContactReport& contact) { return contact.normal_force > 0.0; }));
+}
+
+/// The larger of the sizes of what the bodies and what the spans' ends fill [m].
+double size_of(const Simulation& simulation) {
+  Eigen::AlignedBox3d box;
+  for (const CableReport& cable : simulation.cable_reports()) {
+    for (const SpanReport& span : cable.spans) box.extend(span.start).extend(span.end);
+  }
+  const double bodies = simulation.world.bodies().scale();
+  return box.isEmpty() ? bodies : std::max(bodies, box.diagonal().norm());
+}
+
+double scale_of_turn(const TrackedBody& body, double scale) {
+  return body.reach > 0.0 ? scale / body.reach : 1.0;
+}
+
+}  // namespace
+
+Result<ErrorEstimator> ErrorEstimator::create(const Scene& scene, const State& start) {
+  const int substeps = scene.model.step.substeps;
+  if (substeps > most_substeps / 4) {
+    return Error{"/step/substeps",
+                 fmt::format("{} substeps leave no room for runs with two and four times as many, "
+                             "to compare with: at most {} are allowed then",
+                             substeps, most_substeps / 4)};
+  }
+  std::vector<Simulation> finer;
+  for (const int factor : {2, 4}) {
+    Model model = scene.model;
+    model.step.substeps = factor * substeps;
+    Result<Simulation> simulation = Simulation::create(model, scene.cables);
+    if (!simulation) return simulation.errors();
+    const Errors errors = simulation->world.restore(start);
+    if (!errors.empty()) return errors;
+    finer.push_back(std::move(simulation).value());
+  }
+  return ErrorEstimator(scene, std::move(finer));
+}
+
+ErrorEstimator::ErrorEstimator(const Scene& scene, std::vector<Simulation> finer)
+    : step_(scene.model.step),
+      scale_(size_of(finer.front())),
+      finer_(std::move(finer)),
+      bodies_(tracked_bodies(finer_.front().world.bodies())),
+      start_(frame_of(finer_.front(), bodies_)),
+      touching_(touching_points(finer_.front().world)),
+      end_(finer_.front().world.state().time) {
+  const std::vector<CableReport> reports = finer_.front().cable_reports();
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    for (std::size_t k = 0; k < reports[i].spans.size(); ++k) {
+      span_names_.push_back(fmt::format("{}.{}", reports[i].name, k));
+      cable_of_span_.push_back(i);
+    }
+  }
+  positions_.resize(bodies_.size());
+  turns_.resize(bodies_.size());
+  tensions_.resize(span_names_.size());
+  square_tensions_.resize(span_names_.size());
+  first_events_ = events_of(finer_.front());
+}
+
+void ErrorEstimator::observe(const Simulation& run) {
+  if (divergence_) return;
+  for (Simulation& finer : finer_) {
+    StepReport report = finer.world.step();
+    if (report.ok()) continue;
+    divergence_ = std::move(report.divergence);
+    return;
+  }
+  const Frame frame = frame_of(run, bodies_);
+  end_ = run.world.state().time;
+  ++frames_;
+  compare(frame, frame_of(finer_[0], bodies_), frame_of(finer_[1], bodies_), end_);
+  look_for_changes(run, frame);
+}
+
+void ErrorEstimator::compare(const Frame& run, const Frame& finer, const Frame& finest,
+                             double time) {
+  double moved = 0.0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const TrackedBody& body = bodies_[i];
+    const auto difference = [&](const BodyPose& pose, const BodyPose& from) {
+      return pose_difference(pose, from, body.turns_by_angle);
+    };
+    const PoseDifference coarse = difference(run.poses[i], finer.poses[i]);
+    const PoseDifference fine = difference(finer.poses[i], finest.poses[i]);
+    positions_[i].add(coarse.position, fine.position);
+    positions_[i].end_frame(time);
+    turns_[i].add(coarse.turn, fine.turn);
+    turns_[i].end_frame(time);
+    position_.add(coarse.position, fine.position);
+    position_.add(body.reach * coarse.turn, body.reach * fine.turn);
+    const PoseDifference way = difference(run.poses[i], start_.poses[i]);
+    moved += way.position.squaredNorm() + body.reach * body.reach * way.turn.squaredNorm();
+  }
+  position_.end_frame(time);
+  const double root = std::sqrt(static_cast<double>(std::max<std::size_t>(bodies_.size(), 1)));
+  motion_ = std::max(motion_, std::sqrt(moved) / root);
+  course_.push_back(position_.last() / root / scale_);
+  compare_tensions({&run, &finer, &finest}, time);
+}
+
+void ErrorEstimator::compare_tensions(const std::array<const Frame*, 3>& frames, double time) {
+  for (std::size_t k = 0; k < span_names_.size(); ++k) {
+    std::array<double, 3> of{};
+    for (std::size_t run = 0; run < 3; ++run) {
+      of[run] = frames[run]->tensions[k];
+      square_tensions_[k][run] += of[run] * of[run];
+    }
+    const Vector3 coarse(of[0] - of[1], 0.0, 0.0);
+    const Vector3 fine(of[1] - of[2], 0.0, 0.0);
+    tensions_[k].add(coarse, fine);
+    tensions_[k].end_frame(time);
+    tension_.add(coarse, fine);
+  }
+  tension_.end_frame(time);
+}
+
+std::size_t ErrorEstimator::events_of(const Simulation& run) const {
+  std::size_t events = run.cables == nullptr ? 0 : run.cables->events().size();
+  if (run.world.model().joints.empty()) return events;
+  for (const JointReport& joint : joint_reports(run.world)) {
+    if (joint.broken_at) ++events;
+  }
+  return events;
+}
+
+void ErrorEstimator::look_for_changes(const Simulation& run, const Frame& frame) {
+  changes_.events = events_of(run) - first_events_;
+  const std::size_t touching = touching_points(run.world);
+  if (touching != touching_) ++changes_.contacts;
+  touching_ = touching;
+  taut_.resize(frame.tensions.size());
+  for (std::size_t k = 0; k < frame.tensions.size(); ++k) {
+    const bool taut = frame.tensions[k] > 0.0;
+    // Before the first step nobody knows.
+    if (!first_ && taut != taut_[k]) ++changes_.slack;
+    taut_[k] = taut;
+  }
+  first_ = false;
+}
+
+StepErrorKind ErrorEstimator::kind_of(const StepDifference& difference,
+                                      const std::optional<double>& growth) const {
+  if (!(difference.relative() > negligible_difference)) return StepErrorKind::rounding;
+  if (difference.order) return StepErrorKind::regular;
+  if (changes_.count() > 0) return StepErrorKind::events;
+  if (growth) return StepErrorKind::chaos;
+  if (step_.solver == SolverKind::gauss_seidel) return StepErrorKind::sweeps;
+  return StepErrorKind::coarse;
+}
+
+void ErrorEstimator::estimate_tensions(ErrorEstimate& estimate) const {
+  const auto frames = static_cast<double>(std::max<std::int64_t>(frames_, 1));
+  std::vector<double> cable_scales(cable_of_span_.empty() ? 0 : cable_of_span_.back() + 1);
+  std::array<double, 3> sums{};
+  for (std::size_t k = 0; k < span_names_.size(); ++k) {
+    double& scale = cable_scales[cable_of_span_[k]];
+    for (std::size_t run = 0; run < 3; ++run) {
+      scale = std::max(scale, std::sqrt(square_tensions_[k][run] / frames));
+      sums[run] += square_tensions_[k][run];
+    }
+  }
+  for (std::size_t k = 0; k < span_names_.size(); ++k) {
+    estimate.spans.push_back(
+        {span_names_[k], tensions_[k].result(cable_scales[cable_of_span_[k]])});
+  }
+  const auto spans = std::max<std::size_t>(span_names_.size(), 1);
+  const double square = *std::max_element(sums.begin(), sums.end()) / frames;
+  estimate.tension = tension_.result(std::sqrt(square / static_cast<double>(spans)), spans);
+}
+
+ErrorEstimate ErrorEstimator::estimate() const {
+  ErrorEstimate estimate{
+      .substeps = {step_.substeps, 2 * step_.substeps, 4 * step_.substeps},
+      .end = end_,
+      .motion = motion_,
+      .changes = changes_,
+      .divergence = divergence_,
+  };
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    estimate.bodies.push_back({bodies_[i].name, positions_[i].result(scale_),
+                               turns_[i].result(scale_of_turn(bodies_[i], scale_))});
+  }
+  estimate.position = position_.result(scale_, std::max<std::size_t>(bodies_.size(), 1));
+  estimate_tensions(estimate);
+  const ErrorGrowth growth = error_growth(course_, step_.dt, trusted_level);
+  estimate.growth = growth.rate;
+  const double start = end_ - step_.dt * static_cast<double>(frames_);
+  estimate.trusted_time = start + step_.dt * static_cast<double>(growth.trusted_frames - 1);
+  estimate.position_kind = kind_of(estimate.position, estimate.growth);
+  estimate.tension_kind = kind_of(estimate.tension, estimate.growth);
+  return estimate;
+}
+
+}  // namespace sheave::measure

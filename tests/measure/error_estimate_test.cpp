@@ -1,0 +1,242 @@
+// What a run says of the error of its step, against closed forms.
+//
+// With e = C h + D h^2 and d = D h / C small, the differences give p = 1 + 0.75 d / ln 2 = 1 + 1.08 d and the estimate
+// C h (1 + 0.75 d), where the error is C h (1 + d). With e = C h^2 + D h^4 (rattle is symmetric) and d = D h^2 / C they give
+// p = 2 + 1.35 d and C h^2 (1 + 15/16 d). So an estimate is as good as the order that it finds is whole: wrong by a quarter of
+// |p - 1|, or a twentieth of |p - 2|. As d is different in each frame, tests allow four times that.
+
+#include "measure/error_estimate.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "scenes/scene.h"
+#include "tests/support/builders.h"
+
+namespace sheave::measure {
+namespace {
+
+using test::g;
+
+/// A run with its estimate.
+struct Estimated {
+  ErrorEstimate estimate;
+  std::vector<double> times;
+  std::vector<Frame> frames;  ///< of the bodies that move, one per time
+
+  [[nodiscard]] const Frame& at(double time) const {
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      if (times[i] == time) return frames[i];
+    }
+    throw std::runtime_error("no such frame");
+  }
+};
+
+Estimated estimated(const Scene& scene) {
+  Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
+  if (!simulation) throw std::runtime_error(test::text(simulation.errors()));
+  Result<ErrorEstimator> estimator = ErrorEstimator::create(scene, simulation->world.state());
+  if (!estimator) throw std::runtime_error(test::text(estimator.errors()));
+  const std::vector<TrackedBody> bodies = tracked_bodies(simulation->world.bodies());
+  Estimated run;
+  for (std::int64_t i = 0; i < frame_count(scene); ++i) {
+    EXPECT_TRUE(simulation->world.step().ok());
+    estimator->observe(*simulation);
+    run.times.push_back(simulation->world.state().time);
+    run.frames.push_back(frame_of(*simulation, bodies));
+  }
+  run.estimate = estimator->estimate();
+  return run;
+}
+
+Scene scene_of(const test::Machine& machine, IntegratorKind integrator, int substeps) {
+  Scene scene;
+  scene.model = machine.model;
+  scene.cables = machine.cables;
+  scene.duration = 2.0;
+  scene.model.step = test::settings(1.0 / 60.0, substeps, 30);
+  scene.model.step.solver = SolverKind::direct;
+  scene.model.step.integrator = integrator;
+  return scene;
+}
+
+/// A pendulum of 1 m let go at an angle: sin(a / 2) = k sn(K - w t), k = sin(a0 / 2), w^2 = g / l.
+struct Pendulum {
+  static constexpr double start = 0.5;
+
+  [[nodiscard]] static double angle(double time) {
+    const double k = std::sin(0.5 * start);
+    const double argument = std::comp_ellint_1(k) - std::sqrt(g) * time;
+    // sn(u) = sin(amplitude), of which u is the elliptic integral: by Newton's method.
+    double amplitude = argument;
+    for (int i = 0; i < 20; ++i) {
+      const double slope = 1.0 / std::sqrt(1.0 - std::pow(k * std::sin(amplitude), 2));
+      amplitude -= (std::ellint_1(k, amplitude) - argument) / slope;
+    }
+    return 2.0 * std::asin(k * std::sin(amplitude));
+  }
+  [[nodiscard]] static Vector3 position(double time) {
+    return {std::sin(angle(time)), -std::cos(angle(time)), 0.0};
+  }
+  /// m g (3 cos a - 2 cos a0), 1 kg.
+  [[nodiscard]] static double tension(double time) {
+    return g * (3.0 * std::cos(angle(time)) - 2.0 * std::cos(start));
+  }
+  [[nodiscard]] static Estimated run(IntegratorKind integrator, int substeps) {
+    return estimated(scene_of(test::cable_pendulum(1.0, 1.0, start), integrator, substeps));
+  }
+};
+
+TEST(ErrorEstimate, ThePendulumsClosedFormIsOne) {
+  // The test's own ground: energy of the closed form, w'^2 = 2 g (cos a - cos a0), by central differences of 1e-4 s, whose error is
+  // a'''/6 x 1e-8 < 1e-7.
+  for (const double time : {0.3, 1.0, 1.9}) {
+    const double rate = (Pendulum::angle(time + 1e-4) - Pendulum::angle(time - 1e-4)) / 2e-4;
+    const double energy = 2.0 * g * (std::cos(Pendulum::angle(time)) - std::cos(Pendulum::start));
+    EXPECT_NEAR(rate * rate, energy, 1e-6);
+  }
+}
+
+TEST(ErrorEstimate, OfXpbdOnAPendulumHasOrderOneAndIsItsError) {
+  const Estimated run = Pendulum::run(IntegratorKind::xpbd, 32);
+  const BodyDifference& bob = run.estimate.bodies.at(0);
+  EXPECT_EQ(run.estimate.position_kind, StepErrorKind::regular);
+  ASSERT_TRUE(bob.position.order);
+  EXPECT_NEAR(*bob.position.order, 1.0, 0.03);
+  const double time = bob.position.time;
+  const double error = (run.at(time).poses[0].position - Pendulum::position(time)).norm();
+  EXPECT_NEAR(bob.position.error(), error, 0.03 * error);
+  // Tensions have the error of the motion, and are those of the substep that ends then.
+  const StepDifference& tension = run.estimate.spans.at(0).tension;
+  ASSERT_TRUE(tension.order);
+  EXPECT_NEAR(*tension.order, 1.0, 0.03);
+  const double wrong = run.at(tension.time).tensions[0] - Pendulum::tension(tension.time);
+  EXPECT_NEAR(tension.error(), std::abs(wrong), 0.03 * std::abs(wrong));
+}
+
+TEST(ErrorEstimate, OfRattleOnAPendulumHasOrderTwoAndIsItsError) {
+  const Estimated run = Pendulum::run(IntegratorKind::rattle, 1);
+  const BodyDifference& bob = run.estimate.bodies.at(0);
+  ASSERT_TRUE(bob.position.order);
+  EXPECT_NEAR(*bob.position.order, 2.0, 0.03);
+  const double time = bob.position.time;
+  const double error = (run.at(time).poses[0].position - Pendulum::position(time)).norm();
+  EXPECT_NEAR(bob.position.error(), error, 0.2 * 0.03 * error);
+  // The tension of a substep is that of its middle, so half a substep late: of first order, T' h / 2.
+  const StepDifference& tension = run.estimate.spans.at(0).tension;
+  ASSERT_TRUE(tension.order);
+  EXPECT_NEAR(*tension.order, 1.0, 0.1);
+  const double wrong = run.at(tension.time).tensions[0] - Pendulum::tension(tension.time);
+  EXPECT_NEAR(tension.error(), std::abs(wrong), 0.1 * std::abs(wrong));
+}
+
+TEST(ErrorEstimate, OfAtwoodIsTheClosedFormOfXpbd) {
+  // v(k h) = k a h is exact and positions sum it up: x is a t h / 2 too large, exactly of first order, for the weights as for the
+  // wheel's rim. Tensions are right. Rounding: 60 steps of positions of metres.
+  const test::Atwood atwood;
+  Scene scene = scene_of(atwood.machine(), IntegratorKind::xpbd, 1);
+  scene.duration = 1.0;
+  const Estimated run = estimated(scene);
+  const double expected = 0.5 * atwood.acceleration() / 60.0;
+  EXPECT_EQ(run.estimate.position_kind, StepErrorKind::regular);
+  EXPECT_NEAR(*run.estimate.position.order, 1.0, 1e-7);
+  EXPECT_NEAR(run.estimate.position.error(), expected, 1e-7 * expected);
+  EXPECT_NEAR(run.estimate.bodies[0].turn.error(), expected / atwood.radius, 1e-6);
+  EXPECT_NEAR(run.estimate.bodies[2].position.error(), expected, 1e-7 * expected);
+  EXPECT_NEAR(run.estimate.position.time, 1.0, 1e-12);
+  EXPECT_EQ(run.estimate.tension_kind, StepErrorKind::rounding);
+  EXPECT_EQ(run.estimate.changes.count(), 0U);
+  EXPECT_EQ(run.estimate.substeps, (std::array<int, 3>{1, 2, 4}));
+  EXPECT_NEAR(run.estimate.end, 1.0, 1e-12);
+  // What is exact for any step says so.
+  scene.model.step.integrator = IntegratorKind::rattle;
+  const Estimated exact = estimated(scene);
+  EXPECT_EQ(exact.estimate.position_kind, StepErrorKind::rounding);
+  EXPECT_LT(exact.estimate.position.relative(), 1e-11);
+}
+
+TEST(ErrorEstimate, OfThePapersSimpleSceneIsItsSag) {
+  // In balance nothing moves, so what moves is the error: the sag that the sweeps of one substep leave. It is what gravity moves a
+  // body by in a substep times a factor that the number of sweeps makes: of second order.
+  SceneResult loaded = load_scene(SHEAVE_SOURCE_DIR "/scenes/paper/simple.json");
+  ASSERT_TRUE(loaded);
+  Scene scene = std::move(*loaded.scene);
+  scene.duration = 2.0;
+  scene.model.step.substeps = 1;
+  scene.model.step.solver = SolverKind::gauss_seidel;
+  scene.model.step.integrator = IntegratorKind::xpbd;
+  const Estimated run = estimated(scene);
+  for (const BodyDifference& body : run.estimate.bodies) {
+    if (!(body.position.relative() > negligible_difference)) continue;  // wheels stay
+    ASSERT_TRUE(body.position.order) << body.name;
+    EXPECT_NEAR(*body.position.order, 2.0, 0.1) << body.name;
+  }
+  const BodyDifference& first = run.estimate.bodies.at(0);
+  EXPECT_EQ(first.name, "A");
+  const Vector3 now = run.at(first.position.time).poses[0].position;
+  const double sag = (now - scene.model.bodies[0].position).norm();
+  EXPECT_GT(sag, 1e-5);
+  EXPECT_NEAR(first.position.error(), sag, 0.1 * sag);
+  // All rows at once leave none.
+  scene.model.step.solver = SolverKind::direct;
+  const Estimated direct = estimated(scene);
+  EXPECT_EQ(direct.estimate.position_kind, StepErrorKind::rounding);
+  EXPECT_EQ(direct.estimate.tension_kind, StepErrorKind::rounding);
+}
+
+TEST(ErrorEstimate, AnImpactsTensionHasNoOrderAndIsCalledAnEvent) {
+  // A weight thrown up on a slack cable falls until it is taut: the impulse 1 kg x 3.1 m/s in one substep h is a tension of 3.1 / h,
+  // which grows as the step shrinks.
+  test::Machine machine = test::cable_pendulum(1.0, 1.0, 0.0);
+  machine.model.bodies[0].position = {0.0, -0.5, 0.0};
+  machine.cables[0].rest_lengths = {1.0};
+  const Estimated run = estimated(scene_of(machine, IntegratorKind::xpbd, 1));
+  EXPECT_EQ(run.estimate.tension_kind, StepErrorKind::events);
+  EXPECT_GE(run.estimate.changes.slack, 1U);
+  EXPECT_FALSE(run.estimate.spans[0].tension.order);
+}
+
+TEST(ErrorEstimate, KnowsAChaoticMotion) {
+  // Both bars upright: errors grow with the rate at which two of them side by side fall apart, and soon the runs have nothing in
+  // common.
+  SceneResult loaded = load_scene(SHEAVE_SOURCE_DIR "/scenes/analytic/double-pendulum.json");
+  ASSERT_TRUE(loaded);
+  Scene scene = std::move(*loaded.scene);
+  scene.duration = 20.0;
+  const Estimated run = estimated(scene);
+  EXPECT_EQ(run.estimate.position_kind, StepErrorKind::chaos);
+  ASSERT_TRUE(run.estimate.growth);
+  EXPECT_GT(*run.estimate.growth, 0.1);
+  EXPECT_GT(run.estimate.trusted_time, 1.0);
+  EXPECT_LT(run.estimate.trusted_time, 20.0);
+}
+
+TEST(ErrorEstimate, ComparesFromAStateOnAndEndsWhereAFinerRunEnds) {
+  const Scene scene = scene_of(test::cable_pendulum(1.0, 1.0, 0.5), IntegratorKind::rattle, 4);
+  Simulation simulation = test::start({scene.model, scene.cables});
+  test::run(simulation.world, 0.5);
+  Result<ErrorEstimator> estimator = ErrorEstimator::create(scene, simulation.world.state());
+  ASSERT_TRUE(estimator);
+  EXPECT_NEAR(estimator->estimate().end, 0.5, 1e-12);
+  EXPECT_EQ(estimator->estimate().position.largest, 0.0);
+  for (int i = 0; i < 30; ++i) {
+    ASSERT_TRUE(simulation.world.step().ok());
+    estimator->observe(simulation);
+  }
+  EXPECT_NEAR(estimator->estimate().end, 1.0, 1e-12);
+  EXPECT_NEAR(*estimator->estimate().position.order, 2.0, 0.1);
+}
+
+TEST(ErrorEstimate, NeedsRoomForFinerRuns) {
+  Scene scene = scene_of(test::cable_pendulum(1.0, 1.0, 0.5), IntegratorKind::rattle, 25'001);
+  const Simulation simulation = test::start({scene.model, scene.cables});
+  const Result<ErrorEstimator> refused = ErrorEstimator::create(scene, simulation.world.state());
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.errors()[0].path, "/step/substeps");
+  EXPECT_NE(refused.errors()[0].message.find("at most 25000"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sheave::measure
