@@ -10,6 +10,16 @@
 namespace sheave {
 namespace {
 
+std::string vector_text(const Vector3& v) {
+  // A difference of numbers may leave minus zero, or a rest of rounding.
+  const double negligible = 1e-12 * v.norm();
+  std::string text;
+  for (const double value : {v.x(), v.y(), v.z()}) {
+    text += (text.empty() ? "[" : ", ") + number_text(std::abs(value) > negligible ? value : 0.0);
+  }
+  return text + "]";
+}
+
 /// Checks one body and collects its faults.
 class BodyCheck {
  public:
@@ -99,6 +109,37 @@ class BodyCheck {
     }
   }
 
+  /// What a body may do at the start, and what of that is nearest to what is asked of it.
+  struct Allowed {
+    std::string rule;
+    Vector3 nearest;
+  };
+
+  [[nodiscard]] Allowed allowed_velocities(const Vector3& axis) const {
+    const Vector3 along = body_.velocity.dot(axis) * axis;
+    if (is(Mobility::slider)) return {"it slides along its axis " + vector_text(axis), along};
+    if (is(Mobility::planar)) {
+      return {"it stays in the plane across its axis " + vector_text(axis), body_.velocity - along};
+    }
+    const bool carried = is(Mobility::rotor) && body_.mount;
+    return {carried ? "its axle moves with its mount" : "it stays where it is", Vector3::Zero()};
+  }
+
+  [[nodiscard]] Allowed allowed_spins(const Vector3& axis) const {
+    if (is(Mobility::planar) || is(Mobility::rotor)) {
+      return {"it turns about its axis " + vector_text(axis),
+              body_.angular_velocity.dot(axis) * axis};
+    }
+    return {"it does not turn", Vector3::Zero()};
+  }
+
+  void fail_motion(const std::string& field, const std::string& what, const Vector3& value,
+                   const Allowed& allowed) {
+    fail(field, "the " + what + " " + vector_text(value) + " is not one that mobility " +
+                    mobility_name() + " allows: " + allowed.rule + ", so " +
+                    vector_text(allowed.nearest) + " is allowed");
+  }
+
   void check_motion() {
     const Vector3 axis = body_.axis ? body_.axis->normalized()
                          : is(Mobility::rotor)
@@ -116,13 +157,8 @@ class BodyCheck {
                        (is(Mobility::slider) && across_v) || (is(Mobility::planar) && along_v);
     const bool bad_w = ((is(Mobility::fixed) || is(Mobility::slider)) && w.norm() > 0.0) ||
                        ((is(Mobility::planar) || is(Mobility::rotor)) && across_w);
-    if (bad_v) {
-      fail("/velocity", "the velocity is not one that mobility " + mobility_name() + " allows");
-    }
-    if (bad_w) {
-      fail("/angular_velocity",
-           "the angular velocity is not one that mobility " + mobility_name() + " allows");
-    }
+    if (bad_v) fail_motion("/velocity", "velocity", v, allowed_velocities(axis));
+    if (bad_w) fail_motion("/angular_velocity", "angular velocity", w, allowed_spins(axis));
     if (!is(Mobility::kinematic) &&
         (body_.oscillation.norm() > 0.0 || body_.oscillation_frequency > 0.0)) {
       fail("/oscillation",

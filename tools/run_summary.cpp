@@ -9,6 +9,7 @@
 #include "engine/field_check.h"
 #include "engine/integrators/loads.h"
 #include "measure/stress_judge.h"
+#include "tools/remedy.h"
 
 namespace sheave::tools {
 
@@ -49,6 +50,8 @@ void append_stretch_warnings(const Simulation& simulation, const RunMonitor& mon
   constexpr double share_limit = 0.05;
   constexpr double length_limit = 0.05;
   constexpr double negligible_share = 1e-7;
+  const StepSettings& step = simulation.world.model().step;
+  const std::string way_out = remedy(step, StepFault::unconverged);
   const std::vector<CableReport> reports = simulation.cable_reports();
   for (std::size_t i = 0; i < monitor.cables().size(); ++i) {
     const CableCourse& course = monitor.cables()[i];
@@ -56,9 +59,8 @@ void append_stretch_warnings(const Simulation& simulation, const RunMonitor& mon
       std::string name(reports[i].name);
       std::string message = fmt::format(
           "cable {} is {:.3g} m longer than it can be at the end: the solver did not converge; "
-          "more "
-          "iterations or the direct solver avoid that",
-          name, course.excess);
+          "{} may avoid that",
+          name, course.excess, way_out);
       warnings.push_back({"stretched", std::move(name), std::move(message)});
       continue;
     }
@@ -78,22 +80,22 @@ void append_stretch_warnings(const Simulation& simulation, const RunMonitor& mon
     std::string message = fmt::format(
         "cable {} did not keep its length: it gave way by {:.3g} m all in all while nothing on it "
         "moved by more than {:.3g} m; the solver did not converge, and motion and tensions are "
-        "wrong by about that share; more iterations or the direct solver avoid that",
-        name, stretching, way);
+        "wrong by about that share; {} may avoid that",
+        name, stretching, way, way_out);
     warnings.push_back({"stretched", std::move(name), std::move(message)});
   }
 }
 
 /// xpbd damps vibrations by half of w^2 h, with the frequency w; rattle does not.
-void append_damping_warning(const RunStatistics& statistics, const RunMonitor& monitor,
-                            std::vector<Warning>& warnings) {
+void append_damping_warning(const StepSettings& step, const RunStatistics& statistics,
+                            const RunMonitor& monitor, std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.1;  // of energy: 5 % of speeds
   const double energy = monitor.most_vivid_energy();
   if (statistics.numerical_damping <= share_limit * energy) return;
   std::string message = fmt::format(
       "the step is too long for the vibration of elastic cables: xpbd took {:.3g} J from it, where "
-      "kinetic and elastic energy were {:.3g} J at most; more substeps or rattle avoid that",
-      statistics.numerical_damping, energy);
+      "kinetic and elastic energy were {:.3g} J at most; {} may avoid that",
+      statistics.numerical_damping, energy, remedy(step, StepFault::long_step));
   warnings.push_back({"damped_vibration", "", std::move(message)});
 }
 
@@ -113,9 +115,8 @@ void append_energy_warning(const Scene& scene, const RunMonitor& monitor,
       "there was {:.3g} J more energy than at the start, although nothing puts any into the scene, "
       "and kinetic and elastic energy were {:.3g} J at most: the step is too long for what moves, "
       "or "
-      "the solver did not converge, and the motion means little; more substeps, more iterations or "
-      "the direct solver avoid that",
-      gain, size);
+      "the solver did not converge, and the motion means little; {} may avoid that",
+      gain, size, remedy(scene.model.step, StepFault::either));
   warnings.push_back({"energy_gain", "", std::move(message)});
 }
 
@@ -164,7 +165,7 @@ std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simu
     append_cable_warnings(*simulation.cables, warnings);
     append_stretch_warnings(simulation, monitor, warnings);
   }
-  append_damping_warning(statistics, monitor, warnings);
+  append_damping_warning(scene.model.step, statistics, monitor, warnings);
   append_energy_warning(scene, monitor, warnings);
   append_rounding_warning(simulation.world, warnings);
   if (statistics.solver_fallbacks > 0) {

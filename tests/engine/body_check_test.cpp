@@ -143,6 +143,45 @@ TEST(BodyCheck, VelocitiesThatTheMobilityForbids) {
   EXPECT_EQ(test::text(check_bodies(allowed)), "");
 }
 
+TEST(BodyCheck, SaysWhichVelocitiesTheMobilityAllows) {
+  struct Case {
+    std::size_t body;
+    std::string velocity, spin;  ///< what is said of them
+  };
+  const std::vector<Case> cases{
+      {1, "rotor allows: it stays where it is, so [0, 0, 0] is allowed",
+       "rotor allows: it turns about its axis [0, 0, 1], so [0, 0, 3] is allowed"},
+      {2, "slider allows: it slides along its axis [0, 1, 0], so [0, 2, 0] is allowed",
+       "slider allows: it does not turn, so [0, 0, 0] is allowed"},
+      {3, "planar allows: it stays in the plane across its axis [0, 0, 1], so [1, 2, 0] is allowed",
+       "planar allows: it turns about its axis [0, 0, 1], so [0, 0, 3] is allowed"},
+      {4, "static allows: it stays where it is, so [0, 0, 0] is allowed",
+       "static allows: it does not turn, so [0, 0, 0] is allowed"},
+      {6, "rotor allows: its axle moves with its mount, so [0, 0, 0] is allowed",
+       "rotor allows: it turns about its axis [0, 0, 1], so [0, 0, 3] is allowed"}};
+  for (const Case& one : cases) {
+    Model model = good_model();
+    BodyDef& body = model.bodies[one.body];
+    body.velocity = body.angular_velocity = {1.0, 2.0, 3.0};
+    const Errors errors = check_bodies(model);
+    ASSERT_EQ(errors.size(), 2U) << body.name;
+    const std::string asked = "velocity [1, 2, 3] is not one that mobility ";
+    EXPECT_THAT(errors[0].message, testing::HasSubstr("the " + asked + one.velocity));
+    EXPECT_THAT(errors[1].message, testing::HasSubstr("the angular " + asked + one.spin));
+  }
+  // An axis that is no coordinate's, and the value that is offered passes.
+  Model model = good_model();
+  model.bodies[1].axis = {3.0, 0.0, 4.0};
+  model.bodies[1].shapes.clear();
+  model.bodies[1].angular_velocity = {0.0, 1.0, 5.0};
+  const Errors errors = check_bodies(model);
+  ASSERT_FALSE(errors.empty());
+  EXPECT_THAT(errors.back().message,
+              testing::HasSubstr("about its axis [0.6, 0, 0.8], so [2.4, 0, 3.2] is allowed"));
+  model.bodies[1].angular_velocity = {2.4, 0.0, 3.2};
+  EXPECT_EQ(test::text(check_bodies(model)), "");
+}
+
 TEST(BodyCheck, OscillationsBelongToKinematicBodies) {
   expect_fault("/bodies/0/oscillation", [](Model& m) { m.bodies[0].oscillation = {0, 1, 0}; });
   expect_fault("/bodies/5/oscillation_frequency",
