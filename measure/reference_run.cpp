@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include "measure/timing.h"
-
 namespace sheave::measure {
 namespace {
 
@@ -22,7 +20,7 @@ Result<Reference> reference_run(Scene scene, const ReferenceOptions& options) {
   step.integrator = options.integrator;
   step.iterations = options.rounds;
   step.substeps = options.first_substeps;
-  const double start = thread_time();
+  const double start = options.clock.cpu();
   Result<Trajectory> first = record(scene, options.observe);
   if (!first) return first.errors();
   constexpr double unknown = std::numeric_limits<double>::infinity();
@@ -30,7 +28,7 @@ Result<Reference> reference_run(Scene scene, const ReferenceOptions& options) {
                       {unknown, unknown, unknown, unknown},
                       step.substeps,
                       options.integrator};
-  double last = thread_time();
+  double last = options.clock.cpu();
   double duration = last - start;  // of the last run
   bool first_difference = true;
   while (!reference.good && step.substeps <= options.most_substeps / 2) {
@@ -51,7 +49,7 @@ Result<Reference> reference_run(Scene scene, const ReferenceOptions& options) {
     }
     reference.trajectory = std::move(finer).value();
     reference.substeps = step.substeps;
-    duration = thread_time() - last;
+    duration = options.clock.cpu() - last;
     last += duration;
     reference.good = options.good_enough && options.good_enough(reference);
   }

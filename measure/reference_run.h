@@ -14,6 +14,7 @@
 #include <functional>
 #include <vector>
 
+#include "measure/clock.h"
 #include "measure/run_error.h"
 
 namespace sheave::measure {
@@ -41,6 +42,7 @@ struct ReferenceOptions {
   std::function<bool(const Reference&)> good_enough;
   /// Of every run. If it ends one, the runs before are the reference; of fewer than two there is none.
   FrameObserver observe;
+  Clock clock;
 };
 
 /// The finest run within the options. Errors are those of record(), and that the finest run diverged.

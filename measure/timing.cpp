@@ -1,7 +1,6 @@
 #include "measure/timing.h"
 
 #include <algorithm>
-#include <ctime>
 
 #include "measure/instruction_counter.h"
 
@@ -23,7 +22,8 @@ bool run(const Contender& contender, std::int64_t frames) {
   return good;
 }
 
-Sample take_sample(const Contender& contender, double least, const InstructionCounter& counter) {
+Sample take_sample(const Contender& contender, const TimingOptions& options,
+                   const InstructionCounter& counter) {
   Sample sample;
   double total = 0.0;
   double instructions = 0.0;
@@ -32,14 +32,14 @@ Sample take_sample(const Contender& contender, double least, const InstructionCo
   do {
     contender.restart();
     const std::optional<std::uint64_t> first = counter.read();
-    const double start = thread_time();
+    const double start = options.clock.cpu();
     sample.failed = !run(contender, contender.frames);
-    total += thread_time() - start;
+    total += options.clock.cpu() - start;
     const std::optional<std::uint64_t> last = counter.read();
     counted = counted && first && last;
     if (counted) instructions += static_cast<double>(*last - *first);
     frames += contender.frames;
-  } while (total < least && !sample.failed);
+  } while (total < options.least_sample && !sample.failed);
   sample.seconds = total / static_cast<double>(frames);
   if (counted) sample.instructions = instructions / static_cast<double>(frames);
   return sample;
@@ -61,12 +61,6 @@ Timing summary(const std::vector<Sample>& samples) {
 
 }  // namespace
 
-double thread_time() {
-  timespec now{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 std::vector<Timing> time_interleaved(const std::vector<Contender>& contenders,
                                      const TimingOptions& options) {
   const InstructionCounter counter;
@@ -83,8 +77,7 @@ std::vector<Timing> time_interleaved(const std::vector<Contender>& contenders,
         contender.restart();
         run(contender, std::min(contender.frames, warm_up_frames));
       }
-      samples[static_cast<std::size_t>(i)].push_back(
-          take_sample(contender, options.least_sample, counter));
+      samples[static_cast<std::size_t>(i)].push_back(take_sample(contender, options, counter));
     }
   }
   std::vector<Timing> timings;

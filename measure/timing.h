@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "measure/clock.h"
 #include "measure/spread.h"
 
 namespace sheave::measure {
@@ -36,13 +37,11 @@ struct TimingOptions {
   bool warm_up = true;         ///< whether each contender runs a while before its first sample
   /// Called before each sample with the samples done, their number and the contender's name; false ends the measurement.
   std::function<bool(std::int64_t done, std::int64_t of, const std::string& name)> observe;
+  Clock clock;
 };
 
 /// One timing per contender, in their order; nothing at all if the observer ended it.
 [[nodiscard]] std::vector<Timing> time_interleaved(const std::vector<Contender>& contenders,
                                                    const TimingOptions& options);
-
-/// CPU time of this thread [s].
-[[nodiscard]] double thread_time();
 
 }  // namespace sheave::measure

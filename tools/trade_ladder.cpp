@@ -129,6 +129,7 @@ class Ladder {
     const double left = std::max(0.0, run_.limit.left());
     const int fit = static_cast<int>(std::min(1e6, left / std::max(expected, 1e-6)));
     measure::TimingOptions timing;
+    timing.clock = run_.options.clock;
     timing.repetitions = std::clamp(fit, 1, run_.options.repetitions);
     if (timing.repetitions < run_.options.repetitions) {
       run_.table.limits.push_back(fmt::format("ladder: {} of {} repetitions", timing.repetitions,

@@ -120,14 +120,14 @@ class ErrorStage {
     }
     const auto frames = static_cast<double>(measure::frame_count(run_.scene));
     bool late = false;
-    const double start = measure::thread_time();
+    const double start = run_.options.clock.cpu();
     const Result<measure::Trajectory> own =
         measure::record(row.setting.applied(run_.scene), [&](std::int64_t, std::int64_t) {
           done_ += row.expected_seconds / frames;
           late = limit_.left() < 0.0;
           return !late && !interrupted();
         });
-    row.run_seconds = measure::thread_time() - start;
+    row.run_seconds = run_.options.clock.cpu() - start;
     if (interrupted()) return;
     if (late) {
       row.skipped =
@@ -260,6 +260,7 @@ class TimeStage {
     measure::TimingOptions timing;
     timing.repetitions = 1;
     timing.warm_up = round == 0;
+    timing.clock = run_.options.clock;
     timing.observe = [](std::int64_t, std::int64_t, const std::string&) { return !interrupted(); };
     for (Sampled& own : sampled_) {
       if (own.wanted <= round) continue;

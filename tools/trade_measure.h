@@ -2,7 +2,6 @@
 // The stages of sheave trade, in their order, and what they share. Each fills in a part of the table.
 
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <string>
 
@@ -11,24 +10,23 @@
 
 namespace sheave::tools {
 
-/// Wall time that may be used up, from when it is made.
+/// Wall time that may be used up, from when it is made. The clock must outlive it.
 class TimeLimit {
  public:
-  explicit TimeLimit(double seconds) : seconds_(seconds) {}
+  TimeLimit(double seconds, const measure::Clock& clock)
+      : clock_(&clock), start_(clock.wall()), seconds_(seconds) {}
 
   [[nodiscard]] double seconds() const { return seconds_; }
   /// [s]; negative when it is over.
-  [[nodiscard]] double left() const {
-    const auto elapsed = std::chrono::steady_clock::now() - start_;
-    return seconds_ - std::chrono::duration<double>(elapsed).count();
-  }
+  [[nodiscard]] double left() const { return seconds_ - (clock_->wall() - start_); }
   /// A share of what is left, from now on.
   [[nodiscard]] TimeLimit part(double share) const {
-    return TimeLimit(std::max(0.0, share * left()));
+    return {std::max(0.0, share * left()), *clock_};
   }
 
  private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const measure::Clock* clock_;
+  double start_;
   double seconds_;
 };
 
@@ -46,7 +44,7 @@ struct TradeRun {
       : scene(of),
         options(how),
         table(into),
-        limit(60.0 * how.minutes),
+        limit(60.0 * how.minutes, how.clock),
         journal(how.resume, how.resume.empty() ? "" : trade_key(of, how)) {}
   [[nodiscard]] int threads() const;
 };

@@ -38,16 +38,17 @@ constexpr double pilot_share = 0.002;
 constexpr int coarser = 4;
 
 /// CPU time of a whole run [s], from its first frames; 0 if it cannot be run.
-double pilot_seconds(const TradeSetting& setting, const Scene& scene, double enough) {
+double pilot_seconds(const TradeSetting& setting, const Scene& scene, double enough,
+                     const measure::Clock& clock) {
   const Result<measure::Contender> contender = measure::scene_contender("", setting.applied(scene));
   if (!contender) return 0.0;
-  const double start = measure::thread_time();
+  const double start = clock.cpu();
   std::int64_t frames = 0;
   double seconds = 0.0;
   while (frames < contender->frames && seconds < enough) {
     const bool good = contender->frame();
     ++frames;
-    seconds = measure::thread_time() - start;
+    seconds = clock.cpu() - start;
     if (!good) break;
   }
   return seconds * static_cast<double>(contender->frames) / static_cast<double>(frames);
@@ -57,7 +58,8 @@ double pilot_seconds(const TradeSetting& setting, const Scene& scene, double eno
 class CostModel {
  public:
   /// `enough`: CPU time for a look [s], one frame at least.
-  CostModel(const Scene& scene, double enough) : scene_(scene), enough_(enough) {}
+  CostModel(const Scene& scene, double enough, const measure::Clock& clock)
+      : scene_(scene), enough_(enough), clock_(clock) {}
 
   double seconds(const TradeSetting& setting) {
     const StepSettings& step = setting.step;
@@ -72,13 +74,13 @@ class CostModel {
   [[nodiscard]] std::array<double, 2> measured(TradeSetting setting) const {
     setting.step.substeps = 1;
     if (setting.step.solver == SolverKind::direct)
-      return {pilot_seconds(setting, scene_, enough_), 0.0};
+      return {pilot_seconds(setting, scene_, enough_, clock_), 0.0};
     constexpr int few = 1;
     constexpr int more = 11;
     setting.step.iterations = few;
-    const double first = pilot_seconds(setting, scene_, enough_);
+    const double first = pilot_seconds(setting, scene_, enough_, clock_);
     setting.step.iterations = more;
-    const double second = pilot_seconds(setting, scene_, enough_);
+    const double second = pilot_seconds(setting, scene_, enough_, clock_);
     const double sweep = std::max(0.0, (second - first) / (more - few));
     return {std::max(0.0, first - few * sweep), sweep};
   }
@@ -86,6 +88,7 @@ class CostModel {
   using Key = std::tuple<SolverKind, IntegratorKind, std::optional<TangentUpdate>>;
   const Scene& scene_;
   double enough_;
+  const measure::Clock& clock_;
   std::map<Key, std::array<double, 2>> parts_;
 };
 
@@ -129,6 +132,7 @@ std::optional<measure::Reference> both_references(TradeRun& run) {
     options.most_substeps = std::min(options.first_substeps, 100'000 >> most_doublings)
                             << most_doublings;
     options.most_seconds = limit;
+    options.clock = run.options.clock;
     options.good_enough = [](const measure::Reference& reference) {
       return reference.estimate.position <= reference_goal;
     };
@@ -202,7 +206,7 @@ bool needs_truth(TradeRun& run) {
 }  // namespace
 
 void plan_trade(TradeRun& run) {
-  CostModel model(run.scene, pilot_share * run.limit.seconds());
+  CostModel model(run.scene, pilot_share * run.limit.seconds(), run.options.clock);
   for (TradeRow& row : run.table.rows) {
     if (interrupted()) stop_interrupted();
     row.expected_seconds = model.seconds(row.setting);

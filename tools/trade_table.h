@@ -124,6 +124,7 @@ struct TradeOptions {
   bool ladder = true;    ///< whether rungs of the model are measured
   std::string resume;    ///< file that keeps what is measured (tools/trade_journal.h); empty: none
   bool quiet = false;    ///< no progress bar
+  measure::Clock clock;
 };
 
 /// Measures the scene. A Failure if there is no reference (75) or if a signal came (130).

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -57,6 +58,7 @@ Reference reference_of(const std::string& name, double duration) {
   ReferenceOptions options;
   options.first_substeps = 4;
   options.most_substeps = 16;
+  options.most_seconds = std::numeric_limits<double>::infinity();
   Result<Reference> reference = reference_run(*scene, options);
   if (!reference) throw std::runtime_error(reference.errors().front().message);
   return std::move(reference).value();

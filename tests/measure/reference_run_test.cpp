@@ -1,6 +1,8 @@
 #include "measure/reference_run.h"
 
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -19,7 +21,11 @@ Scene pendulum_scene() {
   return scene;
 }
 
-Reference made(const ReferenceOptions& options) {
+/// With all the time there is, unless a test has a clock of its own.
+Reference made(ReferenceOptions options) {
+  if (options.most_seconds == ReferenceOptions{}.most_seconds) {
+    options.most_seconds = std::numeric_limits<double>::infinity();
+  }
   Result<Reference> reference = reference_run(pendulum_scene(), options);
   if (!reference) throw std::runtime_error(reference.errors().front().message);
   return std::move(reference).value();
@@ -68,6 +74,13 @@ TEST(ReferenceRun, BeginsNoRunThatWouldTakeTooLong) {
   ReferenceOptions options;
   options.first_substeps = 1;
   options.most_substeps = 1024;
+  // A clock by which every run takes twice as long as the last one: it is read before the first and after each, at 0, 1, 3, 7 s.
+  double next = 0.0;
+  options.clock.cpu = [&] { return std::exchange(next, 2.0 * next + 1.0); };
+  options.most_seconds = 8.0;
+  // Three runs take 7 s, a fourth would end at 15 s.
+  EXPECT_EQ(made(options).substeps, 4);
+  next = 0.0;
   options.most_seconds = 0.0;
   EXPECT_EQ(made(options).substeps, 2);  // two runs are needed for an estimate
 }
@@ -75,6 +88,7 @@ TEST(ReferenceRun, BeginsNoRunThatWouldTakeTooLong) {
 TEST(ReferenceRun, TriesBothIntegratorsUntilOneIsGood) {
   ReferenceOptions options;
   options.most_substeps = 4;
+  options.most_seconds = std::numeric_limits<double>::infinity();
   const Result<Reference> kept = best_reference(pendulum_scene(), options);
   ASSERT_TRUE(kept);
   EXPECT_EQ(kept->integrator, IntegratorKind::rattle);  // of the higher order

@@ -69,11 +69,14 @@ TEST(Timing, FillsASampleWithWholeRuns) {
   Counting a;
   TimingOptions options;
   options.repetitions = 1;
-  options.least_sample = 1e-3;
-  static_cast<void>(time_interleaved({a.contender("a")}, options));
-  // Ten counts take no millisecond, so there are several runs, and each begins at the start.
-  EXPECT_GT(a.restarts, 3);
-  EXPECT_EQ(a.frames, 10 * a.restarts);
+  options.warm_up = false;
+  options.least_sample = 0.035;
+  // By this clock a frame takes a millisecond, so a run takes ten, and four of them fill the sample; each begins at the start.
+  options.clock.cpu = [&] { return 1e-3 * a.frames; };
+  const std::vector<Timing> timings = time_interleaved({a.contender("a")}, options);
+  EXPECT_EQ(a.restarts, 4);
+  EXPECT_EQ(a.frames, 40);
+  EXPECT_NEAR(timings.front().seconds.median, 1e-3, 1e-15);
 }
 
 TEST(Timing, TellsAFailure) {

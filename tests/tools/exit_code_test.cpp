@@ -1,10 +1,8 @@
 // Exit codes, messages and what is left on disk when things go wrong.
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <string>
-#include <thread>
 
 #include <unistd.h>
 
@@ -139,11 +137,8 @@ TEST(ExitCode, DivergenceIs75NamesTheBodyAndKeepsTheOutput) {
 }
 
 /// Waits until a run has opened its outputs, which is after it has begun to listen to signals.
-void wait_for_outputs(const TemporaryFolder& folder, std::size_t entries) {
-  for (int i = 0; i < 1000 && folder.entries().size() < entries; ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+void wait_for_outputs(const Process& process, const TemporaryFolder& folder, std::size_t entries) {
+  ASSERT_TRUE(process.wait_until([&] { return folder.entries().size() >= entries; }));
 }
 
 TEST(ExitCode, InterruptIs130AndLeavesValidFiles) {
@@ -155,7 +150,7 @@ TEST(ExitCode, InterruptIs130AndLeavesValidFiles) {
     const std::string state = folder.path("out.state");
     Process process(
         {"run", scene, "--json", "--out", table, "--out", array, "--save-state", state});
-    wait_for_outputs(folder, 4);
+    wait_for_outputs(process, folder, 4);
     process.send(signal);
     process.send(signal);  // as `timeout` does: to the process and again to its group
     const ProcessResult result = process.wait();
@@ -182,7 +177,7 @@ TEST(ExitCode, AKilledRunLeavesNoHalfFileUnderTheFinalName) {
   const std::string scene = folder.write("endless.json", endless_scene);
   const std::string table = folder.write("out.csv", "what was there before\n");
   Process process({"run", scene, "--out", table});
-  wait_for_outputs(folder, 3);
+  wait_for_outputs(process, folder, 3);
   process.send(SIGKILL);
   EXPECT_EQ(process.wait().signal, SIGKILL);
   EXPECT_EQ(read_file(table), "what was there before\n");

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <thread>
+#include <utility>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -98,23 +101,51 @@ Process::~Process() {
 
 void Process::send(int signal) const { ::kill(process_, signal); }
 
-std::string Process::drain_terminal() {
-  // With our end of the other side closed, reading ends when the child does.
-  ::close(err_);
-  err_ = -1;
-  std::string text;
+bool Process::running() const {
+  siginfo_t info{};
+  // Leaves the process to be waited for.
+  const int result =
+      ::waitid(P_PID, static_cast<id_t>(process_), &info, WEXITED | WNOHANG | WNOWAIT);
+  return result == 0 && info.si_pid == 0;
+}
+
+bool Process::wait_until(const std::function<bool()>& condition) const {
+  while (!condition()) {
+    if (!running()) return condition();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return true;
+}
+
+bool Process::read_terminal() {
   std::array<char, 4096> block{};
   for (;;) {
     const ssize_t count = ::read(terminal_, block.data(), block.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return text;
-    text.append(block.data(), static_cast<std::size_t>(count));
+    if (count <= 0) return false;
+    shown_.append(block.data(), static_cast<std::size_t>(count));
+    return true;
+  }
+}
+
+bool Process::wait_for_terminal(const std::string& text) {
+  // With our end of the other side closed, reading ends when the child does.
+  ::close(std::exchange(err_, -1));
+  while (shown_.find(text) == std::string::npos) {
+    if (!read_terminal()) return false;
+  }
+  return true;
+}
+
+void Process::drain_terminal() {
+  if (err_ >= 0) ::close(std::exchange(err_, -1));
+  while (read_terminal()) {
   }
 }
 
 ProcessResult Process::wait() {
   ProcessResult result;
-  if (terminal_ >= 0) result.err = drain_terminal();
+  if (terminal_ >= 0) drain_terminal();
   int status = 0;
   while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
   }
@@ -124,7 +155,7 @@ ProcessResult Process::wait() {
   if (::lseek(out_, 0, SEEK_CUR) >= 0 && (::fcntl(out_, F_GETFL) & O_ACCMODE) == O_RDWR) {
     result.out = content_of(out_);
   }
-  if (terminal_ < 0) result.err = content_of(err_);
+  result.err = terminal_ < 0 ? content_of(err_) : shown_;
   return result;
 }
 

@@ -2,6 +2,7 @@
 // Runs the sheave command as a child process and looks at what it did.
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,16 +35,25 @@ class Process {
   Process& operator=(const Process&) = delete;
 
   void send(int signal) const;
+  /// Whether it has not ended yet.
+  [[nodiscard]] bool running() const;
+  /// Waits until a condition holds, however long that takes on a busy machine; false if the process ended before.
+  bool wait_until(const std::function<bool()>& condition) const;
+  /// Waits until its standard error, a terminal, has shown this text; false if it ended without.
+  bool wait_for_terminal(const std::string& text);
   /// Waits for its end.
   ProcessResult wait();
 
  private:
-  [[nodiscard]] std::string drain_terminal();
+  /// Reads what there is, at least something; false if there is no more to come.
+  bool read_terminal();
+  void drain_terminal();
 
   int process_ = -1;
   int out_ = -1;
   int err_ = -1;
   int terminal_ = -1;
+  std::string shown_;  // on the terminal
 };
 
 /// Runs `sheave` to its end.

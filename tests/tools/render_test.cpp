@@ -1,11 +1,9 @@
 // sheave render: which files appear, and what happens when they cannot.
 
-#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -177,9 +175,7 @@ TEST(RenderCommand, AnInterruptLeavesAVideoThatPlays) {
   arguments.insert(arguments.end(), small.begin(), small.end());
   Process process(arguments);
   const std::string frame = folder.path("frames/frame_000003.png");
-  for (int i = 0; i < 3000 && !std::filesystem::exists(frame); ++i) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  }
+  ASSERT_TRUE(process.wait_until([&] { return std::filesystem::exists(frame); }));
   process.send(SIGINT);
   const ProcessResult result = process.wait();
   EXPECT_EQ(result.exit_code, 130);

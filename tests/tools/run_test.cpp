@@ -381,17 +381,59 @@ TEST(RunCommand, RedundantRowsAreCountedAndNoneIsGivenUp) {
   EXPECT_TRUE(summary["warnings"].empty());
 }
 
+TEST(RunCommand, EstimatesTheErrorOfItsStep) {
+  // xpbd on a constant acceleration of 2 m/s2: a t h / 2 = 0.01 m too far after 1 s with h = 0.01 s, of order 1.
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::vector<std::string> options{scene,          "--solver", "direct",
+                                         "--integrator", "xpbd",     "--estimate-error"};
+  const json summary = run_json(options);
+  const json& estimate = summary["error_estimate"];
+  EXPECT_EQ(estimate["substeps"], json({1, 2, 4}));
+  EXPECT_EQ(estimate["position_kind"], "regular");
+  EXPECT_EQ(estimate["tension_kind"], "rounding");
+  ASSERT_EQ(estimate["bodies"].size(), 3U);
+  const json& light = estimate["bodies"][1]["position"];
+  EXPECT_EQ(estimate["bodies"][1]["name"], "light");
+  EXPECT_NEAR(light["order"], 1.0, 1e-6);
+  EXPECT_NEAR(light["largest"], 0.005, 1e-8);
+  EXPECT_NEAR(light["error"], 0.01, 1e-8);
+  EXPECT_NEAR(light["time"], 1.0, 1e-12);
+  EXPECT_NEAR(estimate["bodies"][0]["turn"]["error"], 0.02, 1e-8) << "a wheel of 0.5 m";
+  EXPECT_EQ(estimate["spans"][1]["name"], "rope.1");
+  // Beside itself: the run is the same as without.
+  const json alone = run_json({scene, "--solver", "direct", "--integrator", "xpbd"});
+  EXPECT_EQ(summary["state_hash"], alone["state_hash"]);
+  EXPECT_FALSE(alone.contains("error_estimate"));
+  std::vector<std::string> shown{"run"};
+  shown.insert(shown.end(), options.begin(), options.end());
+  const ProcessResult text = run_sheave(shown);
+  EXPECT_THAT(text.out, HasSubstr("1 substep against 2 and 4, to t = 1 s"));
+  EXPECT_THAT(text.out, ContainsRegex("light position +0.005 m +1 +[0-9.]+ % +1.00"));
+  EXPECT_THAT(text.out, HasSubstr("by the step alone positions are off by about"));
+  const ProcessResult fine = run_sheave({"run", scene, "--substeps", "25001", "--estimate-error"});
+  EXPECT_EQ(fine.exit_code, 2);
+  EXPECT_THAT(fine.err, HasSubstr("at most 25000"));
+}
+
 TEST(RunCommand, ReadsASceneFromStandardInput) {
   const ProcessResult result = run_sheave({"run", "-", "--json"}, {.input = atwood_scene});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(json::parse(result.out)["steps"], 100);
 }
 
-/// What an endless run says on standard error before it is stopped after more than a second.
+/// What an endless run says on standard error before it is stopped: on a terminal after it has drawn its progress.
 std::string endless_run_stderr(const ProcessOptions& options) {
   const TemporaryFolder folder;
-  Process process({"run", folder.write("endless.json", endless_scene)}, options);
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  const std::string scene = folder.write("endless.json", endless_scene);
+  Process process({"run", scene, "--out", folder.path("out.csv")}, options);
+  if (options.terminal_stderr) {
+    EXPECT_TRUE(process.wait_for_terminal(" left"));
+  } else {
+    // It listens to signals before it opens its output. Then there is time for what must not come, whenever it would.
+    EXPECT_TRUE(process.wait_until([&] { return folder.entries().size() >= 2; }));
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+  }
   process.send(SIGINT);
   const ProcessResult result = process.wait();
   EXPECT_EQ(result.exit_code, 130);
