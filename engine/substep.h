@@ -52,6 +52,9 @@ struct Substep {
   std::vector<Vector3> predicted_turn;  ///< [rad], without constraints
   State next;                           ///< the state at the end, written by the last stages
   StepStatistics statistics;
+  /// Per feature: of each force in its state [N or N m] the part that acted in the second half of the substep, along the
+  /// gradients of its end (`rattle`). Empty where nothing did. A feature may bring it into another layout when it finishes.
+  std::vector<std::vector<double>> late_forces;
   /// Share of the loads' impulse that predict() gives to the velocities: all of it, or the first half.
   double load_share = 1.0;
 

@@ -84,7 +84,8 @@ std::vector<std::unique_ptr<ConstraintBatch>> model_features(const Model& model,
   }
   if (model.ground) features.push_back(make_ground_batch(*model.ground, bodies));
   // Last, so that World::contacts() knows its place.
-  if (!model.colliders.empty()) features.push_back(make_contact_batch(model, bodies));
+  if (!model.colliders.empty())
+    features.push_back(make_contact_batch(model, bodies, features.size()));
   return features;
 }
 
@@ -95,6 +96,8 @@ struct World::Content {
   std::shared_ptr<const BodySet> bodies;
   std::vector<std::unique_ptr<ConstraintBatch>> features;
   State state;
+  State before;  // at the start of the last substep
+  bool has_stepped = false;
   Substep substep;
   std::vector<Stage> stages;
   std::size_t contacts = 0;  // which feature; means something if the model has colliders
@@ -185,16 +188,23 @@ StepReport World::step() {
     // Time comes from counters, not from a running sum, so that it does not drift.
     const double end = static_cast<double>(i + 1) / substeps;
     c.substep.restart();
+    for (std::vector<double>& late : c.substep.late_forces) late.clear();
     // Features may ask for it when they begin.
     c.substep.load_share = c.model.step.integrator == IntegratorKind::rattle ? 0.5 : 1.0;
     c.substep.next.time = (static_cast<double>(c.state.steps) + end) * c.model.step.dt;
     for (const Stage& stage : c.stages) stage.run(c.substep);
     report.divergence = c.find_divergence();
     if (report.divergence) {
+      c.has_stepped = false;
       c.substep.next = c.state;  // stages build on what `next` held at the start
       break;
     }
-    // Same shape on both sides, so this copies without allocating.
+    // Same shape on all sides, so this copies without allocating, and what was is kept without a copy.
+    c.state.bodies.swap(c.before.bodies);
+    c.state.features.swap(c.before.features);
+    c.before.time = c.state.time;
+    c.before.steps = c.state.steps;
+    c.has_stepped = true;
     c.state.bodies = c.substep.next.bodies;
     c.state.features = c.substep.next.features;
     c.state.time = c.substep.next.time;
@@ -221,6 +231,16 @@ std::vector<ContactReport> World::contacts() const {
   return report_contacts(c.model, *c.bodies, c.state.features[c.contacts]);
 }
 
+std::optional<LastSubstep> World::last_substep() const {
+  const Content& c = *content_;
+  if (!c.has_stepped) return std::nullopt;
+  const bool rattle =
+      c.model.step.integrator == IntegratorKind::rattle && c.substep.load_share != 1.0;
+  return LastSubstep{c.before, c.substep.h, rattle ? IntegratorKind::rattle : IntegratorKind::xpbd,
+                     rattle ? std::span<const std::vector<double>>(c.substep.late_forces)
+                            : std::span<const std::vector<double>>()};
+}
+
 Errors World::restore(const State& state) {
   const State& own = content_->state;
   bool fits =
@@ -238,6 +258,7 @@ Errors World::restore(const State& state) {
              "and cables"}};
   }
   content_->state = state;
+  content_->has_stepped = false;
   content_->substep.next = state;
   return {};
 }

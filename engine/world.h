@@ -31,6 +31,19 @@ struct StepReport {
   [[nodiscard]] bool ok() const { return !divergence.has_value(); }
 };
 
+/// How the state of a world came about: its last substep. Views of the world, valid until it steps or is restored.
+struct LastSubstep {
+  const State& start;  ///< state at its beginning; World::state() is the one at its end
+  double h = 0.0;      ///< its length [s]
+  /// What it was done by. `rattle` leaves some substeps to `xpbd`.
+  IntegratorKind integrator = IntegratorKind::xpbd;
+  /// Per feature: of the forces in its state [N or N m] the parts that acted in the second half, along the gradients of the
+  /// end; the rest of each acted in the first, along those of the start. Joints, ground and cables have one number per
+  /// multiplier, contacts four per point: along the normal, and the friction as a vector. Empty with `xpbd`, where all
+  /// forces act along the gradients of the end.
+  std::span<const std::vector<double>> late_forces;
+};
+
 /// Energy of all bodies and features [J].
 struct Energy {
   double kinetic = 0.0;
@@ -68,6 +81,9 @@ class World {
 
   /// Goes back (or ahead) to a state of this world; an error if its shape does not fit.
   [[nodiscard]] Errors restore(const State& state);
+
+  /// Nothing at time 0 and after restore(), until the next step.
+  [[nodiscard]] std::optional<LastSubstep> last_substep() const;
 
   [[nodiscard]] Energy energy() const;
   /// Pose of the body frame's origin [m] (not of the centre of mass).

@@ -24,8 +24,10 @@ constexpr double same_point = 0.05;
 
 class ContactBatch final : public ConstraintBatch {
  public:
-  ContactBatch(const Model& model, const BodySet& bodies)
-      : finder_(model, bodies), mean_velocities_(model.step.integrator == IntegratorKind::xpbd) {
+  ContactBatch(const Model& model, const BodySet& bodies, std::size_t place)
+      : place_(place),
+        finder_(model, bodies),
+        mean_velocities_(model.step.integrator == IntegratorKind::xpbd) {
     for (const ColliderDef& collider : model.colliders) {
       bounces_ = bounces_ || collider.restitution > 0.0;
     }
@@ -161,6 +163,7 @@ class ContactBatch final : public ConstraintBatch {
       statistics.deepest_overlap = std::max(statistics.deepest_overlap, -record.gap);
       append_contact(record, next);
     }
+    describe_late_forces(substep);
   }
 
   [[nodiscard]] double elastic_energy(const BodySet& /*bodies*/, const State& /*state*/,
@@ -266,6 +269,22 @@ class ContactBatch final : public ConstraintBatch {
         std::abs(multipliers_[3 * i + 1]) >= limit || std::abs(multipliers_[3 * i + 2]) >= limit;
   }
 
+  /// Makes what acted in the second half of the substep four numbers per contact: along the normal, and friction.
+  void describe_late_forces(Substep& substep) {
+    if (place_ >= substep.late_forces.size() || substep.late_forces[place_].empty()) return;
+    late_.clear();
+    const std::vector<double>& own = substep.late_forces[place_];
+    for (std::size_t i = 0; i < contacts_.size(); ++i) {
+      Vector3 friction = Vector3::Zero();
+      for (std::size_t k = 0; k < 2 && contacts_[i].friction > 0.0; ++k) {
+        friction += own[3 * i + 1 + k] * contacts_[i].tangents[k];
+      }
+      late_.insert(late_.end(), {own[3 * i], friction[0], friction[1], friction[2]});
+    }
+    substep.late_forces[place_] = late_;
+  }
+
+  std::size_t place_;  // among the world's features
   ContactFinder finder_;
   bool mean_velocities_ = true;
   bool bounces_ = false;
@@ -273,13 +292,15 @@ class ContactBatch final : public ConstraintBatch {
   std::vector<Contact> contacts_;
   std::vector<double> multipliers_;  // three per contact
   std::vector<ContactRecord> records_;
+  std::vector<double> late_;
   Rebound rebound_;
 };
 
 }  // namespace
 
-std::unique_ptr<ConstraintBatch> make_contact_batch(const Model& model, const BodySet& bodies) {
-  return std::make_unique<ContactBatch>(model, bodies);
+std::unique_ptr<ConstraintBatch> make_contact_batch(const Model& model, const BodySet& bodies,
+                                                    std::size_t place) {
+  return std::make_unique<ContactBatch>(model, bodies, place);
 }
 
 std::vector<ContactReport> report_contacts(const Model& model, const BodySet& bodies,
@@ -290,7 +311,8 @@ std::vector<ContactReport> report_contacts(const Model& model, const BodySet& bo
   for (std::size_t i = 0; i < contact_count(state); ++i) {
     const ContactRecord record = read_contact(state, i);
     reports.push_back({body_of(record.forms.a), body_of(record.forms.b), record.point,
-                       record.normal, record.gap, record.force, record.friction, record.sticks});
+                       record.normal, record.gap, record.force, record.friction, record.sticks,
+                       record.own_a, record.own_b});
   }
   return reports;
 }

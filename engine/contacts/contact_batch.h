@@ -11,9 +11,10 @@ namespace sheave {
 struct Model;
 
 /// Contacts between the colliders of a model. State: per point of contact 3 integers (its two forms, whether friction holds it)
-/// and 20 reals (engine/contacts/contact_state.h); as many points as there are.
+/// and 20 reals (engine/contacts/contact_state.h); as many points as there are. `place`: its index among the world's features.
 [[nodiscard]] std::unique_ptr<ConstraintBatch> make_contact_batch(const Model& model,
-                                                                  const BodySet& bodies);
+                                                                  const BodySet& bodies,
+                                                                  std::size_t place);
 
 /// What a state of the batch for this model says.
 [[nodiscard]] std::vector<ContactReport> report_contacts(const Model& model, const BodySet& bodies,

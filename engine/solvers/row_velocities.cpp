@@ -83,14 +83,18 @@ void RowSystem::move_velocities(Substep& substep) {
 void RowSystem::apply_impulses(Substep& substep, Features features) {
   motion_.assign(substep.moving.size(), RowTerm{});
   const std::span<const double> impulses = active_set_.solution();
+  substep.late_forces.resize(features.size());
   for (std::size_t f = 0; f < features.size(); ++f) {
     const std::span<double> multipliers = features[f]->multipliers();
+    std::vector<double>& late = substep.late_forces[f];
+    late.assign(multipliers.size(), 0.0);
     for (int r = feature_rows_[f]; r < feature_rows_[f + 1]; ++r) {
       const auto i = at(r);
       const Group& group = groups_[at(group_of_[i])];
       const double impulse =
           group.elastic ? previous_[i] / substep.h : rows_[i].weight * impulses[at(group_of_[i])];
       multipliers[at(rows_[i].index)] = previous_[i] + substep.h * impulse;
+      late[at(rows_[i].index)] = impulse / substep.h;
       if (!group.elastic) add_motion(substep, i, impulse);
     }
   }
