@@ -20,7 +20,8 @@ Result<Simulation> Simulation::create(const Model& model, const std::vector<Cabl
   Result<World> world = World::create(model, bodies, std::move(features));
   if (!world) errors.insert(errors.end(), world.errors().begin(), world.errors().end());
   if (!errors.empty()) return errors;
-  return Simulation{std::move(*world), system};
+  return Simulation{std::move(*world), system,
+                    std::make_shared<const std::vector<CableDef>>(cables)};
 }
 
 std::vector<CableReport> Simulation::cable_reports() const {

@@ -6,9 +6,12 @@
 //   simulation->world.step();
 //   double tension = simulation->cable_reports()[0].spans[2].tension;
 
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "cable/cable_system.h"
+#include "cable/certificate.h"
 #include "engine/world.h"
 
 namespace sheave {
@@ -18,11 +21,16 @@ struct Simulation {
   World world;
   /// Owned by the world; null if there are no cables.
   const CableSystem* cables = nullptr;
+  /// What the cables were made of.
+  std::shared_ptr<const std::vector<CableDef>> cable_definitions;
 
   /// All faults of bodies, joints and cables are reported together.
   static Result<Simulation> create(const Model& model, const std::vector<CableDef>& cables);
   /// One report per cable, for the world's current state.
   [[nodiscard]] std::vector<CableReport> cable_reports() const;
+  /// What a check of the last substep finds (cable/certificate.h). Nothing at time 0 and after World::restore(), until the
+  /// next step.
+  [[nodiscard]] std::optional<Certificate> certificate() const;
 };
 
 }  // namespace sheave

@@ -1,0 +1,220 @@
+// What nothing in the substep explains.
+//
+// An impulse P changes the kinetic energy by P . (v0 + v1) / 2, exactly. So with the balance of momentum closed, energy is
+// lost or gained where a force does work at something that should not do any: a rigid span whose violation changes, a wheel
+// that moves more or less cable than its rim passes, a strained rope whose strain is left behind, a contact that pushes
+// what already moves away. What implicit Euler takes (m |v1 - v0|^2 / 2, springs, the curvature of ways) follows from these
+// forces and the states, and is explained. So are dissipation by friction, slip and damping, and the work of drives.
+//
+// A span of a material with the strain e that gains the unstretched length dL by rolling is given T (1 + e / 2) dL of energy
+// by what it is stretched with, while the rim has done T times the way it moved.
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/certificate/checks.h"
+#include "cable/certificate/joint_frames.h"
+
+namespace sheave::certify {
+namespace {
+
+using Kind = CertificateItem::Kind;
+
+class EnergyCheck {
+ public:
+  EnergyCheck(const Evidence& evidence, Findings& findings) : e_(evidence), findings_(findings) {
+    for (int i = 0; i < evidence.bodies.count(); ++i) {
+      kinetic_ += kinetic(i);
+      const BodyProperties& body = evidence.bodies[i];
+      weight_ += body.mass * evidence.bodies.gravity().norm();
+      flow_ += flow_of(i);
+    }
+    const Energy reported = evidence.simulation.world.energy();
+    level_ = kinetic_ + std::abs(reported.elastic) + weight_ * evidence.bodies.scale();
+    // What 1e5 substeps may lose without anybody noticing, and what is nothing beside all that moves.
+    floor_ = std::max(1e-6 * level_, 1e-3 * flow_);
+    findings.note(Kind::energy, "J", std::abs(reported.kinetic - kinetic_),
+                  std::max(kinetic_, reported.kinetic), 1e-12 * kinetic_,
+                  [] { return std::string("the kinetic energy as it is reported"); });
+  }
+
+  void check(const std::vector<double>& leaks) {
+    for (int i = 0; i < e_.bodies.count(); ++i) {
+      add(leaks[at(i)], flow_of(i), [&] { return e_.body_name(i); });
+    }
+    for (const CableEvidence& cable : e_.cables) {
+      if (cable.has_changed || cable.start.cut) continue;
+      for (std::size_t k = 0; k < cable.spans.size(); ++k) check_span(cable, k);
+    }
+    for (const JointEvidence& joint : e_.joints) {
+      if (!joint.broken) check_joint(joint);
+    }
+    for (const ContactEvidence& contact : e_.contacts) check_contact(contact);
+    findings_.note(Kind::energy, "J", std::abs(sum_), std::max(flow_, floor_), 0.0,
+                   [] { return std::string("all together"); });
+  }
+
+ private:
+  /// Energy from nowhere, beside the energy that passed there.
+  template <class Name>
+  void add(double unexplained, double flow, const Name& name) {
+    sum_ += unexplained;
+    findings_.note(Kind::energy, "J", std::abs(unexplained), std::max(flow, floor_), 0.0, name);
+  }
+
+  /// Energy that passes through a body in the substep: in from some forces and loads, out to others or into its motion.
+  [[nodiscard]] double flow_of(int i) const {
+    const BodyProperties& body = e_.bodies[i];
+    double power = e_.balances[at(i)].power;
+    if (body.mobility != Mobility::fixed && body.mobility != Mobility::kinematic) {
+      const BodyDef& definition = e_.bodies.definition(i);
+      const BodyState& state = e_.end.bodies[at(i)];
+      power += std::abs((body.mass * e_.bodies.gravity() + definition.force).dot(state.velocity)) +
+               std::abs(definition.torque.dot(state.angular_velocity));
+    }
+    return 0.5 * e_.h * power;
+  }
+
+  [[nodiscard]] double kinetic(int i) const {
+    const BodyProperties& body = e_.bodies[i];
+    const BodyState& state = e_.end.bodies[at(i)];
+    const Vector3& w = state.angular_velocity;
+    switch (body.mobility) {
+      case Mobility::fixed:
+      case Mobility::kinematic:
+        return 0.0;
+      case Mobility::rotor: {
+        const double spin = body.mount >= 0
+                                ? w.dot(e_.moments[last_end].orientation(body.mount) * body.axis)
+                                : w.dot(body.axis);
+        return 0.5 * body.axis_inertia * spin * spin;
+      }
+      case Mobility::free:
+      case Mobility::planar:
+      case Mobility::slider:
+        break;
+    }
+    const Matrix3 rotation = state.orientation.toRotationMatrix();
+    const Vector3 momentum = rotation * (body.inertia * (rotation.transpose() * w));
+    return 0.5 * (body.mass * state.velocity.squaredNorm() + w.dot(momentum));
+  }
+
+  void check_span(const CableEvidence& cable, std::size_t k) {
+    const SpanEvidence& span = cable.spans[k];
+    const double tension = span.tension();
+    if (!(tension > 0.0) || !span.has_tangent ||
+        cable.definition->tangent_update != TangentUpdate::iteration) {
+      return;
+    }
+    const double gained = span.rest_length[last_end] - span.rest_length[first_end];
+    const double passed = span.fed + passed_into(cable, static_cast<int>(k));
+    const double rolled = gained - passed;
+    double rims = rolled;
+    if (!span.from.outlined && !span.to.outlined) {
+      rims = rim_travel(e_, span.from, -1.0, rolled);
+      rims += rim_travel(e_, span.to, 1.0, rolled - rims);
+    }
+    double unexplained = tension * rims;
+    const double rest = span.rest_length[last_end];
+    if (cable.definition->axial_stiffness) {
+      const double strain = tension / *cable.definition->axial_stiffness;
+      unexplained -= tension * (1.0 + 0.5 * strain) * rolled;
+    } else {
+      unexplained -= tension * rolled;
+      if (!(cable.definition->compliance.value_or(0.0) > 0.0)) {
+        const double excess0 = span.length[first_end] - span.rest_length[first_end];
+        const double excess1 = span.length[last_end] - rest;
+        // What comes taut has stopped what pulled at it: an impact.
+        unexplained -= tension * (std::max(excess1, 0.0) - std::max(excess0, 0.0));
+      }
+    }
+    double speed = 0.0;
+    for (const End when : {first_end, last_end}) {
+      const Moment& now = e_.moments[at(when)];
+      const Vector3& u = span.direction[at(when)];
+      speed =
+          std::max({speed, std::abs(u.dot(now.velocity(span.from.body, span.from.point[at(when)]))),
+                    std::abs(u.dot(now.velocity(span.to.body, span.to.point[at(when)])))});
+    }
+    add(unexplained, tension * e_.h * speed, [&] { return span.name(); });
+  }
+
+  /// Cable that slid into a span over its links [m].
+  static double passed_into(const CableEvidence& cable, int span) {
+    double passed = 0.0;
+    for (const PassEvidence& pass : cable.passes) {
+      if (pass.after == span) passed += pass.slip;
+      if (pass.before == span) passed -= pass.slip;
+    }
+    return passed;
+  }
+
+  void check_joint(const JointEvidence& joint) {
+    const JointFrame frame = frame_of(e_.bodies, *joint.definition);
+    if (frame.compliance > 0.0 || frame.kind.coupling || frame.kind.distance) return;
+    const auto gap = [&](const Moment& now) -> Vector3 {
+      const Vector3 apart = frame.anchor_b(now) - frame.anchor_a(now);
+      const Vector3 axis = JointFrame::turned_by(now, frame.body_a) * frame.axis_a;
+      if (frame.kind.on_axis) return apart - axis * axis.dot(apart);
+      if (frame.kind.in_plane) return axis * axis.dot(apart);
+      return apart;
+    };
+    const Vector3 opened = gap(e_.moments[last_end]) - gap(e_.moments[first_end]);
+    double work = 0.0;
+    double flow = 0.0;
+    for (const End when : {first_end, last_end}) {
+      const Vector3& force = joint.acting[at(when)].force;
+      const Moment& now = e_.moments[at(when)];
+      work += force.dot(opened);
+      flow += e_.h * std::max(std::abs(force.dot(now.velocity(frame.body_a, frame.anchor_a(now)))),
+                              std::abs(force.dot(now.velocity(frame.body_b, frame.anchor_b(now)))));
+    }
+    add(work, flow, [&] {
+      return std::string(joint.definition->type()) + " \"" + joint.definition->name + "\"";
+    });
+  }
+
+  void check_contact(const ContactEvidence& contact) {
+    double compliance = 0.0;
+    bool bounces = false;
+    for (const ColliderDef* collider : {contact.collider_a, contact.collider_b}) {
+      if (collider == nullptr) continue;
+      compliance += collider->compliance;
+      bounces = bounces || collider->restitution > 0.0;
+    }
+    if (compliance > 0.0) return;
+    const auto speed_at = [&](End when) {
+      const Moment& now = e_.moments[at(when)];
+      return contact.normal.dot(now.velocity(contact.body_a, contact.point_a[at(when)]) -
+                                now.velocity(contact.body_b, contact.point_b[at(when)]));
+    };
+    const double press = contact.press[0] + contact.press[1];
+    const double mean = 0.5 * (speed_at(first_end) + speed_at(last_end));
+    const double flow =
+        press * e_.h * std::max(std::abs(speed_at(first_end)), std::abs(speed_at(last_end)));
+    // A bounce is in the velocities; otherwise ways tell, without what bodies turn in a substep.
+    const double way = bounces ? e_.h * mean : contact.gap[last_end] - contact.gap[first_end];
+    add(std::max(press * way, 0.0), flow, [&] {
+      return "the contact of " + e_.body_name(contact.body_a) +
+             (contact.ground ? std::string(" and the ground")
+                             : " and " + e_.body_name(contact.body_b));
+    });
+  }
+
+  const Evidence& e_;
+  Findings& findings_;
+  double kinetic_ = 0.0;
+  double weight_ = 0.0;
+  double flow_ = 0.0;
+  double level_ = 0.0;
+  double floor_ = 0.0;
+  double sum_ = 0.0;
+};
+
+}  // namespace
+
+void check_energy(const Evidence& evidence, const std::vector<double>& leaks, Findings& findings) {
+  EnergyCheck(evidence, findings).check(leaks);
+}
+
+}  // namespace sheave::certify

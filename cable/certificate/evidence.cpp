@@ -1,0 +1,468 @@
+#include "cable/certificate/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/certificate/pushes.h"
+#include "engine/substep.h"
+
+namespace sheave::certify {
+namespace {
+
+/// A feature's state with other forces: the first ones of `reals` where `acting` says, or all of `forces`.
+FeatureState with_forces(const FeatureState& like, const std::vector<double>& forces) {
+  FeatureState own = like;
+  std::copy(forces.begin(), forces.end(), own.reals.begin());
+  return own;
+}
+
+/// Two parts of each of `total`, by what was late.
+std::array<std::vector<double>, 2> parts(std::span<const double> total, bool rattle,
+                                         std::span<const double> late) {
+  std::array<std::vector<double>, 2> result;
+  result[last_end].assign(total.begin(), total.end());
+  result[first_end].assign(total.size(), 0.0);
+  if (!rattle || late.size() != total.size()) return result;
+  for (std::size_t i = 0; i < total.size(); ++i) {
+    result[last_end][i] = late[i];
+    result[first_end][i] = total[i] - late[i];
+  }
+  return result;
+}
+
+/// Bodies where they are at the end of a substep that began at `start`.
+Substep placed_at(const BodySet& bodies, const State& start, const State& end, double h) {
+  Substep now(bodies, start, h, 1);
+  for (int i = 0; i < bodies.count(); ++i) {
+    const BodyState& state = end.bodies[at(i)];
+    MovingBody& moving = now.moving[at(i)];
+    moving.position = state.position;
+    moving.orientation = state.orientation;
+    moving.turn = bodies[i].mount >= 0
+                      ? Vector3((end.bodies[at(bodies[i].mount)].orientation * bodies[i].axis) *
+                                (state.angle - start.bodies[at(i)].angle))
+                      : Vector3(Vector3::Zero());
+  }
+  return now;
+}
+
+}  // namespace
+
+Evidence::Evidence(const Simulation& of, const LastSubstep& last)
+    : simulation(of),
+      model(of.world.model()),
+      bodies(of.world.bodies()),
+      start(last.start),
+      end(of.world.state()),
+      h(last.h),
+      rattle(last.integrator == IntegratorKind::rattle),
+      moments{Moment{&bodies, &start.bodies}, Moment{&bodies, &end.bodies}} {
+  balances.resize(at(bodies.count()) + 1);
+  if (simulation.cables != nullptr) collect_cables(last);
+  if (!model.joints.empty()) collect_joints(last);
+  for (std::size_t f = 0; f < of.world.features().size(); ++f) {
+    if (of.world.features()[f]->name() == "ground contacts") collect_ground(last, f);
+    if (of.world.features()[f]->name() == "contacts") collect_contacts(last, f);
+  }
+  apply_cables();
+  apply_joints();
+  apply_contacts();
+  for (const Balance& balance : balances) {
+    largest_force = std::max(largest_force, balance.largest_force);
+  }
+}
+
+double Evidence::size_of(int body) const {
+  if (body == bodies.count()) return 0.0;
+  double size = 0.0;
+  for (const PlacedShape& placed : bodies.definition(body).shapes) {
+    const double radius = placed.shape->half_extent().norm();
+    if (!std::isfinite(radius)) continue;
+    size = std::max(size, (placed.position - bodies[body].center_of_mass).norm() + radius);
+  }
+  if (size > 0.0 || !(bodies[body].mass > 0.0)) return size;
+  const double moment = std::max(bodies[body].inertia.trace() / 3.0, bodies[body].axis_inertia);
+  return std::sqrt(moment / bodies[body].mass);
+}
+
+Vector3 Evidence::turn_of(int body) const {
+  if (body == bodies.count()) return Vector3::Zero();
+  const BodyState& from = start.bodies[at(body)];
+  const BodyState& to = end.bodies[at(body)];
+  const BodyProperties& properties = bodies[body];
+  if (properties.mount >= 0) {
+    const Vector3 axis = end.bodies[at(properties.mount)].orientation * properties.axis;
+    return turn_of(properties.mount) + (to.angle - from.angle) * axis;
+  }
+  if (properties.mobility == Mobility::planar || properties.mobility == Mobility::rotor) {
+    return (to.angle - from.angle) * properties.axis;
+  }
+  Quaternion change = to.orientation * from.orientation.conjugate();
+  if (change.w() < 0.0) change.coeffs() = -change.coeffs();
+  const double sine = change.vec().norm();
+  if (!(sine > 0.0)) return Vector3::Zero();
+  return 2.0 * std::atan2(sine, change.w()) / sine * change.vec();
+}
+
+Vector3 Evidence::displacement(int body, const Vector3& point, End at_end) const {
+  if (body == bodies.count()) return Vector3::Zero();
+  const Vector3 arm = point - moments[at(at_end)].center(body);
+  return end.bodies[at(body)].position - start.bodies[at(body)].position + turn_of(body).cross(arm);
+}
+
+void Evidence::push(End when, int body, const Vector3& point, const Vector3& force) {
+  if (body == bodies.count() || is_zero(force)) return;
+  const Moment& now = moments[at(when)];
+  const double size = force.norm();
+  const auto add = [&](int to, const Vector3& linear, const Vector3& torque) {
+    Balance& balance = balances[at(to)];
+    balance.force[at(when)] += linear;
+    balance.torque[at(when)] += torque;
+    balance.largest_force = std::max(balance.largest_force, linear.norm());
+    balance.largest_torque = std::max(balance.largest_torque, torque.norm());
+  };
+  const int mount = bodies[body].mount;
+  if (mount < 0) {
+    add(body, force, (point - now.center(body)).cross(force));
+  } else {
+    // The bearing passes on all but the torque about the axle.
+    const Vector3 axle = now.orientation(mount) * bodies[body].axis;
+    const Vector3 spin = axle * axle.dot((point - now.center(body)).cross(force));
+    add(mount, force, (point - now.center(mount)).cross(force) - spin);
+    add(body, Vector3::Zero(), spin);
+    balances[at(body)].largest_force = std::max(balances[at(body)].largest_force, size);
+  }
+  balances[at(body)].power += std::abs(force.dot(now.velocity(body, point)));
+}
+
+void Evidence::twist(End when, int body, const Vector3& torque) {
+  if (body == bodies.count() || is_zero(torque)) return;
+  const int mount = bodies[body].mount;
+  const auto add = [&](int to, const Vector3& part) {
+    balances[at(to)].torque[at(when)] += part;
+    balances[at(to)].largest_torque = std::max(balances[at(to)].largest_torque, part.norm());
+  };
+  if (mount < 0) {
+    add(body, torque);
+  } else {
+    const Vector3 axle = moments[at(when)].orientation(mount) * bodies[body].axis;
+    const Vector3 spin = axle * axle.dot(torque);
+    add(mount, torque - spin);
+    add(body, spin);
+  }
+  balances[at(body)].power +=
+      std::abs(torque.dot((*moments[at(when)].states)[at(body)].angular_velocity));
+}
+
+void Evidence::mark_unknown(int body) {
+  balances[at(body)].unknown = true;
+  if (body < bodies.count() && bodies[body].mount >= 0) {
+    balances[at(bodies[body].mount)].unknown = true;
+  }
+}
+
+// Cables.
+
+void Evidence::collect_cables(const LastSubstep& last) {
+  const CableSystem& system = *simulation.cables;
+  const std::size_t feature = end.features.size() - 1;
+  const FeatureState& before = start.features[feature];
+  const FeatureState& now = end.features[feature];
+  const auto spans = static_cast<std::size_t>(system.row_count());
+  const auto tensions = std::span(now.reals).subspan(system.tension_index(0), spans);
+  const auto late = last.late_forces.size() > feature
+                        ? std::span<const double>(last.late_forces[feature])
+                        : std::span<const double>();
+  const auto force = parts(tensions, rattle, late);
+  // The course and the radii of a substep are those of its start.
+  FeatureState first = before;
+  FeatureState second = before;
+  for (std::size_t k = 0; k < spans; ++k) {
+    first.reals[system.tension_index(static_cast<int>(k))] = force[first_end][k];
+    second.reals[system.tension_index(static_cast<int>(k))] = force[last_end][k];
+    second.reals[system.rest_length_index(static_cast<int>(k))] = now.reals[k];
+  }
+  const std::vector<CableReport> at_start = system.report(bodies, start, first);
+  const std::vector<CableReport> at_end = system.report(bodies, end, second);
+  const std::vector<CableReport> after = system.report(bodies, end, now);
+  for (std::size_t c = 0; c < after.size(); ++c) {
+    CableEvidence& cable = cables.emplace_back();
+    cable.definition = &(*simulation.cable_definitions)[c];
+    cable.name = cable.definition->name;
+    cable.start = at_start[c];
+    cable.end = after[c];
+    const CompiledCable& layout = system.cables()[c];
+    const auto differs = [&](std::size_t i) { return before.integers[i] != now.integers[i]; };
+    cable.has_changed = differs(system.cut_index(static_cast<int>(c)));
+    for (int i = layout.first_link; i < layout.first_link + layout.link_count; ++i) {
+      cable.has_changed = cable.has_changed || differs(system.mode_index(i)) ||
+                          differs(system.next_index(i)) || differs(system.wrap_index(i));
+    }
+    if (!cable.start.cut) collect_cable(cable, at_start[c], at_end[c]);
+  }
+}
+
+void Evidence::freeze(SpanEvidence& span) const {
+  const Vector3 from = moments[first_end].own_point(span.from.body, span.from.point[first_end]);
+  const Vector3 to = moments[first_end].own_point(span.to.body, span.to.point[first_end]);
+  span.from.point[last_end] = moments[last_end].point(span.from.body, from);
+  span.to.point[last_end] = moments[last_end].point(span.to.body, to);
+}
+
+void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
+                             const CableReport& second) {
+  std::vector<int> places;
+  const CableReport from = first.with_wraps_in_place(&places);
+  const CableReport to = second.with_wraps_in_place();
+  const auto count = static_cast<int>(from.links.size());
+  for (int i = 0; i < static_cast<int>(from.spans.size()); ++i) {
+    if (!from.links[at(i)].touched) continue;
+    int next = i;
+    do {
+      next = (next + 1) % count;
+    } while (!from.links[at(next)].touched && next != i);
+    SpanEvidence& span = cable.spans.emplace_back();
+    span.cable = cable.name;
+    span.place = places[at(i)];
+    for (const End when : {first_end, last_end}) {
+      const CableReport& report = when == first_end ? from : to;
+      const SpanReport& reported = report.spans[at(i)];
+      const auto side = [&](SpanSide& own, int link, const Vector3& point) {
+        const LinkReport& seen = report.links[at(link)];
+        own.body = bodies.index(seen.body);
+        own.link = link;
+        own.radius = seen.radius;
+        own.winding = seen.winding;
+        own.outlined = !seen.path.empty();
+        own.point[at(when)] = point;
+        own.center[at(when)] = seen.center;
+        own.normal[at(when)] = seen.normal;
+      };
+      side(span.from, i, reported.start);
+      side(span.to, next, reported.end);
+      span.length[at(when)] = reported.length;
+      span.rest_length[at(when)] = reported.rest_length;
+      span.force[at(when)] = reported.tension;
+      span.has_tangent = span.has_tangent && reported.has_tangent;
+    }
+    cable.free_length += span.length[last_end];
+    if (cable.definition->tangent_update == TangentUpdate::substep) freeze(span);
+    for (const End when : {first_end, last_end}) {
+      const Vector3 along = span.to.point[at(when)] - span.from.point[at(when)];
+      const double length = along.norm();
+      span.direction[at(when)] = length > 0.0 ? Vector3(along / length) : Vector3(Vector3::Zero());
+    }
+  }
+  collect_passes(cable, from, to, places);
+}
+
+void Evidence::collect_passes(CableEvidence& cable, const CableReport& first,
+                              const CableReport& second, const std::vector<int>& places) {
+  const CableReport after = cable.has_changed ? first : cable.end.with_wraps_in_place();
+  const auto change = [&](int link, double LinkReport::*of) {
+    return after.links[at(link)].*of - first.links[at(link)].*of;
+  };
+  for (SpanEvidence& span : cable.spans) {
+    // Only the ends of a cable feed.
+    span.fed = change(span.from.link, &LinkReport::fed) + change(span.to.link, &LinkReport::fed);
+  }
+  for (std::size_t k = 0; k < cable.spans.size(); ++k) {
+    const int link = cable.spans[k].from.link;
+    const auto before = std::find_if(cable.spans.begin(), cable.spans.end(),
+                                     [&](const SpanEvidence& s) { return s.to.link == link; });
+    if (before == cable.spans.end()) continue;
+    PassEvidence pass;
+    pass.before = static_cast<int>(before - cable.spans.begin());
+    pass.after = static_cast<int>(k);
+    pass.link = places[at(link)];
+    pass.cable = cable.name;
+    pass.slip = change(link, &LinkReport::slip);
+    describe_pass(*this, cable, first.links[at(link)], second.links[at(link)], pass);
+    cable.passes.push_back(pass);
+  }
+}
+
+void Evidence::apply_cables() {
+  for (const CableEvidence& cable : cables) {
+    for (const SpanEvidence& span : cable.spans) {
+      if (cable.has_changed || !span.has_tangent) {
+        mark_unknown(span.from.body);
+        mark_unknown(span.to.body);
+        continue;
+      }
+      for (const End when : {first_end, last_end}) {
+        if (span.force[at(when)] == 0.0) continue;
+        const SpanPushes pushes =
+            pushes_of(span, when, cable.definition->tangent_update == TangentUpdate::iteration);
+        for (int i = 0; i < pushes.count; ++i) {
+          const SpanPush& one = pushes.all[at(i)];
+          push(when, one.body, one.point, one.force);
+        }
+      }
+    }
+  }
+}
+
+// Joints.
+
+void Evidence::collect_joints(const LastSubstep& last) {
+  struct Course {
+    std::string_view type;
+    std::size_t feature;
+    const JointFeature* batch;
+    std::array<FeatureState, 2> acting;
+    int next = 0;
+  };
+  std::vector<Course> courses;
+  const auto features = simulation.world.features();
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    const auto* batch = dynamic_cast<const JointFeature*>(features[f].get());
+    if (batch == nullptr) continue;
+    const std::vector<double>& reals = end.features[f].reals;
+    const auto late = last.late_forces.size() > f ? std::span<const double>(last.late_forces[f])
+                                                  : std::span<const double>();
+    const auto rows = static_cast<std::size_t>(batch->row_count());
+    const auto force = parts(std::span(reals).first(rows), rattle, late);
+    courses.push_back({batch->type(),
+                       f,
+                       batch,
+                       {with_forces(start.features[f], force[first_end]),
+                        with_forces(start.features[f], force[last_end])}});
+  }
+  const Substep at_start(bodies, start, h, 1);
+  const Substep at_end = placed_at(bodies, start, end, h);
+  const Substep after(bodies, end, h, 1);
+  for (const auto& joint : model.joints) {
+    for (Course& course : courses) {
+      if (course.type != joint->type()) continue;
+      const int index = course.next++;
+      JointEvidence& found = joints.emplace_back();
+      found.definition = joint.get();
+      found.acting[first_end] = course.batch->report(index, at_start, course.acting[first_end]);
+      found.acting[last_end] = course.batch->report(index, at_end, course.acting[last_end]);
+      found.start = course.batch->report(index, at_start, start.features[course.feature]);
+      found.end = course.batch->report(index, after, end.features[course.feature]);
+      found.broken = found.start.broken_at.has_value();
+      break;
+    }
+  }
+}
+
+void Evidence::apply_joints() {
+  for (const JointEvidence& joint : joints) {
+    if (joint.broken) continue;
+    for (const End when : {first_end, last_end}) {
+      const JointPushes pushes = pushes_of(*this, joint, when);
+      for (const JointPush& one : pushes) {
+        if (one.unknown) mark_unknown(one.body);
+        push(when, one.body, one.point, one.force);
+        twist(when, one.body, one.torque);
+      }
+    }
+  }
+}
+
+// Contacts.
+
+void Evidence::collect_ground(const LastSubstep& last, std::size_t feature) {
+  const auto late = last.late_forces.size() > feature
+                        ? std::span<const double>(last.late_forces[feature])
+                        : std::span<const double>();
+  const auto press = parts(end.features[feature].reals, rattle, late);
+  const Vector3 normal = model.ground->normal.normalized();
+  std::size_t next = 0;
+  std::vector<Vector3> points;
+  for (int i = 0; i < bodies.count(); ++i) {
+    const Mobility mobility = bodies[i].mobility;
+    if (mobility != Mobility::free && mobility != Mobility::planar &&
+        mobility != Mobility::slider && bodies[i].mount < 0) {
+      continue;
+    }
+    for (const PlacedShape& placed : bodies.definition(i).shapes) {
+      points.clear();
+      const Quaternion to_world = moments[first_end].orientation(i) * placed.orientation;
+      placed.shape->append_contact_points(to_world.conjugate() * (-normal), points);
+      for (const Vector3& point : points) {
+        const Vector3 own = placed.position + placed.orientation * point - bodies[i].center_of_mass;
+        const std::size_t k = next++;
+        ContactEvidence contact;
+        contact.ground = true;
+        contact.body_a = i;
+        contact.body_b = bodies.count();
+        contact.normal = normal;
+        for (const End when : {first_end, last_end}) {
+          contact.point_a[at(when)] = moments[at(when)].point(i, own);
+          contact.gap[at(when)] = normal.dot(contact.point_a[at(when)] - model.ground->point);
+          contact.point_b[at(when)] = contact.point_a[at(when)] - contact.gap[at(when)] * normal;
+          contact.press[at(when)] = press[at(when)][k];
+          contact.drag[at(when)].setZero();
+        }
+        if (contact.gap[last_end] < 0.0 || press[0][k] != 0.0 || press[1][k] != 0.0) {
+          contacts.push_back(contact);
+        }
+      }
+    }
+  }
+}
+
+void Evidence::collect_contacts(const LastSubstep& last, std::size_t feature) {
+  const std::vector<ContactReport> reports = simulation.world.contacts();
+  const auto late = last.late_forces.size() > feature
+                        ? std::span<const double>(last.late_forces[feature])
+                        : std::span<const double>();
+  const bool halves = rattle && late.size() == 4 * reports.size();
+  const auto collider_of = [&](int body) -> const ColliderDef* {
+    for (const ColliderDef& collider : model.colliders) {
+      if (bodies.index(collider.body) == body) return &collider;
+    }
+    return nullptr;
+  };
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const ContactReport& report = reports[i];
+    ContactEvidence contact;
+    contact.body_a = bodies.index(report.body_a);
+    contact.body_b = bodies.index(report.body_b);
+    contact.normal = report.normal;
+    contact.sticks = report.sticks;
+    contact.collider_a = collider_of(contact.body_a);
+    contact.collider_b = collider_of(contact.body_b);
+    const Vector3 end_a = moments[last_end].point(contact.body_a, report.core_a);
+    const Vector3 end_b = moments[last_end].point(contact.body_b, report.core_b);
+    const double radius_a = report.normal.dot(end_a - report.point);
+    const double radius_b = report.normal.dot(end_a - end_b) - radius_a - report.gap;
+    for (const End when : {first_end, last_end}) {
+      const Vector3 core_a = moments[at(when)].point(contact.body_a, report.core_a);
+      const Vector3 core_b = moments[at(when)].point(contact.body_b, report.core_b);
+      contact.point_a[at(when)] = core_a - radius_a * report.normal;
+      contact.point_b[at(when)] = core_b + radius_b * report.normal;
+      contact.gap[at(when)] =
+          report.normal.dot(contact.point_a[at(when)] - contact.point_b[at(when)]);
+    }
+    contact.press = {0.0, report.normal_force};
+    contact.drag = {Vector3::Zero(), report.friction_force};
+    if (halves) {
+      contact.press[last_end] = late[4 * i];
+      contact.drag[last_end] = Vector3(late[4 * i + 1], late[4 * i + 2], late[4 * i + 3]);
+      contact.press[first_end] = report.normal_force - contact.press[last_end];
+      contact.drag[first_end] = report.friction_force - contact.drag[last_end];
+    }
+    contacts.push_back(contact);
+  }
+}
+
+void Evidence::apply_contacts() {
+  for (const ContactEvidence& contact : contacts) {
+    for (const End when : {first_end, last_end}) {
+      const Vector3 force = contact.press[at(when)] * contact.normal + contact.drag[at(when)];
+      push(when, contact.body_a, contact.point_a[at(when)], force);
+      push(when, contact.body_b, contact.point_b[at(when)], -force);
+    }
+  }
+}
+
+std::string SpanEvidence::name() const {
+  if (place < 0) return "a wrap of \"" + std::string(cable) + "\"";
+  return std::string(cable) + "." + std::to_string(place);
+}
+
+}  // namespace sheave::certify

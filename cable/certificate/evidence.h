@@ -1,0 +1,185 @@
+#pragma once
+// What is known of a substep: the states at both ends and what was reported of it. All balances read from here.
+//
+// Forces of `rattle` act in two halves, along the directions at the start and at the end (engine/world.h), so reports are
+// taken twice: with the first part of each force where the bodies were at the start, and with the second where they are at
+// the end. `xpbd` has the second part alone.
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cable/cable_report.h"
+#include "cable/certificate/findings.h"
+#include "cable/simulation.h"
+#include "engine/index.h"
+#include "engine/joint_report.h"
+
+namespace sheave::certify {
+
+/// The ends of a substep.
+enum End : int { first_end, last_end };
+
+/// Poses at one moment. Points of bodies are in their own frames (origin at the centre of mass); the world has number
+/// bodies.count().
+struct Moment {
+  const BodySet* bodies = nullptr;
+  const std::vector<BodyState>* states = nullptr;
+
+  [[nodiscard]] bool is_world(int body) const { return body == bodies->count(); }
+  [[nodiscard]] Vector3 center(int body) const {
+    return is_world(body) ? Vector3(Vector3::Zero()) : (*states)[at(body)].position;
+  }
+  [[nodiscard]] Quaternion orientation(int body) const {
+    return is_world(body) ? Quaternion(Quaternion::Identity()) : (*states)[at(body)].orientation;
+  }
+  [[nodiscard]] Vector3 point(int body, const Vector3& own) const {
+    return center(body) + orientation(body) * own;
+  }
+  [[nodiscard]] Vector3 own_point(int body, const Vector3& world) const {
+    return orientation(body).conjugate() * (world - center(body));
+  }
+  /// Of the body's material at a world point.
+  [[nodiscard]] Vector3 velocity(int body, const Vector3& world) const {
+    if (is_world(body)) return Vector3::Zero();
+    const BodyState& state = (*states)[at(body)];
+    return state.velocity + state.angular_velocity.cross(world - state.position);
+  }
+};
+
+/// One end of a span.
+struct SpanSide {
+  int body = 0;
+  int link = -1;  ///< within the cable's way, wraps included
+  double radius = 0.0;
+  int winding = 0;
+  bool outlined = false;
+  std::array<Vector3, 2> point;   ///< at either end of the substep [m]
+  std::array<Vector3, 2> center;  ///< of its circle [m]
+  std::array<Vector3, 2> normal;
+};
+
+/// A free span through a substep.
+struct SpanEvidence {
+  std::string_view cable;
+  int place = -1;  ///< within its cable's list; -1: behind a wrap
+  SpanSide from;
+  SpanSide to;
+  std::array<Vector3, 2> direction;
+  std::array<double, 2> length{};
+  std::array<double, 2> rest_length{};
+  std::array<double, 2> force{};  ///< the parts of the tension [N]
+  double fed = 0.0;               ///< into it in the substep [m]
+  bool has_tangent = true;
+  [[nodiscard]] double tension() const { return force[0] + force[1]; }
+  [[nodiscard]] std::string name() const;
+};
+
+/// Where the cable passes from one span to the next.
+struct PassEvidence {
+  int before = 0;  ///< spans, among all
+  int after = 0;
+  bool passes = false;      ///< whether cable can come over it other than by rolling
+  bool massless = false;    ///< because nothing resists its turning
+  double friction = 0.0;    ///< capstan coefficient, if it passes
+  double wrap_angle = 0.0;  ///< [rad], the larger one of the two ends of the substep
+  double slip = 0.0;        ///< in the substep, towards the next span [m]
+  int link = 0;             ///< within the list; -1: a wrap
+  std::string_view cable;
+};
+
+struct CableEvidence {
+  std::string_view name;
+  const CableDef* definition = nullptr;
+  std::vector<SpanEvidence> spans;
+  std::vector<PassEvidence> passes;
+  bool has_changed =
+      false;  ///< its course or an end: what acted is not what is reported at the end
+  double free_length = 0.0;  ///< of all spans [m]
+  CableReport start;
+  CableReport end;
+};
+
+struct JointEvidence {
+  const JointDef* definition = nullptr;
+  std::array<JointReport, 2> acting;  ///< with the parts of the forces
+  JointReport start;
+  JointReport end;
+  bool broken = false;  ///< before the substep
+};
+
+/// A force at a point of contact, of bodies with each other or with the floor (body_b is the world).
+struct ContactEvidence {
+  int body_a = 0;
+  int body_b = 0;
+  bool ground = false;
+  Vector3 normal = Vector3::UnitY();
+  std::array<Vector3, 2> point_a;  ///< on the surfaces
+  std::array<Vector3, 2> point_b;
+  std::array<double, 2> press{};
+  std::array<Vector3, 2> drag;
+  std::array<double, 2> gap{};
+  bool sticks = false;
+  const ColliderDef* collider_a = nullptr;
+  const ColliderDef* collider_b = nullptr;
+};
+
+/// What acts on a body besides its loads.
+struct Balance {
+  std::array<Vector3, 2> force{Vector3::Zero(), Vector3::Zero()};
+  /// About the centre of mass; of a carrier without what spins its rotors, of a mounted rotor only that, along its axle.
+  std::array<Vector3, 2> torque{Vector3::Zero(), Vector3::Zero()};
+  double largest_force = 0.0;
+  double largest_torque = 0.0;
+  double power = 0.0;    ///< sum of all |force . velocity| [W]
+  bool unknown = false;  ///< something acts that is not reported in full
+};
+
+class Evidence {
+ public:
+  explicit Evidence(const Simulation& simulation, const LastSubstep& last);
+
+  const Simulation& simulation;
+  const Model& model;
+  const BodySet& bodies;
+  const State& start;
+  const State& end;
+  double h;
+  bool rattle;
+  std::array<Moment, 2> moments;
+  std::vector<CableEvidence> cables;
+  std::vector<JointEvidence> joints;
+  std::vector<ContactEvidence> contacts;
+  std::vector<Balance> balances;  ///< per body and the world
+  double largest_force = 0.0;     ///< of all [N]
+
+  /// Radius of the ball about the centre of mass that contains the body, or that of gyration without a shape [m].
+  [[nodiscard]] double size_of(int body) const;
+  /// How far the body has turned in the substep about a world axis [rad].
+  [[nodiscard]] Vector3 turn_of(int body) const;
+  [[nodiscard]] std::string body_name(int body) const {
+    return "body \"" + bodies.name(body) + "\"";
+  }
+  /// Work of the gradient of a pair of forces: force . displacement of the material at `point`, which is of that end.
+  [[nodiscard]] Vector3 displacement(int body, const Vector3& point, End end) const;
+
+ private:
+  void collect_cables(const LastSubstep& last);
+  void collect_cable(CableEvidence& cable, const CableReport& first, const CableReport& second);
+  void collect_passes(CableEvidence& cable, const CableReport& first, const CableReport& second,
+                      const std::vector<int>& places);
+  void collect_joints(const LastSubstep& last);
+  void collect_ground(const LastSubstep& last, std::size_t feature);
+  void collect_contacts(const LastSubstep& last, std::size_t feature);
+  /// Forces of cables that keep their attachments for the substep act between these.
+  void freeze(SpanEvidence& span) const;
+  void apply_cables();
+  void apply_joints();
+  void apply_contacts();
+  void push(End end, int body, const Vector3& point, const Vector3& force);
+  void twist(End end, int body, const Vector3& torque);
+  void mark_unknown(int body);
+};
+
+}  // namespace sheave::certify

@@ -1,0 +1,46 @@
+#pragma once
+// Collects the worst figure of each kind; names are made only for what is worst.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "cable/certificate.h"
+
+namespace sheave::certify {
+
+class Findings {
+ public:
+  using Kind = CertificateItem::Kind;
+
+  explicit Findings(double time) : time_(time) {}
+
+  /// `value` against `scale`; `rounding` of it means nothing. `name()` is called only if this is the worst so far.
+  template <class Name>
+  void note(Kind kind, std::string_view unit, double value, double scale, double rounding,
+            const Name& name) {
+    std::optional<CertificateItem>& worst = worst_[static_cast<std::size_t>(kind)];
+    const double excess = std::max(value - rounding, 0.0);
+    double relative = scale > 0.0 ? excess / scale : (excess > 0.0 ? unbounded : 0.0);
+    if (!std::isfinite(relative)) relative = unbounded;
+    if (worst && !(relative > worst->relative)) return;
+    worst = CertificateItem{kind, name(), value, unit, scale, relative, time_, {}};
+  }
+
+  /// In the order of the kinds.
+  [[nodiscard]] std::vector<CertificateItem> take() {
+    std::vector<CertificateItem> items;
+    for (std::optional<CertificateItem>& item : worst_) {
+      if (item) items.push_back(std::move(*item));
+    }
+    return items;
+  }
+
+ private:
+  static constexpr double unbounded = 1e300;
+  double time_;
+  std::array<std::optional<CertificateItem>, certificate_kinds> worst_;
+};
+
+}  // namespace sheave::certify

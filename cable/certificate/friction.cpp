@@ -1,0 +1,125 @@
+// Bounds of friction: e^(m a) at links, Coulomb's cone at contacts. Slip is at the bound and forwards: cable goes where the
+// larger tension is, contacts are dragged against their sliding.
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/certificate/checks.h"
+
+namespace sheave::certify {
+namespace {
+
+using Kind = CertificateItem::Kind;
+
+void check_pass(const Evidence& evidence, const CableEvidence& cable, const PassEvidence& pass,
+                double largest, Findings& findings) {
+  const double before = cable.spans[at(pass.before)].tension();
+  const double after = cable.spans[at(pass.after)].tension();
+  const double bound = std::exp(pass.friction * pass.wrap_angle);
+  const double high = std::max(before, after);
+  const double low = std::min(before, after);
+  // Tensions that are nothing beside those of the cable have no ratio that would count.
+  const double scale = std::max(high, 1e-3 * largest);
+  const auto name = [&] {
+    return (pass.link < 0 ? std::string("a wrap") : "link " + std::to_string(pass.link)) +
+           " of \"" + std::string(pass.cable) + "\"";
+  };
+  findings.note(Kind::friction, "N", std::max(high - bound * low, 0.0), scale, 1e-9 * scale, name);
+  if (pass.slip == 0.0 || pass.friction == 0.0 || !(scale > 0.0)) return;
+  // Slipping: the side to which it goes pulls harder by all of the bound.
+  const double pulling = pass.slip > 0.0 ? after : before;
+  const double held = pass.slip > 0.0 ? before : after;
+  const double creep = 1e-7 * std::min(cable.free_length, evidence.bodies.scale());
+  const double weight = std::abs(pass.slip) / (std::abs(pass.slip) + creep);
+  findings.note(Kind::friction, "N", weight * std::max(bound * held - pulling, 0.0),
+                std::max(scale, bound * held), 1e-9 * scale, name);
+}
+
+void check_contact(const Evidence& evidence, const ContactEvidence& contact, Findings& findings) {
+  if (contact.ground || contact.collider_a == nullptr || contact.collider_b == nullptr) return;
+  const ColliderDef& a = *contact.collider_a;
+  const ColliderDef& b = *contact.collider_b;
+  const double sliding = std::sqrt(a.friction * b.friction);
+  const double sticking =
+      std::sqrt(a.static_friction.value_or(a.friction) * b.static_friction.value_or(b.friction));
+  const double press = contact.press[0] + contact.press[1];
+  const Vector3 drag = contact.drag[0] + contact.drag[1];
+  // Friction along two axes is bounded by a square (engine/contacts/contact.cpp): sqrt(2) at its corners.
+  const double bound = std::max(sliding, sticking) * press;
+  const double scale = std::max(bound, 1e-3 * evidence.largest_force);
+  const auto name = [&] {
+    return "the contact of " + evidence.body_name(contact.body_a) + " and " +
+           evidence.body_name(contact.body_b);
+  };
+  findings.note(Kind::friction, "N", std::max(drag.norm() - std::sqrt(2.0) * bound, 0.0), scale,
+                1e-7 * scale, name);
+  if (contact.sticks) return;
+  // What slides is dragged against its sliding.
+  const Moment& now = evidence.moments[last_end];
+  const Vector3 velocity = now.velocity(contact.body_a, contact.point_a[last_end]) -
+                           now.velocity(contact.body_b, contact.point_b[last_end]);
+  const Vector3 along = velocity - contact.normal * contact.normal.dot(velocity);
+  const double speed = along.norm();
+  const double crawl =
+      evidence.h * evidence.bodies.gravity().norm() + 1e-6 * evidence.bodies.scale() / evidence.h;
+  const double forwards = speed > 0.0 ? drag.dot(along) / speed : 0.0;
+  findings.note(Kind::friction, "N", std::max(forwards, 0.0) * speed / (speed + crawl), scale,
+                1e-7 * scale, name);
+}
+
+}  // namespace
+
+void check_friction(const Evidence& evidence, Findings& findings) {
+  for (const CableEvidence& cable : evidence.cables) {
+    if (cable.has_changed || cable.start.cut) continue;
+    double largest = 0.0;
+    for (const SpanEvidence& span : cable.spans) largest = std::max(largest, span.tension());
+    for (const PassEvidence& pass : cable.passes) {
+      if (pass.passes) check_pass(evidence, cable, pass, largest, findings);
+    }
+  }
+  for (const ContactEvidence& contact : evidence.contacts) {
+    check_contact(evidence, contact, findings);
+  }
+}
+
+void check_contacts(const Evidence& evidence, Findings& findings) {
+  for (const ContactEvidence& contact : evidence.contacts) {
+    const double press = contact.press[0] + contact.press[1];
+    const auto name = [&] {
+      return contact.ground ? evidence.body_name(contact.body_a) + " on the ground"
+                            : "the contact of " + evidence.body_name(contact.body_a) + " and " +
+                                  evidence.body_name(contact.body_b);
+    };
+    double size = evidence.bodies.scale();
+    for (const int body : {contact.body_a, contact.body_b}) {
+      const double own = evidence.size_of(body);
+      if (own > 0.0) size = std::min(size, own);
+    }
+    double compliance = 0.0;
+    bool bounces = false;
+    for (const ColliderDef* collider : {contact.collider_a, contact.collider_b}) {
+      if (collider == nullptr) continue;
+      compliance += collider->compliance;
+      bounces = bounces || collider->restitution > 0.0;
+    }
+    findings.note(Kind::complementarity, "N", std::max(-press, 0.0), evidence.largest_force, 0.0,
+                  name);
+    const double gap = contact.gap[last_end];
+    const double slop = 1e-9 * evidence.bodies.scale();
+    if (compliance > 0.0) {
+      const double from = std::min(contact.gap[first_end], 0.0);
+      const double mean = evidence.rattle ? 0.5 * (from + gap) : gap;
+      const double off = press > 0.0 ? std::abs(mean + compliance * press) : std::max(-mean, 0.0);
+      findings.note(Kind::contact, "m", off, std::max(compliance * press, size), slop, name);
+      continue;
+    }
+    findings.note(Kind::contact, "m", std::max(-gap, 0.0), size, slop, name);
+    // What bounces has parted again within the substep.
+    if (bounces || !(gap > 0.0) || !(press > 0.0)) continue;
+    findings.note(Kind::complementarity, "N", press * std::min(1.0, gap / size),
+                  std::max(press, evidence.largest_force), 1e-9 * press, name);
+  }
+}
+
+}  // namespace sheave::certify

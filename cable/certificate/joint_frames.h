@@ -1,0 +1,61 @@
+#pragma once
+// Where a joint's anchors and axes are, from its definition and the poses alone.
+
+#include "cable/certificate/evidence.h"
+#include "engine/joints/coordinate.h"
+
+namespace sheave::certify {
+
+/// What a joint locks and leaves free.
+struct JointKind {
+  bool meets = false;        ///< the anchors coincide
+  bool on_axis = false;      ///< B's anchor stays on A's axis
+  bool in_plane = false;     ///< B's anchor stays in A's plane, whose normal is the axis
+  bool parallel = false;     ///< the axes stay parallel
+  bool no_turn = false;      ///< no relative rotation
+  bool right_angle = false;  ///< axis of A and second axis of B stay perpendicular
+  bool distance = false;
+  bool coupling = false;  ///< gear or rack
+};
+
+struct JointFrame {
+  JointKind kind;
+  int body_a = 0;
+  int body_b = 0;
+  int carrier = -1;
+  Vector3 own_anchor_a = Vector3::Zero();  ///< own frames
+  Vector3 own_anchor_b = Vector3::Zero();
+  Vector3 axis_a = Vector3::UnitZ();  ///< world frame at time 0; of gears that of body_a's rotation
+  Vector3 axis_b = Vector3::UnitZ();
+  double compliance = 0.0;
+  double angular_compliance = 0.0;
+  double ratio = 0.0;  ///< of couplings
+  double length = 0.0;
+  double lower = 0.0;  ///< of the distance over the length, 0 or -infinity
+  double upper = 0.0;
+  double damping = 0.0;
+
+  /// Rotation of a body since time 0.
+  [[nodiscard]] static Quaternion turned_by(const Moment& now, int body) {
+    return now.orientation(body) * now.bodies->initial_orientation(body).conjugate();
+  }
+  [[nodiscard]] Vector3 anchor_a(const Moment& now) const {
+    return now.point(body_a, own_anchor_a);
+  }
+  [[nodiscard]] Vector3 anchor_b(const Moment& now) const {
+    return now.point(body_b, own_anchor_b);
+  }
+};
+
+[[nodiscard]] JointFrame frame_of(const BodySet& bodies, const JointDef& joint);
+
+/// A coordinate that reports tell, in their order.
+struct CoordinateSettings {
+  const JointCoordinate* settings = nullptr;
+  /// What acts along it is the reported wrench along this direction: 0 none alone, 1 the force along the axis, 2 the torque
+  /// about the axis, 3 the force along the line between the anchors.
+  int along = 0;
+};
+[[nodiscard]] std::vector<CoordinateSettings> coordinates_of(const JointDef& joint);
+
+}  // namespace sheave::certify

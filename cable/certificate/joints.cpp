@@ -1,0 +1,359 @@
+// Joints against what they lock, their drives against what they prescribe, and what acts along their coordinates against
+// the laws of springs, dampers and friction. Rates and forces by the integrator's rule: `xpbd` asks for its laws at the end
+// of the substep, `rattle` for the mean of both ends.
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/certificate/checks.h"
+#include "cable/certificate/joint_frames.h"
+#include "engine/joints/gear.h"
+#include "engine/joints/rack.h"
+
+namespace sheave::certify {
+namespace {
+
+using Kind = CertificateItem::Kind;
+
+class JointCheck {
+ public:
+  JointCheck(const Evidence& evidence, const JointEvidence& joint, Findings& findings)
+      : e_(evidence),
+        joint_(joint),
+        findings_(findings),
+        frame_(frame_of(evidence.bodies, *joint.definition)),
+        size_(size()) {
+    force_ = joint.acting[0].force + joint.acting[1].force;
+    torque_ = joint.acting[0].torque + joint.acting[1].torque;
+    load_ = std::max(force_.norm(), torque_.norm() / size_);
+  }
+
+  void check() {
+    if (frame_.kind.distance) {
+      check_distance();
+    } else if (frame_.kind.coupling) {
+      check_coupling();
+    } else {
+      check_locks();
+    }
+    const std::vector<CoordinateSettings> settings = coordinates_of(*joint_.definition);
+    for (std::size_t k = 0; k < settings.size() && k < joint_.end.coordinates.size(); ++k) {
+      if (settings[k].settings == nullptr) continue;
+      check_stops(k, *settings[k].settings);
+      check_drive(k, *settings[k].settings);
+      if (settings[k].along != 0) check_law(k, settings[k]);
+    }
+  }
+
+ private:
+  static constexpr double rounding = 1e-12;
+
+  /// What its gaps are measured by: the bodies that it joins, as far as their anchors reach.
+  [[nodiscard]] double size() const {
+    double size = 0.0;
+    for (const auto& [body, anchor] : {std::pair{frame_.body_a, &frame_.own_anchor_a},
+                                       std::pair{frame_.body_b, &frame_.own_anchor_b}}) {
+      if (body == e_.bodies.count()) continue;
+      const Mobility mobility = e_.bodies[body].mobility;
+      if (mobility == Mobility::fixed || mobility == Mobility::kinematic) continue;
+      size = std::max(size, anchor->norm() + e_.size_of(body));
+    }
+    return size > 0.0 ? std::min(size, e_.bodies.scale()) : e_.bodies.scale();
+  }
+  [[nodiscard]] std::string name() const {
+    return std::string(joint_.definition->type()) + " \"" + joint_.definition->name + "\"";
+  }
+  void note(Kind kind, std::string_view unit, double value, double scale, double eps) {
+    findings_.note(kind, unit, value, scale, eps, [&] { return name(); });
+  }
+  /// The value of a lock by its rule, from those at both ends.
+  template <class Value>
+  [[nodiscard]] Vector3 ruled(const Value& value) const {
+    const Vector3 now = value(e_.moments[last_end]);
+    if (!e_.rattle) return now;
+    return 0.5 * (value(e_.moments[first_end]) + now);
+  }
+
+  void check_locks() {
+    const double a = frame_.compliance;
+    const double b = frame_.angular_compliance;
+    const auto axis_of = [&](const Moment& now) -> Vector3 {
+      return JointFrame::turned_by(now, frame_.body_a) * frame_.axis_a;
+    };
+    const auto gap = [&](const Moment& now) -> Vector3 {
+      const Vector3 apart = frame_.anchor_a(now) - frame_.anchor_b(now);
+      const Vector3 axis = axis_of(now);
+      if (frame_.kind.on_axis) return apart - axis * axis.dot(apart);
+      if (frame_.kind.in_plane) return axis * axis.dot(apart);
+      return apart;
+    };
+    // Rigid: what is there at the end. Elastic: the spring's law, force = gap / compliance.
+    Vector3 open = a > 0.0 ? ruled(gap) : gap(e_.moments[last_end]);
+    if (a > 0.0) {
+      const Vector3 axis = axis_of(e_.moments[last_end]);
+      Vector3 held = force_;
+      if (frame_.kind.on_axis) held -= axis * axis.dot(held);
+      if (frame_.kind.in_plane) held = axis * axis.dot(held);
+      open -= a * held;
+    }
+    note(Kind::joint, "m", open.norm(), size_, rounding * e_.bodies.scale());
+    check_angles(b, axis_of);
+  }
+
+  template <class Axis>
+  void check_angles(double b, const Axis& axis_of) {
+    const auto other_axis = [&](const Moment& now) -> Vector3 {
+      return JointFrame::turned_by(now, frame_.body_b) * frame_.axis_b;
+    };
+    if (frame_.kind.parallel) {
+      const auto tilt = [&](const Moment& now) -> Vector3 {
+        const Vector3 u = axis_of(now);
+        const Vector3 v = other_axis(now);
+        return u.cross(v) * u.dot(v);
+      };
+      Vector3 open = tilt(e_.moments[last_end]);
+      if (b > 0.0) {
+        const Vector3 axis = axis_of(e_.moments[last_end]);
+        open = ruled(tilt) + b * (torque_ - axis * axis.dot(torque_));
+      }
+      note(Kind::joint, "rad", open.norm(), 1.0, rounding);
+    }
+    if (frame_.kind.no_turn) {
+      const auto turn = [&](const Moment& now) -> Vector3 {
+        Quaternion error = JointFrame::turned_by(now, frame_.body_a) *
+                           JointFrame::turned_by(now, frame_.body_b).conjugate();
+        if (error.w() < 0.0) error.coeffs() = -error.coeffs();
+        return 2.0 * error.w() * error.vec();
+      };
+      Vector3 open = turn(e_.moments[last_end]);
+      if (b > 0.0) open = ruled(turn) - b * torque_;
+      note(Kind::joint, "rad", open.norm(), 1.0, rounding);
+    }
+    if (frame_.kind.right_angle) {
+      const auto sine = [&](const Moment& now) -> Vector3 {
+        return Vector3(axis_of(now).dot(other_axis(now)), 0.0, 0.0);
+      };
+      double open = ruled(sine).x();
+      if (b > 0.0) {
+        const Vector3 across =
+            axis_of(e_.moments[last_end]).cross(other_axis(e_.moments[last_end]));
+        open -= b * torque_.dot(across);
+      }
+      note(Kind::joint, "rad", std::abs(open), 1.0, rounding);
+    }
+  }
+
+  void check_distance() {
+    const auto stretch = [&](const Moment& now) {
+      return (frame_.anchor_a(now) - frame_.anchor_b(now)).norm() - frame_.length;
+    };
+    const double x0 = stretch(e_.moments[first_end]);
+    const double x1 = stretch(e_.moments[last_end]);
+    const Vector3 apart =
+        frame_.anchor_a(e_.moments[last_end]) - frame_.anchor_b(e_.moments[last_end]);
+    // On B towards A: > 0 pulls.
+    const double pull = force_.dot(apart.normalized());
+    if (frame_.compliance > 0.0) {
+      // What acts along the extension besides is not told apart from the rod.
+      if (coordinates_of(*joint_.definition).front().settings->acts()) return;
+      const bool one_sided = frame_.lower != 0.0 || frame_.upper != 0.0;
+      double from = x0;
+      if (frame_.lower != 0.0) from = std::max(from, 0.0);
+      if (frame_.upper != 0.0) from = std::min(from, 0.0);
+      const double damped =
+          frame_.compliance * frame_.damping * (x1 - (e_.rattle ? from : x0)) / e_.h;
+      const double asked = (e_.rattle ? 0.5 * (from + x1) : x1) + damped;
+      double off = std::abs(asked - frame_.compliance * pull);
+      if (one_sided && pull == 0.0) off = std::max(frame_.lower != 0.0 ? asked : -asked, 0.0);
+      note(Kind::joint, "m", off, std::max(size_, std::abs(asked)), rounding * e_.bodies.scale());
+      return;
+    }
+    double off = std::abs(x1);
+    if (frame_.lower != 0.0) off = std::max(x1, 0.0);
+    if (frame_.upper != 0.0) off = std::max(-x1, 0.0);
+    note(Kind::joint, "m", off, std::min(size_, std::max(frame_.length, 1e-3 * size_)),
+         rounding * e_.bodies.scale());
+    const double wrong = frame_.lower != 0.0 ? -pull : frame_.upper != 0.0 ? pull : 0.0;
+    if (coordinates_of(*joint_.definition).front().settings->acts()) return;
+    note(Kind::complementarity, "N", std::max(wrong, 0.0),
+         std::max(e_.largest_force, std::abs(pull)), 0.0);
+  }
+
+  void check_coupling() {
+    if (joint_.end.coordinates.size() < 2) return;
+    double play = 0.0;
+    double give = 0.0;
+    const bool gear = joint_.definition->type() == GearJoint::type_name;
+    double held = 0.0;
+    const Quaternion carried = JointFrame::turned_by(e_.moments[last_end], frame_.carrier);
+    if (gear) {
+      const auto& own = static_cast<const GearJoint&>(*joint_.definition);
+      play = own.backlash;
+      give = own.compliance;
+      held = torque_.dot(carried * frame_.axis_b);
+    } else {
+      const auto& own = static_cast<const RackJoint&>(*joint_.definition);
+      play = own.backlash;
+      give = own.compliance;
+      held = force_.dot(carried * frame_.axis_b);
+    }
+    const auto off_at = [&](const JointReport& report) {
+      return report.coordinates[1].value - frame_.ratio * report.coordinates[0].value;
+    };
+    const double now = off_at(joint_.end);
+    double open = std::max(std::abs(now) - 0.5 * play, 0.0);
+    if (give > 0.0) {
+      if (play > 0.0 && e_.rattle) return;  // whether the start counts depends on the side
+      const double mean = e_.rattle ? 0.5 * (now + off_at(joint_.start)) : now;
+      const double side = mean > 0.0 ? 0.5 * play : -0.5 * play;
+      open = held != 0.0 ? std::abs(mean - side + give * held) : open;
+    }
+    note(Kind::joint, gear ? "rad" : "m", open,
+         gear ? std::max(1.0, std::abs(frame_.ratio)) : size_,
+         rounding * (gear ? 1.0 : e_.bodies.scale()) *
+             (1.0 + std::abs(joint_.end.coordinates[1].value)));
+  }
+
+  [[nodiscard]] double scale_of(std::size_t k) const {
+    return joint_.end.coordinates[k].angle ? 1.0 : size_;
+  }
+  [[nodiscard]] std::string_view unit_of(std::size_t k) const {
+    return joint_.end.coordinates[k].angle ? "rad" : "m";
+  }
+
+  void check_stops(std::size_t k, const JointCoordinate& settings) {
+    if (!settings.lower && !settings.upper) return;
+    const double c = joint_.end.coordinates[k].value;
+    double over = 0.0;
+    if (settings.lower) over = std::max(over, *settings.lower - c);
+    if (settings.upper) over = std::max(over, c - *settings.upper);
+    const double give = settings.limit_compliance *
+                        (joint_.end.coordinates[k].angle ? torque_.norm() : force_.norm());
+    // An elastic one gives; by how much, the balance of momentum tells.
+    if (settings.limit_compliance > 0.0) over = std::max(over - 2.0 * give, 0.0);
+    note(Kind::joint, unit_of(k), over, scale_of(k), rounding * scale_of(k));
+  }
+
+  void check_drive(std::size_t k, const JointCoordinate& settings) {
+    if (settings.drive == CoordinateDrive::none) return;
+    const JointCoordinateReport& now = joint_.end.coordinates[k];
+    const JointCoordinateReport& before = joint_.start.coordinates[k];
+    const TimeSignal signal = settings.signal();
+    const double t0 = e_.start.time;
+    const double t1 = e_.end.time;
+    const double force = now.drive_force;
+    double most = settings.drive_amplitude;
+    for (const double v : settings.drive_values) most = std::max(most, std::abs(v));
+    if (settings.drive == CoordinateDrive::force) {
+      note(Kind::drive, now.angle ? "N m" : "N",
+           std::abs(force - signal.integral(t0, t1) / (t1 - t0)), most, rounding * most);
+      return;
+    }
+    const double limit = settings.drive_limit.value_or(std::numeric_limits<double>::infinity());
+    note(Kind::drive, now.angle ? "N m" : "N", std::max(std::abs(force) - limit, 0.0),
+         std::min(limit, 1e300), 1e-9 * std::min(limit, 1e300));
+    // What has all the force it can have is stalled, not wrong.
+    const bool stalled = std::abs(force) >= (1.0 - 1e-6) * limit;
+    if (stalled) return;
+    const double slop = rounding * (scale_of(k) + std::abs(now.value)) +
+                        1e-10 * (now.angle ? 1.0 : e_.bodies.scale());
+    if (settings.drive == CoordinateDrive::speed) {
+      const double off = now.value - before.value - signal.integral(t0, t1);
+      note(Kind::drive, unit_of(k), std::abs(off), most * e_.h, slop);
+      return;
+    }
+    const double a = settings.drive_compliance;
+    double off = now.value - signal.at(t1);
+    if (e_.rattle && a > 0.0) off = 0.5 * (off + before.value - signal.at(t0));
+    note(Kind::drive, unit_of(k), std::abs(off + a * force),
+         std::max(now.angle ? 1.0 : size_, most), slop);
+  }
+
+  /// What acts along a coordinate is its drive, its spring and its damper, friction as far as it goes, and stops that push.
+  void check_law(std::size_t k, const CoordinateSettings& entry) {
+    const JointCoordinate& settings = *entry.settings;
+    const JointCoordinateReport& now = joint_.end.coordinates[k];
+    const JointCoordinateReport& before = joint_.start.coordinates[k];
+    double acting = 0.0;
+    for (const End when : {first_end, last_end}) {
+      const Moment& moment = e_.moments[at(when)];
+      const JointReport& part = joint_.acting[at(when)];
+      const Vector3 axis = JointFrame::turned_by(moment, frame_.body_a) * frame_.axis_a;
+      if (entry.along == 1) acting += part.force.dot(axis);
+      if (entry.along == 2) acting += part.torque.dot(axis);
+      if (entry.along == 3) {
+        const Vector3 out = frame_.anchor_b(moment) - frame_.anchor_a(moment);
+        acting += part.force.dot(out.normalized());
+      }
+    }
+    const double moved = (now.value - before.value) / e_.h;
+    double damping = settings.damping;
+    if (entry.along == 3) damping = frame_.damping;
+    const double mean = e_.rattle ? 0.5 * (now.value + before.value) : now.value;
+    const double spring =
+        settings.stiffness > 0.0 ? -settings.stiffness * (mean - settings.rest) : 0.0;
+    const double expected = now.drive_force + spring - damping * moved;
+    const double rest = acting - expected;
+    const double slop = 1e-9 * scale_of(k);
+    // A stop pushes while the coordinate is at it.
+    const auto at_stop = [&](const std::optional<double>& stop, double sense) {
+      if (!stop || sense * rest <= 0.0) return false;
+      const double nearest = std::min(sense * (now.value - *stop), sense * (before.value - *stop));
+      return nearest <= slop + (settings.limit_compliance > 0.0 ? scale_of(k) * 1e-6 : 0.0);
+    };
+    const bool stopped = at_stop(settings.lower, 1.0) || at_stop(settings.upper, -1.0);
+    const double excess = std::max(std::abs(rest) - settings.friction, 0.0);
+    const double largest =
+        std::max({std::abs(acting), std::abs(now.drive_force), std::abs(spring),
+                  std::abs(damping * moved), settings.friction, now.angle ? load_ * size_ : load_});
+    note(Kind::force_law, now.angle ? "N m" : "N", stopped ? 0.0 : excess, largest,
+         rounding * 1e2 * largest);
+    // Dry friction takes energy: all of it, against what moves.
+    if (settings.friction > 0.0 && !stopped) {
+      const double speed = std::abs(moved);
+      const double crawl = 1e-6 * (now.angle ? 1.0 : size_) / std::max(e_.end.time, e_.h);
+      const double weight = speed / (speed + crawl);
+      const double along = moved > 0.0 ? rest : -rest;
+      // At its bound where it slips: rest = -friction sign(moved).
+      note(Kind::friction, now.angle ? "N m" : "N", weight * std::max(along, 0.0),
+           std::max(largest, settings.friction), 0.0);
+    }
+  }
+
+  const Evidence& e_;
+  const JointEvidence& joint_;
+  Findings& findings_;
+  JointFrame frame_;
+  double size_;
+  Vector3 force_;
+  Vector3 torque_;
+  double load_ = 0.0;
+};
+
+}  // namespace
+
+void check_joints(const Evidence& evidence, Findings& findings) {
+  for (const JointEvidence& joint : evidence.joints) {
+    if (!joint.broken) JointCheck(evidence, joint, findings).check();
+  }
+}
+
+void check_body_drives(const Evidence& evidence, Findings& findings) {
+  for (int i = 0; i < evidence.bodies.count(); ++i) {
+    const BodyProperties& body = evidence.bodies[i];
+    if (!body.prescribed()) continue;
+    const double turned = evidence.end.bodies[at(i)].angle - evidence.start.bodies[at(i)].angle;
+    const double t0 = evidence.start.time;
+    const double t1 = evidence.end.time;
+    const bool speed = body.drive == DriveKind::speed;
+    const double asked = speed ? body.drive_table.integral(t0, t1)
+                               : body.drive_table.at(t1) - body.drive_table.at(t0);
+    double most = 0.0;
+    for (const double v : body.drive_table.values) most = std::max(most, std::abs(v));
+    findings.note(Kind::drive, "rad", std::abs(turned - asked), speed ? most * evidence.h : most,
+                  1e-13 * (1.0 + std::abs(evidence.end.bodies[at(i)].angle)),
+                  [&] { return evidence.body_name(i); });
+  }
+}
+
+}  // namespace sheave::certify

@@ -1,0 +1,98 @@
+// Cable is neither made nor lost: the sum of rest lengths and stored lengths is that of time 0 and what was fed, a span gains
+// what its wheels and holes give, and nothing is shorter than 0.
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/certificate/checks.h"
+
+namespace sheave::certify {
+namespace {
+
+using Kind = CertificateItem::Kind;
+
+void check_cable(const Evidence& evidence, const CableEvidence& cable, Findings& findings) {
+  const auto whole = [&] { return "\"" + std::string(cable.name) + "\""; };
+  const CableReport& end = cable.end;
+  double shortest = 0.0;
+  double sum = 0.0;
+  double fed = 0.0;
+  double longest = 0.0;
+  const auto add = [&](double length) {
+    sum += length;
+    shortest = std::min(shortest, length);
+    longest = std::max(longest, std::abs(length));
+  };
+  if (!end.cut) {
+    for (const SpanReport& span : end.spans) add(span.rest_length);
+    for (const LinkReport& link : end.links) {
+      add(link.stored_length);
+      fed += link.fed;
+    }
+    for (const WrapReport& wrap : end.wraps) {
+      add(wrap.span.rest_length);
+      add(wrap.link.stored_length);
+    }
+    const double at_start = end.total_length - fed;
+    findings.note(Kind::length, "m", std::abs(sum - end.total_length), std::max(longest, at_start),
+                  1e-12 * longest, whole);
+  }
+  const double length = std::max(end.total_length, longest);
+  findings.note(Kind::length, "m", std::abs(end.length_error) * length, length, 1e-12 * length,
+                whole);
+  const double size = std::min(length, evidence.bodies.scale());
+  findings.note(Kind::length, "m", -shortest, size, 1e-12 * longest, whole);
+}
+
+void check_spans_of(const Evidence& evidence, const CableEvidence& cable, Findings& findings) {
+  if (cable.has_changed || cable.start.cut ||
+      cable.definition->tangent_update != TangentUpdate::iteration) {
+    return;
+  }
+  for (std::size_t k = 0; k < cable.spans.size(); ++k) {
+    const SpanEvidence& span = cable.spans[k];
+    if (!span.has_tangent || span.from.outlined || span.to.outlined) continue;
+    double passed = span.fed;
+    for (const PassEvidence& pass : cable.passes) {
+      if (at(pass.after) == k) passed += pass.slip;
+      if (at(pass.before) == k) passed -= pass.slip;
+    }
+    const double rolled = span.rest_length[last_end] - span.rest_length[first_end] - passed;
+    const double first = rim_travel(evidence, span.from, -1.0, rolled);
+    const double second = rim_travel(evidence, span.to, 1.0, rolled - first);
+    // What moves is the scale; what is slower than a size in the run so far does not count.
+    const double size = std::min(cable.free_length, evidence.bodies.scale());
+    const double moved = std::max({std::abs(first), std::abs(second), std::abs(passed)});
+    findings.note(Kind::length, "m", std::abs(rolled - first - second),
+                  std::max(moved, 1e-6 * size), 1e-12 * (size + cable.end.total_length),
+                  [&] { return span.name(); });
+  }
+}
+
+}  // namespace
+
+double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, double reported) {
+  if (side.winding == 0 || !(side.radius > 0.0)) return 0.0;
+  const Moment& start = evidence.moments[first_end];
+  const Moment& end = evidence.moments[last_end];
+  // In the wheel's own frame the contact moves by what rolls.
+  const auto own = [&](const Moment& now, const Vector3& world) -> Vector3 {
+    return now.orientation(side.body).conjugate() * world;
+  };
+  const Vector3 from = own(start, side.point[first_end] - side.center[first_end]);
+  const Vector3 to = own(end, side.point[last_end] - side.center[last_end]);
+  const Vector3 normal = own(start, side.normal[first_end]);
+  const double angle = std::atan2(normal.dot(from.cross(to)), from.dot(to));
+  const double factor = sense * side.winding * side.radius;
+  const double turns = std::round((reported / factor - angle) / (2.0 * pi));
+  return factor * (angle + 2.0 * pi * turns);
+}
+
+void check_lengths(const Evidence& evidence, Findings& findings) {
+  for (const CableEvidence& cable : evidence.cables) {
+    check_cable(evidence, cable, findings);
+    check_spans_of(evidence, cable, findings);
+  }
+}
+
+}  // namespace sheave::certify

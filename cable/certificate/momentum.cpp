@@ -1,0 +1,396 @@
+// Each body's substep again, by the integrator's own rule (engine/integrators), from the state at its start with the loads and
+// the reported forces. Where that ends elsewhere than the state says, forces are wrong or missing: a difference dx of the
+// position is the force m dx / h^2, one dv of the velocity m dv / h.
+//
+// Drag at the rate c [1/s] is exact: in a time t it leaves e^(-ct) of a velocity and (1 - e^(-ct)) / ct of an impulse.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/LU>
+
+#include "cable/certificate/checks.h"
+
+namespace sheave::certify {
+namespace {
+
+/// What drag leaves of a velocity, and of a steady impulse.
+struct Drag {
+  double keep = 1.0;
+  double share = 1.0;
+  Drag(double rate, double time) {
+    const double x = rate * time;
+    if (!(x > 0.0)) return;
+    keep = std::exp(-x);
+    share = -std::expm1(-x) / x;
+  }
+};
+
+struct Replay {
+  Vector3 position = Vector3::Zero();
+  Quaternion orientation = Quaternion::Identity();
+  Vector3 velocity = Vector3::Zero();
+  Vector3 spin = Vector3::Zero();  ///< angular velocity
+  double angle = 0.0;              ///< turned about the axis
+  bool has_angle = false;
+};
+
+class Player {
+ public:
+  explicit Player(const Evidence& evidence)
+      : e_(evidence), bodies_(evidence.bodies), first_share_(evidence.rattle ? 0.5 : 1.0) {}
+
+  void translate(int i, Replay& replay) const {
+    const BodyProperties& body = bodies_[i];
+    const Balance& balance = e_.balances[at(i)];
+    const BodyState& from = e_.start.bodies[at(i)];
+    const double first = first_share_ * e_.h;
+    const Drag drag(bodies_.definition(i).damping / body.mass, first);
+    const Vector3 load = body.mass * bodies_.gravity() + load_force(i);
+    const double yield = drag.share / body.mass;
+    // The first half of `rattle` acts for all of the way; of `xpbd` all forces do.
+    const Vector3& pushed = balance.force[e_.rattle ? first_end : last_end];
+    const Vector3 v =
+        drag.keep * from.velocity + allowed(body, yield * (first * load + e_.h * pushed));
+    replay.position = from.position + e_.h * v;
+    replay.velocity = v;
+    if (!e_.rattle) return;
+    // The second half starts from how the body has really moved.
+    const Vector3 moved = (e_.end.bodies[at(i)].position - from.position) / e_.h;
+    replay.velocity =
+        drag.keep * moved + allowed(body, yield * (first * load + e_.h * balance.force[last_end]));
+  }
+
+  /// About the axis that the body keeps.
+  void spin(int i, Replay& replay) const {
+    const BodyProperties& body = bodies_[i];
+    const Balance& balance = e_.balances[at(i)];
+    const Moment& start = e_.moments[first_end];
+    const Moment& end = e_.moments[last_end];
+    const bool mounted = body.mount >= 0;
+    const Vector3 axis0 = mounted ? Vector3(start.orientation(body.mount) * body.axis) : body.axis;
+    const Vector3 axis1 = mounted ? Vector3(end.orientation(body.mount) * body.axis) : body.axis;
+    const double first = first_share_ * e_.h;
+    const Drag drag(bodies_.definition(i).angular_damping / body.axis_inertia, first);
+    const double yield = drag.share / body.axis_inertia;
+    const double t0 = e_.start.time;
+    const double t1 = e_.end.time;
+    const double middle = t0 + first_share_ * (t1 - t0);
+    const auto driven = [&](double from, double to) {
+      return body.drive == DriveKind::torque ? body.drive_table.integral(from, to) : 0.0;
+    };
+    const double s0 = axis0.dot(e_.start.bodies[at(i)].angular_velocity);
+    const double pushed = e_.rattle ? axis0.dot(balance.torque[first_end])
+                                    : axis0.dot(axis1) * axis1.dot(balance.torque[last_end]);
+    double s = drag.keep * s0 + yield * (first * axis0.dot(load_torque(i, first_end)) +
+                                         driven(t0, middle) + e_.h * pushed);
+    replay.angle = e_.h * s;
+    replay.has_angle = !mounted;
+    if (e_.rattle) {
+      const double turned_at =
+          mounted ? s : (e_.end.bodies[at(i)].angle - e_.start.bodies[at(i)].angle) / e_.h;
+      s = drag.keep * turned_at +
+          yield * (first * axis1.dot(load_torque(i, last_end)) + driven(middle, t1) +
+                   e_.h * axis1.dot(balance.torque[last_end]));
+    }
+    replay.spin = s * axis1;
+  }
+
+  void rotate(int i, Replay& replay) const {
+    const BodyProperties& body = bodies_[i];
+    if (body.isotropic && body.mounted_rotors.empty()) {
+      rotate_ball(i, replay);
+    } else {
+      rotate_free(i, replay);
+    }
+  }
+
+  [[nodiscard]] Vector3 load_force(int i) const {
+    Vector3 force = bodies_.definition(i).force;
+    for (const int r : bodies_[i].mounted_rotors) force += bodies_.definition(r).force;
+    return force;
+  }
+  [[nodiscard]] Vector3 load_torque(int i, End when) const {
+    return torque_at(i, e_.moments[at(when)].orientation(i));
+  }
+
+ private:
+  [[nodiscard]] Vector3 torque_at(int i, const Quaternion& orientation) const {
+    Vector3 torque = bodies_.definition(i).torque;
+    for (const int r : bodies_[i].mounted_rotors) {
+      const BodyDef& rotor = bodies_.definition(r);
+      const Vector3 axle = orientation * bodies_[r].axis;
+      torque += (orientation * bodies_[r].mount_position).cross(rotor.force) + rotor.torque -
+                axle * axle.dot(rotor.torque);
+    }
+    return torque;
+  }
+  static Vector3 allowed(const BodyProperties& body, const Vector3& v) {
+    const Vector3 along = body.axis * body.axis.dot(v);
+    if (body.mobility == Mobility::slider) return along;
+    return body.mobility == Mobility::planar ? Vector3(v - along) : v;
+  }
+  static Matrix3 in_world(const Matrix3& own, const Quaternion& orientation) {
+    const Matrix3 rotation = orientation.toRotationMatrix();
+    return rotation * own * rotation.transpose();
+  }
+
+  void rotate_ball(int i, Replay& replay) const {
+    const BodyProperties& body = bodies_[i];
+    const Balance& balance = e_.balances[at(i)];
+    const BodyState& from = e_.start.bodies[at(i)];
+    const double inverse = body.inverse_inertia(0, 0);
+    const double first = first_share_ * e_.h;
+    const Drag drag(bodies_.definition(i).angular_damping * inverse, first);
+    const Vector3& pushed = balance.torque[e_.rattle ? first_end : last_end];
+    const Vector3 free = drag.keep * from.angular_velocity +
+                         drag.share * first * inverse * load_torque(i, first_end);
+    const Vector3 change = drag.share * e_.h * inverse * pushed;
+    replay.orientation = turned(turned(from.orientation, e_.h * free), e_.h * change);
+    replay.spin = free + change;
+    if (!e_.rattle) return;
+    replay.spin =
+        drag.keep * replay.spin +
+        drag.share * inverse * (first * load_torque(i, last_end) + e_.h * balance.torque[last_end]);
+  }
+
+  /// Spin angular momentum of the rotors that the body carries, at one end.
+  [[nodiscard]] Vector3 rotors(int i, const Quaternion& orientation, End when) const {
+    Vector3 sum = Vector3::Zero();
+    for (const int r : bodies_[i].mounted_rotors) {
+      const Vector3 axle = e_.moments[at(when)].orientation(i) * bodies_[r].axis;
+      const BodyState& rotor = (*e_.moments[at(when)].states)[at(r)];
+      sum += bodies_[r].axis_inertia * axle.dot(rotor.angular_velocity) *
+             (orientation * bodies_[r].axis);
+    }
+    return sum;
+  }
+  [[nodiscard]] Vector3 damped(int i, const Matrix3& inertia, const Vector3& w) const {
+    const double c = 0.5 * first_share_ * e_.h * bodies_.definition(i).angular_damping;
+    if (c == 0.0) return w;
+    return (inertia + c * Matrix3::Identity()).inverse() * (inertia * w - c * w);
+  }
+
+  void rotate_free(int i, Replay& replay) const {
+    const BodyProperties& body = bodies_[i];
+    const Balance& balance = e_.balances[at(i)];
+    const BodyState& from = e_.start.bodies[at(i)];
+    const double h = e_.h;
+    const Vector3 torque = load_torque(i, first_end);
+    const Matrix3 inertia0 = in_world(body.inertia, from.orientation);
+    const Vector3 damped_spin = damped(i, inertia0, from.angular_velocity);
+    const Vector3 momentum = inertia0 * damped_spin + rotors(i, from.orientation, first_end);
+    Quaternion free;
+    if (body.symmetry_axis && body.mounted_rotors.empty()) {
+      // Precession about the momentum, spin about the axis of symmetry.
+      const Vector3& own = *body.symmetry_axis;
+      const double along = own.dot(body.inverse_inertia * own);
+      const double across = 0.5 * (body.inverse_inertia.trace() - along);
+      const Vector3 half = momentum + 0.5 * h * torque;
+      const Vector3 axis = from.orientation * own;
+      free = turned(turned(from.orientation, h * (along - across) * half.dot(axis) * axis),
+                    h * across * half);
+    } else {
+      const Quaternion half = turned(from.orientation, 0.5 * h * damped_spin);
+      const Vector3 w = in_world(body.inverse_inertia, half) *
+                        (momentum + 0.5 * h * torque - rotors(i, half, first_end));
+      free = turned(from.orientation, h * w);
+    }
+    const Matrix3 yield = in_world(body.inverse_inertia, e_.rattle ? from.orientation : free);
+    const Vector3& pushed = balance.torque[e_.rattle ? first_end : last_end];
+    const Vector3 change = h * (yield * pushed);
+    replay.orientation = turned(free, h * change);
+    if (!e_.rattle) {
+      replay.spin = in_world(body.inverse_inertia, free) *
+                        (momentum + h * torque - rotors(i, free, first_end)) +
+                    change;
+      return;
+    }
+    // Angular momentum is kept from the first half on, then the second half acts at the end; what the rotors have got in
+    // between is theirs.
+    const Quaternion& to = e_.end.bodies[at(i)].orientation;
+    const Matrix3 inertia1 = in_world(body.inertia, to);
+    Vector3 total = momentum + 0.5 * h * torque + h * pushed;
+    Vector3 spun = Vector3::Zero();
+    for (const int r : body.mounted_rotors) {
+      const Vector3 axis0 = from.orientation * bodies_[r].axis;
+      const double gained = h * axis0.dot(e_.balances[at(r)].torque[first_end]) +
+                            0.5 * h * axis0.dot(bodies_.definition(r).torque);
+      const double own =
+          bodies_[r].axis_inertia * axis0.dot(e_.start.bodies[at(r)].angular_velocity);
+      const double by_loads = 0.5 * h * axis0.dot(bodies_.definition(r).torque);
+      total += (gained - by_loads) * axis0;
+      spun += (own + gained - by_loads) * (to * bodies_[r].axis);
+    }
+    const Vector3 kept = in_world(body.inverse_inertia, to) * (total - spun);
+    replay.spin = damped(i, inertia1, kept) +
+                  in_world(body.inverse_inertia, to) *
+                      (0.5 * h * load_torque(i, last_end) + h * balance.torque[last_end]);
+  }
+
+  const Evidence& e_;
+  const BodySet& bodies_;
+  double first_share_;
+};
+
+/// Rotation vector from one orientation to another, for small ones.
+Vector3 difference(const Quaternion& to, const Quaternion& from) {
+  Quaternion change = to * from.conjugate();
+  if (change.w() < 0.0) change.coeffs() = -change.coeffs();
+  return 2.0 * change.vec();
+}
+
+constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+
+class MomentumCheck {
+ public:
+  MomentumCheck(const Evidence& evidence, Findings& findings)
+      : e_(evidence), findings_(findings), player_(evidence) {
+    for (const ColliderDef& collider : evidence.model.colliders) {
+      bounces_ = bounces_ || collider.restitution > 0.0;
+    }
+    bounces_ = bounces_ && !evidence.rattle;
+  }
+
+  /// Returns the work of what is off [J].
+  double check(int i) {
+    const BodyProperties& body = e_.bodies[i];
+    if (e_.balances[at(i)].unknown || body.prescribed()) return 0.0;
+    switch (body.mobility) {
+      case Mobility::fixed:
+      case Mobility::kinematic:
+        return 0.0;
+      case Mobility::free:
+      case Mobility::planar:
+      case Mobility::slider:
+        break;
+      case Mobility::rotor:
+        if (body.axis_inertia > 0.0) return check_spin(i);
+        check_massless(i);
+        return 0.0;
+    }
+    double leak = check_way(i);
+    if (body.mobility == Mobility::planar) leak += check_spin(i);
+    if (body.mobility == Mobility::free) leak += check_rotation(i);
+    return leak;
+  }
+
+ private:
+  double check_way(int i) {
+    const double h = e_.h;
+    const double mass = e_.bodies[i].mass;
+    const BodyState& from = e_.start.bodies[at(i)];
+    const BodyState& to = e_.end.bodies[at(i)];
+    Replay replay;
+    player_.translate(i, replay);
+    const Vector3 missing = (to.velocity - replay.velocity) * (mass / h);
+    const Vector3 placed = (to.position - replay.position) * (mass / (h * h));
+    // A bounce has its velocity from elsewhere than its way.
+    const double value = std::max(missing.norm(), bounces_ ? 0.0 : placed.norm());
+    const Balance& balance = e_.balances[at(i)];
+    const double largest =
+        std::max({balance.largest_force, mass * e_.bodies.gravity().norm(),
+                  player_.load_force(i).norm(), mass * (to.velocity - from.velocity).norm() / h});
+    const double eps = rounding * mass *
+                       ((to.position.norm() + e_.bodies.scale()) / (h * h) +
+                        (from.velocity.norm() + to.velocity.norm()) / h);
+    findings_.note(CertificateItem::Kind::momentum, "N", value, largest, eps,
+                   [&] { return e_.body_name(i); });
+    return h * missing.dot(0.5 * (from.velocity + to.velocity));
+  }
+
+  /// Forces alone, through the centre, still make torques by what rounding leaves of their arms: the least that a torque is
+  /// measured by.
+  [[nodiscard]] double lever(int i) const {
+    const double size = e_.size_of(i);
+    return 0.1 * size * e_.balances[at(i)].largest_force;
+  }
+
+  double check_spin(int i) {
+    const double h = e_.h;
+    const BodyProperties& body = e_.bodies[i];
+    const double inertia = body.axis_inertia;
+    Replay replay;
+    player_.spin(i, replay);
+    const Vector3 axis = body.mount >= 0
+                             ? Vector3(e_.moments[last_end].orientation(body.mount) * body.axis)
+                             : body.axis;
+    const BodyState& from = e_.start.bodies[at(i)];
+    const BodyState& to = e_.end.bodies[at(i)];
+    const double s1 = axis.dot(to.angular_velocity);
+    const double s0 = from.angular_velocity.norm();
+    const double missing = (s1 - axis.dot(replay.spin)) * inertia / h;
+    const double placed = replay.has_angle && !bounces_
+                              ? (to.angle - from.angle - replay.angle) * inertia / (h * h)
+                              : 0.0;
+    const double driven =
+        body.drive == DriveKind::torque ? std::abs(body.drive_table.at(e_.end.time)) : 0.0;
+    const double largest = std::max({e_.balances[at(i)].largest_torque, lever(i), driven,
+                                     e_.bodies.definition(i).torque.norm(),
+                                     inertia * std::abs(std::abs(s1) - s0) / h});
+    const double eps =
+        rounding * inertia * ((1.0 + std::abs(to.angle)) / (h * h) + (std::abs(s1) + s0) / h);
+    findings_.note(CertificateItem::Kind::angular_momentum, "N m",
+                   std::max(std::abs(missing), std::abs(placed)), largest, eps,
+                   [&] { return e_.body_name(i); });
+    return h * missing * 0.5 * (s1 + axis.dot(from.angular_velocity));
+  }
+
+  double check_rotation(int i) {
+    const double h = e_.h;
+    const BodyProperties& body = e_.bodies[i];
+    const BodyState& from = e_.start.bodies[at(i)];
+    const BodyState& to = e_.end.bodies[at(i)];
+    Replay replay;
+    player_.rotate(i, replay);
+    const Matrix3 rotation = to.orientation.toRotationMatrix();
+    const auto torque_of = [&](const Vector3& w) -> Vector3 {
+      return rotation * (body.inertia * (rotation.transpose() * w));
+    };
+    const Vector3 missing = torque_of(to.angular_velocity - replay.spin) / h;
+    const Vector3 placed = torque_of(difference(to.orientation, replay.orientation)) / (h * h);
+    const double moment = body.inertia.norm();
+    const double speed = from.angular_velocity.norm() + to.angular_velocity.norm();
+    const double gyroscopic = from.angular_velocity.cross(torque_of(from.angular_velocity)).norm();
+    const double largest =
+        std::max({e_.balances[at(i)].largest_torque, lever(i), gyroscopic,
+                  e_.bodies.definition(i).torque.norm(),
+                  torque_of(to.angular_velocity - from.angular_velocity).norm() / h});
+    const double eps = rounding * moment * (1.0 / (h * h) + speed / h);
+    findings_.note(CertificateItem::Kind::angular_momentum, "N m",
+                   std::max(missing.norm(), bounces_ ? 0.0 : placed.norm()), largest, eps,
+                   [&] { return e_.body_name(i); });
+    return h * missing.dot(0.5 * (from.angular_velocity + to.angular_velocity));
+  }
+
+  /// Nothing may be left to turn a wheel without inertia.
+  void check_massless(int i) {
+    const Balance& balance = e_.balances[at(i)];
+    for (const End when : {first_end, last_end}) {
+      const Vector3 axis =
+          e_.bodies[i].mount >= 0
+              ? Vector3(e_.moments[at(when)].orientation(e_.bodies[i].mount) * e_.bodies[i].axis)
+              : e_.bodies[i].axis;
+      findings_.note(CertificateItem::Kind::angular_momentum, "N m",
+                     std::abs(axis.dot(balance.torque[at(when)])), balance.largest_torque, 0.0,
+                     [&] { return e_.body_name(i); });
+    }
+  }
+
+  const Evidence& e_;
+  Findings& findings_;
+  Player player_;
+  bool bounces_ = false;
+};
+
+}  // namespace
+
+std::vector<double> check_momentum(const Evidence& evidence, Findings& findings) {
+  MomentumCheck check(evidence, findings);
+  std::vector<double> leaks(at(evidence.bodies.count()), 0.0);
+  for (int i = 0; i < evidence.bodies.count(); ++i) leaks[at(i)] = check.check(i);
+  return leaks;
+}
+
+}  // namespace sheave::certify

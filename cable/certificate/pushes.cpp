@@ -1,0 +1,142 @@
+#include "cable/certificate/pushes.h"
+
+#include "cable/certificate/joint_frames.h"
+#include "cable/links/pinhole.h"
+#include "cable/links/rolling.h"
+
+namespace sheave::certify {
+
+SpanPushes pushes_of(const SpanEvidence& span, End when, bool guided) {
+  SpanPushes result;
+  const auto add = [&](int body, const Vector3& point, const Vector3& force) {
+    result.all[at(result.count++)] = {body, point, span.force[at(when)] * force};
+  };
+  const Vector3& u = span.direction[at(when)];
+  const Vector3& a1 = span.from.point[at(when)];
+  const Vector3& a2 = span.to.point[at(when)];
+  add(span.from.body, a1, u);
+  add(span.to.body, a2, -u);
+  if (!guided || span.from.outlined || span.to.outlined) return result;
+
+  // y of the head of the declaration; a point has no angle.
+  struct Rim {
+    double r;
+    Vector3 e = Vector3::Zero();
+    Vector3 t = Vector3::Zero();
+    double k = 0.0;
+  };
+  const auto rim = [&](const SpanSide& side, double sense) {
+    Rim own{side.radius};
+    if (!(side.radius > 0.0)) return own;
+    own.e = (side.point[at(when)] - side.center[at(when)]) / side.radius;
+    own.t = side.normal[at(when)].cross(own.e);
+    own.k = sense * side.radius * (side.winding - u.dot(own.t));
+    return own;
+  };
+  const Rim first = rim(span.from, -1.0);
+  const Rim second = rim(span.to, 1.0);
+  const double negligible = 1e-13 * (first.r + second.r);
+  if (std::abs(first.k) <= negligible && std::abs(second.k) <= negligible) return result;
+  const double m11 = first.r > 0.0 ? first.t.dot(a2 - span.from.center[at(when)]) : 1.0;
+  const double m22 = second.r > 0.0 ? second.t.dot(a1 - span.to.center[at(when)]) : 1.0;
+  const double m12 = second.r * first.e.dot(second.t);
+  const double m21 = first.r * second.e.dot(first.t);
+  const double determinant = m11 * m22 - m12 * m21;
+  if (determinant == 0.0) return result;
+  const double y1 = (m22 * first.k - m21 * second.k) / determinant;
+  const double y2 = (m11 * second.k - m12 * first.k) / determinant;
+  add(span.to.body, a2, -y1 * first.e);
+  add(span.from.body, a2, y1 * first.e);
+  add(span.from.body, a1, -y2 * second.e);
+  add(span.to.body, a1, y2 * second.e);
+  return result;
+}
+
+JointPushes pushes_of(const Evidence& evidence, const JointEvidence& joint, End when) {
+  JointPushes result;
+  const JointReport& report = joint.acting[at(when)];
+  if (is_zero(report.force) && is_zero(report.torque)) return result;
+  const Moment& now = evidence.moments[at(when)];
+  const JointFrame frame = frame_of(evidence.bodies, *joint.definition);
+  const Vector3 at_b = frame.anchor_b(now);
+  if (!frame.kind.coupling) {
+    result.push_back({frame.body_b, at_b, report.force, report.torque});
+    // Locks of points act at either anchor; what slides is held where B's anchor is.
+    const bool own_point = frame.kind.meets;
+    const Vector3 at_a = own_point ? frame.anchor_a(now) : at_b;
+    result.push_back({frame.body_a, at_a, -report.force, -report.torque});
+    return result;
+  }
+  // The factor of the coupling from what it does to body_b; virtual work gives the rest:
+  // C = c_b - ratio c_a, so body_a gets -ratio times it about its axis, and the carrier what is left of both.
+  const Quaternion carried = JointFrame::turned_by(now, frame.carrier);
+  const Vector3 axis_a = carried * frame.axis_a;
+  const Vector3 axis_b = carried * frame.axis_b;
+  const bool gear = joint.definition->type() == "gear";
+  const double factor = gear ? report.torque.dot(axis_b) : report.force.dot(axis_b);
+  const Vector3 torque_a = -frame.ratio * factor * axis_a;
+  const bool has_tilted =
+      gear && (report.torque - factor * axis_b).norm() > 1e-9 * std::abs(factor);
+  if (gear) {
+    result.push_back({frame.body_b, now.center(frame.body_b), Vector3::Zero(), report.torque});
+    result.push_back({frame.carrier, now.center(frame.carrier), Vector3::Zero(),
+                      -report.torque - torque_a, has_tilted});
+  } else {
+    result.push_back({frame.body_b, at_b, report.force, report.torque});
+    result.push_back({frame.carrier, at_b, -report.force, -report.torque - torque_a});
+  }
+  result.push_back({frame.body_a, now.center(frame.body_a), Vector3::Zero(), torque_a, has_tilted});
+  return result;
+}
+
+namespace {
+
+/// Angle by which the cable is wound between its spans at a link [rad].
+double angle_at(const SpanEvidence& in, const SpanEvidence& out, const LinkReport& link, End when) {
+  const Vector3& u = in.direction[at(when)];
+  const Vector3& v = out.direction[at(when)];
+  if (link.winding == 0) return std::atan2(u.cross(v).norm(), u.dot(v));
+  Vector3 from = u;
+  Vector3 to = v;
+  if (link.radius > 0.0) {
+    from = in.to.point[at(when)] - link.center;
+    to = out.from.point[at(when)] - link.center;
+  }
+  const Vector3 normal = link.winding * link.normal;
+  const double angle =
+      std::atan2(normal.dot(from.cross(to)), from.dot(to) - normal.dot(from) * normal.dot(to));
+  // Whole turns from how much cable there is.
+  return std::max(0.0, angle + 2.0 * pi * std::round((link.wrap_angle - angle) / (2.0 * pi)));
+}
+
+}  // namespace
+
+void describe_pass(const Evidence& evidence, const CableEvidence& cable, const LinkReport& first,
+                   const LinkReport& second, PassEvidence& pass) {
+  const int body = evidence.bodies.index(first.body);
+  const bool wheel = first.winding != 0;
+  pass.massless = wheel && body < evidence.bodies.count() && evidence.bodies[body].massless();
+  pass.passes = pass.massless;
+  if (pass.link < 0) {
+    pass.passes = true;
+    pass.friction = cable.definition->wrap_friction;
+  } else {
+    const LinkDef& link = *cable.definition->links[at(pass.link)];
+    if (const auto* hole = dynamic_cast<const PinholeLink*>(&link)) {
+      pass.passes = true;
+      pass.friction = hole->friction;
+    }
+    const auto* rolling = dynamic_cast<const RollingLink*>(&link);
+    if (rolling != nullptr && rolling->friction) {
+      pass.passes = true;
+      pass.friction = *rolling->friction;
+    }
+  }
+  if (pass.massless) pass.friction = 0.0;
+  const SpanEvidence& in = cable.spans[at(pass.before)];
+  const SpanEvidence& out = cable.spans[at(pass.after)];
+  pass.wrap_angle =
+      std::max(angle_at(in, out, first, first_end), angle_at(in, out, second, last_end));
+}
+
+}  // namespace sheave::certify

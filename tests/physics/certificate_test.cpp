@@ -1,0 +1,192 @@
+// The certificate finds nothing where numbers are right, to what solvers leave, and something where a solver has not
+// converged. That it sees faults of the code itself is shown by tools/mutation-table.
+
+#include "cable/certificate.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cable/links/spool.h"
+#include "engine/joints/hinge.h"
+#include "tests/support/builders.h"
+
+namespace sheave::test {
+namespace {
+
+using Kind = CertificateItem::Kind;
+
+Certificate certify(Simulation& simulation, double time) {
+  Certificate all;
+  while (simulation.world.state().time < time - 1e-9) {
+    EXPECT_TRUE(simulation.world.step().ok());
+    const auto one = simulation.certificate();
+    if (one) all.merge(*one);
+  }
+  return all;
+}
+
+StepSettings exact(IntegratorKind integrator) {
+  StepSettings step = settings(1.0 / 60.0, 4, 20);
+  step.solver = SolverKind::direct;
+  step.integrator = integrator;
+  return step;
+}
+
+std::string worst_of(const Certificate& certificate) {
+  return certificate.worst() == nullptr ? "nothing checked" : certificate.worst()->sentence();
+}
+
+class CertificateOf : public testing::TestWithParam<IntegratorKind> {};
+
+// The direct solver ends when no row is violated by 1e-10 of the scene, 5 m here: a force of m 5e-10 m / h^2 with h = 1/240 s
+// is 3e-6 m g. Tensions are as exact.
+TEST_P(CertificateOf, AtwoodIsWhatTheSolverLeaves) {
+  Machine machine = Atwood{}.machine();
+  machine.model.step = exact(GetParam());
+  Simulation simulation = start(machine);
+  const Certificate all = certify(simulation, 0.5);
+  EXPECT_EQ(all.substeps, 30);
+  EXPECT_TRUE(all.clean(1e-5)) << worst_of(all);
+  for (const Kind kind : {Kind::momentum, Kind::angular_momentum, Kind::span, Kind::energy,
+                          Kind::length, Kind::complementarity}) {
+    EXPECT_NE(all.find(kind), nullptr);
+  }
+  EXPECT_EQ(all.find(Kind::joint), nullptr);
+}
+
+TEST_P(CertificateOf, BlockAndTackle) {
+  Tackle tackle;
+  tackle.strands = 6;
+  Machine machine = tackle.machine();
+  machine.model.step = exact(GetParam());
+  Simulation simulation = start(machine);
+  const Certificate all = certify(simulation, 0.4);
+  EXPECT_TRUE(all.clean(1e-4)) << worst_of(all);
+}
+
+// A free body without forces: what is left of its balance is rounding.
+TEST_P(CertificateOf, TumblingBody) {
+  Machine machine;
+  machine.model.step = exact(GetParam());
+  BodyDef body = lump("lump", {1, 2, 3}, 2.0);
+  body.angular_velocity = {1, 8, 2};
+  body.velocity = {1, 0, 0};
+  machine.model.add(body);
+  Simulation simulation = start(machine);
+  const Certificate all = certify(simulation, 1.0);
+  EXPECT_TRUE(all.clean(1e-9)) << worst_of(all);
+}
+
+TEST_P(CertificateOf, DrivenHinge) {
+  Machine machine;
+  machine.model.gravity = down;
+  machine.model.step = exact(GetParam());
+  const BodyId arm = machine.model.add(lump("arm", {0.3, 0, 0}, 2.0));
+  auto hinge = std::make_shared<HingeJoint>();
+  hinge->name = "axle";
+  hinge->body_b = arm;
+  hinge->angle.drive = CoordinateDrive::speed;
+  hinge->angle.drive_times = {0.0, 0.2};
+  hinge->angle.drive_values = {0.0, 2.0};
+  machine.model.joints.push_back(hinge);
+  Simulation simulation = start(machine);
+  const Certificate all = certify(simulation, 0.5);
+  EXPECT_TRUE(all.clean(1e-5)) << worst_of(all);
+  EXPECT_NE(all.find(Kind::drive), nullptr);
+  EXPECT_NE(all.find(Kind::joint), nullptr);
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, CertificateOf,
+                         testing::Values(IntegratorKind::xpbd, IntegratorKind::rattle),
+                         [](const auto& info) {
+                           return std::string(
+                               integrator_names[static_cast<std::size_t>(info.param)]);
+                         });
+
+// 31 wheels are more than one sweep can carry a tension over: 1 + 2 kg move, the middle knows nothing of it.
+TEST(Certificate, SeesASolverThatHasNotConverged) {
+  Machine machine = wheel_train(31, 1.0, 2.0, 0.25, 0.05);
+  machine.model.step = settings(1.0 / 60.0, 1, 1);
+  Simulation simulation = start(machine);
+  const Certificate all = certify(simulation, 0.2);
+  EXPECT_FALSE(all.clean());
+  ASSERT_NE(all.worst(), nullptr);
+  EXPECT_THAT(all.worst()->advice, testing::HasSubstr("direct"));
+  machine.model.step = exact(IntegratorKind::xpbd);
+  simulation = start(machine);
+  const Certificate good = certify(simulation, 0.2);
+  EXPECT_TRUE(good.clean()) << worst_of(good);
+  EXPECT_THAT(good.worst()->advice, testing::Not(testing::HasSubstr("\"direct\"")));
+}
+
+TEST(Certificate, NeedsAStep) {
+  Simulation simulation = start(Atwood{}.machine());
+  EXPECT_FALSE(simulation.certificate().has_value());
+  const State state = simulation.world.state();
+  simulation.world.step();
+  EXPECT_TRUE(simulation.certificate().has_value());
+  ASSERT_TRUE(simulation.world.restore(state).empty());
+  EXPECT_FALSE(simulation.certificate().has_value());
+  simulation.world.step();
+  EXPECT_TRUE(simulation.certificate().has_value());
+}
+
+// Asking changes nothing.
+TEST(Certificate, LeavesTheStateAlone) {
+  Simulation asked = start(Atwood{}.machine());
+  Simulation silent = start(Atwood{}.machine());
+  for (int i = 0; i < 20; ++i) {
+    asked.world.step();
+    silent.world.step();
+    ASSERT_TRUE(asked.certificate().has_value());
+  }
+  EXPECT_EQ(hash(asked.world.state()), hash(silent.world.state()));
+}
+
+TEST(Certificate, MergeKeepsTheWorstOfEachKind) {
+  const auto item = [](Kind kind, double relative) {
+    CertificateItem result;
+    result.kind = kind;
+    result.relative = relative;
+    return result;
+  };
+  Certificate all{{item(Kind::span, 0.1)}, 1};
+  all.merge({{item(Kind::momentum, 0.2), item(Kind::span, 0.05)}, 1});
+  all.merge({{item(Kind::span, 0.3), item(Kind::length, 0.0)}, 2});
+  ASSERT_EQ(all.items.size(), 3U);
+  EXPECT_EQ(all.substeps, 4);
+  EXPECT_EQ(all.items[0].kind, Kind::momentum);
+  EXPECT_EQ(all.items[1].relative, 0.3);
+  EXPECT_EQ(all.worst()->kind, Kind::span);
+  EXPECT_TRUE(all.clean(0.3));
+  EXPECT_FALSE(all.clean(0.29));
+}
+
+TEST(CertificateSchedule, ChecksTheFirstAndTheLastStepAndEveryNth) {
+  Machine machine = Atwood{}.machine();
+  const Simulation simulation = start(machine);
+  CertificateSchedule schedule(simulation, 0.02);
+  ASSERT_GT(schedule.stride(), 10);
+  std::vector<int> checked;
+  const int steps = static_cast<int>(5 * schedule.stride());
+  for (int i = 1; i <= steps; ++i) {
+    if (schedule.is_due(i == steps)) checked.push_back(i);
+  }
+  EXPECT_EQ(checked.front(), 1);
+  EXPECT_EQ(checked.back(), steps);
+  // Three at the beginning, the last, and no more than the share allows in between.
+  EXPECT_LE(checked.size(), 3U + 1U + 5U);
+  EXPECT_GE(checked.size(), 3U + 1U + 2U);
+}
+
+TEST(CertificateSchedule, EventsAreCheckedWhileTheyAreAffordable) {
+  const Simulation simulation = start(Atwood{}.machine());
+  CertificateSchedule schedule(simulation, 0.02);
+  const auto steps = static_cast<std::size_t>(20 * schedule.stride());
+  std::size_t checked = 0;
+  for (std::size_t i = 0; i < steps; ++i) checked += schedule.is_due(false, i) ? 1 : 0;
+  EXPECT_LE(checked, 3U + 21U);
+}
+
+}  // namespace
+}  // namespace sheave::test
