@@ -1,0 +1,157 @@
+"""The faults of tools/mutation-table, and the scenes that are run with them."""
+
+from dataclasses import dataclass
+
+
+@dataclass
+class Fault:
+    name: str
+    what: str  # as a sentence's end: what has been changed
+    changes: list  # (file, old text, new text); the old text occurs once
+    units: list  # translation units that have it
+    why_unseen: str = ""
+
+
+def one(name, what, file, old, new, units=None, why=""):
+    return Fault(name, what, [(file, old, new)], units or [file], why)
+
+
+SPAN = ["cable/span_row.cpp"]
+JOINTS = [f"engine/joints/{name}.cpp" for name in
+          ("ball", "cylindrical", "distance", "fixed", "gear", "hinge", "plane", "rack", "slider", "universal")]
+
+FAULTS = [
+    # Spans.
+    one("span-gradient", "a span pulls its second end with 0.9 of its first end's force", "cable/span_planar.h",
+        "add_planar_force(substep, setup, second, -setup.second_radius, span.end, -span.direction, row);",
+        "add_planar_force(substep, setup, second, -0.9 * setup.second_radius, span.end, -0.9 * span.direction, row);",
+        SPAN),
+    one("wheel-arm", "the arm of a span on its first wheel is 5 % short", "cable/span_planar.h",
+        "add_planar_force(substep, setup, first, setup.first_radius, span.start,",
+        "add_planar_force(substep, setup, first, 0.95 * setup.first_radius, span.start,", SPAN),
+    one("transport-first", "no transport at a span's first end", "cable/span_planar.h",
+        "transport.from_first = -setup.first_radius * own;", "transport.from_first = 0.0 * own;", SPAN),
+    one("transport-second", "transport at a span's second end with the wrong sign", "cable/span_planar.h",
+        "transport.from_second = setup.second_radius * own;", "transport.from_second = -setup.second_radius * own;",
+        SPAN),
+    one("transport-share", "transport 3 % too small at both ends", "cable/span_planar.h",
+        "const double turn = unwrapped(\n", "const double turn = 0.97 * unwrapped(\n", SPAN),
+    one("body-turn", "the turn of the second wheel counts 1.05 times", "cable/span_planar.h",
+        "const double own = turn - dot(setup.normal, substep.moving[at(second.body)].turn);",
+        "const double own = turn - 1.05 * dot(setup.normal, substep.moving[at(second.body)].turn);", SPAN),
+    one("tangent-side", "tangents of crossing wheels with the wrong sign of a radius", "cable/span_geometry.h",
+        "const double difference = signed_radius2 - signed_radius1;",
+        "const double difference = signed_radius2 + signed_radius1;", SPAN + ["cable/span_geometry.cpp"]),
+    one("skew-guides", "no guiding forces between skew wheels", "cable/span_skew.cpp",
+        "if (span.has_tangent && span.length > 0.0) {", "if (false && span.length > 0.0) {"),
+    one("skew-transport", "transport on skew wheels 2 % too large", "cable/span_skew.cpp",
+        "return std::abs(link.signed_radius) * turn +", "return 1.02 * std::abs(link.signed_radius) * turn +"),
+    one("compliance-half", "elastic spans half as soft as they should be", "cable/cable_system.cpp",
+        "return cable.compliance + cable.inverse_stiffness * std::max(rest_length, 0.0);",
+        "return 0.5 * (cable.compliance + cable.inverse_stiffness * std::max(rest_length, 0.0));"),
+    one("pushing-cable", "spans that also push", "cable/cable_system.cpp",
+        "row.lower = 0.0;  // a cable pulls and never pushes", "row.lower = -Row::unbounded;"),
+    one("tension-report", "tensions reported 2 % too small", "cable/cable_system.cpp",
+        "const double pull = multipliers_[at(k)] * inverse_square;",
+        "const double pull = 0.98 * multipliers_[at(k)] * inverse_square;"),
+    one("feed-sign", "feeds with the wrong sign", "cable/cable_ends.cpp",
+        "first = links_[at(setup.first)].feed_speed * h;", "first = -links_[at(setup.first)].feed_speed * h;"),
+    one("stored-lost", "what a wheel takes is not stored", "cable/cable_system.cpp",
+        "next.reals[stored_length_index(link)] -= moved;", "next.reals[stored_length_index(link)] -= 0.5 * moved;"),
+    one("merge-loss", "what a wheel has stored is lost when the cable leaves it", "cable/cable_contacts.cpp",
+        "rest_before += rest_after + stored;", "rest_before += rest_after;"),
+    # Friction.
+    one("capstan-exponent", "twice the exponent of friction at links", "cable/cable_runs.cpp",
+        "return geometry.friction *\n", "return 2.0 * geometry.friction *\n"),
+    # Joints.
+    one("hinge-lever", "joints pull body_a with 0.95 of what they pull body_b with", "engine/joints/lock_rows.h",
+        "terms.set_value(dot(direction, at_a - at_b));\n  terms.add_force(a.body, at_a, direction);",
+        "terms.set_value(dot(direction, at_a - at_b));\n  terms.add_force(a.body, at_a, 0.95 * direction);", JOINTS),
+    one("offset-lever", "sliders push body_a at its own anchor, not at that of body_b", "engine/joints/lock_rows.h",
+        "terms.set_value(direction.dot(at_b - a.position(terms.substep())));\n  terms.add_force(a.body, at_b, -direction);",
+        "terms.set_value(direction.dot(at_b - a.position(terms.substep())));\n"
+        "  terms.add_force(a.body, a.position(terms.substep()), -direction);", JOINTS),
+    one("spring-start", "springs of joints relaxed elsewhere", "engine/joints/joint_effect.cpp",
+        "case Kind::spring:\n      row.value = now - effect.at;", "case Kind::spring:\n      row.value = 0.9 * now - effect.at;"),
+    one("damper", "dampers of joints twice as strong", "engine/joints/joint_effect.cpp",
+        "row.compliance = substep.damper_compliance(effect.damping);",
+        "row.compliance = 0.5 * substep.damper_compliance(effect.damping);"),
+    one("drive-speed", "drives of joints 2 % slow", "engine/joints/joint_effect.cpp",
+        "row.value = now - start - effect.signal.integral(from, to);",
+        "row.value = now - start - 0.98 * effect.signal.integral(from, to);"),
+    one("joint-friction", "dry friction of joints twice as large", "engine/joints/joint_effect.cpp",
+        "if (settings.friction > 0.0) add(Kind::friction).limit = settings.friction;",
+        "if (settings.friction > 0.0) add(Kind::friction).limit = 2.0 * settings.friction;"),
+    one("joint-stop", "stops of joints 0.05 too far", "engine/joints/joint_effect.cpp",
+        "effect.at = *stop;", "effect.at = *stop * 1.1 + (*stop > 0.0 ? 0.05 : -0.05);"),
+    one("gear-ratio", "gears with 1.02 times their ratio", "engine/joints/coupling.h",
+        ".factor = -ratio,", ".factor = -1.02 * ratio,", ["engine/joints/gear.cpp", "engine/joints/rack.cpp"]),
+    # Bodies and integrators.
+    one("gravity", "gravity 1 % too weak for planar bodies' loads", "engine/integrators/xpbd.cpp",
+        "body.mass * substep.bodies.gravity() + load_on(substep, i, start.orientation).force;",
+        "0.98 * body.mass * substep.bodies.gravity() + load_on(substep, i, start.orientation).force;"),
+    one("drag", "no drag of bodies", "engine/integrators/xpbd.cpp",
+        "const double keep = decay(substep.bodies.definition(i).damping / body.mass, time).keep;",
+        "const double keep = 1.0;"),
+    one("angular-drag", "no drag of rotation", "engine/integrators/xpbd.cpp",
+        "const auto [keep, gain] = decay(substep.bodies.definition(i).angular_damping / inertia,\n"
+        "                                      substep.load_share * substep.h);",
+        "const auto [keep, gain] = decay(0.0 / inertia, substep.load_share * substep.h);"),
+    one("spin-inertia", "rotation about axes with 1.1 times the inertia", "engine/substep.cpp",
+        "body.inverse_inertia = along / properties.axis_inertia;\n      break;\n    case Mobility::slider:",
+        "body.inverse_inertia = along / (1.1 * properties.axis_inertia);\n      break;\n    case Mobility::slider:"),
+    one("rotor-inertia", "wheels with 0.9 of their inertia", "engine/substep.cpp",
+        "if (properties.axis_inertia > 0.0 && !properties.prescribed())\n        body.inverse_inertia = along / properties.axis_inertia;",
+        "if (properties.axis_inertia > 0.0 && !properties.prescribed())\n        body.inverse_inertia = along / (0.9 * properties.axis_inertia);"),
+    one("mounted-reaction", "carriers feel all of the torque about their rotors' axles", "engine/substep.cpp",
+        "row.add(mount, direction, cross(at_point - carrier.position, direction) - spin);",
+        "row.add(mount, direction, cross(at_point - carrier.position, direction));"),
+    one("free-inertia", "free bodies that do not turn their inertia with them", "engine/substep.cpp",
+        ": Matrix3(rotation * properties.inverse_inertia * rotation.transpose());",
+        ": Matrix3(properties.inverse_inertia);"),
+    one("gyroscopic", "no gyroscopic torque of a body's own spin", "engine/integrators/xpbd.cpp",
+        "const Matrix3 inverse = world_inertia(body, moving.orientation, true);",
+        "const Matrix3 inverse = world_inertia(body, start.orientation, true);"),
+    one("precession", "bodies with an axis of symmetry precess 10 % too slowly", "engine/integrators/xpbd.cpp",
+        "const Vector3 precession = across * momentum;", "const Vector3 precession = 0.9 * across * momentum;"),
+    one("rattle-second-half", "rattle without the second half of the loads", "engine/integrators/rattle.cpp",
+        "const double half = 0.5 * substep.h;\n  const double middle", "const double half = 1e-9 * substep.h;\n  const double middle"),
+    one("rattle-tensions", "rattle forgets the forces of the second half in what it reports",
+        "engine/solvers/row_velocities.cpp",
+        "multipliers[at(rows_[i].index)] = previous_[i] + substep.h * impulse;",
+        "multipliers[at(rows_[i].index)] = previous_[i];"),
+    one("rattle-impulses", "rattle does not apply impulses of the velocities", "engine/solvers/row_velocities.cpp",
+        "if (!group.elastic) add_motion(substep, i, impulse);", "if (!group.elastic) add_motion(substep, i, 0.0 * impulse);"),
+    one("kinetic-energy", "rotation counted twice in the kinetic energy", "engine/world.cpp",
+        "0.5 * body.mass * state.velocity.squaredNorm() + 0.5 * own_w.dot(body.inertia * own_w);",
+        "0.5 * body.mass * state.velocity.squaredNorm() + own_w.dot(body.inertia * own_w);"),
+    # Solvers.
+    one("few-rounds", "the direct solver ends after its first round", "engine/solvers/direct.cpp",
+        "if (round + 1 == substep.iterations) break;", "break;"),
+    one("loose-rounds", "the direct solver is satisfied with 1e-2 of the scene's size", "engine/solvers/direct.h",
+        "static constexpr double tolerance = 1e-10;", "static constexpr double tolerance = 1e-2;",
+        ["engine/solvers/direct.cpp", "engine/integrators/rattle.cpp", "engine/step.cpp"]),
+    one("half-multiplier", "the direct solver applies half of its last change", "engine/solvers/row_system.cpp",
+        "const double multiplier = rows_[i].weight * unknown;", "const double multiplier = 0.99 * rows_[i].weight * unknown;"),
+    one("matrix-entry", "an entry of the direct solver's matrix is 10 % off", "engine/solvers/row_matrix.cpp",
+        "problem_.diagonal[g] +=", "problem_.diagonal[g] += 0.1 * own_yield_[g] +"),
+    # Contacts.
+    one("contact-normal", "contacts that push one body only with 0.9", "engine/contacts/contact.cpp",
+        "substep.add_force(row, body_b, surface_b, -normal);", "substep.add_force(row, body_b, surface_b, -0.9 * normal);"),
+    one("contact-friction", "friction of contacts twice as large", "engine/contacts/contact.cpp",
+        "row.upper = friction * pressed;", "row.upper = 2.0 * friction * pressed;"),
+    one("ground-height", "the ground lies 0.05 m too low", "engine/contacts/ground_batch.cpp",
+        "row.value = height(at);", "row.value = height(at) + 0.05;"),
+    one("bounce", "bounces with 1.3 times the speed", "engine/contacts/rebound.cpp",
+        "return std::max(0.0, contact.restitution * impact + a * since);",
+        "return std::max(0.0, 1.3 * contact.restitution * impact + a * since);"),
+]
+
+REPOSITORY = [f"scenes/analytic/{name}.json" for name in
+              ("atwood", "belt", "block-and-tackle-4", "bouncing-ball", "cam", "capstan-1-turns", "double-pendulum",
+               "four-bar", "gear-train", "gyroscope", "massless-tackle", "pendulum", "pinhole-chain", "slider-crank",
+               "sliding-box", "spinning-top", "spring-oscillator", "tipping-box", "tumbling-body", "yo-yo")]
+REPOSITORY += [f"scenes/paper/{name}.json" for name in ("bow", "elastic", "hybrid", "merge-split", "servin", "skewed-wheels")]
+REPOSITORY += [f"scenes/machines/{name}.json" for name in ("elevator-brake", "geared-hoist", "winch")]
+REPOSITORY += [f"tools/faults/{name}.json" for name in ("axles", "feed", "levers", "strained")]
+SCENES = [(scene, "direct", integrator) for scene in REPOSITORY for integrator in ("xpbd", "rattle")]
