@@ -53,6 +53,8 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
   s.multipliers_.resize(spans);
   s.was_taut_.resize(spans);
   s.ends_.resize(spans);
+  s.start_spans_.resize(spans);
+  s.start_exponents_.resize(links);
   s.fallbacks_.resize(spans);
   s.sides_.resize(spans);
   s.fed_.resize(spans);

@@ -63,6 +63,17 @@ double CableSystem::friction_exponent(const Substep& substep, int link,
          wrap_angle(substep, geometry, incoming, outgoing, stored_lengths_[at(link)]);
 }
 
+void CableSystem::remember_friction(const Substep& substep, const CompiledCable& cable) {
+  for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+    if (!spans_[at(k)].active) continue;
+    const int link = spans_[at(k)].second;
+    if (!cable.closed && link == cable.last_listed_link()) continue;
+    if (!links_[at(link)].passes() || links_[at(link)].frictionless()) continue;
+    start_exponents_[at(link)] = friction_exponent(substep, link, start_spans_[at(k)],
+                                                   start_spans_[at(next_span(cable, k))]);
+  }
+}
+
 bool CableSystem::is_open(const Substep& substep, const CompiledCable& cable, Run run) const {
   if (cable.compliance > 0.0 || cable.inverse_stiffness > 0.0) return false;
   int last = run.first;

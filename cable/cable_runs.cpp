@@ -164,10 +164,11 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
 }
 
 void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Run run,
-                                std::vector<Row>& rows) const {
+                                std::vector<Row>& rows) {
   const std::size_t start = rows.size();
-  double weight = 0.0;  // its logarithm
-  double heaviest = 0.0;
+  // Logarithms, and the largest of them.
+  RunWeights weights;
+  RunWeights heaviest;
   SpanGeometry last;
   // Where nothing can yield a multiplier does nothing: the links around decide what the spans carry.
   const bool open = cable.has_friction && is_open(substep, cable, run);
@@ -180,15 +181,22 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     row.tied = i > 0;
     const int link = spans_[at(k)].first;
     if (row.tied && !links_[at(link)].frictionless()) {
-      weight += slip_[at(link)] * friction_exponent(substep, link, last, span);
-      heaviest = std::max(heaviest, weight);
+      const double exponent = friction_exponent(substep, link, last, span);
+      weights.now += slip_[at(link)] * exponent;
+      weights.start += slip_[at(link)] * (knows_start_ ? start_exponents_[at(link)] : exponent);
+      heaviest.now = std::max(heaviest.now, weights.now);
+      heaviest.start = std::max(heaviest.start, weights.start);
     }
-    row.weight = weight;
-    if (cable.has_friction) last = span;
+    row.weight = weights.now;
+    row.start_weight = weights.start;
+    if (cable.has_friction) last = start_spans_[at(k)] = span;
   }
+  const auto relative = [](double weight, double most) {
+    return most == 0.0 && weight == 0.0 ? 1.0 : std::exp(weight - most);
+  };
   for (std::size_t i = start; i < rows.size(); ++i) {
-    rows[i].weight =
-        heaviest == 0.0 && rows[i].weight == 0.0 ? 1.0 : std::exp(rows[i].weight - heaviest);
+    rows[i].weight = relative(rows[i].weight, heaviest.now);
+    rows[i].start_weight = relative(rows[i].start_weight, heaviest.start);
   }
 }
 

@@ -18,6 +18,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   } else if (!changing_links_.empty()) {
     refresh_ends(state, links_, spans_);
   }
+  knows_start_ = false;
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
   std::fill(sweeps_.begin(), sweeps_.end(), 0);
   std::fill(flips_.begin(), flips_.end(), 0);
@@ -100,9 +101,13 @@ double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
 }
 
 void CableSystem::linearise(Substep& substep, std::vector<Row>& rows) {
+  // Only `rattle` asks before anything has moved.
+  const bool at_start = substep.time == substep.start.time;
   for (const CompiledCable& cable : cables_) {
     for_each_run(cable, [&](Run run) { linearise_run(substep, cable, run, rows); });
+    if (at_start && cable.has_friction) remember_friction(substep, cable);
   }
+  knows_start_ = knows_start_ || at_start;
 }
 
 void CableSystem::finish(Substep& substep, FeatureState& next) {

@@ -174,8 +174,11 @@ class CableSystem final : public ConstraintBatch {
   double solve_span(Substep& substep, int span);
   double sweep_spans(Substep& substep, const CompiledCable& cable);
   double sweep_runs(Substep& substep, int cable_index);
-  void linearise_run(Substep& substep, const CompiledCable& cable, Run run,
-                     std::vector<Row>& rows) const;
+  struct RunWeights {
+    double now = 0.0;
+    double start = 0.0;
+  };
+  void linearise_run(Substep& substep, const CompiledCable& cable, Run run, std::vector<Row>& rows);
   /// The sum of the values of a run's rows [m], and its change since the start of the substep where it is damped.
   struct RunValue {
     double error = 0.0;
@@ -225,6 +228,8 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] double friction_exponent(const Substep& substep, int link,
                                          const SpanGeometry& incoming,
                                          const SpanGeometry& outgoing) const;
+  /// Keeps what the links' friction is worth where the bodies start; the spans there have just been evaluated.
+  void remember_friction(const Substep& substep, const CompiledCable& cable);
   /// Whether the run is rigid and nothing that the solver does can lengthen it.
   [[nodiscard]] bool is_open(const Substep& substep, const CompiledCable& cable, Run run) const;
   void collect_pieces(const Substep& substep, const CompiledCable& cable);
@@ -366,6 +371,10 @@ class CableSystem final : public ConstraintBatch {
   std::vector<double> run_spare_;
   std::vector<double> run_lengths_;
   std::vector<Piece> pieces_;  ///< of one cable
+  // Of `rattle`, whose multipliers act as at the start of the substep.
+  bool knows_start_ = false;
+  std::vector<SpanGeometry> start_spans_;  ///< of cables with friction, per span, as last evaluated
+  std::vector<double> start_exponents_;    ///< per link: friction times wrap angle at the start
   // Of leave_and_touch(): on which side of its candidates a span was at the start, span by span; and what has left.
   std::vector<std::vector<WrapSide>> sides_;
   std::vector<char> changed_links_;

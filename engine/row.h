@@ -81,13 +81,14 @@ struct Row {
   /// Whether it shares one unknown with the row before it, which may do the same: their values are added, and the
   /// multiplier of each is its `weight` times the unknown. Bounds are those of the first.
   bool tied = false;
-  double weight = 1.0;  ///< > 0
+  double weight = 1.0;        ///< > 0
+  double start_weight = 1.0;  ///< the same at the start of the substep; `rattle` needs it
 
   /// Makes the row empty: no terms, rigid, bilateral, value 0.
   void clear() {
     index = 0;
     active = tied = false;
-    weight = 1.0;
+    weight = start_weight = 1.0;
     softness = 0.0;
     value = rate = compliance = damping = 0.0;
     lower = -unbounded;

@@ -55,6 +55,7 @@ bool RowSystem::match_start() {
       }
       start_values_[at(i)] = start.value;
       responses_[at(i)] = start_responses_[at(place)];
+      std::swap(rows_[at(i)].weight, rows_[at(i)].start_weight);
     }
   }
   return true;

@@ -20,7 +20,8 @@
 // them, and an impulse m of the velocities, for the other half, has the bounds over 2 h.
 //
 // J and K are the gradients of the rows now and those along which multipliers act: the same for XPBD, those at the start
-// of the substep for `rattle`. Rows that share an unknown are added in J and weighted in K.
+// of the substep for `rattle`. Rows that share an unknown are added in J and weighted in K, with the weights of the same time:
+// a ratio of friction that belonged to the end would make `rattle` one of first order.
 //
 // Every round puts the bodies at x* + W K^T l from the predicted x* anew, so K is that of the last round throughout, and
 // c has J (x* + W K^T l - x) besides. XPBD then ends where implicit Euler does, with the gradients of the end: what rests
@@ -117,6 +118,7 @@ class RowSystem {
   };
 
   void collect_rows(Substep& substep, Features features);
+  /// Gives the rows the gradients and weights of the start to act along; false if they touch other bodies than there.
   bool match_start();
   void make_groups();
   /// a b of the group: with the shares a_i k_i that rows of the weights k_i have of its value, sum of a_i b_i a_i k_i over

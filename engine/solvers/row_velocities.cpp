@@ -25,6 +25,7 @@ void RowSystem::linearise_velocities(Substep& substep, const RowSystem& position
   const double share =
       0.5 / substep.h;  // of the bounds, for an impulse in the second half of the substep
   rows_ = positions.rows_;
+  for (Row& row : rows_) std::swap(row.weight, row.start_weight);
   feature_rows_ = positions.feature_rows_;
   previous_ = positions.previous_;
   problem_.rounding = value_rounding * substep.bodies.scale() / substep.h;
