@@ -52,8 +52,8 @@ FAULTS = [
     one("pushing-cable", "spans that also push", "cable/cable_system.cpp",
         "row.lower = 0.0;  // a cable pulls and never pushes", "row.lower = -Row::unbounded;"),
     one("tension-report", "tensions reported 2 % too small", "cable/cable_system.cpp",
-        "const double pull = multipliers_[at(k)] * inverse_square;",
-        "const double pull = 0.98 * multipliers_[at(k)] * inverse_square;"),
+        "tension = multipliers_[at(k)] * inverse_square;",
+        "tension = 0.98 * multipliers_[at(k)] * inverse_square;"),
     one("feed-sign", "feeds with the wrong sign", "cable/cable_ends.cpp",
         "first = links_[at(setup.first)].feed_speed * h;", "first = -links_[at(setup.first)].feed_speed * h;"),
     one("stored-lost", "what a wheel takes is not stored", "cable/cable_system.cpp",
@@ -61,8 +61,19 @@ FAULTS = [
     one("merge-loss", "what a wheel has stored is lost when the cable leaves it", "cable/cable_contacts.cpp",
         "rest_before += rest_after + stored;", "rest_before += rest_after;"),
     # Friction.
-    one("capstan-exponent", "twice the exponent of friction at links", "cable/cable_runs.cpp",
+    one("capstan-exponent", "twice the exponent of friction at links", "cable/cable_friction.cpp",
         "return geometry.friction *\n", "return 2.0 * geometry.friction *\n"),
+    one("capstan-direction", "links slip against the pull", "cable/cable_friction.cpp",
+        "if (excess > held) set_slip(start, i, 1);", "if (excess > held) set_slip(start, i, -1);"),
+    one("capstan-sticks", "links that never begin to slip", "cable/cable_friction.cpp",
+        "if (excess > held) set_slip(start, i, 1);\n    if (-excess > held) set_slip(start, i, -1);", ""),
+    one("open-spans", "spans that only prescribed motion changes do not make their neighbours slip",
+        "cable/cable_friction.cpp", "  serve_pieces(substep, first, last);\n  const auto decided",
+        "  const auto decided"),
+    one("open-tensions", "spans between immovable points keep what the solver leaves them", "cable/cable_friction.cpp",
+        "                                const FeatureState& start) {\n  collect_pieces(substep, cable);",
+        "                                const FeatureState& /*start*/) {\n  if (true) return;\n"
+        "  const FeatureState start;\n  collect_pieces(substep, cable);"),
     # Joints.
     one("hinge-lever", "joints pull body_a with 0.95 of what they pull body_b with", "engine/joints/lock_rows.h",
         "terms.set_value(dot(direction, at_a - at_b));\n  terms.add_force(a.body, at_a, direction);",
@@ -134,7 +145,8 @@ FAULTS = [
     one("half-multiplier", "the direct solver applies half of its last change", "engine/solvers/row_system.cpp",
         "const double multiplier = rows_[i].weight * unknown;", "const double multiplier = 0.99 * rows_[i].weight * unknown;"),
     one("matrix-entry", "an entry of the direct solver's matrix is 10 % off", "engine/solvers/row_matrix.cpp",
-        "problem_.diagonal[g] +=", "problem_.diagonal[g] += 0.1 * own_yield_[g] +"),
+        "problem_.values[at(c.entry)] += value;\n      } else {\n        add_own_yield(c, value);",
+        "problem_.values[at(c.entry)] += 0.9 * value;\n      } else {\n        add_own_yield(c, value);"),
     # Contacts.
     one("contact-normal", "contacts that push one body only with 0.9", "engine/contacts/contact.cpp",
         "substep.add_force(row, body_b, surface_b, -normal);", "substep.add_force(row, body_b, surface_b, -0.9 * normal);"),
@@ -153,5 +165,6 @@ REPOSITORY = [f"scenes/analytic/{name}.json" for name in
                "sliding-box", "spinning-top", "spring-oscillator", "tipping-box", "tumbling-body", "yo-yo")]
 REPOSITORY += [f"scenes/paper/{name}.json" for name in ("bow", "elastic", "hybrid", "merge-split", "servin", "skewed-wheels")]
 REPOSITORY += [f"scenes/machines/{name}.json" for name in ("elevator-brake", "geared-hoist", "winch")]
-REPOSITORY += [f"tools/faults/{name}.json" for name in ("axles", "feed", "levers", "strained")]
+REPOSITORY += [f"tools/faults/{name}.json" for name in ("a1-drum-and-post", "a1-eyelets", "a1-feed",
+               "a1-holes", "a2-post", "axles", "feed", "levers", "strained")]
 SCENES = [(scene, "direct", integrator) for scene in REPOSITORY for integrator in ("xpbd", "rattle")]
