@@ -80,12 +80,12 @@ struct SpanEvidence {
 struct PassEvidence {
   int before = 0;  ///< spans, among all
   int after = 0;
-  bool passes = false;      ///< whether cable can come over it other than by rolling
-  bool massless = false;    ///< because nothing resists its turning
-  double friction = 0.0;    ///< capstan coefficient, if it passes
-  double wrap_angle = 0.0;  ///< [rad], the larger one of the two ends of the substep
-  double slip = 0.0;        ///< in the substep, towards the next span [m]
-  int link = 0;             ///< within the list; -1: a wrap
+  bool passes = false;                 ///< whether cable can come over it other than by rolling
+  bool massless = false;               ///< because nothing resists its turning
+  double friction = 0.0;               ///< capstan coefficient, if it passes
+  std::array<double, 2> wrap_angle{};  ///< [rad], at the ends of the substep
+  double slip = 0.0;                   ///< in the substep, towards the next span [m]
+  int link = 0;                        ///< within the list; -1: a wrap
   std::string_view cable;
 };
 

@@ -15,7 +15,8 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
                 double largest, Findings& findings) {
   const double before = cable.spans[at(pass.before)].tension();
   const double after = cable.spans[at(pass.after)].tension();
-  const double bound = std::exp(pass.friction * pass.wrap_angle);
+  const double bound =
+      std::exp(pass.friction * std::max(pass.wrap_angle[first_end], pass.wrap_angle[last_end]));
   const double high = std::max(before, after);
   const double low = std::min(before, after);
   // Tensions that are nothing beside those of the cable have no ratio that would count.
@@ -28,11 +29,16 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
   if (pass.slip == 0.0 || pass.friction == 0.0 || !(scale > 0.0)) return;
   // Slipping: the side to which it goes pulls harder by all of the bound.
   const double pulling = pass.slip > 0.0 ? after : before;
-  const double held = pass.slip > 0.0 ? before : after;
+  const SpanEvidence& held = cable.spans[at(pass.slip > 0.0 ? pass.before : pass.after)];
+  // Each part of the forces with the angle of its time.
+  double asked = 0.0;
+  for (const End when : {first_end, last_end}) {
+    asked += std::exp(pass.friction * pass.wrap_angle[at(when)]) * held.force[at(when)];
+  }
   const double creep = 1e-7 * std::min(cable.free_length, evidence.bodies.scale());
   const double weight = std::abs(pass.slip) / (std::abs(pass.slip) + creep);
-  findings.note(Kind::friction, "N", weight * std::max(bound * held - pulling, 0.0),
-                std::max(scale, bound * held), 1e-9 * scale, name);
+  findings.note(Kind::friction, "N", weight * std::max(asked - pulling, 0.0),
+                std::max(scale, asked), 1e-9 * scale, name);
 }
 
 void check_contact(const Evidence& evidence, const ContactEvidence& contact, Findings& findings) {

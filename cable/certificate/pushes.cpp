@@ -135,8 +135,7 @@ void describe_pass(const Evidence& evidence, const CableEvidence& cable, const L
   if (pass.massless) pass.friction = 0.0;
   const SpanEvidence& in = cable.spans[at(pass.before)];
   const SpanEvidence& out = cable.spans[at(pass.after)];
-  pass.wrap_angle =
-      std::max(angle_at(in, out, first, first_end), angle_at(in, out, second, last_end));
+  pass.wrap_angle = {angle_at(in, out, first, first_end), angle_at(in, out, second, last_end)};
 }
 
 }  // namespace sheave::certify
