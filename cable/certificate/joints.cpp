@@ -250,8 +250,10 @@ class JointCheck {
       return;
     }
     const double limit = settings.drive_limit.value_or(std::numeric_limits<double>::infinity());
-    note(Kind::drive, now.angle ? "N m" : "N", std::max(std::abs(force) - limit, 0.0),
-         std::min(limit, 1e300), 1e-9 * std::min(limit, 1e300));
+    if (settings.drive_limit) {
+      note(Kind::drive, now.angle ? "N m" : "N", std::max(std::abs(force) - limit, 0.0), limit,
+           1e-9 * limit);
+    }
     // What has all the force it can have is stalled, not wrong.
     const bool stalled = std::abs(force) >= (1.0 - 1e-6) * limit;
     if (stalled) return;
@@ -259,7 +261,7 @@ class JointCheck {
                         1e-10 * (now.angle ? 1.0 : e_.bodies.scale());
     if (settings.drive == CoordinateDrive::speed) {
       const double off = now.value - before.value - signal.integral(t0, t1);
-      note(Kind::drive, unit_of(k), std::abs(off), most * e_.h, slop);
+      note(Kind::drive, unit_of(k), std::abs(off), std::max(most * e_.h, 1e-6 * scale_of(k)), slop);
       return;
     }
     const double a = settings.drive_compliance;
@@ -294,7 +296,8 @@ class JointCheck {
         settings.stiffness > 0.0 ? -settings.stiffness * (mean - settings.rest) : 0.0;
     const double expected = now.drive_force + spring - damping * moved;
     const double rest = acting - expected;
-    const double slop = 1e-9 * scale_of(k);
+    // As near as rows count as closed (engine/solvers/row_velocities.cpp).
+    const double slop = 2e-8 * std::max(scale_of(k), e_.bodies.scale());
     // A stop pushes while the coordinate is at it.
     const auto at_stop = [&](const std::optional<double>& stop, double sense) {
       if (!stop || sense * rest <= 0.0) return false;
@@ -350,7 +353,8 @@ void check_body_drives(const Evidence& evidence, Findings& findings) {
                                : body.drive_table.at(t1) - body.drive_table.at(t0);
     double most = 0.0;
     for (const double v : body.drive_table.values) most = std::max(most, std::abs(v));
-    findings.note(Kind::drive, "rad", std::abs(turned - asked), speed ? most * evidence.h : most,
+    findings.note(Kind::drive, "rad", std::abs(turned - asked),
+                  std::max(speed ? most * evidence.h : most, 1e-6),
                   1e-13 * (1.0 + std::abs(evidence.end.bodies[at(i)].angle)),
                   [&] { return evidence.body_name(i); });
   }
