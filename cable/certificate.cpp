@@ -171,16 +171,13 @@ CertificateSchedule::CertificateSchedule(const Simulation& simulation, double sh
 }
 
 bool CertificateSchedule::is_due(bool is_last, std::size_t events) {
-  constexpr std::int64_t first_steps = 3;
   const bool happened = events != events_;
   events_ = events;
   ++steps_;
   ++since_;
-  // Events and the first steps take from what the stride would allow.
+  // What events ask for is taken from what the stride would have allowed.
   const bool affordable = checked_ * stride_ <= steps_;
-  const bool due =
-      steps_ <= first_steps || is_last || since_ >= stride_ || (happened && affordable);
-  if (due && !is_last && steps_ > first_steps && !affordable) return false;
+  const bool due = steps_ == 1 || is_last || (affordable && (happened || since_ >= stride_));
   if (!due) return false;
   ++checked_;
   since_ = 0;

@@ -71,8 +71,8 @@ struct Certificate {
   void merge(const Certificate& other);
 };
 
-/// Which steps of a run are checked: the first ones, the last, those with events, and every n-th, with n such that all of it
-/// costs no more than a given share of the run, in instructions. Counts only, no clock: the same run is checked in the same
+/// Which steps of a run are checked: the first, the last, those with events, and every n-th, with n such that all of it costs
+/// no more than a given share of the run, in instructions; of a run of fewer steps than n, first and last cost more. Counts only, no clock: the same run is checked in the same
 /// steps everywhere.
 class CertificateSchedule {
  public:

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/index.h"
 #include "engine/substep.h"
 
 namespace sheave {
