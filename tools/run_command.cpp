@@ -10,6 +10,7 @@
 
 #include "engine/field_check.h"
 #include "measure/error_estimate.h"
+#include "measure/stress_judge.h"
 #include "tools/command.h"
 #include "tools/interrupt.h"
 #include "tools/output_file.h"
@@ -135,15 +136,17 @@ ExitCode run(const RunOptions& options) {
 
   Progress progress("run", static_cast<double>(simulation.world.state().steps),
                     static_cast<double>(last_step), options.quiet);
-  const RunOutcome outcome = simulate(simulation, last_step, progress, [&] {
-    recorder.observe(simulation);
-    monitor.observe(simulation);
-    if (checks) checks->record(simulation);
-    if (estimator && simulation.world.state().steps > first_step) estimator->observe(simulation);
-    return true;
-  });
+  const RunOutcome outcome =
+      simulate(simulation, last_step, progress, [&](const RunStatistics& so_far) {
+        recorder.observe(simulation);
+        monitor.observe(simulation, so_far);
+        if (checks) checks->record(simulation);
+        if (estimator && simulation.world.state().steps > first_step)
+          estimator->observe(simulation);
+        return true;
+      });
   progress.clear();
-  monitor.finish(simulation);
+  monitor.finish(simulation, measure::is_conservative(scene));
 
   recorder.finish();
   if (state_file && outcome.status != RunStatus::diverged) {

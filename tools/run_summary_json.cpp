@@ -250,6 +250,8 @@ std::string to_json(const RunSummary& summary) {
                   {{"initial", summary.monitor.initial_energy().total()},
                    {"final", summary.monitor.final_energy().total()},
                    {"max_drift", summary.monitor.max_energy_drift()},
+                   {"integrator_loss", summary.monitor.integrator_loss()},
+                   {"flow", summary.monitor.energy_flow()},
                    {"parts", run_json(summary.monitor.final_energy())}}},
                  {"cables", cables(summary)},
                  {"joints", joints(summary)},

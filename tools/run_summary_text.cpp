@@ -147,6 +147,8 @@ std::string invariants(const RunSummary& summary) {
               short_number(monitor.final_energy().total()),
               short_number(monitor.max_energy_drift())});
   std::string text = "\n" + energy.text();
+  text += fmt::format("  the integrator took {} J of {} J\n",
+                      short_number(monitor.integrator_loss()), short_number(monitor.energy_flow()));
   const std::vector<CableReport> reports = summary.simulation.cable_reports();
   if (reports.empty()) return text;
   TextTable lengths({"cable", "length [m]", "relative error", "largest stretch"}, 1);

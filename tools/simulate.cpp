@@ -40,11 +40,11 @@ std::string_view name_of(RunStatus status) {
 }
 
 RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& progress,
-                    const std::function<bool()>& observe) {
+                    const std::function<bool(const RunStatistics&)>& observe) {
   RunOutcome outcome;
   World& world = simulation.world;
   const Clock::time_point start = Clock::now();
-  bool wanted = observe();
+  bool wanted = observe(outcome.statistics);
   while (wanted && world.state().steps < last_step) {
     if (interrupted()) {
       outcome.status = RunStatus::interrupted;
@@ -60,7 +60,7 @@ RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& pr
       break;
     }
     ++outcome.steps;
-    wanted = observe();
+    wanted = observe(outcome.statistics);
     if (progress.due()) {
       progress.update(static_cast<double>(world.state().steps),
                       fmt::format("t = {:.4g} s", world.state().time));

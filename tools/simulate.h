@@ -44,9 +44,9 @@ struct RunOutcome {
 };
 
 /// Steps until `last_step` steps are complete, the state diverges or a signal comes. Calls
-/// `observe` at the start and after every step; it may return false to stop early, which counts as
-/// done.
+/// `observe` with what the steps did so far, at the start and after every step; it may return false to stop early, which
+/// counts as done.
 RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& progress,
-                    const std::function<bool()>& observe);
+                    const std::function<bool(const RunStatistics&)>& observe);
 
 }  // namespace sheave::tools

@@ -46,12 +46,12 @@ StressOutcome run_cell(const measure::StressCell& cell, const StressSettings& se
   const std::int64_t steps = step_count(*scene);
   RunMonitor monitor(steps);
   Progress none("", 0.0, 1.0, true);
-  const RunOutcome run = simulate(*simulation, steps, none, [&] {
+  const RunOutcome run = simulate(*simulation, steps, none, [&](const RunStatistics& so_far) {
     judge.observe(*simulation);
-    monitor.observe(*simulation);
+    monitor.observe(*simulation, so_far);
     return true;
   });
-  monitor.finish(*simulation);
+  monitor.finish(*simulation, measure::is_conservative(*scene));
   if (run.status == RunStatus::interrupted) throw Failure(ExitCode::interrupted, "interrupted");
   StressOutcome outcome{judge.verdict(*simulation, run.divergence), {}};
   if (!cell.similar_to.empty() && !run.divergence) compare(cell, settings, *scene, outcome.verdict);
