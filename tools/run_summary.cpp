@@ -18,6 +18,14 @@ bool RunSummary::checks_passed() const {
                      [](const CheckResult& check) { return check.passed; });
 }
 
+bool RunSummary::doubtful() const {
+  return outcome.status == RunStatus::done && !outcome.certificate.clean(trust);
+}
+
+std::string_view RunSummary::status() const {
+  return doubtful() ? "doubtful" : name_of(outcome.status);
+}
+
 namespace {
 
 void append_cable_warnings(const CableSystem& cables, std::vector<Warning>& warnings) {

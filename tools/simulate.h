@@ -8,6 +8,7 @@
 
 #include "cable/simulation.h"
 #include "tools/progress.h"
+#include "tools/run_checker.h"
 
 namespace sheave::tools {
 
@@ -41,6 +42,7 @@ struct RunOutcome {
   double step_time = 0.0;                ///< wall time spent in steps alone [s]
   double wall_time = 0.0;                ///< including observers [s]
   RunStatistics statistics;
+  Certificate certificate;  ///< of the steps that were checked
 };
 
 /// Steps until `last_step` steps are complete, the state diverges or a signal comes. Calls
