@@ -25,9 +25,15 @@ double excess_of(const CableReport& cable) {
 RunMonitor::RunMonitor(std::int64_t steps)
     : stride_(std::max<std::int64_t>(1, steps / 2000)), half_(steps / 2) {}
 
-void RunMonitor::observe(const Simulation& simulation) {
+void RunMonitor::observe(const Simulation& simulation, const RunStatistics& statistics) {
   final_ = simulation.world.energy();
-  if (observed_ == 0) initial_ = final_;
+  if (observed_ == 0) {
+    initial_ = final_;
+    min_energy_ = final_.total();
+  }
+  min_energy_ = std::min(min_energy_, final_.total());
+  loss_.observe(simulation.world, final_.total(), statistics.integrator_fallbacks);
+  vibration_loss_ = statistics.numerical_damping;
   max_gain_ = std::max(max_gain_, final_.total() - initial_.total());
   most_vivid_ = std::max(most_vivid_, final_.kinetic + final_.elastic);
   max_drift_ = std::max(max_drift_, std::abs(final_.total() - initial_.total()));
@@ -35,7 +41,12 @@ void RunMonitor::observe(const Simulation& simulation) {
   ++observed_;
 }
 
-void RunMonitor::finish(const Simulation& simulation) {
+void RunMonitor::finish(const Simulation& simulation, bool conservative) {
+  integrator_loss_ = std::max({0.0, loss_.taken(), vibration_loss_});
+  // No more can have been taken than is missing, where nothing puts any in.
+  if (conservative) {
+    integrator_loss_ = std::min(integrator_loss_, initial_.total() - min_energy_);
+  }
   // After a divergence the state is one that no step reported.
   final_ = simulation.world.energy();
   max_drift_ = std::max(max_drift_, std::abs(final_.total() - initial_.total()));

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "cable/simulation.h"
+#include "measure/integrator_loss.h"
+#include "tools/simulate.h"
 
 namespace sheave::tools {
 
@@ -28,10 +30,10 @@ class RunMonitor {
  public:
   /// For a run of so many steps.
   explicit RunMonitor(std::int64_t steps);
-  /// To be called at the start and after every step.
-  void observe(const Simulation& simulation);
-  /// To be called at the end.
-  void finish(const Simulation& simulation);
+  /// To be called at the start and after every step, with what the steps did so far.
+  void observe(const Simulation& simulation, const RunStatistics& statistics);
+  /// To be called at the end; `conservative`: measure::is_conservative(scene).
+  void finish(const Simulation& simulation, bool conservative);
 
   [[nodiscard]] const Energy& initial_energy() const { return initial_; }
   [[nodiscard]] const Energy& final_energy() const { return final_; }
@@ -41,6 +43,11 @@ class RunMonitor {
   [[nodiscard]] double max_energy_gain() const { return max_gain_; }
   /// The largest |total energy - its value at the start| [J].
   [[nodiscard]] double max_energy_drift() const { return max_drift_; }
+  /// What the integrator took from the motion, vibrations of elastic cables included, about [J], >= 0.
+  [[nodiscard]] double integrator_loss() const { return integrator_loss_; }
+  /// What it is compared with: the largest sum of kinetic and elastic energy, and what drives, friction, damping and impacts
+  /// have put in and taken out [J].
+  [[nodiscard]] double energy_flow() const { return most_vivid_ + loss_.exchanged(); }
   /// One per cable.
   [[nodiscard]] const std::vector<CableCourse>& cables() const { return cables_; }
 
@@ -57,6 +64,10 @@ class RunMonitor {
   double max_drift_ = 0.0;
   double max_gain_ = 0.0;
   double most_vivid_ = 0.0;
+  double min_energy_ = 0.0;
+  measure::IntegratorLoss loss_;
+  double vibration_loss_ = 0.0;
+  double integrator_loss_ = 0.0;
   std::vector<CableCourse> cables_;
   std::vector<BodyState> last_seen_;  // at the last look at the cables
 };

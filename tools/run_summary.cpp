@@ -18,6 +18,14 @@ bool RunSummary::checks_passed() const {
                      [](const CheckResult& check) { return check.passed; });
 }
 
+bool RunSummary::doubtful() const {
+  return outcome.status == RunStatus::done && !outcome.certificate.clean(trust);
+}
+
+std::string_view RunSummary::status() const {
+  return doubtful() ? "doubtful" : name_of(outcome.status);
+}
+
 namespace {
 
 void append_cable_warnings(const CableSystem& cables, std::vector<Warning>& warnings) {
@@ -99,6 +107,25 @@ void append_damping_warning(const StepSettings& step, const RunStatistics& stati
   warnings.push_back({"damped_vibration", "", std::move(message)});
 }
 
+/// xpbd takes energy from every motion that is not straight and uniform (measure/integrator_loss.h).
+void append_loss_warning(const StepSettings& step, const RunMonitor& monitor,
+                         std::vector<Warning>& warnings) {
+  constexpr double share_limit = 0.01;
+  constexpr double rounding = 1e-12;  // of the potential energy
+  const bool said = std::any_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
+    return warning.kind == "damped_vibration";
+  });
+  const double loss = monitor.integrator_loss();
+  const double flow = monitor.energy_flow();
+  const double least = rounding * std::abs(monitor.initial_energy().potential);
+  if (said || loss <= share_limit * flow + least) return;
+  std::string message = fmt::format(
+      "xpbd took about {:.3g} J from the motion, {:.2g} % of what there was at most and what came "
+      "and went: the step is too long for it; {} may avoid that",
+      loss, 100.0 * loss / flow, remedy(step, StepFault::long_step));
+  warnings.push_back({"integrator_loss", "", std::move(message)});
+}
+
 /// Where nothing puts energy into a scene, there is never more than at first. Steps too long for what swings or spins in them
 /// do make energy: a light weight on a taut cable, pulled round a wheel; the gyroscopic motion of long bodies. So do springs
 /// that are stretched without a force, because sweeps have not got to it.
@@ -166,6 +193,7 @@ std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simu
     append_stretch_warnings(simulation, monitor, warnings);
   }
   append_damping_warning(scene.model.step, statistics, monitor, warnings);
+  append_loss_warning(scene.model.step, monitor, warnings);
   append_energy_warning(scene, monitor, warnings);
   append_rounding_warning(simulation.world, warnings);
   if (statistics.solver_fallbacks > 0) {

@@ -10,6 +10,7 @@
 #include "measure/error_estimate.h"
 #include "scenes/check.h"
 #include "scenes/scene.h"
+#include "tools/run_checker.h"
 #include "tools/run_monitor.h"
 #include "tools/simulate.h"
 
@@ -49,8 +50,13 @@ struct RunSummary {
   bool checked = false;  ///< whether checks were asked for
   std::vector<CheckResult> checks;
   std::optional<measure::ErrorEstimate> error_estimate;  ///< if it was asked for
+  double trust = default_trust;  ///< figures of the certificate above it make the run doubtful
 
   [[nodiscard]] bool checks_passed() const;
+  /// Whether the run was done and its own numbers contradict each other.
+  [[nodiscard]] bool doubtful() const;
+  /// "done", "doubtful", "diverged", "interrupted".
+  [[nodiscard]] std::string_view status() const;
 };
 
 /// Warnings about the course of a run: spans that had no tangent, wraps that found no place, rigid cables that do not keep

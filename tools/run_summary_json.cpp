@@ -201,6 +201,30 @@ RunJson run_json(const measure::StepDifference& difference) {
           {"error", difference.error()}};
 }
 
+RunJson run_json(const CertificateItem& item) {
+  return {{"kind", certificate_kind_names[static_cast<std::size_t>(item.kind)]},
+          {"name", item.name},
+          {"value", item.value},
+          {"unit", item.unit},
+          {"scale", item.scale},
+          {"relative", item.relative},
+          {"time", item.time},
+          {"advice", item.advice}};
+}
+
+RunJson certificate(const RunSummary& summary) {
+  const Certificate& own = summary.outcome.certificate;
+  RunJson items = RunJson::array();
+  for (const CertificateItem& item : own.items) items.push_back(run_json(item));
+  const CertificateItem* worst = own.worst();
+  return {{"clean", own.clean(summary.trust)},
+          {"trust", summary.trust},
+          {"substeps", own.substeps},
+          {"worst", worst == nullptr ? RunJson() : run_json(*worst)},
+          {"items", std::move(items)},
+          {"text", certificate_text(own, summary.trust)}};
+}
+
 RunJson error_estimate(const measure::ErrorEstimate& estimate, const World& world) {
   RunJson bodies = RunJson::array();
   for (const measure::BodyDifference& body : estimate.bodies) {
@@ -240,7 +264,7 @@ std::string to_json(const RunSummary& summary) {
   RunJson object{{"scene", summary.scene_path},
                  {"name", summary.scene.name},
                  {"version", version_string},
-                 {"status", name_of(outcome.status)},
+                 {"status", summary.status()},
                  {"steps", outcome.steps},
                  {"sim_time", world.state().time},
                  {"wall_time", outcome.wall_time},
@@ -250,11 +274,14 @@ std::string to_json(const RunSummary& summary) {
                   {{"initial", summary.monitor.initial_energy().total()},
                    {"final", summary.monitor.final_energy().total()},
                    {"max_drift", summary.monitor.max_energy_drift()},
+                   {"integrator_loss", summary.monitor.integrator_loss()},
+                   {"flow", summary.monitor.energy_flow()},
                    {"parts", run_json(summary.monitor.final_energy())}}},
                  {"cables", cables(summary)},
                  {"joints", joints(summary)},
                  {"bodies", bodies(world)},
                  {"statistics", statistics(outcome.statistics)},
+                 {"certificate", certificate(summary)},
                  {"events", events(summary)},
                  {"warnings", warnings(summary.warnings)}};
   if (!world.model().colliders.empty()) object["contacts"] = contacts(world);

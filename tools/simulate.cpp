@@ -40,11 +40,12 @@ std::string_view name_of(RunStatus status) {
 }
 
 RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& progress,
-                    const std::function<bool()>& observe) {
+                    const std::function<bool(const RunStatistics&)>& observe) {
   RunOutcome outcome;
   World& world = simulation.world;
   const Clock::time_point start = Clock::now();
-  bool wanted = observe();
+  RunChecker checker(simulation, last_step);
+  bool wanted = observe(outcome.statistics);
   while (wanted && world.state().steps < last_step) {
     if (interrupted()) {
       outcome.status = RunStatus::interrupted;
@@ -60,12 +61,14 @@ RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& pr
       break;
     }
     ++outcome.steps;
-    wanted = observe();
+    checker.observe(simulation);
+    wanted = observe(outcome.statistics);
     if (progress.due()) {
       progress.update(static_cast<double>(world.state().steps),
                       fmt::format("t = {:.4g} s", world.state().time));
     }
   }
+  outcome.certificate = checker.certificate();
   outcome.wall_time = seconds_since(start);
   return outcome;
 }

@@ -8,6 +8,7 @@
 
 #include "cable/simulation.h"
 #include "tools/progress.h"
+#include "tools/run_checker.h"
 
 namespace sheave::tools {
 
@@ -41,12 +42,13 @@ struct RunOutcome {
   double step_time = 0.0;                ///< wall time spent in steps alone [s]
   double wall_time = 0.0;                ///< including observers [s]
   RunStatistics statistics;
+  Certificate certificate;  ///< of the steps that were checked
 };
 
 /// Steps until `last_step` steps are complete, the state diverges or a signal comes. Calls
-/// `observe` at the start and after every step; it may return false to stop early, which counts as
-/// done.
+/// `observe` with what the steps did so far, at the start and after every step; it may return false to stop early, which
+/// counts as done.
 RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& progress,
-                    const std::function<bool()>& observe);
+                    const std::function<bool(const RunStatistics&)>& observe);
 
 }  // namespace sheave::tools

@@ -65,6 +65,23 @@ TEST(Warnings, AVibrationThatTheStepDampsIsAWarning) {
   EXPECT_EQ(warned(with({"--substeps", "100"})), "");
 }
 
+TEST(Warnings, WhatTheIntegratorTakesIsToldAndAWarning) {
+  // Of Atwood's machine after t xpbd has taken a h t / 2 x (m2 - m1) g, and the kinetic energy is a t^2 / 2 x (m2 - m1) g: h / t of
+  // it. 1 s and 0.01 s: 1 %; a duration of 0.5 s: 2 %.
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::vector<std::string> run{"run",    "--json",       "--quiet", scene,        "--solver",
+                                     "direct", "--integrator", "xpbd",    "--duration", "0.5"};
+  const json summary = json::parse(run_sheave(run).out);
+  // (m2 - m1) g = 10 N, a = 2 m/s2.
+  EXPECT_NEAR(summary["energy"]["integrator_loss"], 10.0 * 2.0 * 0.01 * 0.5 / 2.0, 1e-6);
+  EXPECT_NEAR(summary["energy"]["flow"], 10.0 * 2.0 * 0.5 * 0.5 / 2.0, 1e-6);
+  EXPECT_EQ(warned({scene, "--solver", "direct", "--integrator", "xpbd", "--duration", "0.5"}),
+            "integrator_loss");
+  EXPECT_EQ(warned({scene, "--solver", "direct", "--integrator", "xpbd", "--duration", "1.5"}), "");
+  EXPECT_EQ(warned({scene, "--solver", "direct", "--integrator", "rattle"}), "");
+}
+
 TEST(Warnings, MotionInTheRoundingOfPositionsIsAWarning) {
   // g h^2 = 5e-16 m, and the last digit of 2 m is 4e-16 m.
   const TemporaryFolder folder;
