@@ -60,7 +60,7 @@ double CableSystem::friction_exponent(const Substep& substep, int link,
                                       const SpanGeometry& outgoing) const {
   const LinkGeometry& geometry = links_[at(link)];
   return geometry.friction *
-         wrap_angle(substep, geometry, incoming, outgoing, stored_lengths_[at(link)]);
+         wrap_angle(substep, geometry, incoming, outgoing, stored_arcs_[at(link)]);
 }
 
 void CableSystem::remember_friction(const Substep& substep, const CompiledCable& cable) {

@@ -220,7 +220,7 @@ const std::vector<double>& CableSystem::run_spare(const Substep& substep,
     const double wanted = cable.inverse_stiffness > 0.0
                               ? span.length / (1.0 + tension * cable.inverse_stiffness)
                               : std::max(span.length - tension * cable.compliance, 0.0);
-    spare.push_back(row.value + span.length - wanted);
+    spare.push_back(rest_length_of(cable, row, span.length) - wanted);
     total += spare.back();
     lengths.push_back(wanted);
     length += wanted;
@@ -270,7 +270,9 @@ void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run ru
     passed_before = moved;
     const int link = spans_[at(k)].second;
     if (links_[at(link)].massless) {
-      turn_massless_wheel(substep, link, moved);
+      // Both sides have the same tension and strain.
+      const double strain = multipliers_[at(k)] * cable.inverse_stiffness / (substep.h * substep.h);
+      turn_massless_wheel(substep, link, moved * (1.0 + strain));
     } else {
       next.reals[slip_index(link)] += moved;
     }
