@@ -62,6 +62,7 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
   s.sides_.resize(spans);
   s.fed_.resize(spans);
   s.slip_.assign(links, 0);
+  s.held_.assign(links, 0);
   s.pending_slip_ = s.flips_ = s.slip_;
   s.sweeps_.assign(s.cables_.size(), 0);
   s.crowded_.resize(s.cables_.size());

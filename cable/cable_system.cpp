@@ -63,6 +63,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   }
   for (const CompiledCable& cable : cables_) {
     if (!cable.candidates.empty()) remember_sides(substep, cable);
+    if (cable.shares && cable.compliance > 0.0) hold_drained(cable, state);
   }
 }
 

@@ -178,6 +178,8 @@ class CableSystem final : public ConstraintBatch {
   };
   [[nodiscard]] int next_span(const CompiledCable& cable, int span) const;
   [[nodiscard]] bool shared(int link) const;
+  /// Finds the frictionless links beside drained spans of a cable of constant compliance that pass nothing in the substep.
+  void hold_drained(const CompiledCable& cable, const FeatureState& start);
   template <class Visit>
   void for_each_run(const CompiledCable& cable, Visit visit) const;
   /// One step of XPBD for one span; returns what solve_row() does.
@@ -250,7 +252,10 @@ class CableSystem final : public ConstraintBatch {
   /// Of pieces `first` to `last`, between dead ends: lets cable slide into those too short and out of those too long.
   void serve_pieces(const Substep& substep, std::size_t first, std::size_t last);
   void serve(std::size_t index);
-  void judge_links(const Substep& substep, std::size_t first, std::size_t last);
+  void judge_links(const Substep& substep, const CompiledCable& cable, std::size_t first,
+                   std::size_t last);
+  /// Whether the spans of the run, of constant compliance, have no rest length left.
+  [[nodiscard]] bool is_drained(const CompiledCable& cable, Run run) const;
   void update_slip(const Substep& substep, const CompiledCable& cable);
   /// Gives spans whose tension is open one that their neighbours hold. `start`: the state at the start of the substep.
   void hold_tensions(const Substep& substep, const CompiledCable& cable, const FeatureState& start);
@@ -411,6 +416,7 @@ class CableSystem final : public ConstraintBatch {
       fed_;                ///< per span at its first and second link, in this substep [m]
   std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
   std::vector<int> pending_slip_;
+  std::vector<char> held_;  ///< per link: whether it passes nothing although it has no friction
   std::vector<int> revised_;
   /// Per span, for finish(): the tension at the start [N], and the length at the end of the substep [m].
   std::vector<std::array<double, 2>> ends_;
