@@ -21,6 +21,7 @@ void CableCompiler::add(const CableDef& def) {
   }
   compile_spans(def);
   if (errors_.size() > before) return;
+  find_wrong_windings(def);
   store(def);
 }
 

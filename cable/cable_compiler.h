@@ -39,6 +39,8 @@ class CableCompiler {
   [[nodiscard]] int next_touched(int link) const;
   /// Planar if the geometry of the bodies' mobilities guarantees it for ever.
   void choose_kind(SpanSetup& setup, const LinkGeometry& a, const LinkGeometry& b) const;
+  /// cable/cable_compile_windings.cpp.
+  void find_wrong_windings(const CableDef& def);
   void check_span(const CableDef& def, int first, int second);
   void explain_missing_tangent(int first, int second);
   void check_rest_length(const CableDef& def, int span, const SpanGeometry& geometry);

@@ -99,6 +99,16 @@ class CableSystem final : public ConstraintBatch {
     double first_time = 0.0;  ///< [s]
   };
   [[nodiscard]] std::vector<WrapWarning> wrap_warnings() const;
+  /// A link at which the cable crosses itself at time 0 and would not with the other winding.
+  struct WindingWarning {
+    std::string cable;
+    int link = 0;      ///< within the cable's list
+    std::string body;  ///< that the link is on, or "world"
+    Winding better = Winding::clockwise;
+  };
+  [[nodiscard]] const std::vector<WindingWarning>& winding_warnings() const {
+    return winding_warnings_;
+  }
   /// What happened since the system was created, in order.
   [[nodiscard]] const std::vector<CableEvent>& events() const { return events_; }
 
@@ -451,6 +461,7 @@ class CableSystem final : public ConstraintBatch {
   std::vector<Fallback> fallbacks_;
   std::vector<Fallback> crowded_;  ///< per cable: wraps that found no place
   std::vector<CableEvent> events_;
+  std::vector<WindingWarning> winding_warnings_;
 };
 
 template <class Visit>
