@@ -188,6 +188,7 @@ void CableCompiler::store(const CableDef& def) {
   rest_lengths_.resize(s.spans_.size() + spans_.size(), 0.0);
   remainders_.resize(rest_lengths_.size(), 0.0);
   stored_lengths_.resize(s.links_.size() + links_.size(), 0.0);
+  start_strains_.resize(stored_lengths_.size(), 0.0);
   s.links_.insert(s.links_.end(), links_.begin(), links_.end());
   s.spans_.insert(s.spans_.end(), spans_.begin(), spans_.end());
   s.cables_.push_back(std::move(cable));

@@ -1,5 +1,4 @@
-// Ends of a cable that change: hybrid links and drums, whose cable may be used up, layers that make a drum thicker, and
-// attachments that feed cable.
+// Ends of a cable that change: hybrid links and drums, whose cable may be used up, and attachments that feed cable.
 //
 // A hybrid end is wound one way (as defined), wound the other way, or attached. Wound, it becomes attached when its
 // stored length falls below 0: the cable then ends at the point of the rim that lies |s| before the tangent point in
@@ -12,9 +11,6 @@
 // damping hides and `rattle` does not. So lengths are kept and arcs give way: what is stored is by how much the free cable
 // becomes shorter, and the attachment lies where the free cable is |s| shorter than from the tangent point. The attachment
 // moves along the rim by those r a^3 / 6, the one way at one end of its winding and the other way at the other.
-//
-// Layers: with the pitch p a drum of radius r0 that holds s has the radius sqrt(r0^2 + p s / pi), because s is the
-// integral of r = r0 + p angle / 2 pi over the angle. It is taken at the start of each substep.
 
 #include <algorithm>
 #include <cmath>
@@ -69,7 +65,7 @@ void CableSystem::refresh_ends(const FeatureState& own, std::vector<LinkGeometry
   for (const int i : changing_links_) {
     const LinkGeometry& definition = definitions_[at(i)];
     LinkGeometry& link = links[at(i)];
-    const double radius = radius_with(definition, own.reals[stored_length_index(i)]);
+    const double radius = radius_with(definition, stored_arc(own, i));
     const auto mode = static_cast<int>(own.integers[mode_index(i)]);
     link.center = definition.center;
     if (mode == attached) {
@@ -118,30 +114,34 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
   double& stored = next.reals[stored_length_index(index)];
   double& rest_length = next.reals[rest_length_index(span)];
   std::int64_t& mode = next.integers[mode_index(index)];
+  const StoredStrain::End end = first ? StoredStrain::End::outgoing : StoredStrain::End::incoming;
   const PlaneAxes axes = axes_of(definition);
   const Quaternion orientation = substep.orientation(definition.carrier);
   const Vector3 center = substep.point(definition.carrier, definition.center);
-  const double radius = radius_with(definition, stored);
+  const double radius = radius_with(definition, stored_arc(next, index));
   const auto angle_of = [&](const Vector3& point) {
     const Vector3 own = orientation.conjugate() * (point - center);
     return std::atan2(axes.y.dot(own), axes.x.dot(own));
   };
   const SpanGeometry geometry = geometry_of(substep, span);
+  const double strain = strain_of(cable, geometry.length, rest_length);
   if (mode != attached) {
     if (stored >= 0.0) return;
     // From the tangent point along the free cable: with the cable's run at its first link, against it at its last.
     const double sense = first ? links_[at(index)].side : -links_[at(index)].side;
-    const double wanted = geometry.length + stored;
-    double angle = angle_of(first ? geometry.start : geometry.end) - sense * stored / radius;
+    const double missing = stored * (1.0 + strain);  // < 0
+    const double wanted = geometry.length + missing;
+    double angle = angle_of(first ? geometry.start : geometry.end) - sense * missing / radius;
     // The free cable gets shorter by r per radian, but for a share of a^2 / 2, by which each round leaves less.
     constexpr int rounds = 6;
-    for (int round = 0; round < rounds && -stored < radius; ++round) {
+    for (int round = 0; round < rounds && -missing < radius; ++round) {
       angle += sense * (attached_span(substep, index, span, angle).length - wanted) / radius;
     }
     next.reals[angle_index(index)] = angle;
     mode = attached;
     rest_length += stored;
     stored = 0.0;
+    fit_strain(index, end, strain, next);
     record(substep, cable, index, CableEvent::Kind::attach);
     return;
   }
@@ -163,10 +163,11 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
                     first ? links_[at(setup.second)] : wheel);
   if (!tangent.has_tangent) return;
   const double shorter = std::max(geometry.length - tangent.length, 0.0);
-  const double taken = std::min(cable.quantised(shorter), rest_length);
+  const double taken = std::min(cable.quantised(shorter / (1.0 + strain)), rest_length);
   mode = wheel.side == definition.side ? wound : wound_back;
   stored += taken;
   rest_length -= taken;
+  fit_strain(index, end, strain, next);
   record(substep, cable, index, CableEvent::Kind::wind);
 }
 

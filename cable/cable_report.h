@@ -27,8 +27,11 @@ struct LinkReport {
   /// Outlines: the cable's way along the body from entry to exit, corner by corner [m]. At the end of an open cable from
   /// the last point of the stored cable. Empty for circles and points.
   std::vector<Vector3> path;
-  double stored_length = 0.0;  ///< cable on the body [m]
-  /// Stored length in turns of the link's perimeter, as an angle [rad]; any number of turns. Of a pinhole the angle by
+  double stored_length = 0.0;  ///< cable on the body, of a material unstretched [m]
+  /// By how much what is stored is longer as it lies there, with the strain that it came on with [m]; of a material.
+  double stored_stretch = 0.0;
+  double most_strain = 0.0;  ///< the largest strain with which any of it lies there
+  /// Stored length, stretched, in turns of the link's perimeter, as an angle [rad]; any number of turns. Of a pinhole the angle by
   /// which the cable's direction changes there, 0 ... pi.
   double wrap_angle = 0.0;
   /// Cable that has slid over the link towards the next span since time 0 [m]; what rolled with a wheel is not counted.
@@ -85,6 +88,9 @@ struct CableReport {
   double total_length = 0.0;  ///< sum of rest lengths and stored lengths [m]
   /// (total_length - its value at time 0 - what was fed) / that value; the length invariant.
   double length_error = 0.0;
+  /// Energy lost since time 0 where cable of a material came off a wheel with another strain than its span's [J]: the
+  /// creep of belts (cable/cable_material.cpp).
+  double creep_loss = 0.0;
   double max_stretch = 0.0;  ///< largest (length - rest length) / rest length of a rigid span
 
   /// The same with the wraps among links and spans, each at its place, for those that follow the cable's whole way;

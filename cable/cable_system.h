@@ -11,6 +11,7 @@
 #include "cable/cable.h"
 #include "cable/cable_report.h"
 #include "cable/span_row.h"
+#include "cable/stored_strain.h"
 #include "cable/wrap_candidate.h"
 #include "engine/constraint_batch.h"
 #include "engine/index.h"
@@ -63,7 +64,8 @@ struct CompiledCable {
 /// reals: rest length per span [m], stored length per link [m], tension per span [N], transport below the quantum per
 /// span end (first, second) [m], which rows count as rest length, slip per link [m]: cable that has slid over it towards the
 /// next span, of an attachment cable that was fed, angle of a hybrid end's attachment per link [rad], plane per place for a
-/// wrap: centre [m] and normal, own frame of the body.
+/// wrap: centre [m] and normal, own frame of the body. Then per link on which cable of a material can lie what
+/// StoredStrain saves, and what has been lost there by creep since time 0 [J].
 ///
 /// integers: per link with friction which way the cable slides: +1 towards the next span, -1 towards the last, 0 not at
 /// all; per link its mode: 0 as defined, 1 wound the other way round, 2 attached (hybrid ends), 3 left by the cable,
@@ -97,6 +99,16 @@ class CableSystem final : public ConstraintBatch {
     double first_time = 0.0;  ///< [s]
   };
   [[nodiscard]] std::vector<WrapWarning> wrap_warnings() const;
+  /// A link at which the cable crosses itself at time 0 and would not with the other winding.
+  struct WindingWarning {
+    std::string cable;
+    int link = 0;      ///< within the cable's list
+    std::string body;  ///< that the link is on, or "world"
+    Winding better = Winding::clockwise;
+  };
+  [[nodiscard]] const std::vector<WindingWarning>& winding_warnings() const {
+    return winding_warnings_;
+  }
   /// What happened since the system was created, in order.
   [[nodiscard]] const std::vector<CableEvent>& events() const { return events_; }
 
@@ -137,6 +149,14 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] std::size_t plane_index(int plane) const {
     return 4 * spans_.size() + 3 * links_.size() + 6 * static_cast<std::size_t>(plane);
   }
+  /// StoredStrain::real_count numbers, of the strain place `place` (see strain_places_).
+  [[nodiscard]] std::size_t strain_index(int place) const {
+    return plane_index(plane_count_) +
+           (StoredStrain::real_count + 1) * static_cast<std::size_t>(place);
+  }
+  [[nodiscard]] std::size_t creep_index(int place) const {
+    return strain_index(place) + StoredStrain::real_count;
+  }
   // And in FeatureState::integers.
   [[nodiscard]] static std::size_t slip_state_index(int link) {
     return static_cast<std::size_t>(link);
@@ -168,6 +188,8 @@ class CableSystem final : public ConstraintBatch {
   };
   [[nodiscard]] int next_span(const CompiledCable& cable, int span) const;
   [[nodiscard]] bool shared(int link) const;
+  /// Finds the frictionless links beside drained spans of a cable of constant compliance that pass nothing in the substep.
+  void hold_drained(const CompiledCable& cable, const FeatureState& start);
   template <class Visit>
   void for_each_run(const CompiledCable& cable, Visit visit) const;
   /// One step of XPBD for one span; returns what solve_row() does.
@@ -240,7 +262,10 @@ class CableSystem final : public ConstraintBatch {
   /// Of pieces `first` to `last`, between dead ends: lets cable slide into those too short and out of those too long.
   void serve_pieces(const Substep& substep, std::size_t first, std::size_t last);
   void serve(std::size_t index);
-  void judge_links(const Substep& substep, std::size_t first, std::size_t last);
+  void judge_links(const Substep& substep, const CompiledCable& cable, std::size_t first,
+                   std::size_t last);
+  /// Whether the spans of the run, of constant compliance, have no rest length left.
+  [[nodiscard]] bool is_drained(const CompiledCable& cable, Run run) const;
   void update_slip(const Substep& substep, const CompiledCable& cable);
   /// Gives spans whose tension is open one that their neighbours hold. `start`: the state at the start of the substep.
   void hold_tensions(const Substep& substep, const CompiledCable& cable, const FeatureState& start);
@@ -248,6 +273,46 @@ class CableSystem final : public ConstraintBatch {
                     std::size_t first, std::size_t last);
   void apply_held(const Substep& substep, const CompiledCable& cable, const Piece& piece,
                   double pull);
+  // Drums with layers: cable/cable_layers.cpp.
+  /// A span with the radii that its links have now.
+  struct LayeredSpan {
+    SpanSetup setup;
+    LinkGeometry first;
+    LinkGeometry second;
+    SpanGeometry geometry;
+    SpanTransport transport;
+  };
+  [[nodiscard]] bool layered(int span) const;
+  [[nodiscard]] LayeredSpan layered_span(const Substep& substep, int span) const;
+  SpanGeometry evaluate_layered(const Substep& substep, int span, Row& row,
+                                SpanTransport& transport) const;
+  // Cable of a material on wheels: cable/cable_material.cpp.
+  /// The row of a span of a material, but for its gradient.
+  struct StretchedSpan {
+    double value = 0.0;              ///< [m]
+    double spring_length = 0.0;      ///< A: compliance x EA [m]
+    double on = 0.0;                 ///< arc that comes onto its links [m, >= 0]
+    std::array<double, 2> gained{};  ///< unstretched length that comes off its links [m, >= 0]
+  };
+  [[nodiscard]] StretchedSpan stretched(int span, const SpanTransport& arcs, double length) const;
+  /// Strain of a span, 0 if it is slack or its cable not of a material.
+  [[nodiscard]] static double strain_of(const CompiledCable& cable, double length,
+                                        double rest_length);
+  /// Rest length of a span [m] at the end of the substep, from its row and its length.
+  [[nodiscard]] static double rest_length_of(const CompiledCable& cable, const Row& row,
+                                             double length);
+  [[nodiscard]] static double rest_length_under(double value, double spring_length, double length);
+  /// Unstretched transport of a span of a material at the end of the substep [m]; moves strain and counts creep.
+  SpanTransport material_transport(const CompiledCable& cable, int span, const SpanTransport& arcs,
+                                   double length, FeatureState& next);
+  [[nodiscard]] StoredStrain stored_strain(const FeatureState& own, int link) const;
+  void save_strain(const StoredStrain& stored, int link, FeatureState& own) const;
+  /// Lets the link's strain follow a stored length that has changed at `end`; what is new has `strain`.
+  void fit_strain(int link, StoredStrain::End end, double strain, FeatureState& own) const;
+  void keep_strains(FeatureState& next);
+  /// Length of the stored cable as it lies there, stretched [m].
+  [[nodiscard]] double stored_arc(const FeatureState& own, int link) const;
+  [[nodiscard]] double stored_energy(const FeatureState& own) const;
   // Ends that change: cable/cable_ends.cpp.
   /// Puts what follows from the cables' state into links and spans.
   void refresh(const BodySet& bodies, const FeatureState& own, std::vector<LinkGeometry>& links,
@@ -295,10 +360,11 @@ class CableSystem final : public ConstraintBatch {
   /// Lets the span touch the first body that it cuts; false if there is none.
   bool touch_on_span(const Substep& substep, int cable, int span, FeatureState& next);
   [[nodiscard]] int listed_before(const CompiledCable& cable, int span) const;
-  /// Winds on or off the cable by which a span's end moves along its link; returns what the span gains [m].
-  static double shift_contact(const Substep& substep, const CompiledCable& cable,
-                              const LinkGeometry& link, const SpanGeometry& from,
-                              const SpanGeometry& to, bool first, double& stored_length);
+  /// Winds on or off the cable by which a span's end moves along its link, of a material with `strain`; returns what the
+  /// span gains [m].
+  double shift_contact(const Substep& substep, const CompiledCable& cable, int link,
+                       const SpanGeometry& from, const SpanGeometry& to, bool first, double strain,
+                       FeatureState& next) const;
   [[nodiscard]] bool comes_off(const Substep& substep, int span, int link,
                                const FeatureState& next) const;
   bool leave(const Substep& substep, const CompiledCable& cable, int link, FeatureState& next);
@@ -344,25 +410,33 @@ class CableSystem final : public ConstraintBatch {
   std::vector<LinkGeometry> links_;          ///< in this substep
   std::vector<SpanSetup> span_definitions_;  ///< as compiled
   std::vector<SpanSetup> spans_;             ///< in this substep
+  bool has_layers_ = false;                  ///< at least one link is a drum with layers
   bool course_changes_ = false;              ///< spans depend on the state
   std::vector<std::int64_t> connected_for_;  ///< integers of the state that spans_ stand for
   std::vector<double> planes_;               ///< its planes of wraps
+  std::vector<int> strain_places_;  ///< per link its place among those with stored strain, or -1
+  int plane_count_ = 0;
   FeatureState initial_;
   // Scratch of a substep, filled by begin().
   std::vector<SpanReference> references_;
+  std::vector<double> strains_;  ///< per span, of a material, at the start
   std::vector<double> multipliers_;
   std::vector<char> was_taut_;  ///< per span, in the last substep
   std::vector<std::array<double, 2>>
       fed_;                ///< per span at its first and second link, in this substep [m]
   std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
   std::vector<int> pending_slip_;
+  std::vector<char> held_;  ///< per link: whether it passes nothing although it has no friction
   std::vector<int> revised_;
-  std::vector<int> sweeps_;             ///< per cable, in this substep
-  std::vector<int> flips_;              ///< per link: how often that has changed in this substep
-  std::vector<double> stored_lengths_;  ///< per link, at the start of the substep [m]
-  Row row_;                             ///< scratch of solve_span()
   /// Per span, for finish(): the tension at the start [N], and the length at the end of the substep [m].
   std::vector<std::array<double, 2>> ends_;
+  std::vector<int> sweeps_;               ///< per cable, in this substep
+  std::vector<int> flips_;                ///< per link: how often that has changed in this substep
+  std::vector<double> stored_arcs_;       ///< per link: stored cable as it lies, at the start [m]
+  std::vector<StoredStrain> stored_;      ///< per strain place, at the start
+  std::vector<StoredStrain> stored_end_;  ///< and at the end
+  Row row_;                               ///< scratch of solve_span()
+  LayeredSpan layered_;                   ///< scratch of finish()
   // Scratch of solve_run().
   std::vector<Row> run_rows_;
   std::vector<SpanGeometry> run_spans_;
@@ -387,6 +461,7 @@ class CableSystem final : public ConstraintBatch {
   std::vector<Fallback> fallbacks_;
   std::vector<Fallback> crowded_;  ///< per cable: wraps that found no place
   std::vector<CableEvent> events_;
+  std::vector<WindingWarning> winding_warnings_;
 };
 
 template <class Visit>

@@ -29,6 +29,7 @@ std::string_view RunSummary::status() const {
 namespace {
 
 void append_cable_warnings(const CableSystem& cables, std::vector<Warning>& warnings) {
+  warnings = scene_warnings(cables);
   for (const CableSystem::TangentWarning& warning : cables.tangent_warnings()) {
     std::string span = warning.span < 0 ? fmt::format("{} behind a wrap", warning.cable)
                                         : fmt::format("{}.{}", warning.cable, warning.span);
@@ -184,6 +185,26 @@ void append_rounding_warning(const World& world, std::vector<Warning>& warnings)
 }
 
 }  // namespace
+
+std::vector<Warning> scene_warnings(const CableSystem& cables) {
+  std::vector<Warning> warnings;
+  for (const CableSystem::WindingWarning& warning : cables.winding_warnings()) {
+    std::string message = fmt::format(
+        "cable \"{}\" crosses itself beside link {} on \"{}\", which looks like the wrong winding; "
+        "try "
+        "\"winding\": \"{}\" there, or \"turns\": 1 if a whole turn is meant",
+        warning.cable, warning.link, warning.body,
+        winding_names[static_cast<std::size_t>(warning.better)]);
+    warnings.push_back({"crossed_winding", warning.cable, std::move(message)});
+  }
+  return warnings;
+}
+
+std::vector<Warning> scene_warnings(const Scene& scene) {
+  const Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
+  if (!simulation || simulation->cables == nullptr) return {};
+  return scene_warnings(*simulation->cables);
+}
 
 std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simulation,
                                       const RunStatistics& statistics, const RunMonitor& monitor) {

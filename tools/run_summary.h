@@ -59,13 +59,18 @@ struct RunSummary {
   [[nodiscard]] std::string_view status() const;
 };
 
-/// Warnings about the course of a run: spans that had no tangent, wraps that found no place, rigid cables that do not keep
+/// Warnings about a scene and the course of its run: spans that had no tangent, wraps that found no place, rigid cables that do not keep
 /// their length, vibrations that the step damps, steps too short for the digits of positions, substeps that the direct solver
 /// or rattle left to the other one, energy that nothing has put into the scene.
 [[nodiscard]] std::vector<Warning> collect_warnings(const Scene& scene,
                                                     const Simulation& simulation,
                                                     const RunStatistics& statistics,
                                                     const RunMonitor& monitor);
+
+/// Warnings about a scene that can be run but may not be what was meant: windings that look as if they were entered the wrong
+/// way round.
+[[nodiscard]] std::vector<Warning> scene_warnings(const CableSystem& cables);
+[[nodiscard]] std::vector<Warning> scene_warnings(const Scene& scene);
 
 /// One JSON object in one line, keys as in the documentation. Numbers that are not finite or not
 /// known are null.

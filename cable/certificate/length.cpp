@@ -63,7 +63,7 @@ void check_spans_of(const Evidence& evidence, const CableEvidence& cable, Findin
     // What moves is the scale; what is slower than a size in the run so far does not count.
     const double size = std::min(cable.free_length, evidence.bodies.scale());
     const double moved = std::max({std::abs(first), std::abs(second), std::abs(passed)});
-    findings.note(Kind::length, "m", std::abs(rolled - first - second),
+    findings.note(Kind::length, "m", std::abs(unrolled(evidence, cable, span, rolled)),
                   std::max(moved, 1e-6 * size), 1e-12 * (size + cable.end.total_length),
                   [&] { return span.name(); });
   }
@@ -86,6 +86,30 @@ double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, 
   const double factor = sense * side.winding * side.radius;
   const double turns = std::round((reported / factor - angle) / (2.0 * pi));
   return factor * (angle + 2.0 * pi * turns);
+}
+
+double unrolled(const Evidence& evidence, const CableEvidence& cable, const SpanEvidence& span,
+                double rolled) {
+  const double first = rim_travel(evidence, span.from, -1.0, rolled);
+  const double second = rim_travel(evidence, span.to, 1.0, rolled - first);
+  if (!cable.definition->axial_stiffness) return rolled - first - second;
+  // What comes onto a rim has the strain of the span, what comes off it one with which some of it lies there.
+  double strain = 0.0;
+  for (const End when : {first_end, last_end}) {
+    if (span.rest_length[when] > 0.0) {
+      strain += 0.5 * std::max(span.length[when] / span.rest_length[when] - 1.0, 0.0);
+    }
+  }
+  double most = strain;
+  for (const LinkReport& link : cable.start.links) most = std::max(most, link.most_strain);
+  for (const WrapReport& wrap : cable.start.wraps) most = std::max(most, wrap.link.most_strain);
+  double low = 0.0;
+  double high = 0.0;
+  for (const double travel : {first, second}) {
+    low += travel / (1.0 + (travel < 0.0 ? strain : most));
+    high += travel < 0.0 ? travel / (1.0 + strain) : travel;
+  }
+  return rolled - std::clamp(rolled, low, high);
 }
 
 void check_lengths(const Evidence& evidence, Findings& findings) {

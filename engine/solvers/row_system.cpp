@@ -54,6 +54,10 @@ bool RowSystem::match_start() {
         if (start.terms[t].body != row.terms[t].body) return false;
       }
       start_values_[at(i)] = start.value;
+      // The mean of the forces, F = (F0 + F1) / 2, where the compliance has changed on the way.
+      if (row.compliance != start.compliance && start.compliance > 0.0) {
+        start_values_[at(i)] *= row.compliance / start.compliance;
+      }
       responses_[at(i)] = start_responses_[at(place)];
       std::swap(rows_[at(i)].weight, rows_[at(i)].start_weight);
     }

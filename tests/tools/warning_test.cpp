@@ -49,6 +49,20 @@ TEST(Warnings, SweepsThatActLikeASpringAreAWarning) {
   EXPECT_EQ(warned({short_run, "--integrator", "rattle"}), "stretched");
 }
 
+TEST(Warnings, AWindingTheWrongWayRoundIsAWarning) {
+  const TemporaryFolder folder;
+  std::string text = atwood_scene;
+  const std::string clockwise = "\"winding\": \"clockwise\"";
+  text.replace(text.find(clockwise), clockwise.size(), "\"winding\": \"counter-clockwise\"");
+  const std::string crossed = folder.write("crossed.json", text);
+  EXPECT_EQ(warned({crossed}), "crossed_winding");
+  EXPECT_EQ(warned({folder.write("atwood.json", atwood_scene)}), "");
+  const ProcessResult result = run_sheave({"validate", crossed});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("link 1 on \"wheel\""));
+  EXPECT_THAT(result.err, HasSubstr(clockwise));
+}
+
 TEST(Warnings, AVibrationThatTheStepDampsIsAWarning) {
   // w = 8.7 rad/s: in half a second xpbd takes w^2 h 0.5 s = 1.2 of it at 1/30 s, a hundredth of that at 1/3000 s.
   const TemporaryFolder folder;
