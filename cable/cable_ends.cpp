@@ -116,6 +116,7 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
                              int span, bool first, FeatureState& next) {
   const LinkGeometry& definition = definitions_[at(index)];
   double& stored = next.reals[stored_length_index(index)];
+  if (next.integers[mode_index(index)] != attached && stored >= 0.0) return;
   double& rest_length = next.reals[rest_length_index(span)];
   std::int64_t& mode = next.integers[mode_index(index)];
   const PlaneAxes axes = axes_of(definition);
@@ -128,7 +129,6 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
   };
   const SpanGeometry geometry = geometry_of(substep, span);
   if (mode != attached) {
-    if (stored >= 0.0) return;
     // From the tangent point along the free cable: with the cable's run at its first link, against it at its last.
     const double sense = first ? links_[at(index)].side : -links_[at(index)].side;
     const double wanted = geometry.length + stored;
@@ -177,8 +177,18 @@ void CableSystem::feed(const FeatureState& state, double h, int span) {
   second = links_[at(setup.second)].feed_speed * h;
   // No more can be taken out than there is.
   const double rest_length = std::max(state.reals[rest_length_index(span)], 0.0);
+  const std::array wanted{first, second};
   first = std::max(first, -rest_length);
   second = std::max(second, -rest_length - first);
+  feed_rates_[at(span)] = 0.0;
+  for (const std::size_t end : {0U, 1U}) {
+    const int link = end == 0 ? setup.first : setup.second;
+    if (fed_[at(span)][end] > wanted[end]) {
+      stalled_[at(link)] = 1;
+    } else {
+      feed_rates_[at(span)] += links_[at(link)].feed_speed;
+    }
+  }
 }
 
 }  // namespace sheave

@@ -44,6 +44,8 @@ struct CableEvent {
     attach,  ///< a hybrid end's cable was used up
     wind,    ///< and is wound up again
     cut,     ///< the cable was cut or broke, in the span that begins at the link
+    stall,  ///< the drive of the link's body, or the link's feed, needs more cable than there is and stops or slows down
+    slip,  ///< cable began to slide over a link on which it ought not to, because there is no more of it
   };
   double time = 0.0;  ///< end of the substep [s]
   std::string cable;
@@ -51,8 +53,8 @@ struct CableEvent {
   Kind kind = Kind::leave;
   std::string body{};  ///< that the link is on; empty: the world
 };
-inline constexpr std::array<std::string_view, 5> cable_event_names{"leave", "touch", "attach",
-                                                                   "wind", "cut"};
+inline constexpr std::array<std::string_view, 7> cable_event_names{
+    "leave", "touch", "attach", "wind", "cut", "stall", "slip"};
 
 /// One free span of a cable.
 struct SpanReport {
@@ -85,7 +87,8 @@ struct CableReport {
   double total_length = 0.0;  ///< sum of rest lengths and stored lengths [m]
   /// (total_length - its value at time 0 - what was fed) / that value; the length invariant.
   double length_error = 0.0;
-  double max_stretch = 0.0;  ///< largest (length - rest length) / rest length of a rigid span
+  /// Largest (length - rest length) / rest length of a rigid span; of one shorter than 1e-6 of the cable over that.
+  double max_stretch = 0.0;
 
   /// The same with the wraps among links and spans, each at its place, for those that follow the cable's whole way;
   /// `places` gets the place that each link has in this report, -1 for wraps.

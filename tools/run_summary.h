@@ -53,7 +53,8 @@ struct RunSummary {
   [[nodiscard]] bool checks_passed() const;
 };
 
-/// Warnings about the course of a run: spans that had no tangent, wraps that found no place, rigid cables that do not keep
+/// Warnings about the course of a run: spans that had no tangent, wraps that found no place, drives that
+/// stalled for want of cable, rigid cables that do not keep
 /// their length, vibrations that the step damps, steps too short for the digits of positions, substeps that the direct solver
 /// or rattle left to the other one, energy that nothing has put into the scene.
 [[nodiscard]] std::vector<Warning> collect_warnings(const Scene& scene,

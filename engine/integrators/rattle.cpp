@@ -75,6 +75,7 @@ void RattleSolver::solve_positions(Substep& substep, Features features) {
   for (std::size_t i = 0; i < features.size(); ++i) {
     features[i]->begin(substep, substep.start.features[i]);
   }
+  limit_drives(substep, features);
   move_kinematic_bodies(substep);
   predict(substep);
   if (solver_ == SolverKind::direct) {
@@ -89,7 +90,7 @@ void RattleSolver::solve_velocities(Substep& substep, Features features) {
   substep.update_inertias();
   velocities_.linearise_velocities(substep, positions_);
   const bool direct = solver_ == SolverKind::direct;
-  if (!direct || !velocities_.solve(substep)) {
+  if (!direct || !velocities_.solve(substep, true)) {
     if (direct) ++substep.statistics.solver_fallbacks;
     velocities_.relax(substep, substep.iterations);
   }
