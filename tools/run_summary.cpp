@@ -174,14 +174,19 @@ void append_damping_warning(const StepSettings& step, const RunStatistics& stati
 /// Where nothing puts energy into a scene, there is never more than at first. Steps too long for what swings or spins in them
 /// do make energy: a light weight on a taut cable, pulled round a wheel; the gyroscopic motion of long bodies. So do springs
 /// that are stretched without a force, because sweeps have not got to it.
-void append_energy_warning(const Scene& scene, const RunMonitor& monitor,
-                           std::vector<Warning>& warnings) {
+void append_energy_warning(const Scene& scene, const Simulation& simulation,
+                           const RunMonitor& monitor, std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.1;
   constexpr double rounding = 1e-12;  // of the potential energy
   if (!measure::is_conservative(scene)) return;
   const double size = monitor.most_vivid_energy();
   const double gain = monitor.max_energy_gain();
-  const double potential = std::abs(monitor.initial_energy().potential);
+  // Of the heights that weights could have in the scene, and not of those that they have: these may be 0.
+  const BodySet& bodies = simulation.world.bodies();
+  double potential = std::abs(monitor.initial_energy().potential);
+  for (int i = 0; i < bodies.count(); ++i) {
+    potential += bodies[i].mass * bodies.gravity().norm() * bodies.scale();
+  }
   if (gain <= share_limit * size + rounding * (size + potential)) return;
   std::string message = fmt::format(
       "there was {:.3g} J more energy than at the start, although nothing puts any into the scene, "
@@ -240,7 +245,7 @@ std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simu
   }
   append_joint_warnings(simulation, statistics, monitor, warnings);
   append_damping_warning(scene.model.step, statistics, monitor, warnings);
-  append_energy_warning(scene, monitor, warnings);
+  append_energy_warning(scene, simulation, monitor, warnings);
   append_rounding_warning(simulation.world, warnings);
   if (statistics.solver_fallbacks > 0) {
     std::string message = fmt::format(
