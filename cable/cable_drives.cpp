@@ -10,6 +10,8 @@
 //   one span what they take from the other), rest lengths are no shorter than the spans: a belt over two wheels that are
 //   driven at different speeds.
 //
+// And from a drum that is not round no more can be paid out than is on it. (A round one then holds the cable by its rim.)
+//
 // What is drawn beyond that, nothing can give. The drives that draw then stall: of their way in the substep they do the share
 // for which it is enough, and at its end they have the speed at which they draw what is fed; the other drives go on. If a
 // drive that is slowed down feeds another chain, that one may be short in turn, and so on; shares only fall. So lengths stay
@@ -28,7 +30,7 @@
 namespace sheave {
 namespace {
 
-/// What rounding leaves of lengths that are drawn and fed alike, relative to them; the next substep finds it again.
+/// What rounding leaves of lengths that are drawn and fed alike, relative to both together; the next substep finds it again.
 constexpr double overlooked = 1e-9;
 
 /// The spin at the end of the substep [rad/s].
@@ -98,6 +100,7 @@ bool CableSystem::may_fall_short(const Substep& substep, const CompiledCable& ca
       }
       if (references_[at(k)].rest_length < 2.0 * most) return true;
     }
+    if (runs_out(cable, link) && stored_lengths_[at(link)] < 2.0 * most) return true;
   }
   return false;
 }
@@ -110,7 +113,9 @@ void CableSystem::limit_drives(Substep& substep) {
     for (const int link : cable.driven_links) {
       if (driven_way(substep, link) != locked_[at(link)]) locked_[at(link)] = 0;
     }
-    if (!cable.driven_links.empty() && may_fall_short(substep, cable)) find_chains(substep, cable);
+    if (cable.driven_links.empty() || !may_fall_short(substep, cable)) continue;
+    find_chains(substep, cable);
+    add_stored_cable(substep, cable);
   }
   if (chains_.empty()) return;
   // Slower drives may leave others short; where that goes on and on they stop.
@@ -136,14 +141,16 @@ void CableSystem::limit_drives(Substep& substep) {
 bool CableSystem::stall(Substep& substep, const Chain& chain, bool altogether) {
   std::array<double, 2> fed{};  // way [m] and speed [m/s] of cable
   std::array<double, 2> drawn{};
+  double gross = 0.0;
   const auto pulls = std::span(pulls_).subspan(at(chain.first_pull), at(chain.pull_count));
   for (const Pull& pull : pulls) {
     const DriveShare& share = share_of(substep, pull);
+    gross += share.way * pull.gross;
     const std::array change{share.way * pull.way, share.speed * pull.speed};
     for (std::size_t i = 0; i < 2; ++i) (change[i] > 0.0 ? fed : drawn)[i] += std::abs(change[i]);
   }
   const double there = std::max(chain.available + fed[0], 0.0);
-  if (!(drawn[0] - there > overlooked * drawn[0])) return false;
+  if (!(drawn[0] - there > overlooked * gross)) return false;
   const double way = altogether ? 0.0 : there / drawn[0];
   const double speed = altogether || !(drawn[1] > 0.0) ? 0.0 : std::min(fed[1] / drawn[1], 1.0);
   for (const Pull& pull : pulls) {
@@ -242,7 +249,7 @@ void CableSystem::add_to_chain(const Substep& substep, int span, ChainLengths& l
       const double fed = fed_[at(span)][at(end)];
       // What is fed is in the rest length already.
       lengths.rest_length -= fed;
-      add_pull({index, span, end, fed, link.feed_speed, 0.0, 0.0});
+      add_pull({index, span, end, fed, link.feed_speed, std::abs(fed), 0.0, 0.0});
     }
     const BodyProperties& body = substep.bodies[link.body];
     if (!body.prescribed()) continue;
@@ -253,7 +260,32 @@ void CableSystem::add_to_chain(const Substep& substep, int span, ChainLengths& l
     const Vector3 arm = cross(point - substep.position(link.body), geometry.direction);
     const double lever = (end == 0 ? 1.0 : -1.0) * dot(body.axis, arm);
     const double of_points = link.wraps() ? 0.0 : lever;
-    add_pull({index, -1, 0, lever * turn, lever * speed, of_points * turn, of_points * speed});
+    add_pull({index, -1, 0, lever * turn, lever * speed, std::abs(lever * turn), of_points * turn,
+              of_points * speed});
+  }
+}
+
+void CableSystem::add_stored_cable(const Substep& substep, const CompiledCable& cable) {
+  for (const int link : cable.driven_links) {
+    const BodyProperties& body = substep.bodies[links_[at(link)].body];
+    const bool first = link == cable.first_link;
+    const int span = first ? span_after(cable, link) : span_before(cable, link, spans_);
+    if (!runs_out(cable, link) || !body.prescribed() || span < 0 || !spans_[at(span)].active) {
+      continue;
+    }
+    const SpanGeometry geometry = geometry_of(substep, span);
+    const Vector3& point = first ? geometry.start : geometry.end;
+    const Vector3 arm = cross(point - substep.position(links_[at(link)].body), geometry.direction);
+    const double lever = (first ? -1.0 : 1.0) * dot(body.axis, arm);
+    const double turn = driven_turn(body, substep);
+    const double way = lever * turn;
+    Chain chain;
+    chain.first_pull = static_cast<int>(pulls_.size());
+    chain.pull_count = 1;
+    chain.available = stored_lengths_[at(link)];
+    chains_.push_back(chain);
+    pulls_.push_back(
+        {link, -1, 0, way, lever * driven_speed(body, substep, turn), std::abs(way), 0.0, 0.0});
   }
 }
 
@@ -266,6 +298,7 @@ void CableSystem::add_pull(const Pull& pull) {
     if (pull.way < other.way) other.link = pull.link;
     other.way += pull.way;
     other.speed += pull.speed;
+    other.gross += pull.gross;
     other.way_of_points += pull.way_of_points;
     other.speed_of_points += pull.speed_of_points;
     return;
@@ -289,8 +322,16 @@ void CableSystem::wind(int span, const SpanTransport& transport, FeatureState& n
   }
   if (rest_length + moved[0] + moved[1] < 0.0) slide_over_ends(span, moved, next);
   for (std::size_t end = 0; end < 2; ++end) {
+    double& stored = next.reals[stored_length_index(ends[end])];
+    if (moved[end] > stored && runs_out(cable, ends[end])) {
+      // The cable's end slides over the edge that it has come to.
+      next.reals[slip_index(ends[end])] += (end == 0 ? -1.0 : 1.0) * (moved[end] - stored);
+      moved[end] = stored;
+      slid_[at(ends[end])] = 1;
+      slides_ = true;
+    }
     rest_length += moved[end];
-    next.reals[stored_length_index(ends[end])] -= moved[end];
+    stored -= moved[end];
   }
 }
 

@@ -342,6 +342,7 @@ class CableSystem final : public ConstraintBatch {
     int end = 0;                 ///< and at which of its ends
     double way = 0.0;            ///< in the substep [m], < 0 draws
     double speed = 0.0;          ///< at its end [m/s]
+    double gross = 0.0;          ///< of `way`, what is both drawn and fed counted twice [m]
     double way_of_points = 0.0;  ///< part of the above that moves spans' ends instead
     double speed_of_points = 0.0;
   };
@@ -372,6 +373,14 @@ class CableSystem final : public ConstraintBatch {
                 ChainLengths& lengths) const;
   void add_to_chain(const Substep& substep, int span, ChainLengths& lengths);
   void add_pull(const Pull& pull);
+  /// Whether the cable ends on the link, which is not round and so cannot hold it by its rim when all is paid out.
+  [[nodiscard]] bool runs_out(const CompiledCable& cable, int link) const {
+    const bool end =
+        !cable.closed && (link == cable.first_link || link == cable.last_listed_link());
+    return end && links_[at(link)].wraps() && !definitions_[at(link)].hybrid;
+  }
+  /// What drives pay out from drums on which the cable ends.
+  void add_stored_cable(const Substep& substep, const CompiledCable& cable);
   /// Lets the drives of a chain that is short of cable draw only what there is; false if it is not short.
   bool stall(Substep& substep, const Chain& chain, bool altogether);
   DriveShare& share_of(Substep& substep, const Pull& pull);
