@@ -131,7 +131,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     const SpanTransport transport =
         span_transport(substep, setup, first, second, references_[at(k)], span);
     double& rest_length = next.reals[rest_length_index(k)];
-    wind(k, transport, next);
+    if (first.wraps() || second.wraps()) wind(k, transport, next);
     const auto feed_in = [&](int link, int end) {
       double& remainder = next.reals[remainder_index(k, end)];
       const double amount = fed_[at(k)][at(end)];
