@@ -36,8 +36,8 @@ struct PlaneAxes {
 
 /// Axes in the link's plane, from which the angle of an attachment is counted.
 PlaneAxes axes_of(const LinkGeometry& link) {
-  const Vector3 y = any_perpendicular(link.normal);
-  return {y.cross(link.normal), y};
+  const Vector3 y = any_perpendicular(link.rim_normal);
+  return {y.cross(link.rim_normal), y};
 }
 
 /// Makes `link` a point of the rim, at `angle`.
@@ -45,7 +45,10 @@ void attach_at(LinkGeometry& link, double radius, double angle) {
   const PlaneAxes axes = axes_of(link);
   link.side = 0;
   link.signed_radius = 0.0;
-  link.center += radius * (std::cos(angle) * axes.x + std::sin(angle) * axes.y);
+  link.still = link.still && link.carrier == link.body;
+  link.carrier = link.body;
+  link.normal = link.rim_normal;
+  link.center = link.rim_center + radius * (std::cos(angle) * axes.x + std::sin(angle) * axes.y);
   link.centered = link.center.isZero(0.0);
 }
 
@@ -71,11 +74,14 @@ void CableSystem::refresh_ends(const FeatureState& own, std::vector<LinkGeometry
     LinkGeometry& link = links[at(i)];
     const double radius = radius_with(definition, own.reals[stored_length_index(i)]);
     const auto mode = static_cast<int>(own.integers[mode_index(i)]);
-    link.center = definition.center;
     if (mode == attached) {
       attach_at(link, radius, own.reals[angle_index(i)]);
       continue;
     }
+    link.carrier = definition.carrier;
+    link.still = definition.still;
+    link.center = definition.center;
+    link.normal = definition.normal;
     link.side = mode == wound_back ? -definition.side : definition.side;
     link.signed_radius = link.side * radius;
     link.centered = link.center.isZero(0.0);
@@ -120,8 +126,8 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
   double& rest_length = next.reals[rest_length_index(span)];
   std::int64_t& mode = next.integers[mode_index(index)];
   const PlaneAxes axes = axes_of(definition);
-  const Quaternion orientation = substep.orientation(definition.carrier);
-  const Vector3 center = substep.point(definition.carrier, definition.center);
+  const Quaternion orientation = substep.orientation(definition.body);
+  const Vector3 center = substep.point(definition.body, definition.rim_center);
   const double radius = radius_with(definition, stored);
   const auto angle_of = [&](const Vector3& point) {
     const Vector3 own = orientation.conjugate() * (point - center);
@@ -149,7 +155,7 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
   const Vector3 attachment = first ? geometry.start : geometry.end;
   const Vector3 outward = attachment - center;
   if (!(dot(away, outward) < 0.0)) return;
-  const Vector3 normal = orientation * definition.normal;
+  const Vector3 normal = orientation * definition.rim_normal;
   const int around =
       dot(away, cross(normal, outward)) >= 0.0 ? 1 : -1;  // of the way out of the wheel
   LinkGeometry wheel = definition;
