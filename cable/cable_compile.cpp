@@ -38,6 +38,9 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
     s.initial_.reals[s.remainder_index(static_cast<int>(k), 0)] = remainders_[k];
   }
   s.initial_.integers.assign(s.cut_index(static_cast<int>(s.cables_.size())), 0);
+  s.driven_ = std::any_of(s.cables_.begin(), s.cables_.end(),
+                          [](const CompiledCable& cable) { return !cable.driven_links.empty(); });
+  if (s.driven_) s.initial_.integers.resize(s.initial_.integers.size() + links, 0);
   for (std::size_t i = 0; i < links; ++i) {
     const auto link = static_cast<int>(i);
     s.initial_.integers[s.next_index(link)] = next_links_[i];
@@ -62,6 +65,13 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
   s.fallbacks_.resize(spans);
   s.sides_.resize(spans);
   s.fed_.resize(spans);
+  s.feed_shares_.resize(spans);
+  s.feed_rates_.resize(spans);
+  s.stalled_.resize(links);
+  s.locked_.resize(links);
+  s.slid_.resize(links);
+  s.stalls_.resize(links);
+  s.slides_at_.resize(links);
   s.slip_.assign(links, 0);
   s.held_.assign(links, 0);
   s.pending_slip_ = s.flips_ = s.slip_;

@@ -59,6 +59,8 @@ class CableCompiler {
   [[nodiscard]] bool any_wrappable() const;
   [[nodiscard]] bool place_candidate(const CompiledCable& cable, WrapCandidate& candidate) const;
   void check_candidates(const CompiledCable& cable);
+  /// What drives can do to it.
+  void set_drives(CompiledCable& cable) const;
   void set_course(CompiledCable& cable);
   void append_places(CompiledCable& cable);
   void store(const CableDef& def);

@@ -32,8 +32,8 @@ struct PlaneAxes {
 
 /// Axes in the link's plane, from which the angle of an attachment is counted.
 PlaneAxes axes_of(const LinkGeometry& link) {
-  const Vector3 y = any_perpendicular(link.normal);
-  return {y.cross(link.normal), y};
+  const Vector3 y = any_perpendicular(link.rim_normal);
+  return {y.cross(link.rim_normal), y};
 }
 
 /// Makes `link` a point of the rim, at `angle`.
@@ -41,7 +41,10 @@ void attach_at(LinkGeometry& link, double radius, double angle) {
   const PlaneAxes axes = axes_of(link);
   link.side = 0;
   link.signed_radius = 0.0;
-  link.center += radius * (std::cos(angle) * axes.x + std::sin(angle) * axes.y);
+  link.still = link.still && link.carrier == link.body;
+  link.carrier = link.body;
+  link.normal = link.rim_normal;
+  link.center = link.rim_center + radius * (std::cos(angle) * axes.x + std::sin(angle) * axes.y);
   link.centered = link.center.isZero(0.0);
 }
 
@@ -67,11 +70,14 @@ void CableSystem::refresh_ends(const FeatureState& own, std::vector<LinkGeometry
     LinkGeometry& link = links[at(i)];
     const double radius = radius_with(definition, stored_arc(own, i));
     const auto mode = static_cast<int>(own.integers[mode_index(i)]);
-    link.center = definition.center;
     if (mode == attached) {
       attach_at(link, radius, own.reals[angle_index(i)]);
       continue;
     }
+    link.carrier = definition.carrier;
+    link.still = definition.still;
+    link.center = definition.center;
+    link.normal = definition.normal;
     link.side = mode == wound_back ? -definition.side : definition.side;
     link.signed_radius = link.side * radius;
     link.centered = link.center.isZero(0.0);
@@ -112,12 +118,13 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
                              int span, bool first, FeatureState& next) {
   const LinkGeometry& definition = definitions_[at(index)];
   double& stored = next.reals[stored_length_index(index)];
+  if (next.integers[mode_index(index)] != attached && stored >= 0.0) return;
   double& rest_length = next.reals[rest_length_index(span)];
   std::int64_t& mode = next.integers[mode_index(index)];
   const StoredStrain::End end = first ? StoredStrain::End::outgoing : StoredStrain::End::incoming;
   const PlaneAxes axes = axes_of(definition);
-  const Quaternion orientation = substep.orientation(definition.carrier);
-  const Vector3 center = substep.point(definition.carrier, definition.center);
+  const Quaternion orientation = substep.orientation(definition.body);
+  const Vector3 center = substep.point(definition.body, definition.rim_center);
   const double radius = radius_with(definition, stored_arc(next, index));
   const auto angle_of = [&](const Vector3& point) {
     const Vector3 own = orientation.conjugate() * (point - center);
@@ -126,7 +133,6 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
   const SpanGeometry geometry = geometry_of(substep, span);
   const double strain = strain_of(cable, geometry.length, rest_length);
   if (mode != attached) {
-    if (stored >= 0.0) return;
     // From the tangent point along the free cable: with the cable's run at its first link, against it at its last.
     const double sense = first ? links_[at(index)].side : -links_[at(index)].side;
     const double missing = stored * (1.0 + strain);  // < 0
@@ -149,7 +155,7 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
   const Vector3 attachment = first ? geometry.start : geometry.end;
   const Vector3 outward = attachment - center;
   if (!(dot(away, outward) < 0.0)) return;
-  const Vector3 normal = orientation * definition.normal;
+  const Vector3 normal = orientation * definition.rim_normal;
   const int around =
       dot(away, cross(normal, outward)) >= 0.0 ? 1 : -1;  // of the way out of the wheel
   LinkGeometry wheel = definition;
@@ -178,8 +184,18 @@ void CableSystem::feed(const FeatureState& state, double h, int span) {
   second = links_[at(setup.second)].feed_speed * h;
   // No more can be taken out than there is.
   const double rest_length = std::max(state.reals[rest_length_index(span)], 0.0);
+  const std::array wanted{first, second};
   first = std::max(first, -rest_length);
   second = std::max(second, -rest_length - first);
+  feed_rates_[at(span)] = 0.0;
+  for (const std::size_t end : {0U, 1U}) {
+    const int link = end == 0 ? setup.first : setup.second;
+    if (fed_[at(span)][end] > wanted[end]) {
+      stalled_[at(link)] = 1;
+    } else {
+      feed_rates_[at(span)] += links_[at(link)].feed_speed;
+    }
+  }
 }
 
 }  // namespace sheave

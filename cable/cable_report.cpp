@@ -131,11 +131,13 @@ void CableSystem::append_wraps(const CableView& view, const CompiledCable& cable
 void CableSystem::measure(const CableView& view, const CompiledCable& cable, int cut_span,
                           CableReport& report) const {
   const bool rigid = compliance_of(cable, 1.0) == 0.0;
+  // Of a span that is all but used up there is no stretch worth the name; it counts against this share of the cable.
+  constexpr double shortest = 1e-6;
   const auto add_span = [&](const SpanReport& span) {
     report.total_length += span.rest_length;
-    if (rigid && span.rest_length > 0.0 && !report.cut) {
-      report.max_stretch =
-          std::max(report.max_stretch, (span.length - span.rest_length) / span.rest_length);
+    if (rigid && !report.cut) {
+      const double from = std::max(span.rest_length, shortest * cable.start_length);
+      report.max_stretch = std::max(report.max_stretch, (span.length - span.rest_length) / from);
     }
   };
   double fed = 0.0;

@@ -47,6 +47,8 @@ struct CableEvent {
     attach,  ///< a hybrid end's cable was used up
     wind,    ///< and is wound up again
     cut,     ///< the cable was cut or broke, in the span that begins at the link
+    stall,  ///< the drive of the link's body, or the link's feed, needs more cable than there is and stops or slows down
+    slip,  ///< cable began to slide over a link on which it ought not to, because there is no more of it
   };
   double time = 0.0;  ///< end of the substep [s]
   std::string cable;
@@ -54,8 +56,8 @@ struct CableEvent {
   Kind kind = Kind::leave;
   std::string body{};  ///< that the link is on; empty: the world
 };
-inline constexpr std::array<std::string_view, 5> cable_event_names{"leave", "touch", "attach",
-                                                                   "wind", "cut"};
+inline constexpr std::array<std::string_view, 7> cable_event_names{
+    "leave", "touch", "attach", "wind", "cut", "stall", "slip"};
 
 /// One free span of a cable.
 struct SpanReport {
@@ -91,7 +93,8 @@ struct CableReport {
   /// Energy lost since time 0 where cable of a material came off a wheel with another strain than its span's [J]: the
   /// creep of belts (cable/cable_material.cpp).
   double creep_loss = 0.0;
-  double max_stretch = 0.0;  ///< largest (length - rest length) / rest length of a rigid span
+  /// Largest (length - rest length) / rest length of a rigid span; of one shorter than 1e-6 of the cable over that.
+  double max_stretch = 0.0;
 
   /// The same with the wraps among links and spans, each at its place, for those that follow the cable's whole way;
   /// `places` gets the place that each link has in this report, -1 for wraps.

@@ -22,6 +22,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
   std::fill(sweeps_.begin(), sweeps_.end(), 0);
   std::fill(flips_.begin(), flips_.end(), 0);
+  if (driven_) begin_drives(state);
   for (std::size_t i = 0; i < links_.size(); ++i) {
     slip_[i] = pending_slip_[i] = static_cast<int>(state.integers[i]);
     const auto link = static_cast<int>(i);
@@ -74,7 +75,7 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row) c
   const LinkGeometry& second = links_[at(setup.second)];
   const SpanReference& reference = references_[at(span)];
   row.lower = 0.0;  // a cable pulls and never pushes
-  row.rate = first.feed_speed + second.feed_speed;
+  row.rate = first.feed_speed != 0.0 || second.feed_speed != 0.0 ? feed_rates_[at(span)] : 0.0;
   const bool frozen = cable.tangent_update == TangentUpdate::substep;
   SpanTransport transport;
   // A conditional, so that the span is made where it is kept.
@@ -161,16 +162,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
       transport = material_transport(cable, k, transport, span.length, next);
     }
     double& rest_length = next.reals[rest_length_index(k)];
-    // What is smaller than the quantum waits for the next substep.
-    const auto move = [&](double amount, int link, int end) {
-      double& remainder = next.reals[remainder_index(k, end)];
-      const double moved = cable.quantised(amount + remainder);
-      remainder += amount - moved;
-      rest_length += moved;
-      next.reals[stored_length_index(link)] -= moved;
-    };
-    if (first.wraps()) move(transport.from_first, setup.first, 0);
-    if (second.wraps()) move(transport.from_second, setup.second, 1);
+    if (first.wraps() || second.wraps()) wind(k, transport, next);
     const auto feed_in = [&](int link, int end) {
       double& remainder = next.reals[remainder_index(k, end)];
       const double amount = fed_[at(k)][at(end)];
@@ -187,6 +179,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     tension = multipliers_[at(k)] * inverse_square;
   }
   if (!stored_end_.empty()) keep_strains(next);
+  if (driven_ || slides_) record_stalls(substep, next);
   for (const CompiledCable& cable : cables_) {
     if (cable.shares) share_lengths(substep, cable, next);
   }

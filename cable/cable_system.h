@@ -42,8 +42,11 @@ struct CompiledCable {
   bool planar = false;                    ///< all links stay in one plane
   Vector3 normal = Vector3::UnitZ();      ///< of that plane
   std::vector<double> senses;  ///< per link: +1 if its normal is `normal`, -1 if opposite
-  bool shares = false;         ///< cable can pass at one of its links other than by rolling
-  bool has_friction = false;   ///< and at one of them with friction
+  /// Of its listed links those whose body a drive turns, and those that feed.
+  std::vector<int> driven_links;
+  bool may_lock = false;      ///< rigid, and drives alone may decide how long some of its spans are
+  bool shares = false;        ///< cable can pass at one of its links other than by rolling
+  bool has_friction = false;  ///< and at one of them with friction
   TangentUpdate tangent_update = TangentUpdate::iteration;
   double start_length = 0.0;  ///< rest and stored lengths at time 0 [m]
   /// Power of two that all rest and stored lengths are multiples of [m], about 1e-15 of the cable.
@@ -71,7 +74,8 @@ struct CompiledCable {
 /// all; per link its mode: 0 as defined, 1 wound the other way round, 2 attached (hybrid ends), 3 left by the cable,
 /// 4 left and passed to the other side; per link the next one along the cable, counted within it, -1 at its end and where
 /// the cable does not touch; per place for a wrap +-(candidate + 1), the sign being its winding, 0 unused; per cable 0, or
-/// 1 + the span where it is cut.
+/// 1 + the span where it is cut; if a cable has driven links, per link which way its drive has stalled because all cable was
+/// drawn: the sign of the drive's turn about its axis, 0 it has not.
 class CableSystem final : public ConstraintBatch {
  public:
   /// Checks and compiles the cables. Errors have paths "/cables/i/...".
@@ -109,6 +113,20 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] const std::vector<WindingWarning>& winding_warnings() const {
     return winding_warnings_;
   }
+  /// A link at which something happened that nobody asked for.
+  struct LinkWarning {
+    std::string cable;
+    int link = 0;  ///< within its cable's list; -1: a wrap
+    int body = 0;  ///< that it is on; the world comes last
+    long substeps = 0;
+    double first_time = 0.0;  ///< [s]
+  };
+  /// Drives and feeds that would have needed cable which was not there, and did not go on (cable/cable_drives.cpp).
+  [[nodiscard]] std::vector<LinkWarning> stall_warnings() const { return link_warnings(stalls_); }
+  /// Links that cable slid over because there was no more of it, where it ought not to slide.
+  [[nodiscard]] std::vector<LinkWarning> slide_warnings() const {
+    return link_warnings(slides_at_);
+  }
   /// What happened since the system was created, in order.
   [[nodiscard]] const std::vector<CableEvent>& events() const { return events_; }
 
@@ -117,6 +135,8 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] bool accepts(const FeatureState& state) const override;
   [[nodiscard]] int row_count() const override { return static_cast<int>(spans_.size()); }
   void begin(const Substep& substep, const FeatureState& state) override;
+  [[nodiscard]] bool limits_drives() const override { return driven_; }
+  void limit_drives(Substep& substep) override;
   double sweep(Substep& substep) override;
   void linearise(Substep& substep, std::vector<Row>& rows) override;
   [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
@@ -172,6 +192,9 @@ class CableSystem final : public ConstraintBatch {
   }
   [[nodiscard]] std::size_t cut_index(int cable) const {
     return 4 * links_.size() + static_cast<std::size_t>(cable);
+  }
+  [[nodiscard]] std::size_t stall_index(int link) const {
+    return cut_index(static_cast<int>(cables_.size())) + static_cast<std::size_t>(link);
   }
 
  private:
@@ -377,6 +400,65 @@ class CableSystem final : public ConstraintBatch {
              FeatureState& next);
   void record(const Substep& substep, const CompiledCable& cable, int link, CableEvent::Kind kind);
   void remember_sides(const Substep& substep, const CompiledCable& cable);
+  // Drives that need more cable than there is: cable/cable_drives.cpp.
+  /// What a drive does to the rest lengths of a chain if it does its whole share.
+  struct Pull {
+    int link = 0;
+    int span = -1;               ///< of a feed, whose link this is; else < 0
+    int end = 0;                 ///< and at which of its ends
+    double way = 0.0;            ///< in the substep [m], < 0 draws
+    double speed = 0.0;          ///< at its end [m/s]
+    double gross = 0.0;          ///< of `way`, what is both drawn and fed counted twice [m]
+    double way_of_points = 0.0;  ///< part of the above that moves spans' ends instead
+    double speed_of_points = 0.0;
+  };
+  /// Spans between two links over which no cable passes.
+  struct Chain {
+    int first_pull = 0;
+    int pull_count = 0;
+    double available = 0.0;  ///< cable that can be drawn [m]
+    bool moves = false;      ///< what limits it is that no rest length is below 0
+  };
+  struct ChainLengths {
+    double rest_length = 0.0;  ///< and what is on free drums at its ends [m]
+    double length = 0.0;       ///< of the spans [m]
+    bool moves = false;        ///< elastic, or forces can move one of its links
+  };
+  /// Whether no cable passes the link unless a drive turns its body, or nothing does.
+  [[nodiscard]] static bool ends_chain(const BodySet& bodies, const LinkGeometry& link);
+  /// Whether forces can move the link's place.
+  [[nodiscard]] static bool can_move(const BodySet& bodies, const LinkGeometry& link);
+  /// False if there is more than enough cable next to each drive.
+  [[nodiscard]] bool may_fall_short(const Substep& substep, const CompiledCable& cable) const;
+  void find_chains(Substep& substep, const CompiledCable& cable);
+  void begin_chain(const Substep& substep, const CompiledCable& cable, int link,
+                   ChainLengths& lengths);
+  void end_chain(const Substep& substep, const CompiledCable& cable, int link,
+                 ChainLengths& lengths);
+  void add_drum(const Substep& substep, const CompiledCable& cable, int link,
+                ChainLengths& lengths) const;
+  void add_to_chain(const Substep& substep, int span, ChainLengths& lengths);
+  void add_pull(const Pull& pull);
+  /// Whether the cable ends on the link, which is not round and so cannot hold it by its rim when all is paid out.
+  [[nodiscard]] bool runs_out(const CompiledCable& cable, int link) const {
+    const bool end =
+        !cable.closed && (link == cable.first_link || link == cable.last_listed_link());
+    return end && links_[at(link)].wraps() && !definitions_[at(link)].hybrid;
+  }
+  /// What drives pay out from drums on which the cable ends.
+  void add_stored_cable(const Substep& substep, const CompiledCable& cable);
+  /// Lets the drives of a chain that is short of cable draw only what there is; false if it is not short.
+  bool stall(Substep& substep, const Chain& chain, bool altogether);
+  DriveShare& share_of(Substep& substep, const Pull& pull);
+  void begin_drives(const FeatureState& state);
+  void record_stalls(const Substep& substep, FeatureState& next);
+  /// Which way the drive of a link turns its body in this substep: -1, 0, 1.
+  [[nodiscard]] int driven_way(const Substep& substep, int link) const;
+  /// Moves cable between a span and its links as the transport says, but no more than there is.
+  void wind(int span, const SpanTransport& transport, FeatureState& next);
+  void slide_over_ends(int span, std::array<double, 2>& moved, FeatureState& next);
+  struct Stall;
+  [[nodiscard]] std::vector<LinkWarning> link_warnings(const std::vector<Stall>& of_links) const;
   // Cutting: cable/cable_cut.cpp.
   void cut(const Substep& substep, FeatureState& next);
   void feed(const FeatureState& state, double h, int span);
@@ -412,6 +494,7 @@ class CableSystem final : public ConstraintBatch {
   std::vector<SpanSetup> spans_;             ///< in this substep
   bool has_layers_ = false;                  ///< at least one link is a drum with layers
   bool course_changes_ = false;              ///< spans depend on the state
+  bool driven_ = false;                      ///< a cable has driven links
   std::vector<std::int64_t> connected_for_;  ///< integers of the state that spans_ stand for
   std::vector<double> planes_;               ///< its planes of wraps
   std::vector<int> strain_places_;  ///< per link its place among those with stored strain, or -1
@@ -437,6 +520,15 @@ class CableSystem final : public ConstraintBatch {
   std::vector<StoredStrain> stored_end_;  ///< and at the end
   Row row_;                               ///< scratch of solve_span()
   LayeredSpan layered_;                   ///< scratch of finish()
+  // Scratch of limit_drives().
+  std::vector<Chain> chains_;
+  std::vector<Pull> pulls_;
+  std::vector<std::array<DriveShare, 2>> feed_shares_;  ///< per span, of its ends
+  std::vector<double> feed_rates_;                      ///< per span that is fed [m/s]
+  std::vector<char> stalled_;                           ///< per link, in this substep
+  std::vector<int>
+      locked_;  ///< per link: which way its drive has stalled (see the integers of the state)
+  std::vector<char> slid_;  ///< per link, in this substep
   // Scratch of solve_run().
   std::vector<Row> run_rows_;
   std::vector<SpanGeometry> run_spans_;
@@ -459,6 +551,13 @@ class CableSystem final : public ConstraintBatch {
     double first_time = 0.0;
   };
   std::vector<Fallback> fallbacks_;
+  struct Stall {
+    bool now = false;  ///< in the last substep
+    Fallback observed;
+  };
+  std::vector<Stall> stalls_;      ///< per link
+  std::vector<Stall> slides_at_;   ///< per link: over which cable slid that ought not to
+  bool slides_ = false;            ///< whether it does over any link, or did in the last substep
   std::vector<Fallback> crowded_;  ///< per cable: wraps that found no place
   std::vector<CableEvent> events_;
   std::vector<WindingWarning> winding_warnings_;

@@ -24,8 +24,21 @@ struct CableCourse {
   std::array<double, 2> way{};
 };
 
+/// The worst of one joint over a run.
+struct JointCourse {
+  double error = 0.0;             ///< the largest JointReport::error [m]
+  double error_time = 0.0;        ///< and when [s]
+  double angle_error = 0.0;       ///< the largest JointReport::angle_error [rad]
+  double angle_error_time = 0.0;  ///< [s]
+  /// Of the drive that has kept least to what its values ask for: sums over the looks of |drive_error| and of |what was asked
+  /// for, to and fro| [m, m/s, rad or rad/s].
+  double drive_error = 0.0;
+  double drive_asked = 0.0;
+};
+
 /// Follows a simulation: energy in every step; cables, whose reports cost as much as a solver
-/// iteration, in every step of short runs and at about 2000 moments of long ones.
+/// iteration, in every step of short runs and at about 2000 moments of long ones; joints at about
+/// 200 moments.
 class RunMonitor {
  public:
   /// For a run of so many steps.
@@ -50,9 +63,12 @@ class RunMonitor {
   [[nodiscard]] double energy_flow() const { return most_vivid_ + loss_.exchanged(); }
   /// One per cable.
   [[nodiscard]] const std::vector<CableCourse>& cables() const { return cables_; }
+  /// One per joint.
+  [[nodiscard]] const std::vector<JointCourse>& joints() const { return joints_; }
 
  private:
   void observe_cables(const Simulation& simulation);
+  void observe_joints(const Simulation& simulation);
   /// What the link has moved since the last look [m].
   [[nodiscard]] double way_of(const World& world, const LinkReport& link) const;
 
@@ -68,7 +84,9 @@ class RunMonitor {
   measure::IntegratorLoss loss_;
   double vibration_loss_ = 0.0;
   double integrator_loss_ = 0.0;
+  std::int64_t joint_stride_;  // steps between looks at the joints
   std::vector<CableCourse> cables_;
+  std::vector<JointCourse> joints_;
   std::vector<BodyState> last_seen_;  // at the last look at the cables
 };
 

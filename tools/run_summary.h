@@ -59,7 +59,8 @@ struct RunSummary {
   [[nodiscard]] std::string_view status() const;
 };
 
-/// Warnings about a scene and the course of its run: spans that had no tangent, wraps that found no place, rigid cables that do not keep
+/// Warnings about a scene and the course of its run: spans that had no tangent, wraps that found no place, drives that
+/// stalled for want of cable, rigid cables that do not keep
 /// their length, vibrations that the step damps, steps too short for the digits of positions, substeps that the direct solver
 /// or rattle left to the other one, energy that nothing has put into the scene.
 [[nodiscard]] std::vector<Warning> collect_warnings(const Scene& scene,

@@ -40,6 +40,7 @@ RunJson statistics(const RunStatistics& statistics) {
           {"set_changes", statistics.set_changes},
           {"solver_fallbacks", statistics.solver_fallbacks},
           {"redundant_rows", statistics.redundant_rows},
+          {"compromises", statistics.compromises},
           {"integrator_fallbacks", statistics.integrator_fallbacks},
           {"contacts", statistics.contacts},
           {"deepest_overlap", statistics.deepest_overlap},
@@ -103,13 +104,16 @@ RunJson joints(const RunSummary& summary) {
       coordinates.push_back({{"name", coordinate.name},
                              {"value", coordinate.value},
                              {"rate", coordinate.rate},
-                             {"drive_force", known ? RunJson(coordinate.drive_force) : RunJson()}});
+                             {"drive_force", known ? RunJson(coordinate.drive_force) : RunJson()},
+                             {"drive_error", known ? RunJson(coordinate.drive_error) : RunJson()}});
     }
     list.push_back({{"name", joint.name},
                     {"type", joint.type},
                     {"force", known ? run_json(joint.force) : RunJson()},
                     {"torque", known ? run_json(joint.torque) : RunJson()},
                     {"coordinates", std::move(coordinates)},
+                    {"error", joint.error},
+                    {"angle_error", joint.angle_error},
                     {"broken_at", joint.broken_at ? RunJson(*joint.broken_at) : RunJson()}});
   }
   return list;

@@ -25,6 +25,7 @@ void accumulate(const StepStatistics& step, RunStatistics& total) {
   total.rounds += step.rounds;
   total.set_changes += step.set_changes;
   total.solver_fallbacks += step.solver_fallbacks;
+  total.compromises += step.compromises;
   total.redundant_rows = std::max(total.redundant_rows, step.redundant_rows);
   total.integrator_fallbacks += step.integrator_fallbacks;
   total.contacts = std::max(total.contacts, step.contacts);

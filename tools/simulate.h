@@ -28,6 +28,7 @@ struct RunStatistics {
   std::int64_t set_changes = 0;
   std::int64_t solver_fallbacks = 0;      ///< substeps left to Gauss-Seidel
   int redundant_rows = 0;                 ///< the most in one round
+  std::int64_t compromises = 0;           ///< rounds in which rows contradicted each other
   std::int64_t integrator_fallbacks = 0;  ///< substeps of `rattle` left to `xpbd`
   int contacts = 0;                       ///< the most points in one substep
   double deepest_overlap = 0.0;           ///< of bodies that touch [m]

@@ -168,6 +168,7 @@ class JointBatch final : public JointFeature {
     report.force = wrench.force;
     report.torque = wrench.torque;
     append_coordinates(now, joint, own, report);
+    if (!report.broken_at) find_errors(now, joint, own, report);
     return report;
   }
 
@@ -309,9 +310,39 @@ class JointBatch final : public JointFeature {
         const JointEffect& acting = effect(joint, i);
         if (acting.coordinate != k || !acting.is_drive()) continue;
         coordinate.drive_force = own.reals[at(joint.first_row + i)];
+        coordinate.drive_target = acting.signal.at(now.start.time);
+        coordinate.drive_error = drive_error(acting, now.start.time, coordinate.drive_force,
+                                             coordinate.value, coordinate.rate);
       }
       report.coordinates.push_back(coordinate);
     }
+  }
+
+  void find_errors(const Substep& now, const Joint& joint, const FeatureState& own,
+                   JointReport& report) const {
+    // Anchors coincide in any direction, so their errors add up as vectors do.
+    double squares = 0.0;
+    Row row;
+    for (int i = 0; i < joint.lock_count + joint.effect_count; ++i) {
+      const bool lock = i < joint.lock_count;
+      if (!lock && !effect(joint, i).holds()) continue;
+      evaluate_at(now, joint, i, coordinates(own), row);
+      if (row.compliance > 0.0) continue;
+      const bool meets = (row.lower == 0.0 && row.value > 0.0) ||  // one-sided, on its free side
+                         (row.upper == 0.0 && row.value < 0.0);
+      if (meets) continue;
+      const double error = std::abs(row.value);
+      const bool angle = std::all_of(row.terms.begin(), row.terms.begin() + row.term_count,
+                                     [](const RowTerm& term) { return is_zero(term.linear); });
+      if (angle && row.term_count > 0) {
+        report.angle_error = std::max(report.angle_error, error);
+      } else if (lock) {
+        squares += error * error;
+      } else {
+        report.error = std::max(report.error, error);
+      }
+    }
+    report.error = std::max(report.error, std::sqrt(squares));
   }
 
   std::string name_;

@@ -38,6 +38,10 @@ struct JointEffect {
   [[nodiscard]] bool is_drive() const {
     return kind == Kind::position || kind == Kind::speed || kind == Kind::force;
   }
+  /// Whether it holds the coordinate, from one side or both, whatever acts on it.
+  [[nodiscard]] bool holds() const {
+    return kind == Kind::lower || kind == Kind::upper || kind == Kind::coupling;
+  }
   /// Whether it stores energy when it is deflected.
   [[nodiscard]] bool elastic() const {
     return compliance > 0.0 && kind != Kind::damper && kind != Kind::friction;
@@ -47,6 +51,11 @@ struct JointEffect {
 /// Appends what `settings` ask for along the coordinate of this number.
 void append_effects(const JointCoordinate& settings, int coordinate,
                     std::vector<JointEffect>& effects);
+
+/// By how much a coordinate with this value and rate is off what the drive asks for at `time`, while it has this force; 0 if
+/// it asks for nothing (JointCoordinateReport::drive_error).
+[[nodiscard]] double drive_error(const JointEffect& drive, double time, double force, double value,
+                                 double rate);
 
 /// Completes `row`, which has the gradient of c, whose value is `now` and was `start` at the start.
 void set_effect(const JointEffect& effect, const Substep& substep, double now, double start,

@@ -293,14 +293,15 @@ double RowSystem::violation() const {
   return worst;
 }
 
-bool RowSystem::solve(Substep& substep) {
+bool RowSystem::solve(Substep& substep, bool compromise) {
   find_pattern(substep);
   assemble(substep);
-  const bool solved = active_set_.solve(problem_);
+  const bool solved = active_set_.solve(problem_, compromise);
   StepStatistics& statistics = substep.statistics;
   ++statistics.rounds;
   statistics.row_solves += static_cast<std::int64_t>(rows_.size());
   statistics.set_changes += active_set_.changes();
+  if (compromise && active_set_.contradicts()) ++statistics.compromises;
   statistics.redundant_rows = std::max(statistics.redundant_rows, active_set_.dropped());
   return solved;
 }

@@ -139,5 +139,45 @@ TEST(Warnings, EnergyFromNowhereIsAWarning) {
   EXPECT_EQ(warned({scene, "--solver", "direct"}), "");
 }
 
+TEST(Warnings, AWinchThatHasDrawnAllItsCableIsAWarning) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("winch.json", R"json({
+    "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 2,
+    "step": {"dt": 0.01, "solver": "direct"},
+    "bodies": [
+      {"name": "drum", "mobility": "rotor", "mass": 1, "drive": "speed", "drive_values": [2],
+       "shape": {"type": "cylinder", "radius": 0.2, "length": 0.1}},
+      {"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 2, "position": [0.2, -0.5, 0]}],
+    "cables": [{"name": "rope", "links": [
+      {"type": "attachment", "body": "load"},
+      {"type": "spool", "body": "drum", "winding": "counter-clockwise", "stored_length": 0}]}]
+  })json");
+  EXPECT_EQ(warned({scene}), "stalled");
+  EXPECT_EQ(warned({scene, "--duration", "1"}), "");
+  const json summary = json::parse(run_sheave({"run", "--json", "--quiet", scene}).out);
+  ASSERT_EQ(summary["events"].size(), 1U);
+  EXPECT_EQ(summary["events"][0]["kind"], "stall");
+  EXPECT_EQ(summary["events"][0]["body"], "drum");
+  EXPECT_NEAR(summary["events"][0]["time"].get<double>(), 1.25, 0.011);
+}
+
+TEST(Warnings, HingesThatContradictEachOtherAreAWarning) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("bar.json", R"json({
+    "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 1,
+    "step": {"dt": 0.01, "solver": "direct"},
+    "bodies": [
+      {"name": "led", "mobility": "kinematic", "position": [1, 0, 0], "velocity": [0.3, 0, 0]},
+      {"name": "bar", "mass": 2, "position": [0.5, 0, 0],
+       "shape": {"type": "box", "size": [1, 0.1, 0.1]}}],
+    "joints": [
+      {"name": "a", "type": "hinge", "body_b": "bar", "anchor": [0, 0, 0], "axis": [0, 0, 1]},
+      {"name": "b", "type": "hinge", "body_a": "led", "body_b": "bar", "anchor": [1, 0, 0],
+       "axis": [0, 0, 1]}]
+  })json");
+  EXPECT_EQ(warned({scene}), "joint_open");
+  EXPECT_EQ(warned({scene, "--set", "/bodies/0/velocity=[0, 0, 0]"}), "");
+}
+
 }  // namespace
 }  // namespace sheave::test
