@@ -235,6 +235,24 @@ class JointBatch final : public JointFeature {
     double value = measure(substep, joint, acting.coordinate, starts, row);
     if (acting.second >= 0) value = add_second(substep, joint, acting, starts, value, row);
     set_effect(acting, substep, value, starts[at(joint.first_coordinate + acting.coordinate)], row);
+    if (acting.motion >= 0 && acting.motion != acting.coordinate &&
+        goes_on(substep, joint, acting, starts)) {
+      row.lower = row.upper = 0.0;
+    }
+  }
+  /// Whether the bodies move on, along the direction of their motion, whatever friction does in a substep.
+  bool goes_on(const Substep& substep, const Joint& joint, const JointEffect& friction,
+               std::span<const double> starts) const {
+    Row row;
+    measure(substep, joint, friction.motion, starts, row);
+    double speed = 0.0;
+    for (const RowTerm& term : row.active_terms()) {
+      const BodyState& body = substep.start.bodies[at(term.body)];
+      speed += dot(term.linear, body.velocity) + dot(term.angular, body.angular_velocity);
+    }
+    RowResponse response;
+    respond(row, substep.moving, response);
+    return std::abs(speed) > substep.h * friction.limit * response.inverse_mass;
   }
   /// Makes `row`, of the first coordinate, that of the sum of two; returns the sum.
   double add_second(const Substep& substep, const Joint& joint, const JointEffect& acting,

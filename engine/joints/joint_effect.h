@@ -5,7 +5,9 @@
 //   upper stop       C = c - upper <= 0           multiplier in (-inf, 0]
 //   spring           C = c - rest                 compliance 1 / stiffness, with the damping
 //   damper           C = c - c0                   a row without memory: force = -damping dc/dt
-//   dry friction     C = c - c0                   |force| <= friction: it holds what it can
+//   dry friction     C = c - c0                   |force| <= friction: it holds what it can. Where several directions share one
+//                                                 friction, it acts along the motion alone while that is faster than friction
+//                                                 can stop in a substep; slower, each direction is held by itself
 //   drive, position  C = c - p(t)                 |force| <= limit
 //   drive, speed     C = c - c0 - integral of v   |force| <= limit
 //   drive, force     the multiplier has equal bounds: the mean of F over the substep
@@ -33,7 +35,9 @@ struct JointEffect {
   double compliance = 0.0;        ///< [m/N or rad/(N m)]
   double damping = 0.0;           ///< [N s/m or N m s/rad]
   double limit = Row::unbounded;  ///< of the force [N or N m]
-  TimeSignal signal;              ///< of drives
+  /// Friction in several directions: the coordinate whose direction is that of the motion; < 0 if there is but one direction.
+  int motion = -1;
+  TimeSignal signal;  ///< of drives
 
   [[nodiscard]] bool is_drive() const {
     return kind == Kind::position || kind == Kind::speed || kind == Kind::force;
