@@ -198,6 +198,12 @@ void Evidence::collect_cables(const LastSubstep& last) {
       cable.has_changed = cable.has_changed || differs(system.mode_index(i)) ||
                           differs(system.next_index(i)) || differs(system.wrap_index(i));
     }
+    const std::vector<CableEvent>& events = system.events();
+    for (auto event = events.rbegin(); event != events.rend(); ++event) {
+      if (event->time < start.time) break;
+      cable.was_changed =
+          cable.was_changed || (event->time == start.time && event->cable == cable.name);
+    }
     if (!cable.start.cut) collect_cable(cable, at_start[c], at_end[c]);
   }
 }

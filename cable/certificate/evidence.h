@@ -96,6 +96,7 @@ struct CableEvidence {
   std::vector<PassEvidence> passes;
   bool has_changed =
       false;  ///< its course or an end: what acted is not what is reported at the end
+  bool was_changed = false;  ///< at the end of the substep before: spans may begin too long
   double free_length = 0.0;  ///< of all spans [m]
   CableReport start;
   CableReport end;
