@@ -100,7 +100,7 @@ bool CableSystem::may_fall_short(const Substep& substep, const CompiledCable& ca
       }
       if (references_[at(k)].rest_length < 2.0 * most) return true;
     }
-    if (runs_out(cable, link) && stored_lengths_[at(link)] < 2.0 * most) return true;
+    if (runs_out(cable, link) && stored_arcs_[at(link)] < 2.0 * most) return true;
   }
   return false;
 }
@@ -234,7 +234,7 @@ void CableSystem::add_drum(const Substep& substep, const CompiledCable& cable, i
   if (cable.closed || (link != cable.first_link && link != cable.last_listed_link())) return;
   if (!geometry.wraps() || ends_chain(substep.bodies, geometry)) return;
   lengths.moves = true;
-  lengths.rest_length += std::max(stored_lengths_[at(link)], 0.0);
+  lengths.rest_length += std::max(stored_arcs_[at(link)], 0.0);
 }
 
 void CableSystem::add_to_chain(const Substep& substep, int span, ChainLengths& lengths) {
@@ -282,7 +282,7 @@ void CableSystem::add_stored_cable(const Substep& substep, const CompiledCable& 
     Chain chain;
     chain.first_pull = static_cast<int>(pulls_.size());
     chain.pull_count = 1;
-    chain.available = stored_lengths_[at(link)];
+    chain.available = stored_arcs_[at(link)];
     chains_.push_back(chain);
     pulls_.push_back(
         {link, -1, 0, way, lever * driven_speed(body, substep, turn), std::abs(way), 0.0, 0.0});
