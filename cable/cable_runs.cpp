@@ -118,6 +118,19 @@ double CableSystem::evaluate_run(const Substep& substep, const CompiledCable& ca
   return heaviest;
 }
 
+double CableSystem::weigh_run(const CompiledCable& cable, std::size_t count, double heaviest,
+                              double h) {
+  double deflection = 0.0;
+  double damped = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    run_weights_[i] = std::exp(run_weights_[i] - heaviest);
+    const double share = run_weights_[i] * run_rows_[i].compliance;
+    deflection += share;
+    damped += share * run_rows_[i].compliance * cable.damping;
+  }
+  return damped > 0.0 ? damped / deflection / h : 0.0;
+}
+
 double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run run) {
   const auto count = at(run.count);
   run_rows_.resize(std::max(run_rows_.size(), count));
@@ -129,16 +142,7 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   RunValue value;
   const double heaviest = evaluate_run(substep, cable, run, value);
 
-  // Weights relative to the heaviest, so that no number of turns overflows.
-  double deflection = 0.0;
-  double damped = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    run_weights_[i] = std::exp(run_weights_[i] - heaviest);
-    const double share = run_weights_[i] * run_rows_[i].compliance;
-    deflection += share;
-    damped += share * run_rows_[i].compliance * cable.damping;
-  }
-  const double gamma = damped > 0.0 ? damped / deflection / substep.h : 0.0;
+  const double gamma = weigh_run(cable, count, heaviest, substep.h);
   double numerator = -(value.error + gamma * value.change);
   double denominator = 0.0;
   double parts = 0.0;  // the same without what cancels between the spans

@@ -232,6 +232,9 @@ class CableSystem final : public ConstraintBatch {
   /// Evaluates the spans of a run; sums their gradients body by body and their values, and collects the logarithms of the
   /// weights k_i. Returns the largest of these.
   double evaluate_run(const Substep& substep, const CompiledCable& cable, Run run, RunValue& value);
+  /// Makes the weights of a run of `count` spans relative to the heaviest, so that no number of turns overflows, and returns
+  /// the share g of its damping.
+  double weigh_run(const CompiledCable& cable, std::size_t count, double heaviest, double h);
   double solve_run(Substep& substep, const CompiledCable& cable, Run run);
   /// Per span of the run: rest length that has to leave it [m], so that all have their tensions.
   const std::vector<double>& run_spare(const Substep& substep, const CompiledCable& cable, Run run);

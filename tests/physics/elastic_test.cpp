@@ -282,7 +282,8 @@ TEST_P(RunningElasticCable, IsNotDampedByItsRunning) {
   double told = 0.0;
   while (s.world.state().time < 0.5) told += s.world.step().statistics.numerical_damping;
   EXPECT_LE(told, start - s.world.energy().total());
-  for (const SpanReport& span : s.cable_reports()[0].spans) {
+  const CableReport report = s.cable_reports()[0];
+  for (const SpanReport& span : report.spans) {
     EXPECT_NEAR(span.tension, 1.5 * g, 1e-6);
     EXPECT_NEAR(span.length - span.rest_length, 1.5 * g * span.rest_length / stiffness, 1e-10);
   }
