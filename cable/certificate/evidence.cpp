@@ -238,6 +238,7 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
         const LinkReport& seen = report.links[at(link)];
         own.body = bodies.index(seen.body);
         own.link = link;
+        own.place = places[at(link)];
         own.radius = seen.radius;
         own.winding = seen.winding;
         own.outlined = !seen.path.empty();

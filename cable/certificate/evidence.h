@@ -51,7 +51,8 @@ struct Moment {
 /// One end of a span.
 struct SpanSide {
   int body = 0;
-  int link = -1;  ///< within the cable's way, wraps included
+  int link = -1;   ///< within the cable's way, wraps included
+  int place = -1;  ///< within the cable's list; -1: a wrap
   double radius = 0.0;
   int winding = 0;
   bool outlined = false;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cable/certificate/checks.h"
+#include "cable/links/attachment.h"
 
 namespace sheave::certify {
 namespace {
@@ -42,6 +43,25 @@ void check_cable(const Evidence& evidence, const CableEvidence& cable, Findings&
                 whole);
   const double size = std::min(length, evidence.bodies.scale());
   findings.note(Kind::length, "m", -shortest, size, 1e-12 * longest, whole);
+}
+
+/// What an attachment with a feed speed pays out, as long as there is cable to take in.
+void check_feeds(const Evidence& evidence, const CableEvidence& cable, Findings& findings) {
+  if (cable.has_changed || cable.start.cut) return;
+  for (const SpanEvidence& span : cable.spans) {
+    double speed = 0.0;
+    for (const SpanSide* side : {&span.from, &span.to}) {
+      if (side->place < 0) continue;
+      const auto* link =
+          dynamic_cast<const AttachmentLink*>(cable.definition->links[at(side->place)].get());
+      if (link != nullptr) speed += link->feed_speed;
+    }
+    const double asked = speed * evidence.h;
+    if (speed == 0.0 || span.rest_length[first_end] + asked <= 0.0) continue;
+    findings.note(Kind::drive, "m", std::abs(span.fed - asked), std::abs(asked),
+                  1e-13 * (cable.end.total_length + evidence.bodies.scale()),
+                  [&] { return span.name(); });
+  }
 }
 
 void check_spans_of(const Evidence& evidence, const CableEvidence& cable, Findings& findings) {
@@ -116,6 +136,7 @@ void check_lengths(const Evidence& evidence, Findings& findings) {
   for (const CableEvidence& cable : evidence.cables) {
     check_cable(evidence, cable, findings);
     check_spans_of(evidence, cable, findings);
+    check_feeds(evidence, cable, findings);
   }
 }
 
