@@ -110,13 +110,17 @@ double IntegratorLoss::smooth_part(std::size_t step) const {
 
 void IntegratorLoss::Sums::add(const Step& step, double smooth) {
   const double limit = step.square > smooth ? smooth / step.square : 1.0;
-  const double first = begun ? power : std::sqrt(limit) * step.first_power;
+  // The law holds between impacts: where one changes the velocity, a smooth motion ends and another begins, each with
+  // v . a of its own.
+  const bool smooth_motion = limit > 0.5;
+  const double first = begun && smooth_motion ? power : std::sqrt(limit) * step.first_power;
   power = std::sqrt(limit) * step.power;
-  const double loss = step.share * (limit * step.square - 0.5 * (power - first));
+  const double rest = smooth_motion ? power - first : limit * step.square;
+  const double loss = step.share * (limit * step.square - 0.5 * rest);
   taken += loss;
   exchanged += std::abs(step.energy - energy + loss);
   energy = step.energy;
-  begun = true;
+  begun = smooth_motion;
 }
 
 IntegratorLoss::Sums IntegratorLoss::sums() const {
