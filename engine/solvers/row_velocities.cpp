@@ -44,9 +44,10 @@ void RowSystem::linearise_velocities(Substep& substep, const RowSystem& position
       rate += rate_of(substep, rows_[at(i)]);
       problem_.diagonal[g] += rows_[at(i)].weight * rows_[at(i)].softness;
     }
-    const bool acts = !group.elastic && (group.multiplier != 0.0 || std::abs(value) <= closed ||
-                                         (std::isfinite(first.lower) && value < 0.0) ||
-                                         (std::isfinite(first.upper) && value > 0.0));
+    const bool acts = !group.elastic && !(rate < -first.rebound_speed) &&
+                      (group.multiplier != 0.0 || std::abs(value) <= closed ||
+                       (std::isfinite(first.lower) && value < 0.0) ||
+                       (std::isfinite(first.upper) && value > 0.0));
     const bool bilateral = !std::isfinite(first.lower) && !std::isfinite(first.upper);
     problem_.constant[g] = rate;
     problem_.lower[g] = acts ? share * first.lower : 0.0;
