@@ -5,12 +5,23 @@
 
 #include "engine/index.h"
 #include "engine/integrators/loads.h"
+#include "engine/kinetic_energy.h"
 #include "engine/stages.h"
 
 namespace sheave {
 namespace {
 
 bool left_to_xpbd(const Substep& substep) { return substep.load_share == 1.0; }
+
+/// Of the velocities in substep.next [J].
+double energy_of_motion(const Substep& substep) {
+  double sum = 0.0;
+  for (int i = 0; i < substep.bodies.count(); ++i) {
+    const BodyState& next = substep.next.bodies[at(i)];
+    sum += kinetic_energy(substep, i, next.velocity, next.angular_velocity);
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -67,7 +78,12 @@ void RattleSolver::solve_positions(Substep& substep, Features features) {
   const bool impact = std::any_of(features.begin(), features.end(),
                                   [](const auto& feature) { return feature->meets(); });
   if (!impact) {
-    if (try_positions(substep, features)) return;
+    if (substep.resort != Resort::other_integrator) {
+      if (try_positions(substep, features)) return;
+      // Sweeps need not converge.
+      substep.failed = solver_ == SolverKind::direct && substep.resort == Resort::none;
+      if (substep.failed) return;
+    }
     ++substep.statistics.integrator_fallbacks;
   }
   substep.load_share = 1.0;
@@ -90,8 +106,16 @@ void RattleSolver::solve_velocities(Substep& substep, Features features) {
   velocities_.linearise_velocities(substep, positions_);
   const bool direct = solver_ == SolverKind::direct;
   if (!direct || !velocities_.solve(substep)) {
+    substep.failed = direct && substep.resort != Resort::anything;
+    if (substep.failed) return;
     if (direct) ++substep.statistics.solver_fallbacks;
     velocities_.relax(substep, substep.iterations);
+  }
+  // Sweeps leave velocities off the constraints, which do work of their own.
+  if (direct && substep.resort != Resort::anything &&
+      velocities_.work_error(substep, positions_) > unresolved * energy_of_motion(substep)) {
+    substep.failed = true;
+    return;
   }
   velocities_.apply_impulses(substep, features);
 }

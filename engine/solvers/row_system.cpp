@@ -277,16 +277,36 @@ void RowSystem::settle(const Substep& substep) {
   }
 }
 
+void RowSystem::follow_gradients(Substep& substep) const {
+  for (std::size_t b = 0; b < motion_.size(); ++b) {
+    MovingBody& body = substep.moving[b];
+    if (body.translates) body.position += motion_[b].linear;
+    if (body.rotates) body.rotate(motion_[b].angular);
+  }
+}
+
 double RowSystem::violation() const {
   double worst = 0.0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const double r = problem_.constant[g];
-    const bool at_lower = !(problem_.lower[g] < 0.0);
-    const bool at_upper = !(problem_.upper[g] > 0.0);
-    if ((at_lower && r > 0.0) || (at_upper && r < 0.0) || (at_lower && at_upper)) continue;
-    worst = std::max(worst, std::abs(r) / groups_[g].scale);
+    // An unknown can make up for what its bounds leave room for: friction that slips and a force that has just ended are
+    // none of a violation, though bounds that follow other forces have moved on a little.
+    const double room = r > 0.0 ? -problem_.lower[g] : problem_.upper[g];
+    if (!(room > 0.0)) continue;
+    double off = std::abs(r);
+    if (std::isfinite(room)) off = std::min(off, room * yield(g));
+    worst = std::max(worst, off / groups_[g].scale);
   }
   return worst;
+}
+
+double RowSystem::yield(std::size_t g) const {
+  const Group& group = groups_[g];
+  double sum = problem_.diagonal[g];
+  for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
+    sum += rows_[at(i)].weight * responses_[at(i)].inverse_mass;
+  }
+  return sum;
 }
 
 bool RowSystem::solve(Substep& substep) {
