@@ -13,7 +13,8 @@ std::span<const Field> CableDef::field_table() {
                                    "rigid; excludes axial_stiffness"),
       field<&CableDef::axial_stiffness>(
           "axial_stiffness", "N", above(0.0), optional,
-          "EA of the cable's material; a span then has the compliance rest length / EA"),
+          "EA of the cable's material; a span then has the compliance rest length / EA, and cable "
+          "comes onto wheels with its strain"),
       field<&CableDef::damping>("damping", "N s/m", at_least(0.0), optional,
                                 "of each span; needs an elastic cable"),
       choice_field<&CableDef::tangent_update>(

@@ -21,6 +21,7 @@ void CableCompiler::add(const CableDef& def) {
   }
   compile_spans(def);
   if (errors_.size() > before) return;
+  find_wrong_windings(def);
   store(def);
 }
 
@@ -31,11 +32,15 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
   const std::size_t links = s.links_.size();
   s.initial_.reals = rest_lengths_;
   s.initial_.reals.insert(s.initial_.reals.end(), stored_lengths_.begin(), stored_lengths_.end());
+  s.plane_count_ = planes_;
   s.initial_.reals.resize(s.plane_index(planes_), 0.0);
   for (std::size_t k = 0; k < remainders_.size(); ++k) {
     s.initial_.reals[s.remainder_index(static_cast<int>(k), 0)] = remainders_[k];
   }
   s.initial_.integers.assign(s.cut_index(static_cast<int>(s.cables_.size())), 0);
+  s.driven_ = std::any_of(s.cables_.begin(), s.cables_.end(),
+                          [](const CompiledCable& cable) { return !cable.driven_links.empty(); });
+  if (s.driven_) s.initial_.integers.resize(s.initial_.integers.size() + links, 0);
   for (std::size_t i = 0; i < links; ++i) {
     const auto link = static_cast<int>(i);
     s.initial_.integers[s.next_index(link)] = next_links_[i];
@@ -43,6 +48,7 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
       s.initial_.integers[s.mode_index(link)] = CableSystem::lifted_mode;
     }
     if (s.links_[i].changes()) s.changing_links_.push_back(link);
+    s.has_layers_ = s.has_layers_ || s.links_[i].layer_pitch > 0.0;
   }
   s.definitions_ = s.links_;
   for (const auto& [link, radius] : bare_radii_) s.definitions_[at(link)].signed_radius = radius;
@@ -50,6 +56,7 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
   s.course_changes_ = std::any_of(s.cables_.begin(), s.cables_.end(),
                                   [](const CompiledCable& cable) { return cable.course_changes; });
   s.references_.resize(spans);
+  s.strains_.resize(spans);
   s.multipliers_.resize(spans);
   s.was_taut_.resize(spans);
   s.ends_.resize(spans);
@@ -58,12 +65,39 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
   s.fallbacks_.resize(spans);
   s.sides_.resize(spans);
   s.fed_.resize(spans);
+  s.feed_shares_.resize(spans);
+  s.feed_rates_.resize(spans);
+  s.stalled_.resize(links);
+  s.locked_.resize(links);
+  s.slid_.resize(links);
+  s.stalls_.resize(links);
+  s.slides_at_.resize(links);
   s.slip_.assign(links, 0);
+  s.held_.assign(links, 0);
   s.pending_slip_ = s.flips_ = s.slip_;
   s.sweeps_.assign(s.cables_.size(), 0);
   s.crowded_.resize(s.cables_.size());
-  s.stored_lengths_.resize(links);
+  s.stored_arcs_.resize(links);
+  store_strains();
   return std::move(system_);
+}
+
+void CableCompiler::store_strains() {
+  CableSystem& s = *system_;
+  s.strain_places_.assign(s.links_.size(), -1);
+  int places = 0;
+  for (const CompiledCable& cable : s.cables_) {
+    if (cable.inverse_stiffness == 0.0) continue;
+    for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
+      const bool place_for_wrap = i >= cable.first_link + cable.listed_links;
+      if (place_for_wrap || s.links_[at(i)].wraps()) s.strain_places_[at(i)] = places++;
+    }
+  }
+  s.stored_.resize(at(places));
+  s.initial_.reals.resize(s.strain_index(places), 0.0);
+  for (std::size_t i = 0; i < s.links_.size(); ++i) {
+    s.fit_strain(static_cast<int>(i), StoredStrain::End::outgoing, start_strains_[i], s.initial_);
+  }
 }
 
 void CableCompiler::fail(const std::string& field, const std::string& message) {

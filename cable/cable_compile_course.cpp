@@ -124,6 +124,22 @@ void CableCompiler::set_course(CompiledCable& cable) {
                          std::isfinite(cable.cut_time);
 }
 
+void CableCompiler::set_drives(CompiledCable& cable) const {
+  int fast = 0;  // ends of chains that no force can move (cable/cable_drives.cpp)
+  for (int i = 0; i < cable.listed_links; ++i) {
+    const LinkGeometry& link = links_[at(i)];
+    const bool end = !cable.closed && (i == 0 || i + 1 == cable.listed_links);
+    if (link.feed_speed != 0.0 || bodies_[link.body].prescribed()) {
+      cable.driven_links.push_back(cable.first_link + i);
+    }
+    if ((end || CableSystem::ends_chain(bodies_, link)) && !CableSystem::can_move(bodies_, link)) {
+      ++fast;
+    }
+  }
+  const bool elastic = cable.compliance > 0.0 || cable.inverse_stiffness > 0.0;
+  cable.may_lock = !elastic && !cable.driven_links.empty() && fast > 1;
+}
+
 void CableCompiler::append_places(CompiledCable& cable) {
   if (cable.candidates.empty()) return;
   LinkGeometry unused;
@@ -168,6 +184,7 @@ void CableCompiler::store(const CableDef& def) {
     planes_ += def.most_wraps;
   }
   set_course(cable);
+  set_drives(cable);
 
   std::vector<double> lengths = start_lengths(def);
   double total = 0.0;
@@ -188,6 +205,7 @@ void CableCompiler::store(const CableDef& def) {
   rest_lengths_.resize(s.spans_.size() + spans_.size(), 0.0);
   remainders_.resize(rest_lengths_.size(), 0.0);
   stored_lengths_.resize(s.links_.size() + links_.size(), 0.0);
+  start_strains_.resize(stored_lengths_.size(), 0.0);
   s.links_.insert(s.links_.end(), links_.begin(), links_.end());
   s.spans_.insert(s.spans_.end(), spans_.begin(), spans_.end());
   s.cables_.push_back(std::move(cable));

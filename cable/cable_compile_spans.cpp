@@ -153,7 +153,20 @@ double CableCompiler::arc(int link, const SpanGeometry& incoming,
          wheel.extra_turns * wheel.perimeter();
 }
 
-std::vector<double> CableCompiler::start_lengths(const CableDef& def) const {
+double CableCompiler::start_strain(const CableDef& def, int link) const {
+  if (!def.axial_stiffness || def.rest_lengths.empty()) return 0.0;
+  double sum = 0.0;
+  int count = 0;
+  for (int k = 0; k < def.span_count(); ++k) {
+    if (links_[at(k)].starts_lifted || (k != link && next_touched(k) != link)) continue;
+    const double rest_length = def.rest_lengths[at(k)];
+    if (rest_length > 0.0) sum += std::max(geometry_[at(k)].length / rest_length - 1.0, 0.0);
+    ++count;
+  }
+  return count > 0 ? sum / count : 0.0;
+}
+
+std::vector<double> CableCompiler::start_lengths(const CableDef& def) {
   const int span_count = def.span_count();
   const auto link_count = static_cast<int>(links_.size());
   std::vector<double> lengths;
@@ -168,9 +181,12 @@ std::vector<double> CableCompiler::start_lengths(const CableDef& def) const {
     while (links_[at(incoming)].starts_lifted) {
       incoming = incoming > 0 ? incoming - 1 : span_count - 1;
     }
-    lengths.push_back(!link.wraps() || link.starts_lifted ? 0.0
+    const bool stores = link.wraps() && !link.starts_lifted;
+    const double strain = stores ? start_strain(def, i) : 0.0;
+    start_strains_.push_back(strain);
+    lengths.push_back(!stores ? 0.0
                       : std::isnan(link.given_stored_length)
-                          ? arc(i, geometry_[at(incoming)], geometry_[at(i)])
+                          ? arc(i, geometry_[at(incoming)], geometry_[at(i)]) / (1.0 + strain)
                           : link.given_stored_length);
   }
   return lengths;

@@ -39,13 +39,17 @@ class CableCompiler {
   [[nodiscard]] int next_touched(int link) const;
   /// Planar if the geometry of the bodies' mobilities guarantees it for ever.
   void choose_kind(SpanSetup& setup, const LinkGeometry& a, const LinkGeometry& b) const;
+  /// cable/cable_compile_windings.cpp.
+  void find_wrong_windings(const CableDef& def);
   void check_span(const CableDef& def, int first, int second);
   void explain_missing_tangent(int first, int second);
   void check_rest_length(const CableDef& def, int span, const SpanGeometry& geometry);
   /// Cable on the wheel between the incoming and the outgoing tangent.
   [[nodiscard]] double arc(int link, const SpanGeometry& incoming,
                            const SpanGeometry& outgoing) const;
-  [[nodiscard]] std::vector<double> start_lengths(const CableDef& def) const;
+  [[nodiscard]] std::vector<double> start_lengths(const CableDef& def);
+  /// Strain at time 0 of what lies on a link: that of the spans beside it, between two their mean.
+  [[nodiscard]] double start_strain(const CableDef& def, int link) const;
 
   // Course and wraps: cable/cable_compile_course.cpp.
   /// Whether all links stay in one plane for ever, so that any two of them can be joined by a planar span.
@@ -55,9 +59,13 @@ class CableCompiler {
   [[nodiscard]] bool any_wrappable() const;
   [[nodiscard]] bool place_candidate(const CompiledCable& cable, WrapCandidate& candidate) const;
   void check_candidates(const CompiledCable& cable);
+  /// What drives can do to it.
+  void set_drives(CompiledCable& cable) const;
   void set_course(CompiledCable& cable);
   void append_places(CompiledCable& cable);
   void store(const CableDef& def);
+  /// Gives links of cables of a material their places for strain, after the planes of wraps.
+  void store_strains();
 
   const BodySet& bodies_;
   State state_;
@@ -70,6 +78,7 @@ class CableCompiler {
   std::vector<double> rest_lengths_;
   std::vector<double> remainders_;  ///< per span what its rest length is rounded by [m]
   std::vector<double> stored_lengths_;
+  std::vector<double> start_strains_;  ///< per link
   std::vector<std::int64_t> next_links_;
   int planes_ = 0;  ///< places for wraps of all cables
   // Of the cable that is being added.

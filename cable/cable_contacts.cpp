@@ -7,8 +7,8 @@
 //
 // Touch (split): a span cuts the outline of a lifted link from the side on which the link's winding puts it, or that of a
 // wrappable body from the side on which the span was before (cable/wrap_candidate.h). The span becomes two with an arc s
-// between them, s being the angle between the tangents; the rest length that remains, L - s, is shared in proportion to the
-// lengths, so both spans have the strain that the one had, and with a material's stiffness the tension. Chord and arc
+// between them, s being the angle between the tangents (of a material over 1 + its strain); the rest length that remains,
+// L - s, is shared in proportion to the lengths, so both spans have the strain that the one had, and with a material's stiffness the tension. Chord and arc
 // differ in the third order of the angle, so what C jumps by is far below the motion of a substep.
 //
 // A lifted link remembers whether the cable is on its winding's side: if it has been carried past to the other side, it
@@ -76,7 +76,7 @@ void CableSystem::leave_all(const Substep& substep, const CompiledCable& cable,
 
 bool CableSystem::comes_off(const Substep& substep, int span, int link,
                             const FeatureState& next) const {
-  const double stored = next.reals[stored_length_index(link)];
+  const double stored = stored_arc(next, link);
   const LinkGeometry& wheel = links_[at(link)];
   const bool in_space = spans_[at(span)].kind == SpanKind::spatial;
   if (!wheel.outline || (stored < 0.0 && !in_space)) return stored < 0.0;
@@ -127,12 +127,14 @@ int CableSystem::listed_before(const CompiledCable& cable, int span) const {
   return std::min(link, cable.last_listed_link());
 }
 
-double CableSystem::shift_contact(const Substep& substep, const CompiledCable& cable,
-                                  const LinkGeometry& link, const SpanGeometry& from,
-                                  const SpanGeometry& to, bool first, double& stored_length) {
-  const double shift = link.side * contact_shift(substep, link, from, to, first);
-  const double wound = cable.quantised(first ? shift : -shift);
-  stored_length += wound;
+double CableSystem::shift_contact(const Substep& substep, const CompiledCable& cable, int link,
+                                  const SpanGeometry& from, const SpanGeometry& to, bool first,
+                                  double strain, FeatureState& next) const {
+  const LinkGeometry& wheel = links_[at(link)];
+  const double shift = wheel.side * contact_shift(substep, wheel, from, to, first);
+  const double wound = cable.quantised((first ? shift : -shift) / (1.0 + strain));
+  next.reals[stored_length_index(link)] += wound;
+  fit_strain(link, first ? StoredStrain::End::outgoing : StoredStrain::End::incoming, strain, next);
   return -wound;
 }
 
@@ -149,6 +151,7 @@ bool CableSystem::leave(const Substep& substep, const CompiledCable& cable, int 
   double& rest_after = next.reals[rest_length_index(after)];
   rest_before += rest_after + stored;
   rest_after = stored = 0.0;
+  fit_strain(link, StoredStrain::End::outgoing, 0.0, next);
   changed_links_[at(link)] = 1;
   record(substep, cable, link, CableEvent::Kind::leave);
   if (link <= cable.last_listed_link()) {
@@ -165,10 +168,9 @@ bool CableSystem::leave(const Substep& substep, const CompiledCable& cable, int 
   const SpanGeometry span = geometry_of(substep, before);
   const int first = spans_[at(before)].first;
   const int second = spans_[at(before)].second;
-  rest_before += shift_contact(substep, cable, links_[at(first)], in, span, true,
-                               next.reals[stored_length_index(first)]);
-  rest_before += shift_contact(substep, cable, links_[at(second)], out, span, false,
-                               next.reals[stored_length_index(second)]);
+  const double strain = strain_of(cable, span.length, rest_before);
+  rest_before += shift_contact(substep, cable, first, in, span, true, strain, next);
+  rest_before += shift_contact(substep, cable, second, out, span, false, strain, next);
   double& tension = next.reals[tension_index(before)];
   tension = std::max(tension, next.reals[tension_index(after)]);
   next.reals[tension_index(after)] = 0.0;
@@ -278,20 +280,20 @@ bool CableSystem::split(const Substep& substep, const CompiledCable& cable, int 
     follow_course(substep.bodies, next);
     return false;
   }
-  const double arc = cable.quantised(way);
   double& rest_before = next.reals[rest_length_index(span)];
+  const double strain = strain_of(cable, whole.length, rest_before);
+  const double arc = cable.quantised(way / (1.0 + strain));
   // The span's outer ends move along their links, too, as its direction changes.
   const double available = rest_before +
-                           shift_contact(substep, cable, links_[at(first)], whole, in, true,
-                                         next.reals[stored_length_index(first)]) +
-                           shift_contact(substep, cable, links_[at(second)], whole, out, false,
-                                         next.reals[stored_length_index(second)]);
+                           shift_contact(substep, cable, first, whole, in, true, strain, next) +
+                           shift_contact(substep, cable, second, whole, out, false, strain, next);
   const double stored = std::min(arc, available);
   const double share = in.length / (in.length + out.length);
   const double kept = std::min(cable.quantised((available - stored) * share), available - stored);
   rest_before = kept;
   next.reals[rest_length_index(after)] = available - stored - kept;
   next.reals[stored_length_index(link)] = stored;
+  fit_strain(link, StoredStrain::End::outgoing, strain, next);
   next.reals[tension_index(after)] = next.reals[tension_index(span)];
   changed_links_[at(link)] = 1;
   record(substep, cable, link, CableEvent::Kind::touch);

@@ -110,11 +110,15 @@ void CableSystem::remove_link(int before, int link, FeatureState& own) const {
 void CableSystem::follow_course(const BodySet& bodies, const FeatureState& own) {
   refresh(bodies, own, links_, spans_);
   connected_for_ = own.integers;
-  planes_.assign(own.reals.begin() + static_cast<std::ptrdiff_t>(plane_index(0)), own.reals.end());
+  planes_.assign(own.reals.begin() + static_cast<std::ptrdiff_t>(plane_index(0)),
+                 own.reals.begin() + static_cast<std::ptrdiff_t>(plane_index(plane_count_)));
 }
 
 bool CableSystem::accepts(const FeatureState& state) const {
   const auto integer = [&](std::size_t index) { return state.integers[index]; };
+  for (std::size_t i = stall_index(0); i < state.integers.size(); ++i) {
+    if (std::abs(integer(i)) > 1) return false;
+  }
   for (std::size_t c = 0; c < cables_.size(); ++c) {
     const CompiledCable& cable = cables_[c];
     const std::int64_t cut = integer(cut_index(static_cast<int>(c)));

@@ -1,5 +1,4 @@
-// Ends of a cable that change: hybrid links and drums, whose cable may be used up, layers that make a drum thicker, and
-// attachments that feed cable.
+// Ends of a cable that change: hybrid links and drums, whose cable may be used up, and attachments that feed cable.
 //
 // A hybrid end is wound one way (as defined), wound the other way, or attached. Wound, it becomes attached when its
 // stored length falls below 0: the cable then ends at the point of the rim that lies |s| before the tangent point in
@@ -12,9 +11,6 @@
 // damping hides and `rattle` does not. So lengths are kept and arcs give way: what is stored is by how much the free cable
 // becomes shorter, and the attachment lies where the free cable is |s| shorter than from the tangent point. The attachment
 // moves along the rim by those r a^3 / 6, the one way at one end of its winding and the other way at the other.
-//
-// Layers: with the pitch p a drum of radius r0 that holds s has the radius sqrt(r0^2 + p s / pi), because s is the
-// integral of r = r0 + p angle / 2 pi over the angle. It is taken at the start of each substep.
 
 #include <algorithm>
 #include <cmath>
@@ -36,8 +32,8 @@ struct PlaneAxes {
 
 /// Axes in the link's plane, from which the angle of an attachment is counted.
 PlaneAxes axes_of(const LinkGeometry& link) {
-  const Vector3 y = any_perpendicular(link.normal);
-  return {y.cross(link.normal), y};
+  const Vector3 y = any_perpendicular(link.rim_normal);
+  return {y.cross(link.rim_normal), y};
 }
 
 /// Makes `link` a point of the rim, at `angle`.
@@ -45,7 +41,10 @@ void attach_at(LinkGeometry& link, double radius, double angle) {
   const PlaneAxes axes = axes_of(link);
   link.side = 0;
   link.signed_radius = 0.0;
-  link.center += radius * (std::cos(angle) * axes.x + std::sin(angle) * axes.y);
+  link.still = link.still && link.carrier == link.body;
+  link.carrier = link.body;
+  link.normal = link.rim_normal;
+  link.center = link.rim_center + radius * (std::cos(angle) * axes.x + std::sin(angle) * axes.y);
   link.centered = link.center.isZero(0.0);
 }
 
@@ -69,13 +68,16 @@ void CableSystem::refresh_ends(const FeatureState& own, std::vector<LinkGeometry
   for (const int i : changing_links_) {
     const LinkGeometry& definition = definitions_[at(i)];
     LinkGeometry& link = links[at(i)];
-    const double radius = radius_with(definition, own.reals[stored_length_index(i)]);
+    const double radius = radius_with(definition, stored_arc(own, i));
     const auto mode = static_cast<int>(own.integers[mode_index(i)]);
-    link.center = definition.center;
     if (mode == attached) {
       attach_at(link, radius, own.reals[angle_index(i)]);
       continue;
     }
+    link.carrier = definition.carrier;
+    link.still = definition.still;
+    link.center = definition.center;
+    link.normal = definition.normal;
     link.side = mode == wound_back ? -definition.side : definition.side;
     link.signed_radius = link.side * radius;
     link.centered = link.center.isZero(0.0);
@@ -116,32 +118,36 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
                              int span, bool first, FeatureState& next) {
   const LinkGeometry& definition = definitions_[at(index)];
   double& stored = next.reals[stored_length_index(index)];
+  if (next.integers[mode_index(index)] != attached && stored >= 0.0) return;
   double& rest_length = next.reals[rest_length_index(span)];
   std::int64_t& mode = next.integers[mode_index(index)];
+  const StoredStrain::End end = first ? StoredStrain::End::outgoing : StoredStrain::End::incoming;
   const PlaneAxes axes = axes_of(definition);
-  const Quaternion orientation = substep.orientation(definition.carrier);
-  const Vector3 center = substep.point(definition.carrier, definition.center);
-  const double radius = radius_with(definition, stored);
+  const Quaternion orientation = substep.orientation(definition.body);
+  const Vector3 center = substep.point(definition.body, definition.rim_center);
+  const double radius = radius_with(definition, stored_arc(next, index));
   const auto angle_of = [&](const Vector3& point) {
     const Vector3 own = orientation.conjugate() * (point - center);
     return std::atan2(axes.y.dot(own), axes.x.dot(own));
   };
   const SpanGeometry geometry = geometry_of(substep, span);
+  const double strain = strain_of(cable, geometry.length, rest_length);
   if (mode != attached) {
-    if (stored >= 0.0) return;
     // From the tangent point along the free cable: with the cable's run at its first link, against it at its last.
     const double sense = first ? links_[at(index)].side : -links_[at(index)].side;
-    const double wanted = geometry.length + stored;
-    double angle = angle_of(first ? geometry.start : geometry.end) - sense * stored / radius;
+    const double missing = stored * (1.0 + strain);  // < 0
+    const double wanted = geometry.length + missing;
+    double angle = angle_of(first ? geometry.start : geometry.end) - sense * missing / radius;
     // The free cable gets shorter by r per radian, but for a share of a^2 / 2, by which each round leaves less.
     constexpr int rounds = 6;
-    for (int round = 0; round < rounds && -stored < radius; ++round) {
+    for (int round = 0; round < rounds && -missing < radius; ++round) {
       angle += sense * (attached_span(substep, index, span, angle).length - wanted) / radius;
     }
     next.reals[angle_index(index)] = angle;
     mode = attached;
     rest_length += stored;
     stored = 0.0;
+    fit_strain(index, end, strain, next);
     record(substep, cable, index, CableEvent::Kind::attach);
     return;
   }
@@ -149,7 +155,7 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
   const Vector3 attachment = first ? geometry.start : geometry.end;
   const Vector3 outward = attachment - center;
   if (!(dot(away, outward) < 0.0)) return;
-  const Vector3 normal = orientation * definition.normal;
+  const Vector3 normal = orientation * definition.rim_normal;
   const int around =
       dot(away, cross(normal, outward)) >= 0.0 ? 1 : -1;  // of the way out of the wheel
   LinkGeometry wheel = definition;
@@ -163,10 +169,11 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
                     first ? links_[at(setup.second)] : wheel);
   if (!tangent.has_tangent) return;
   const double shorter = std::max(geometry.length - tangent.length, 0.0);
-  const double taken = std::min(cable.quantised(shorter), rest_length);
+  const double taken = std::min(cable.quantised(shorter / (1.0 + strain)), rest_length);
   mode = wheel.side == definition.side ? wound : wound_back;
   stored += taken;
   rest_length -= taken;
+  fit_strain(index, end, strain, next);
   record(substep, cable, index, CableEvent::Kind::wind);
 }
 
@@ -177,8 +184,18 @@ void CableSystem::feed(const FeatureState& state, double h, int span) {
   second = links_[at(setup.second)].feed_speed * h;
   // No more can be taken out than there is.
   const double rest_length = std::max(state.reals[rest_length_index(span)], 0.0);
+  const std::array wanted{first, second};
   first = std::max(first, -rest_length);
   second = std::max(second, -rest_length - first);
+  feed_rates_[at(span)] = 0.0;
+  for (const std::size_t end : {0U, 1U}) {
+    const int link = end == 0 ? setup.first : setup.second;
+    if (fed_[at(span)][end] > wanted[end]) {
+      stalled_[at(link)] = 1;
+    } else {
+      feed_rates_[at(span)] += links_[at(link)].feed_speed;
+    }
+  }
 }
 
 }  // namespace sheave

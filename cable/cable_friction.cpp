@@ -16,6 +16,9 @@
 // cable from that side which gives it at the lower tension, T e^(sum) on the way there; one that has become too long
 // gives it to the side that pulls harder, T e^(-sum). It has that tension then, and is judged by like a body's.
 //
+// A span of constant compliance c can be stretched by all of its length. Then no cable is left in it that could slide out, so
+// the links at its ends hold whatever the tensions: it has its length / c, the next span what its own stretch gives.
+//
 // While its links hold, statics leaves the tension of such a span open within the cones of its neighbours, and so beside a
 // dead end. It keeps what it had, which is what the last slip left, if that is inside, or takes the nearest value that
 // is.
@@ -60,7 +63,7 @@ double CableSystem::friction_exponent(const Substep& substep, int link,
                                       const SpanGeometry& outgoing) const {
   const LinkGeometry& geometry = links_[at(link)];
   return geometry.friction *
-         wrap_angle(substep, geometry, incoming, outgoing, stored_lengths_[at(link)]);
+         wrap_angle(substep, geometry, incoming, outgoing, stored_arcs_[at(link)]);
 }
 
 void CableSystem::remember_friction(const Substep& substep, const CompiledCable& cable) {
@@ -88,6 +91,14 @@ bool CableSystem::is_open(const Substep& substep, const CompiledCable& cable, Ru
     one_body = one_body && between.carrier == start.body;
   }
   return still || one_body;
+}
+
+bool CableSystem::is_drained(const CompiledCable& cable, Run run) const {
+  if (cable.compliance == 0.0) return false;
+  for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+    if (references_[at(k)].rest_length > cable.quantum) return false;
+  }
+  return true;
 }
 
 void CableSystem::collect_pieces(const Substep& substep, const CompiledCable& cable) {
@@ -251,7 +262,8 @@ void CableSystem::serve(std::size_t index) {
   piece.fed_behind = second;
 }
 
-void CableSystem::judge_links(const Substep& substep, std::size_t first, std::size_t last) {
+void CableSystem::judge_links(const Substep& substep, const CompiledCable& cable, std::size_t first,
+                              std::size_t last) {
   serve_pieces(substep, first, last);
   const auto decided = [](const Piece& p) {
     return p.kind == Piece::Kind::moves || p.kind == Piece::Kind::too_long || p.served;
@@ -278,8 +290,8 @@ void CableSystem::judge_links(const Substep& substep, std::size_t first, std::si
     }
     if (before == no_pull && after == no_pull) continue;
     const double excess = after - before - rise;
-    if (excess > held) set_slip(start, i, 1);
-    if (-excess > held) set_slip(start, i, -1);
+    if (excess > held && !is_drained(cable, pieces_[start].run)) set_slip(start, i, 1);
+    if (-excess > held && !is_drained(cable, piece.run)) set_slip(start, i, -1);
   }
 }
 
@@ -304,7 +316,7 @@ void CableSystem::update_slip(const Substep& substep, const CompiledCable& cable
   collect_pieces(substep, cable);
   for (std::size_t first = 0, i = 0; i < pieces_.size(); ++i) {
     if (pieces_[i].link >= 0) continue;
-    judge_links(substep, first, i);
+    judge_links(substep, cable, first, i);
     first = i + 1;
   }
   slip_ = pending_slip_;

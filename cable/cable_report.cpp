@@ -71,7 +71,10 @@ LinkReport CableSystem::link_report(const CableView& view, int index, int incomi
   report.winding = link.side;
   report.stored_length = own.reals[stored_length_index(index)];
   const LinkGeometry& definition = definitions_[at(index)].wraps() ? definitions_[at(index)] : link;
-  if (link.wraps()) report.wrap_angle = wound_angle(definition, link, report.stored_length);
+  const double arc = stored_arc(own, index);
+  report.stored_stretch = arc - report.stored_length;
+  report.most_strain = stored_strain(own, index).most_strain();
+  if (link.wraps()) report.wrap_angle = wound_angle(definition, link, arc);
   const double passed = own.reals[slip_index(index)];
   (definitions_[at(index)].feed_speed != 0.0 ? report.fed : report.slip) = passed;
   const bool lifted = own.integers[mode_index(index)] >= lifted_mode;
@@ -86,13 +89,13 @@ LinkReport CableSystem::link_report(const CableView& view, int index, int incomi
   if (outgoing >= 0) report.exit = view.ends[at(outgoing)].start;
   if (incoming < 0) report.entry = report.exit;
   if (link.slides && incoming >= 0 && outgoing >= 0) {
-    report.wrap_angle = wrap_angle(now, link, view.ends[at(incoming)], view.ends[at(outgoing)],
-                                   report.stored_length);
+    report.wrap_angle =
+        wrap_angle(now, link, view.ends[at(incoming)], view.ends[at(outgoing)], arc);
   }
   if (link.outline) {
     const int entry_corner = incoming >= 0 ? view.ends[at(incoming)].second_corner : -1;
     const int exit_corner = outgoing >= 0 ? view.ends[at(outgoing)].first_corner : -1;
-    report.path = outline_path(now, link, entry_corner, exit_corner, report.stored_length);
+    report.path = outline_path(now, link, entry_corner, exit_corner, arc);
   }
   return report;
 }
@@ -128,11 +131,13 @@ void CableSystem::append_wraps(const CableView& view, const CompiledCable& cable
 void CableSystem::measure(const CableView& view, const CompiledCable& cable, int cut_span,
                           CableReport& report) const {
   const bool rigid = compliance_of(cable, 1.0) == 0.0;
+  // Of a span that is all but used up there is no stretch worth the name; it counts against this share of the cable.
+  constexpr double shortest = 1e-6;
   const auto add_span = [&](const SpanReport& span) {
     report.total_length += span.rest_length;
-    if (rigid && span.rest_length > 0.0 && !report.cut) {
-      report.max_stretch =
-          std::max(report.max_stretch, (span.length - span.rest_length) / span.rest_length);
+    if (rigid && !report.cut) {
+      const double from = std::max(span.rest_length, shortest * cable.start_length);
+      report.max_stretch = std::max(report.max_stretch, (span.length - span.rest_length) / from);
     }
   };
   double fed = 0.0;
@@ -157,6 +162,10 @@ void CableSystem::measure(const CableView& view, const CompiledCable& cable, int
     }
     const double before = length_before(own, cable, cut_span);
     report.pieces = {before, report.total_length - before};
+  }
+  for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
+    const int place = strain_places_[at(i)];
+    if (place >= 0) report.creep_loss += view.own.reals[creep_index(place)];
   }
   report.length_error = (report.total_length - cable.start_length - fed) / cable.start_length;
 }

@@ -27,8 +27,11 @@ struct LinkReport {
   /// Outlines: the cable's way along the body from entry to exit, corner by corner [m]. At the end of an open cable from
   /// the last point of the stored cable. Empty for circles and points.
   std::vector<Vector3> path;
-  double stored_length = 0.0;  ///< cable on the body [m]
-  /// Stored length in turns of the link's perimeter, as an angle [rad]; any number of turns. Of a pinhole the angle by
+  double stored_length = 0.0;  ///< cable on the body, of a material unstretched [m]
+  /// By how much what is stored is longer as it lies there, with the strain that it came on with [m]; of a material.
+  double stored_stretch = 0.0;
+  double most_strain = 0.0;  ///< the largest strain with which any of it lies there
+  /// Stored length, stretched, in turns of the link's perimeter, as an angle [rad]; any number of turns. Of a pinhole the angle by
   /// which the cable's direction changes there, 0 ... pi.
   double wrap_angle = 0.0;
   /// Cable that has slid over the link towards the next span since time 0 [m]; what rolled with a wheel is not counted.
@@ -44,6 +47,8 @@ struct CableEvent {
     attach,  ///< a hybrid end's cable was used up
     wind,    ///< and is wound up again
     cut,     ///< the cable was cut or broke, in the span that begins at the link
+    stall,  ///< the drive of the link's body, or the link's feed, needs more cable than there is and stops or slows down
+    slip,  ///< cable began to slide over a link on which it ought not to, because there is no more of it
   };
   double time = 0.0;  ///< end of the substep [s]
   std::string cable;
@@ -51,8 +56,8 @@ struct CableEvent {
   Kind kind = Kind::leave;
   std::string body{};  ///< that the link is on; empty: the world
 };
-inline constexpr std::array<std::string_view, 5> cable_event_names{"leave", "touch", "attach",
-                                                                   "wind", "cut"};
+inline constexpr std::array<std::string_view, 7> cable_event_names{
+    "leave", "touch", "attach", "wind", "cut", "stall", "slip"};
 
 /// One free span of a cable.
 struct SpanReport {
@@ -85,7 +90,11 @@ struct CableReport {
   double total_length = 0.0;  ///< sum of rest lengths and stored lengths [m]
   /// (total_length - its value at time 0 - what was fed) / that value; the length invariant.
   double length_error = 0.0;
-  double max_stretch = 0.0;  ///< largest (length - rest length) / rest length of a rigid span
+  /// Energy lost since time 0 where cable of a material came off a wheel with another strain than its span's [J]: the
+  /// creep of belts (cable/cable_material.cpp).
+  double creep_loss = 0.0;
+  /// Largest (length - rest length) / rest length of a rigid span; of one shorter than 1e-6 of the cable over that.
+  double max_stretch = 0.0;
 
   /// The same with the wraps among links and spans, each at its place, for those that follow the cable's whole way;
   /// `places` gets the place that each link has in this report, -1 for wraps.

@@ -16,6 +16,9 @@
 //
 // Whether a link with friction sticks or slides is found in the sweeps: cable/cable_friction.cpp.
 //
+// A span of constant compliance c can be stretched by all of its length and has no cable left to give then, so that what it
+// shares with the next one ends: it has its length / c, and the link is held until the other side pulls less.
+//
 // When the substep is complete, rest length is moved within each run so that every span has its tension; what passed a
 // link is its slip, or turns the massless wheel. A slack run is not touched, except that a span that has become longer
 // than its rest length takes what it lacks from the nearest spans that have some to spare.
@@ -53,7 +56,25 @@ void pull_slack(std::vector<double>& spare) {
 }  // namespace
 
 bool CableSystem::shared(int link) const {
-  return links_[at(link)].frictionless() || slip_[at(link)] != 0;
+  return (links_[at(link)].frictionless() && held_[at(link)] == 0) || slip_[at(link)] != 0;
+}
+
+void CableSystem::hold_drained(const CompiledCable& cable, const FeatureState& start) {
+  std::fill_n(held_.begin() + cable.first_link, cable.link_count, 0);
+  for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+    if (!spans_[at(k)].active || references_[at(k)].rest_length > cable.quantum) continue;
+    const double tension = start.reals[tension_index(k)];
+    const auto hold = [&](int link, int other_span) {
+      const LinkGeometry& geometry = links_[at(link)];
+      if (other_span < 0 || geometry.massless || !geometry.frictionless()) return;
+      if (start.reals[tension_index(other_span)] >= tension) held_[at(link)] = 1;
+    };
+    const int first = spans_[at(k)].first;
+    const int second = spans_[at(k)].second;
+    hold(first, span_before(cable, first, spans_));
+    const bool ends = !cable.closed && second == cable.last_listed_link();
+    hold(second, ends ? -1 : span_after(cable, second));
+  }
 }
 
 double CableSystem::sweep_runs(Substep& substep, int cable_index) {
@@ -97,6 +118,19 @@ double CableSystem::evaluate_run(const Substep& substep, const CompiledCable& ca
   return heaviest;
 }
 
+double CableSystem::weigh_run(const CompiledCable& cable, std::size_t count, double heaviest,
+                              double h) {
+  double deflection = 0.0;
+  double damped = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    run_weights_[i] = std::exp(run_weights_[i] - heaviest);
+    const double share = run_weights_[i] * run_rows_[i].compliance;
+    deflection += share;
+    damped += share * run_rows_[i].compliance * cable.damping;
+  }
+  return damped > 0.0 ? damped / deflection / h : 0.0;
+}
+
 double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run run) {
   const auto count = at(run.count);
   run_rows_.resize(std::max(run_rows_.size(), count));
@@ -108,16 +142,7 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   RunValue value;
   const double heaviest = evaluate_run(substep, cable, run, value);
 
-  // Weights relative to the heaviest, so that no number of turns overflows.
-  double deflection = 0.0;
-  double damped = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    run_weights_[i] = std::exp(run_weights_[i] - heaviest);
-    const double share = run_weights_[i] * run_rows_[i].compliance;
-    deflection += share;
-    damped += share * run_rows_[i].compliance * cable.damping;
-  }
-  const double gamma = damped > 0.0 ? damped / deflection / substep.h : 0.0;
+  const double gamma = weigh_run(cable, count, heaviest, substep.h);
   double numerator = -(value.error + gamma * value.change);
   double denominator = 0.0;
   double parts = 0.0;  // the same without what cancels between the spans
@@ -220,7 +245,7 @@ const std::vector<double>& CableSystem::run_spare(const Substep& substep,
     const double wanted = cable.inverse_stiffness > 0.0
                               ? span.length / (1.0 + tension * cable.inverse_stiffness)
                               : std::max(span.length - tension * cable.compliance, 0.0);
-    spare.push_back(row.value + span.length - wanted);
+    spare.push_back(rest_length_of(cable, row, span.length) - wanted);
     total += spare.back();
     lengths.push_back(wanted);
     length += wanted;
@@ -270,7 +295,9 @@ void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run ru
     passed_before = moved;
     const int link = spans_[at(k)].second;
     if (links_[at(link)].massless) {
-      turn_massless_wheel(substep, link, moved);
+      // Both sides have the same tension and strain.
+      const double strain = multipliers_[at(k)] * cable.inverse_stiffness / (substep.h * substep.h);
+      turn_massless_wheel(substep, link, moved * (1.0 + strain));
     } else {
       next.reals[slip_index(link)] += moved;
     }

@@ -22,9 +22,16 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
   std::fill(sweeps_.begin(), sweeps_.end(), 0);
   std::fill(flips_.begin(), flips_.end(), 0);
+  if (driven_) begin_drives(state);
   for (std::size_t i = 0; i < links_.size(); ++i) {
     slip_[i] = pending_slip_[i] = static_cast<int>(state.integers[i]);
-    stored_lengths_[i] = state.reals[stored_length_index(static_cast<int>(i))];
+    const auto link = static_cast<int>(i);
+    if (strain_places_[i] < 0) {
+      stored_arcs_[i] = state.reals[stored_length_index(link)];
+      continue;
+    }
+    stored_arcs_[i] = stored_arc(state, link);
+    stored_[at(strain_places_[i])] = stored_strain(state, link);
   }
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const SpanSetup& setup = spans_[k];
@@ -37,11 +44,16 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     const double below_quantum =
         state.reals[remainder_index(span_index, 0)] + state.reals[remainder_index(span_index, 1)];
     references_[k] = span_reference(substep, setup, first, second, state.reals[k] + below_quantum);
+    const CompiledCable& cable = cables_[at(setup.cable)];
+    if (cable.inverse_stiffness > 0.0) {
+      strains_[k] = strain_of(cable, span_geometry(substep, setup, first, second).length,
+                              references_[k].rest_length);
+    }
     if (first.feed_speed != 0.0 || second.feed_speed != 0.0) {
       feed(state, substep.h, span_index);
       references_[k].rest_length += fed_[k][0] + fed_[k][1];
     }
-    if (cables_[at(setup.cable)].tangent_update == TangentUpdate::substep) {
+    if (cable.tangent_update == TangentUpdate::substep) {
       const SpanGeometry span = span_geometry(substep, setup, first, second);
       const auto own_point = [&](int body, const Vector3& point) -> Vector3 {
         return substep.orientation(body).conjugate() * (point - substep.position(body));
@@ -52,6 +64,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   }
   for (const CompiledCable& cable : cables_) {
     if (!cable.candidates.empty()) remember_sides(substep, cable);
+    if (cable.shares && cable.compliance > 0.0) hold_drained(cable, state);
   }
 }
 
@@ -62,11 +75,22 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row) c
   const LinkGeometry& second = links_[at(setup.second)];
   const SpanReference& reference = references_[at(span)];
   row.lower = 0.0;  // a cable pulls and never pushes
-  row.rate = first.feed_speed + second.feed_speed;
-  const SpanGeometry geometry = cable.tangent_update == TangentUpdate::iteration
-                                    ? evaluate_span(substep, setup, first, second, reference, row)
-                                    : evaluate_span_frozen(substep, first, second, reference, row);
-  row.compliance = compliance_of(cable, row.value + geometry.length);
+  row.rate = first.feed_speed != 0.0 || second.feed_speed != 0.0 ? feed_rates_[at(span)] : 0.0;
+  const bool frozen = cable.tangent_update == TangentUpdate::substep;
+  SpanTransport transport;
+  // A conditional, so that the span is made where it is kept.
+  const SpanGeometry geometry =
+      frozen ? evaluate_span_frozen(substep, first, second, reference, row)
+      : has_layers_ && layered(span)
+          ? evaluate_layered(substep, span, row, transport)
+          : evaluate_span(substep, setup, first, second, reference, row, transport);
+  if (cable.inverse_stiffness > 0.0 && !frozen) {
+    const StretchedSpan stretch = stretched(span, transport, geometry.length);
+    row.value = stretch.value;
+    row.compliance = compliance_of(cable, stretch.spring_length);
+  } else {
+    row.compliance = compliance_of(cable, row.value + geometry.length);
+  }
   row.damping = cable.damping;
   return geometry;
 }
@@ -115,31 +139,30 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
   for (const CompiledCable& cable : cables_) {
     if (cable.has_friction) hold_tensions(substep, cable, next);
   }
+  if (!stored_.empty()) stored_end_ = stored_;
   for (int k = 0; k < row_count(); ++k) {
     const SpanSetup& setup = spans_[at(k)];
     if (!setup.active) continue;
     const LinkGeometry& first = links_[at(setup.first)];
     const LinkGeometry& second = links_[at(setup.second)];
     const CompiledCable& cable = cables_[at(setup.cable)];
+    const bool grows = has_layers_ && layered(k);
+    if (grows) layered_ = layered_span(substep, k);
     const SpanGeometry span =
-        span_geometry(substep, setup, first, second, &references_[at(k)].ends);
+        grows ? layered_.geometry
+              : span_geometry(substep, setup, first, second, &references_[at(k)].ends);
+    SpanTransport transport =
+        grows ? layered_.transport
+              : span_transport(substep, setup, first, second, references_[at(k)], span);
     if (!span.has_tangent) {
       if (fallbacks_[at(k)].substeps++ == 0) fallbacks_[at(k)].first_time = substep.next.time;
       ++substep.statistics.geometry_fallbacks;
     }
-    const SpanTransport transport =
-        span_transport(substep, setup, first, second, references_[at(k)], span);
+    if (cable.inverse_stiffness > 0.0) {
+      transport = material_transport(cable, k, transport, span.length, next);
+    }
     double& rest_length = next.reals[rest_length_index(k)];
-    // What is smaller than the quantum waits for the next substep.
-    const auto move = [&](double amount, int link, int end) {
-      double& remainder = next.reals[remainder_index(k, end)];
-      const double moved = cable.quantised(amount + remainder);
-      remainder += amount - moved;
-      rest_length += moved;
-      next.reals[stored_length_index(link)] -= moved;
-    };
-    if (first.wraps()) move(transport.from_first, setup.first, 0);
-    if (second.wraps()) move(transport.from_second, setup.second, 1);
+    if (first.wraps() || second.wraps()) wind(k, transport, next);
     const auto feed_in = [&](int link, int end) {
       double& remainder = next.reals[remainder_index(k, end)];
       const double amount = fed_[at(k)][at(end)];
@@ -155,11 +178,16 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     ends_[at(k)] = {tension, span.length};
     tension = multipliers_[at(k)] * inverse_square;
   }
+  if (!stored_end_.empty()) keep_strains(next);
+  if (driven_ || slides_) record_stalls(substep, next);
   for (const CompiledCable& cable : cables_) {
     if (cable.shares) share_lengths(substep, cable, next);
   }
   if (substep.load_share == 1.0) count_numerical_damping(substep, next);
-  if (!changing_links_.empty()) change_ends(substep, next);
+  if (!changing_links_.empty()) {
+    if (has_layers_) refresh_ends(next, links_, spans_);
+    change_ends(substep, next);
+  }
   if (course_changes_) {
     cut(substep, next);
     leave_and_touch(substep, next);
@@ -222,7 +250,7 @@ double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
   if (std::none_of(cables_.begin(), cables_.end(), elastic)) return 0.0;
   const Substep now(bodies, state, 1.0, 1);
   const Geometry current = geometry_for(bodies, own);
-  double energy = 0.0;
+  double energy = stored_energy(own);
   for (int k = 0; k < row_count(); ++k) {
     const SpanSetup& setup = current.spans[at(k)];
     if (!setup.active) continue;

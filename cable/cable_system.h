@@ -11,6 +11,7 @@
 #include "cable/cable.h"
 #include "cable/cable_report.h"
 #include "cable/span_row.h"
+#include "cable/stored_strain.h"
 #include "cable/wrap_candidate.h"
 #include "engine/constraint_batch.h"
 #include "engine/index.h"
@@ -41,8 +42,11 @@ struct CompiledCable {
   bool planar = false;                    ///< all links stay in one plane
   Vector3 normal = Vector3::UnitZ();      ///< of that plane
   std::vector<double> senses;  ///< per link: +1 if its normal is `normal`, -1 if opposite
-  bool shares = false;         ///< cable can pass at one of its links other than by rolling
-  bool has_friction = false;   ///< and at one of them with friction
+  /// Of its listed links those whose body a drive turns, and those that feed.
+  std::vector<int> driven_links;
+  bool may_lock = false;      ///< rigid, and drives alone may decide how long some of its spans are
+  bool shares = false;        ///< cable can pass at one of its links other than by rolling
+  bool has_friction = false;  ///< and at one of them with friction
   TangentUpdate tangent_update = TangentUpdate::iteration;
   double start_length = 0.0;  ///< rest and stored lengths at time 0 [m]
   /// Power of two that all rest and stored lengths are multiples of [m], about 1e-15 of the cable.
@@ -63,13 +67,15 @@ struct CompiledCable {
 /// reals: rest length per span [m], stored length per link [m], tension per span [N], transport below the quantum per
 /// span end (first, second) [m], which rows count as rest length, slip per link [m]: cable that has slid over it towards the
 /// next span, of an attachment cable that was fed, angle of a hybrid end's attachment per link [rad], plane per place for a
-/// wrap: centre [m] and normal, own frame of the body.
+/// wrap: centre [m] and normal, own frame of the body. Then per link on which cable of a material can lie what
+/// StoredStrain saves, and what has been lost there by creep since time 0 [J].
 ///
 /// integers: per link with friction which way the cable slides: +1 towards the next span, -1 towards the last, 0 not at
 /// all; per link its mode: 0 as defined, 1 wound the other way round, 2 attached (hybrid ends), 3 left by the cable,
 /// 4 left and passed to the other side; per link the next one along the cable, counted within it, -1 at its end and where
 /// the cable does not touch; per place for a wrap +-(candidate + 1), the sign being its winding, 0 unused; per cable 0, or
-/// 1 + the span where it is cut.
+/// 1 + the span where it is cut; if a cable has driven links, per link which way its drive has stalled because all cable was
+/// drawn: the sign of the drive's turn about its axis, 0 it has not.
 class CableSystem final : public ConstraintBatch {
  public:
   /// Checks and compiles the cables. Errors have paths "/cables/i/...".
@@ -97,6 +103,30 @@ class CableSystem final : public ConstraintBatch {
     double first_time = 0.0;  ///< [s]
   };
   [[nodiscard]] std::vector<WrapWarning> wrap_warnings() const;
+  /// A link at which the cable crosses itself at time 0 and would not with the other winding.
+  struct WindingWarning {
+    std::string cable;
+    int link = 0;      ///< within the cable's list
+    std::string body;  ///< that the link is on, or "world"
+    Winding better = Winding::clockwise;
+  };
+  [[nodiscard]] const std::vector<WindingWarning>& winding_warnings() const {
+    return winding_warnings_;
+  }
+  /// A link at which something happened that nobody asked for.
+  struct LinkWarning {
+    std::string cable;
+    int link = 0;  ///< within its cable's list; -1: a wrap
+    int body = 0;  ///< that it is on; the world comes last
+    long substeps = 0;
+    double first_time = 0.0;  ///< [s]
+  };
+  /// Drives and feeds that would have needed cable which was not there, and did not go on (cable/cable_drives.cpp).
+  [[nodiscard]] std::vector<LinkWarning> stall_warnings() const { return link_warnings(stalls_); }
+  /// Links that cable slid over because there was no more of it, where it ought not to slide.
+  [[nodiscard]] std::vector<LinkWarning> slide_warnings() const {
+    return link_warnings(slides_at_);
+  }
   /// What happened since the system was created, in order.
   [[nodiscard]] const std::vector<CableEvent>& events() const { return events_; }
 
@@ -105,6 +135,8 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] bool accepts(const FeatureState& state) const override;
   [[nodiscard]] int row_count() const override { return static_cast<int>(spans_.size()); }
   void begin(const Substep& substep, const FeatureState& state) override;
+  [[nodiscard]] bool limits_drives() const override { return driven_; }
+  void limit_drives(Substep& substep) override;
   double sweep(Substep& substep) override;
   void linearise(Substep& substep, std::vector<Row>& rows) override;
   [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
@@ -137,6 +169,14 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] std::size_t plane_index(int plane) const {
     return 4 * spans_.size() + 3 * links_.size() + 6 * static_cast<std::size_t>(plane);
   }
+  /// StoredStrain::real_count numbers, of the strain place `place` (see strain_places_).
+  [[nodiscard]] std::size_t strain_index(int place) const {
+    return plane_index(plane_count_) +
+           (StoredStrain::real_count + 1) * static_cast<std::size_t>(place);
+  }
+  [[nodiscard]] std::size_t creep_index(int place) const {
+    return strain_index(place) + StoredStrain::real_count;
+  }
   // And in FeatureState::integers.
   [[nodiscard]] static std::size_t slip_state_index(int link) {
     return static_cast<std::size_t>(link);
@@ -153,6 +193,9 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] std::size_t cut_index(int cable) const {
     return 4 * links_.size() + static_cast<std::size_t>(cable);
   }
+  [[nodiscard]] std::size_t stall_index(int link) const {
+    return cut_index(static_cast<int>(cables_.size())) + static_cast<std::size_t>(link);
+  }
 
  private:
   friend class CableCompiler;
@@ -168,6 +211,8 @@ class CableSystem final : public ConstraintBatch {
   };
   [[nodiscard]] int next_span(const CompiledCable& cable, int span) const;
   [[nodiscard]] bool shared(int link) const;
+  /// Finds the frictionless links beside drained spans of a cable of constant compliance that pass nothing in the substep.
+  void hold_drained(const CompiledCable& cable, const FeatureState& start);
   template <class Visit>
   void for_each_run(const CompiledCable& cable, Visit visit) const;
   /// One step of XPBD for one span; returns what solve_row() does.
@@ -187,6 +232,9 @@ class CableSystem final : public ConstraintBatch {
   /// Evaluates the spans of a run; sums their gradients body by body and their values, and collects the logarithms of the
   /// weights k_i. Returns the largest of these.
   double evaluate_run(const Substep& substep, const CompiledCable& cable, Run run, RunValue& value);
+  /// Makes the weights of a run of `count` spans relative to the heaviest, so that no number of turns overflows, and returns
+  /// the share g of its damping.
+  double weigh_run(const CompiledCable& cable, std::size_t count, double heaviest, double h);
   double solve_run(Substep& substep, const CompiledCable& cable, Run run);
   /// Per span of the run: rest length that has to leave it [m], so that all have their tensions.
   const std::vector<double>& run_spare(const Substep& substep, const CompiledCable& cable, Run run);
@@ -240,7 +288,10 @@ class CableSystem final : public ConstraintBatch {
   /// Of pieces `first` to `last`, between dead ends: lets cable slide into those too short and out of those too long.
   void serve_pieces(const Substep& substep, std::size_t first, std::size_t last);
   void serve(std::size_t index);
-  void judge_links(const Substep& substep, std::size_t first, std::size_t last);
+  void judge_links(const Substep& substep, const CompiledCable& cable, std::size_t first,
+                   std::size_t last);
+  /// Whether the spans of the run, of constant compliance, have no rest length left.
+  [[nodiscard]] bool is_drained(const CompiledCable& cable, Run run) const;
   void update_slip(const Substep& substep, const CompiledCable& cable);
   /// Gives spans whose tension is open one that their neighbours hold. `start`: the state at the start of the substep.
   void hold_tensions(const Substep& substep, const CompiledCable& cable, const FeatureState& start);
@@ -248,6 +299,46 @@ class CableSystem final : public ConstraintBatch {
                     std::size_t first, std::size_t last);
   void apply_held(const Substep& substep, const CompiledCable& cable, const Piece& piece,
                   double pull);
+  // Drums with layers: cable/cable_layers.cpp.
+  /// A span with the radii that its links have now.
+  struct LayeredSpan {
+    SpanSetup setup;
+    LinkGeometry first;
+    LinkGeometry second;
+    SpanGeometry geometry;
+    SpanTransport transport;
+  };
+  [[nodiscard]] bool layered(int span) const;
+  [[nodiscard]] LayeredSpan layered_span(const Substep& substep, int span) const;
+  SpanGeometry evaluate_layered(const Substep& substep, int span, Row& row,
+                                SpanTransport& transport) const;
+  // Cable of a material on wheels: cable/cable_material.cpp.
+  /// The row of a span of a material, but for its gradient.
+  struct StretchedSpan {
+    double value = 0.0;              ///< [m]
+    double spring_length = 0.0;      ///< A: compliance x EA [m]
+    double on = 0.0;                 ///< arc that comes onto its links [m, >= 0]
+    std::array<double, 2> gained{};  ///< unstretched length that comes off its links [m, >= 0]
+  };
+  [[nodiscard]] StretchedSpan stretched(int span, const SpanTransport& arcs, double length) const;
+  /// Strain of a span, 0 if it is slack or its cable not of a material.
+  [[nodiscard]] static double strain_of(const CompiledCable& cable, double length,
+                                        double rest_length);
+  /// Rest length of a span [m] at the end of the substep, from its row and its length.
+  [[nodiscard]] static double rest_length_of(const CompiledCable& cable, const Row& row,
+                                             double length);
+  [[nodiscard]] static double rest_length_under(double value, double spring_length, double length);
+  /// Unstretched transport of a span of a material at the end of the substep [m]; moves strain and counts creep.
+  SpanTransport material_transport(const CompiledCable& cable, int span, const SpanTransport& arcs,
+                                   double length, FeatureState& next);
+  [[nodiscard]] StoredStrain stored_strain(const FeatureState& own, int link) const;
+  void save_strain(const StoredStrain& stored, int link, FeatureState& own) const;
+  /// Lets the link's strain follow a stored length that has changed at `end`; what is new has `strain`.
+  void fit_strain(int link, StoredStrain::End end, double strain, FeatureState& own) const;
+  void keep_strains(FeatureState& next);
+  /// Length of the stored cable as it lies there, stretched [m].
+  [[nodiscard]] double stored_arc(const FeatureState& own, int link) const;
+  [[nodiscard]] double stored_energy(const FeatureState& own) const;
   // Ends that change: cable/cable_ends.cpp.
   /// Puts what follows from the cables' state into links and spans.
   void refresh(const BodySet& bodies, const FeatureState& own, std::vector<LinkGeometry>& links,
@@ -295,10 +386,11 @@ class CableSystem final : public ConstraintBatch {
   /// Lets the span touch the first body that it cuts; false if there is none.
   bool touch_on_span(const Substep& substep, int cable, int span, FeatureState& next);
   [[nodiscard]] int listed_before(const CompiledCable& cable, int span) const;
-  /// Winds on or off the cable by which a span's end moves along its link; returns what the span gains [m].
-  static double shift_contact(const Substep& substep, const CompiledCable& cable,
-                              const LinkGeometry& link, const SpanGeometry& from,
-                              const SpanGeometry& to, bool first, double& stored_length);
+  /// Winds on or off the cable by which a span's end moves along its link, of a material with `strain`; returns what the
+  /// span gains [m].
+  double shift_contact(const Substep& substep, const CompiledCable& cable, int link,
+                       const SpanGeometry& from, const SpanGeometry& to, bool first, double strain,
+                       FeatureState& next) const;
   [[nodiscard]] bool comes_off(const Substep& substep, int span, int link,
                                const FeatureState& next) const;
   bool leave(const Substep& substep, const CompiledCable& cable, int link, FeatureState& next);
@@ -311,6 +403,65 @@ class CableSystem final : public ConstraintBatch {
              FeatureState& next);
   void record(const Substep& substep, const CompiledCable& cable, int link, CableEvent::Kind kind);
   void remember_sides(const Substep& substep, const CompiledCable& cable);
+  // Drives that need more cable than there is: cable/cable_drives.cpp.
+  /// What a drive does to the rest lengths of a chain if it does its whole share.
+  struct Pull {
+    int link = 0;
+    int span = -1;               ///< of a feed, whose link this is; else < 0
+    int end = 0;                 ///< and at which of its ends
+    double way = 0.0;            ///< in the substep [m], < 0 draws
+    double speed = 0.0;          ///< at its end [m/s]
+    double gross = 0.0;          ///< of `way`, what is both drawn and fed counted twice [m]
+    double way_of_points = 0.0;  ///< part of the above that moves spans' ends instead
+    double speed_of_points = 0.0;
+  };
+  /// Spans between two links over which no cable passes.
+  struct Chain {
+    int first_pull = 0;
+    int pull_count = 0;
+    double available = 0.0;  ///< cable that can be drawn [m]
+    bool moves = false;      ///< what limits it is that no rest length is below 0
+  };
+  struct ChainLengths {
+    double rest_length = 0.0;  ///< and what is on free drums at its ends [m]
+    double length = 0.0;       ///< of the spans [m]
+    bool moves = false;        ///< elastic, or forces can move one of its links
+  };
+  /// Whether no cable passes the link unless a drive turns its body, or nothing does.
+  [[nodiscard]] static bool ends_chain(const BodySet& bodies, const LinkGeometry& link);
+  /// Whether forces can move the link's place.
+  [[nodiscard]] static bool can_move(const BodySet& bodies, const LinkGeometry& link);
+  /// False if there is more than enough cable next to each drive.
+  [[nodiscard]] bool may_fall_short(const Substep& substep, const CompiledCable& cable) const;
+  void find_chains(Substep& substep, const CompiledCable& cable);
+  void begin_chain(const Substep& substep, const CompiledCable& cable, int link,
+                   ChainLengths& lengths);
+  void end_chain(const Substep& substep, const CompiledCable& cable, int link,
+                 ChainLengths& lengths);
+  void add_drum(const Substep& substep, const CompiledCable& cable, int link,
+                ChainLengths& lengths) const;
+  void add_to_chain(const Substep& substep, int span, ChainLengths& lengths);
+  void add_pull(const Pull& pull);
+  /// Whether the cable ends on the link, which is not round and so cannot hold it by its rim when all is paid out.
+  [[nodiscard]] bool runs_out(const CompiledCable& cable, int link) const {
+    const bool end =
+        !cable.closed && (link == cable.first_link || link == cable.last_listed_link());
+    return end && links_[at(link)].wraps() && !definitions_[at(link)].hybrid;
+  }
+  /// What drives pay out from drums on which the cable ends.
+  void add_stored_cable(const Substep& substep, const CompiledCable& cable);
+  /// Lets the drives of a chain that is short of cable draw only what there is; false if it is not short.
+  bool stall(Substep& substep, const Chain& chain, bool altogether);
+  DriveShare& share_of(Substep& substep, const Pull& pull);
+  void begin_drives(const FeatureState& state);
+  void record_stalls(const Substep& substep, FeatureState& next);
+  /// Which way the drive of a link turns its body in this substep: -1, 0, 1.
+  [[nodiscard]] int driven_way(const Substep& substep, int link) const;
+  /// Moves cable between a span and its links as the transport says, but no more than there is.
+  void wind(int span, const SpanTransport& transport, FeatureState& next);
+  void slide_over_ends(int span, std::array<double, 2>& moved, FeatureState& next);
+  struct Stall;
+  [[nodiscard]] std::vector<LinkWarning> link_warnings(const std::vector<Stall>& of_links) const;
   // Cutting: cable/cable_cut.cpp.
   void cut(const Substep& substep, FeatureState& next);
   void feed(const FeatureState& state, double h, int span);
@@ -344,25 +495,43 @@ class CableSystem final : public ConstraintBatch {
   std::vector<LinkGeometry> links_;          ///< in this substep
   std::vector<SpanSetup> span_definitions_;  ///< as compiled
   std::vector<SpanSetup> spans_;             ///< in this substep
+  bool has_layers_ = false;                  ///< at least one link is a drum with layers
   bool course_changes_ = false;              ///< spans depend on the state
+  bool driven_ = false;                      ///< a cable has driven links
   std::vector<std::int64_t> connected_for_;  ///< integers of the state that spans_ stand for
   std::vector<double> planes_;               ///< its planes of wraps
+  std::vector<int> strain_places_;  ///< per link its place among those with stored strain, or -1
+  int plane_count_ = 0;
   FeatureState initial_;
   // Scratch of a substep, filled by begin().
   std::vector<SpanReference> references_;
+  std::vector<double> strains_;  ///< per span, of a material, at the start
   std::vector<double> multipliers_;
   std::vector<char> was_taut_;  ///< per span, in the last substep
   std::vector<std::array<double, 2>>
       fed_;                ///< per span at its first and second link, in this substep [m]
   std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
   std::vector<int> pending_slip_;
+  std::vector<char> held_;  ///< per link: whether it passes nothing although it has no friction
   std::vector<int> revised_;
-  std::vector<int> sweeps_;             ///< per cable, in this substep
-  std::vector<int> flips_;              ///< per link: how often that has changed in this substep
-  std::vector<double> stored_lengths_;  ///< per link, at the start of the substep [m]
-  Row row_;                             ///< scratch of solve_span()
   /// Per span, for finish(): the tension at the start [N], and the length at the end of the substep [m].
   std::vector<std::array<double, 2>> ends_;
+  std::vector<int> sweeps_;               ///< per cable, in this substep
+  std::vector<int> flips_;                ///< per link: how often that has changed in this substep
+  std::vector<double> stored_arcs_;       ///< per link: stored cable as it lies, at the start [m]
+  std::vector<StoredStrain> stored_;      ///< per strain place, at the start
+  std::vector<StoredStrain> stored_end_;  ///< and at the end
+  Row row_;                               ///< scratch of solve_span()
+  LayeredSpan layered_;                   ///< scratch of finish()
+  // Scratch of limit_drives().
+  std::vector<Chain> chains_;
+  std::vector<Pull> pulls_;
+  std::vector<std::array<DriveShare, 2>> feed_shares_;  ///< per span, of its ends
+  std::vector<double> feed_rates_;                      ///< per span that is fed [m/s]
+  std::vector<char> stalled_;                           ///< per link, in this substep
+  std::vector<int>
+      locked_;  ///< per link: which way its drive has stalled (see the integers of the state)
+  std::vector<char> slid_;  ///< per link, in this substep
   // Scratch of solve_run().
   std::vector<Row> run_rows_;
   std::vector<SpanGeometry> run_spans_;
@@ -385,8 +554,16 @@ class CableSystem final : public ConstraintBatch {
     double first_time = 0.0;
   };
   std::vector<Fallback> fallbacks_;
+  struct Stall {
+    bool now = false;  ///< in the last substep
+    Fallback observed;
+  };
+  std::vector<Stall> stalls_;      ///< per link
+  std::vector<Stall> slides_at_;   ///< per link: over which cable slid that ought not to
+  bool slides_ = false;            ///< whether it does over any link, or did in the last substep
   std::vector<Fallback> crowded_;  ///< per cable: wraps that found no place
   std::vector<CableEvent> events_;
+  std::vector<WindingWarning> winding_warnings_;
 };
 
 template <class Visit>

@@ -53,10 +53,19 @@ struct LinkGeometry {
   bool starts_lifted = false;  ///< the cable passes it by at time 0
   bool lifts = false;          ///< the cable can leave it and touch it again: between the ends
   bool hybrid = false;         ///< becomes an attachment when its stored length is used up
-  double layer_pitch = 0.0;    ///< growth of the radius with every turn wound on [m]
-  double feed_speed = 0.0;     ///< of an attachment: cable that enters the scene there [m/s]
-  int extra_turns = 0;         ///< whole turns beyond the arc between the tangents
+  /// Hybrid links: centre [m] and normal in the own frame of `body`, whose rim then holds the end.
+  Vector3 rim_center = Vector3::Zero();
+  Vector3 rim_normal = Vector3::UnitZ();
+  double layer_pitch = 0.0;  ///< growth of the radius with every turn wound on [m]
+  double feed_speed = 0.0;   ///< of an attachment: cable that enters the scene there [m/s]
+  int extra_turns = 0;       ///< whole turns beyond the arc between the tangents
 
+  /// Makes the link hybrid; its centre and normal are in the own frame of `body`.
+  void hold_end() {
+    hybrid = true;
+    rim_center = center;
+    rim_normal = normal;
+  }
   [[nodiscard]] bool wraps() const { return side != 0; }
   /// Whether geometry depends on the cable's state, not only on the bodies.
   [[nodiscard]] bool changes() const { return hybrid || layer_pitch > 0.0; }

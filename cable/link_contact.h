@@ -53,8 +53,8 @@ inline Vector3 contact_normal(const Substep& substep, const LinkGeometry& link, 
                       : radial({center_of(substep, link, corner), normal, 1.0}, point);
 }
 
-/// What a drum takes on beyond radius times angle when it is wound by `angle` [rad], because it gets thicker: the
-/// integral of pitch angle / 2 pi.
+/// By how much less than the radius at the end times the angle a drum takes on when it is wound by `angle` [rad], because it
+/// gets thicker: the integral of pitch angle / 2 pi. (It gives as much more than that when it is unwound.)
 inline double layer_gain(const LinkGeometry& link, double angle) {
   return link.layer_pitch * angle * angle / (4.0 * pi);
 }

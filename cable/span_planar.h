@@ -41,12 +41,12 @@ inline void add_turning_terms(const Substep& substep, const SpanSetup& setup,
   if (first.wraps()) {
     const double own = turn - dot(setup.normal, substep.moving[at(first.body)].turn);
     transport.from_first = -setup.first_radius * own;
-    if (first.layer_pitch > 0.0) transport.from_first -= layer_gain(first, own);
+    if (first.layer_pitch > 0.0) transport.from_first += layer_gain(first, own);
   }
   if (second.wraps()) {
     const double own = turn - dot(setup.normal, substep.moving[at(second.body)].turn);
     transport.from_second = setup.second_radius * own;
-    if (second.layer_pitch > 0.0) transport.from_second -= layer_gain(second, own);
+    if (second.layer_pitch > 0.0) transport.from_second += layer_gain(second, own);
   }
   return transport;
 }
@@ -70,9 +70,10 @@ inline void add_turning_terms(const Substep& substep, const SpanSetup& setup,
 /// evaluate_span() for such a span.
 inline SpanGeometry evaluate_planar_span(const Substep& substep, const SpanSetup& setup,
                                          const LinkGeometry& first, const LinkGeometry& second,
-                                         const SpanReference& reference, Row& row) {
+                                         const SpanReference& reference, Row& row,
+                                         SpanTransport& transport) {
   const SpanGeometry span = planar_geometry(substep, setup, first, second);
-  const SpanTransport transport = planar_transport(substep, setup, first, second, reference, span);
+  transport = planar_transport(substep, setup, first, second, reference, span);
   row.value = reference.rest_length + transport.from_first + transport.from_second - span.length;
   if (on_one_body(first, second)) return span;
   add_planar_force(substep, setup, first, setup.first_radius, span.start, span.direction, row);

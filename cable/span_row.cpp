@@ -229,8 +229,8 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
         const Vector3 outward = contact_normal(substep, link, corner, point, geometry.direction);
         const double turn =
             relative_turn(substep, link, frame_of(substep, link), start_radial, outward);
-        // `side` makes the gain of either end a loss of the span.
-        const double gain = &link == &first ? layer_gain(link, turn) : -layer_gain(link, turn);
+        // `side` makes it a gain of the span at either end.
+        const double gain = &link == &first ? -layer_gain(link, turn) : layer_gain(link, turn);
         const double along = way_along(link, turn, start_corner, start_angle, corner);
         const double loss =
             link.outline ? tilt_loss(link, start_corner, corner, along, far_end) : 0.0;
@@ -256,15 +256,15 @@ SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,
 
 SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
                            const LinkGeometry& first, const LinkGeometry& second,
-                           const SpanReference& reference, Row& row) {
+                           const SpanReference& reference, Row& row, SpanTransport& transport) {
   if (setup.kind == SpanKind::planar && !setup.outlined) {
-    return evaluate_planar_span(substep, setup, first, second, reference, row);
+    return evaluate_planar_span(substep, setup, first, second, reference, row, transport);
   }
   if (setup.kind == SpanKind::spatial && !setup.outlined) {
-    return evaluate_skew_span(substep, first, second, reference, row);
+    return evaluate_skew_span(substep, first, second, reference, row, transport);
   }
   const SpanGeometry span = span_geometry_now(substep, setup, first, second, nullptr);
-  const SpanTransport transport = span_transport(substep, setup, first, second, reference, span);
+  transport = span_transport(substep, setup, first, second, reference, span);
   row.value = reference.rest_length + transport.from_first + transport.from_second - span.length;
   if (on_one_body(first, second)) return span;
   if (setup.kind == SpanKind::spatial) {

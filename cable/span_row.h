@@ -14,6 +14,11 @@
 // the material points count (envelope theorem): grad C = +u at the start, -u at the end. (Where there is no tangent, the
 // centres count, too; see add_turning_terms.)
 //
+// A drum with layers has the radius q of its outermost one, which depends on the angle psi = A - B by which it is wound:
+// dq = pitch / 2 pi dpsi (cable/cable_layers.cpp). What it takes on is the integral of q dpsi. With a tangent to a circle,
+// dl + q dA = 0 if only the radius changes (l = sqrt(d^2 - q^2), dA / dq = 1 / l for a point at the other end), so a
+// radius that follows the angle adds nothing to the gradient.
+//
 // Gradient, different planes: at the end of a span on a wheel, the span's direction u and the
 // wheel's tangent t = o n x e (o = sign q) need not agree, and moving the tangent point by
 // r dpsi along t changes l - L by r (u.t - 1) dpsi. Where psi moves follows from differentiating
@@ -100,10 +105,11 @@ struct SpanTransport {
                                            const SpanReference& reference,
                                            const SpanGeometry& geometry);
 
-/// Value and gradient of the row (bounds and compliance are the caller's). Returns the span.
+/// Value and gradient of the row (bounds and compliance are the caller's). Returns the span; `transport` tells what the
+/// value counts as transport.
 SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
                            const LinkGeometry& first, const LinkGeometry& second,
-                           const SpanReference& reference, Row& row);
+                           const SpanReference& reference, Row& row, SpanTransport& transport);
 
 /// The same with attachments that stay fixed to the bodies during the substep, as in the paper.
 SpanGeometry evaluate_span_frozen(const Substep& substep, const LinkGeometry& first,

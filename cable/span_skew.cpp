@@ -58,7 +58,7 @@ double gain_of(const Substep& substep, const LinkGeometry& link, const LinkFrame
                const Vector3& start_outward, const Vector3& point, double layer_sense) {
   const double turn =
       relative_turn(substep, link, frame, start_outward, radial(frame.circle, point));
-  // `side` makes the gain of either end a loss of the span.
+  // `side` makes it a gain of the span at either end.
   return std::abs(link.signed_radius) * turn + link.side * layer_sense * layer_gain(link, turn);
 }
 
@@ -68,12 +68,12 @@ SpanTransport transport_between(const Substep& substep, const LinkGeometry& firs
                                 const SpanGeometry& span) {
   SpanTransport transport;
   if (first.wraps()) {
-    transport.from_first =
-        -first.side * gain_of(substep, first, first_frame, reference.first_radial, span.start, 1.0);
+    transport.from_first = -first.side * gain_of(substep, first, first_frame,
+                                                 reference.first_radial, span.start, -1.0);
   }
   if (second.wraps()) {
     transport.from_second = second.side * gain_of(substep, second, second_frame,
-                                                  reference.second_radial, span.end, -1.0);
+                                                  reference.second_radial, span.end, 1.0);
   }
   return transport;
 }
@@ -122,12 +122,11 @@ SpanTransport skew_transport(const Substep& substep, const LinkGeometry& first,
 
 SpanGeometry evaluate_skew_span(const Substep& substep, const LinkGeometry& first,
                                 const LinkGeometry& second, const SpanReference& reference,
-                                Row& row) {
+                                Row& row, SpanTransport& transport) {
   const LinkFrame first_frame = frame_of(substep, first);
   const LinkFrame second_frame = frame_of(substep, second);
   const SpanGeometry span = spatial_span(first_frame.circle, second_frame.circle, &reference.ends);
-  const SpanTransport transport =
-      transport_between(substep, first, second, first_frame, second_frame, reference, span);
+  transport = transport_between(substep, first, second, first_frame, second_frame, reference, span);
   row.value = reference.rest_length + transport.from_first + transport.from_second - span.length;
   if (!on_one_body(first, second)) {
     add_skew_span(substep, first, second, first_frame.circle, second_frame.circle, span, row);

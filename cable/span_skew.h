@@ -33,6 +33,6 @@ void add_skew_span(const Substep& substep, const LinkGeometry& first, const Link
                                            const SpanGeometry& span);
 SpanGeometry evaluate_skew_span(const Substep& substep, const LinkGeometry& first,
                                 const LinkGeometry& second, const SpanReference& reference,
-                                Row& row);
+                                Row& row, SpanTransport& transport);
 
 }  // namespace sheave

@@ -41,6 +41,11 @@ struct BodyProperties {
   [[nodiscard]] bool prescribed() const {
     return drive == DriveKind::speed || drive == DriveKind::angle;
   }
+  /// By how much its drive turns it from one time to another [rad]; prescribed() only.
+  [[nodiscard]] double driven_turn(double from, double to) const {
+    return drive == DriveKind::speed ? drive_table.integral(from, to)
+                                     : drive_table.at(to) - drive_table.at(from);
+  }
   /// A wheel that only its cable turns, without any resistance. (A driven one resists, whatever its inertia.)
   [[nodiscard]] bool massless() const {
     return mobility == Mobility::rotor && axis_inertia == 0.0 && !prescribed();

@@ -35,6 +35,11 @@ class ConstraintBatch {
 
   /// Called before bodies are predicted. `state` is the feature's own state at the start.
   virtual void begin(const Substep& substep, const FeatureState& state) = 0;
+  /// Whether limit_drives() ever does anything.
+  [[nodiscard]] virtual bool limits_drives() const { return false; }
+  /// Called after begin(): lessens Substep::drive_shares where a drive would need what is not there (a winch whose cable has
+  /// run out). Other features do the same.
+  virtual void limit_drives(Substep& /*substep*/) {}
   /// One Gauss-Seidel sweep: each row in order, re-evaluated at the current positions and solved.
   /// Returns the largest correction, as an error of a row [m or rad].
   virtual double sweep(Substep& substep) = 0;

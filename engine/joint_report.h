@@ -21,6 +21,11 @@ struct JointCoordinateReport {
       0.0;  ///< since time 0 [m], angles with all turns; the swing of a ball joint: against the other axis
   double rate = 0.0;         ///< [m/s]
   double drive_force = 0.0;  ///< of its drive in the last substep, along the coordinate [N]
+  double drive_target =
+      0.0;  ///< what that asks for now: a position [m], a speed [m/s], a force [N]
+  /// By how much it is off what a drive without compliance asks for: of one to a position the value [m], of one to a speed the
+  /// rate [m/s]. Drives that have reached their limit, and those to a force, ask for nothing.
+  double drive_error = 0.0;
 };
 
 struct JointReport {
@@ -32,6 +37,10 @@ struct JointReport {
   Vector3 torque = Vector3::Zero();                ///< [N m]
   std::vector<JointCoordinateReport> coordinates;  ///< JointDef::coordinates()
   std::optional<double> broken_at;                 ///< when it broke [s]
+  /// The largest errors of what holds rigidly: how far anchors are apart that coincide, axes from where they ought to be,
+  /// stops overrun, gears out of mesh. 0 of a broken joint.
+  double error = 0.0;        ///< of lengths [m]
+  double angle_error = 0.0;  ///< of angles [rad]
 };
 
 /// A feature that consists of joints.

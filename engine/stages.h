@@ -1,10 +1,15 @@
 #pragma once
 // The stages of a substep that move bodies; their order is decided in engine/step.cpp.
 
+#include <memory>
+
+#include "engine/constraint_batch.h"
 #include "engine/substep.h"
 
 namespace sheave {
 
+/// Lets features stall drives that cannot go on; nothing where none of them does.
+void limit_drives(Substep& substep, std::span<const std::unique_ptr<ConstraintBatch>> features);
 /// Places kinematic bodies where their functions of time put them at the end of the substep.
 void move_kinematic_bodies(Substep& substep);
 /// Moves all other bodies as gravity, their constant forces and their inertia would, with the velocities that

@@ -50,6 +50,10 @@ std::vector<Stage> substep_stages(const Model& model,
     add("begin " + std::string(feature.name()),
         [&feature, i](Substep& substep) { feature.begin(substep, substep.start.features[i]); });
   }
+  if (std::any_of(features.begin(), features.end(),
+                  [](const auto& feature) { return feature->limits_drives(); })) {
+    add("limit drives", [=](Substep& substep) { limit_drives(substep, features); });
+  }
   if (rattle) add("keep the start", [=](Substep& substep) { solver->begin(substep, features); });
   if (moves_kinematic) add("move kinematic bodies", move_kinematic_bodies);
   add("predict", predict);

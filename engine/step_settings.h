@@ -28,13 +28,14 @@ enum class StepPreset {
 };
 inline constexpr std::array<std::string_view, 2> step_preset_names{"standard", "paper"};
 
-/// Accuracy against cost, chosen per scene.
+/// Accuracy against cost, chosen per scene. The defaults are those with which machines of all kinds come out right
+/// (bench/DEFAULTS.md).
 struct StepSettings {
   double dt = 1.0 / 60.0;  ///< time per step, one frame [s], > 0
-  int substeps = 1;        ///< substeps per step, 1 ... 100 000; h = dt / substeps
-  int iterations = 10;     ///< sweeps over all rows per substep, or rounds at most; 1 ... 1 000 000
-  SolverKind solver = SolverKind::gauss_seidel;
-  IntegratorKind integrator = IntegratorKind::xpbd;
+  int substeps = 4;        ///< substeps per step, 1 ... 100 000; h = dt / substeps
+  int iterations = 50;     ///< sweeps over all rows per substep, or rounds at most; 1 ... 1 000 000
+  SolverKind solver = SolverKind::direct;
+  IntegratorKind integrator = IntegratorKind::rattle;
 
   /// What "Cable Joints" (2018) steps with unless it says otherwise: Gauss-Seidel, XPBD, one substep of a frame of
   /// 1/60 s, 10 iterations.

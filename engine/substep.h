@@ -29,6 +29,8 @@ struct StepStatistics {
   /// Substeps left to Gauss-Seidel because no active set was found, for positions or for velocities.
   std::int64_t solver_fallbacks = 0;
   int redundant_rows = 0;  ///< the most in one round
+  /// Rounds in which rows contradicted each other (two drives of one coordinate) and all gave way.
+  std::int64_t compromises = 0;
   // Of contacts between bodies.
   int contacts = 0;  ///< the most points in one substep, those about to touch among them
   double deepest_overlap = 0.0;           ///< [m]
@@ -49,6 +51,12 @@ enum class Resort {
   anything,          ///< they make do with what they find
 };
 
+/// How much of its prescribed motion a drive does in a substep; less than all where it would need what is not there.
+struct DriveShare {
+  double way = 1.0;    ///< of the way, 0 ... 1
+  double speed = 1.0;  ///< of the speed at the end, 0 ... 1
+};
+
 /// The working data of one substep. Stages read the state at its start and write into `moving`;
 /// the state itself changes only when the substep is complete, so a substep that fails leaves the
 /// last good state behind.
@@ -61,8 +69,9 @@ struct Substep {
       0.0;  ///< of the positions in `moving`: the start's, from the prediction on the end's [s]
   std::vector<MovingBody> moving;    ///< bodies.count() + 1; the world comes last and never moves
   std::vector<BodyState> predicted;  ///< velocities, and poses, without constraints
-  std::vector<Vector3> predicted_turn;  ///< [rad], without constraints
-  State next;                           ///< the state at the end, written by the last stages
+  std::vector<Vector3> predicted_turn;   ///< [rad], without constraints
+  std::vector<DriveShare> drive_shares;  ///< per body; empty where no feature limits drives
+  State next;                            ///< the state at the end, written by the last stages
   StepStatistics statistics;
   /// Per feature: of each force in its state [N or N m] the part that acted in the second half of the substep, along the
   /// gradients of its end (`rattle`). Empty where nothing did. A feature may bring it into another layout when it finishes.

@@ -31,7 +31,7 @@ StepSettings paper_settings(const PaperRow& row) {
 }
 
 StepSettings direct_settings(const PaperRow& row, IntegratorKind integrator) {
-  StepSettings step;
+  StepSettings step = StepSettings::paper();
   step.dt = paper_frame;
   step.substeps = row.substeps;
   step.solver = SolverKind::direct;

@@ -54,13 +54,13 @@ class MapMaker {
     return dt * std::clamp(std::round(0.5 / dt), 10.0, most);
   }
 
-  /// A cell with the step, a suitable duration and as many iterations as scenes have that say nothing about them.
+  /// A cell with the step, a suitable duration and as many iterations as the paper has.
   [[nodiscard]] StressCell cell(const char* kind, double dt) const {
     StressCell made;
     made.kind = kind;
     made.settings = {{"dt", stress_number(dt)},
                      {"duration", stress_number(duration(dt))},
-                     {"iterations", std::to_string(StepSettings{}.iterations)}};
+                     {"iterations", std::to_string(StepSettings::paper().iterations)}};
     return made;
   }
 

@@ -31,10 +31,12 @@ std::optional<UnitPowers> factor_powers(std::string_view factor) {
     power = factor.back() - '0';
     factor.remove_suffix(1);
   }
-  if (factor == "m") return UnitPowers{power, 0};
-  if (factor == "kg") return UnitPowers{0, power};
-  if (factor == "N") return UnitPowers{power, power};
-  if (factor == "s" || factor == "rad" || factor == "Hz" || factor == "1") return UnitPowers{};
+  if (factor == "m") return UnitPowers{power, 0, 0};
+  if (factor == "kg") return UnitPowers{0, power, 0};
+  if (factor == "s") return UnitPowers{0, 0, power};
+  if (factor == "N") return UnitPowers{power, power, -2 * power};
+  if (factor == "Hz") return UnitPowers{0, 0, -power};
+  if (factor == "rad" || factor == "1") return UnitPowers{};
   return std::nullopt;
 }
 
@@ -94,7 +96,7 @@ class Walk {
   }
   void setting(const SettingJson& value, std::string_view unit, const std::string& place) {
     const std::optional<UnitPowers> powers = unit_powers(unit);
-    if (!powers || *powers == UnitPowers{}) return;
+    if (!powers || (powers->length == 0 && powers->mass == 0)) return;
     found.push_back({place, value.dump(), *powers});
   }
 };
@@ -120,6 +122,7 @@ std::optional<UnitPowers> unit_powers(std::string_view unit) {
       if (!powers) return std::nullopt;
       sum.length += sign * powers->length;
       sum.mass += sign * powers->mass;
+      sum.time += sign * powers->time;
     }
   }
   return sum;

@@ -14,10 +14,11 @@
 
 namespace sheave {
 
-/// What a setting is multiplied by: L^length M^mass.
+/// What a setting is multiplied by: L^length M^mass T^time.
 struct UnitPowers {
   int length = 0;
   int mass = 0;
+  int time = 0;
   [[nodiscard]] bool operator==(const UnitPowers&) const = default;
 };
 

@@ -93,7 +93,7 @@ RunOutcome play(const Scene& scene, std::span<const double> times, Progress& pro
   Simulation simulation = make_simulation(scene);
   Shutter shutter(scene, times, show);
   return simulate(simulation, step_count(scene), progress,
-                  [&] { return shutter.observe(simulation); });
+                  [&](const RunStatistics&) { return shutter.observe(simulation); });
 }
 
 std::vector<CableReport> reports_to_show(const Scene& scene, const Simulation& simulation) {

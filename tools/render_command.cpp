@@ -120,7 +120,12 @@ Look survey(const Scene& scene, const PictureOptions& options, std::span<const d
 
 ExitCode report(const RunOutcome& outcome, const PictureOutputs& outputs,
                 const PictureOptions& options) {
-  if (outcome.status == RunStatus::done) return ExitCode::done;
+  if (outcome.status == RunStatus::done) {
+    if (!outcome.certificate.clean(default_trust)) {
+      print_warning("doubtful: " + doubt_text(outcome.certificate, default_trust));
+    }
+    return ExitCode::done;
+  }
   const bool diverged = outcome.status == RunStatus::diverged;
   std::string text =
       diverged ? "diverged: " + outcome.divergence->message : std::string("interrupted");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 
@@ -10,6 +11,7 @@
 
 #include "engine/field_check.h"
 #include "measure/error_estimate.h"
+#include "measure/stress_judge.h"
 #include "tools/command.h"
 #include "tools/interrupt.h"
 #include "tools/output_file.h"
@@ -32,6 +34,8 @@ struct RunOptions {
   bool check = false;
   bool quiet = false;
   bool estimate_error = false;
+  std::string trust;
+  bool strict = false;
 };
 
 std::vector<Warning> early_warnings(const RunOptions& options, const Scene& scene,
@@ -55,7 +59,7 @@ std::vector<Warning> early_warnings(const RunOptions& options, const Scene& scen
   return warnings;
 }
 
-ExitCode exit_code(const RunSummary& summary) {
+ExitCode exit_code(const RunSummary& summary, bool strict) {
   switch (summary.outcome.status) {
     case RunStatus::diverged:
       return ExitCode::diverged;
@@ -64,7 +68,8 @@ ExitCode exit_code(const RunSummary& summary) {
     case RunStatus::done:
       break;
   }
-  return summary.checks_passed() ? ExitCode::done : ExitCode::check_failed;
+  if (!summary.checks_passed()) return ExitCode::check_failed;
+  return strict && summary.doubtful() ? ExitCode::doubtful : ExitCode::done;
 }
 
 /// Says on standard error why a run ended early, and what is left of its output.
@@ -100,8 +105,24 @@ void report(const RunOptions& options, const RunSummary& summary, std::int64_t r
   if (!summary.checks_passed() && !summarised) {
     print_error("checks failed\n" + checks_text(summary.checks));
   }
+  if (!summarised && summary.doubtful()) {
+    print_warning("doubtful: " + doubt_text(summary.outcome.certificate, summary.trust));
+  }
   if (options.json) print(to_json(summary));
   if (summarised) print(to_text(summary));
+}
+
+/// "0.1%" or "1e-3".
+double trusted_share(const std::string& text) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  const bool percent = std::string_view(end) == "%";
+  if (end == text.c_str() || !(percent || *end == '\0') || !(value > 0.0) ||
+      !std::isfinite(value)) {
+    throw Failure(ExitCode::usage,
+                  "--trust " + text + ": must be a positive share, e.g. 0.1% or 1e-3");
+  }
+  return percent ? 0.01 * value : value;
 }
 
 /// The runs with shorter substeps that this one is compared with.
@@ -115,6 +136,7 @@ std::optional<measure::ErrorEstimator> make_estimator(const RunOptions& options,
 }
 
 ExitCode run(const RunOptions& options) {
+  const double trust = options.trust.empty() ? default_trust : trusted_share(options.trust);
   const Scene scene = load(options.scene);
   Simulation simulation = make_simulation(scene);
   if (!options.load_state.empty()) load_state(simulation.world, options.load_state);
@@ -135,15 +157,17 @@ ExitCode run(const RunOptions& options) {
 
   Progress progress("run", static_cast<double>(simulation.world.state().steps),
                     static_cast<double>(last_step), options.quiet);
-  const RunOutcome outcome = simulate(simulation, last_step, progress, [&] {
-    recorder.observe(simulation);
-    monitor.observe(simulation);
-    if (checks) checks->record(simulation);
-    if (estimator && simulation.world.state().steps > first_step) estimator->observe(simulation);
-    return true;
-  });
+  const RunOutcome outcome =
+      simulate(simulation, last_step, progress, [&](const RunStatistics& so_far) {
+        recorder.observe(simulation);
+        monitor.observe(simulation, so_far);
+        if (checks) checks->record(simulation);
+        const bool stepped = simulation.world.state().steps > first_step;
+        if (estimator && stepped) estimator->observe(simulation);
+        return true;
+      });
   progress.clear();
-  monitor.finish(simulation);
+  monitor.finish(simulation, measure::is_conservative(scene));
 
   recorder.finish();
   if (state_file && outcome.status != RunStatus::diverged) {
@@ -165,9 +189,10 @@ ExitCode run(const RunOptions& options) {
                            std::move(warnings),
                            options.check,
                            checks ? checks->results() : std::vector<CheckResult>{},
-                           estimator ? std::optional(estimator->estimate()) : std::nullopt};
+                           estimator ? std::optional(estimator->estimate()) : std::nullopt,
+                           trust};
   report(options, summary, recorder.rows());
-  return exit_code(summary);
+  return exit_code(summary, options.strict);
 }
 
 void add_output_options(CLI::App& app, RunOptions& options) {
@@ -193,6 +218,11 @@ void add_output_options(CLI::App& app, RunOptions& options) {
   app.add_flag("--estimate-error", options.estimate_error,
                "run beside itself with 2 and 4 times the substeps and tell what the step makes "
                "wrong, with its order; takes 7 times as long");
+  app.add_option("--trust", options.trust,
+                 "call a run doubtful if its own numbers contradict each other by more than this "
+                 "part of their size, e.g. 0.1%; default: 1%")
+      ->option_text("SHARE");
+  app.add_flag("--strict", options.strict, "exit code 76 if the run is doubtful");
   app.add_flag("-q,--quiet", options.quiet,
                "print nothing but data asked for, warnings and errors");
 }
@@ -238,7 +268,8 @@ The columns of the files, and the names that checks use, are
 Tensions at time 0 are not known yet and left empty.
 
 Exit codes: 0 done, 1 a check failed, 2 wrong usage, 65 bad scene, 66 no such file, 70 internal
-error, 74 input or output failed, 75 diverged, 130 interrupted. After 75 and 130 the output so far
+error, 74 input or output failed, 75 diverged, 76 doubtful
+(with --strict), 130 interrupted. After 75 and 130 the output so far
 is kept, whole rows only.)");
   return [options] {
     if (options->json && writes_to_stdout(*options)) {

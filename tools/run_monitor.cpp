@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/joint_report.h"
+
 namespace sheave::tools {
 namespace {
 
@@ -23,23 +25,62 @@ double excess_of(const CableReport& cable) {
 }  // namespace
 
 RunMonitor::RunMonitor(std::int64_t steps)
-    : stride_(std::max<std::int64_t>(1, steps / 2000)), half_(steps / 2) {}
+    : stride_(std::max<std::int64_t>(1, steps / 2000)),
+      half_(steps / 2),
+      joint_stride_(std::max<std::int64_t>(1, steps / 200)) {}
 
-void RunMonitor::observe(const Simulation& simulation) {
+void RunMonitor::observe(const Simulation& simulation, const RunStatistics& statistics) {
   final_ = simulation.world.energy();
-  if (observed_ == 0) initial_ = final_;
+  if (observed_ == 0) {
+    initial_ = final_;
+    min_energy_ = final_.total();
+  }
+  min_energy_ = std::min(min_energy_, final_.total());
+  loss_.observe(simulation.world, final_.total(), statistics.integrator_fallbacks);
+  vibration_loss_ = statistics.numerical_damping;
   max_gain_ = std::max(max_gain_, final_.total() - initial_.total());
   most_vivid_ = std::max(most_vivid_, final_.kinetic + final_.elastic);
   max_drift_ = std::max(max_drift_, std::abs(final_.total() - initial_.total()));
   if (observed_ % stride_ == 0 || observed_ == half_) observe_cables(simulation);
+  if (observed_ % joint_stride_ == 0) observe_joints(simulation);
   ++observed_;
 }
 
-void RunMonitor::finish(const Simulation& simulation) {
+void RunMonitor::finish(const Simulation& simulation, bool conservative) {
+  integrator_loss_ = std::max({0.0, loss_.taken(), vibration_loss_});
+  // No more can have been taken than is missing, where nothing puts any in.
+  if (conservative) {
+    integrator_loss_ = std::min(integrator_loss_, initial_.total() - min_energy_);
+  }
   // After a divergence the state is one that no step reported.
   final_ = simulation.world.energy();
   max_drift_ = std::max(max_drift_, std::abs(final_.total() - initial_.total()));
   observe_cables(simulation);
+  observe_joints(simulation);
+}
+
+void RunMonitor::observe_joints(const Simulation& simulation) {
+  const std::vector<JointReport> reports = joint_reports(simulation.world);
+  const double time = simulation.world.state().time;
+  joints_.resize(reports.size());
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    JointCourse& course = joints_[i];
+    // Written so that NaN counts as large.
+    if (!(reports[i].error <= course.error)) {
+      course.error = reports[i].error;
+      course.error_time = time;
+    }
+    if (!(reports[i].angle_error <= course.angle_error)) {
+      course.angle_error = reports[i].angle_error;
+      course.angle_error_time = time;
+    }
+    // Before the first step nothing has been driven.
+    if (observed_ == 0) continue;
+    for (const JointCoordinateReport& coordinate : reports[i].coordinates) {
+      course.drive_error += std::abs(coordinate.drive_error);
+      course.drive_asked += std::abs(coordinate.drive_target);
+    }
+  }
 }
 
 void RunMonitor::observe_cables(const Simulation& simulation) {

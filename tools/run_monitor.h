@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "cable/simulation.h"
+#include "measure/integrator_loss.h"
+#include "tools/simulate.h"
 
 namespace sheave::tools {
 
@@ -22,16 +24,29 @@ struct CableCourse {
   std::array<double, 2> way{};
 };
 
+/// The worst of one joint over a run.
+struct JointCourse {
+  double error = 0.0;             ///< the largest JointReport::error [m]
+  double error_time = 0.0;        ///< and when [s]
+  double angle_error = 0.0;       ///< the largest JointReport::angle_error [rad]
+  double angle_error_time = 0.0;  ///< [s]
+  /// Of the drive that has kept least to what its values ask for: sums over the looks of |drive_error| and of |what was asked
+  /// for, to and fro| [m, m/s, rad or rad/s].
+  double drive_error = 0.0;
+  double drive_asked = 0.0;
+};
+
 /// Follows a simulation: energy in every step; cables, whose reports cost as much as a solver
-/// iteration, in every step of short runs and at about 2000 moments of long ones.
+/// iteration, in every step of short runs and at about 2000 moments of long ones; joints at about
+/// 200 moments.
 class RunMonitor {
  public:
   /// For a run of so many steps.
   explicit RunMonitor(std::int64_t steps);
-  /// To be called at the start and after every step.
-  void observe(const Simulation& simulation);
-  /// To be called at the end.
-  void finish(const Simulation& simulation);
+  /// To be called at the start and after every step, with what the steps did so far.
+  void observe(const Simulation& simulation, const RunStatistics& statistics);
+  /// To be called at the end; `conservative`: measure::is_conservative(scene).
+  void finish(const Simulation& simulation, bool conservative);
 
   [[nodiscard]] const Energy& initial_energy() const { return initial_; }
   [[nodiscard]] const Energy& final_energy() const { return final_; }
@@ -41,11 +56,19 @@ class RunMonitor {
   [[nodiscard]] double max_energy_gain() const { return max_gain_; }
   /// The largest |total energy - its value at the start| [J].
   [[nodiscard]] double max_energy_drift() const { return max_drift_; }
+  /// What the integrator took from the motion, vibrations of elastic cables included, about [J], >= 0.
+  [[nodiscard]] double integrator_loss() const { return integrator_loss_; }
+  /// What it is compared with: the largest sum of kinetic and elastic energy, and what drives, friction, damping and impacts
+  /// have put in and taken out [J].
+  [[nodiscard]] double energy_flow() const { return most_vivid_ + loss_.exchanged(); }
   /// One per cable.
   [[nodiscard]] const std::vector<CableCourse>& cables() const { return cables_; }
+  /// One per joint.
+  [[nodiscard]] const std::vector<JointCourse>& joints() const { return joints_; }
 
  private:
   void observe_cables(const Simulation& simulation);
+  void observe_joints(const Simulation& simulation);
   /// What the link has moved since the last look [m].
   [[nodiscard]] double way_of(const World& world, const LinkReport& link) const;
 
@@ -57,7 +80,13 @@ class RunMonitor {
   double max_drift_ = 0.0;
   double max_gain_ = 0.0;
   double most_vivid_ = 0.0;
+  double min_energy_ = 0.0;
+  measure::IntegratorLoss loss_;
+  double vibration_loss_ = 0.0;
+  double integrator_loss_ = 0.0;
+  std::int64_t joint_stride_;  // steps between looks at the joints
   std::vector<CableCourse> cables_;
+  std::vector<JointCourse> joints_;
   std::vector<BodyState> last_seen_;  // at the last look at the cables
 };
 

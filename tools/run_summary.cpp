@@ -18,9 +18,90 @@ bool RunSummary::checks_passed() const {
                      [](const CheckResult& check) { return check.passed; });
 }
 
+bool RunSummary::doubtful() const {
+  return outcome.status == RunStatus::done && !outcome.certificate.clean(trust);
+}
+
+std::string_view RunSummary::status() const {
+  return doubtful() ? "doubtful" : name_of(outcome.status);
+}
+
 namespace {
 
+std::string link_name(const CableSystem::LinkWarning& warning, const BodySet& bodies) {
+  const std::string body =
+      warning.body < bodies.count() ? "\"" + bodies.name(warning.body) + "\"" : "the world";
+  return warning.link < 0 ? fmt::format("the wrap on {}", body)
+                          : fmt::format("link {} on {}", warning.link, body);
+}
+
+/// Drives that would have needed cable which was not there, and cable that slid because there was no more.
+void append_shortage_warnings(const CableSystem& cables, const BodySet& bodies,
+                              std::vector<Warning>& warnings) {
+  for (const CableSystem::LinkWarning& warning : cables.stall_warnings()) {
+    warnings.push_back(
+        {"stalled", warning.cable,
+         fmt::format("cable {}: {} stalled in {} substeps, first at {} s: its drive draws more "
+                     "cable than there is, or than another drive feeds",
+                     warning.cable, link_name(warning, bodies), warning.substeps,
+                     number_text(warning.first_time))});
+  }
+  for (const CableSystem::LinkWarning& warning : cables.slide_warnings()) {
+    warnings.push_back(
+        {"slid", warning.cable,
+         fmt::format("cable {} slid over {} in {} substeps, first at {} s, although it cannot "
+                     "slip there: the span next to it was used up",
+                     warning.cable, link_name(warning, bodies), warning.substeps,
+                     number_text(warning.first_time))});
+  }
+}
+
+/// Joints that have not held. Rigid ones are as exact as the solver: open by more than a thousandth of the scene, or a
+/// hundredth of a radian, they have not.
+void append_joint_warnings(const Simulation& simulation, const RunStatistics& statistics,
+                           const RunMonitor& monitor, std::vector<Warning>& warnings) {
+  const double most_open = 1e-3 * simulation.world.bodies().scale();
+  constexpr double most_tilted = 1e-2;
+  constexpr double share_limit = 0.05;
+  std::size_t worst = 0;
+  double worst_share = 1.0;
+  std::size_t count = 0;
+  const auto& joints = monitor.joints();
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const double share = std::max(joints[i].error / most_open, joints[i].angle_error / most_tilted);
+    if (share <= 1.0) continue;
+    ++count;
+    if (share <= worst_share) continue;
+    worst = i;
+    worst_share = share;
+  }
+  const std::string why =
+      statistics.compromises > 0
+          ? "joints, drives or cables contradict each other, and all of them gave way"
+          : "the solver did not converge, or joints and drives contradict each other";
+  const auto& names = simulation.world.model().joints;
+  if (count > 0) {
+    const JointCourse& course = joints[worst];
+    const bool tilted = course.angle_error / most_tilted > course.error / most_open;
+    warnings.push_back(
+        {"joint_open", names[worst]->name,
+         fmt::format("joint {} was off by {:.3g} {} at {} s{}: {}", names[worst]->name,
+                     tilted ? course.angle_error : course.error, tilted ? "rad" : "m",
+                     number_text(tilted ? course.angle_error_time : course.error_time),
+                     count > 1 ? fmt::format(", and {} more were", count - 1) : "", why)});
+  }
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (joints[i].drive_error <= share_limit * joints[i].drive_asked) continue;
+    warnings.push_back(
+        {"drive_off", names[i]->name,
+         fmt::format("the drive of joint {} was off what it asks for by {:.3g} of it in the mean: "
+                     "{}",
+                     names[i]->name, joints[i].drive_error / joints[i].drive_asked, why)});
+  }
+}
+
 void append_cable_warnings(const CableSystem& cables, std::vector<Warning>& warnings) {
+  warnings = scene_warnings(cables);
   for (const CableSystem::TangentWarning& warning : cables.tangent_warnings()) {
     std::string span = warning.span < 0 ? fmt::format("{} behind a wrap", warning.cable)
                                         : fmt::format("{}.{}", warning.cable, warning.span);
@@ -99,17 +180,41 @@ void append_damping_warning(const StepSettings& step, const RunStatistics& stati
   warnings.push_back({"damped_vibration", "", std::move(message)});
 }
 
+/// xpbd takes energy from every motion that is not straight and uniform (measure/integrator_loss.h).
+void append_loss_warning(const StepSettings& step, const RunMonitor& monitor,
+                         std::vector<Warning>& warnings) {
+  constexpr double share_limit = 0.01;
+  constexpr double rounding = 1e-12;  // of the potential energy
+  const bool said = std::any_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
+    return warning.kind == "damped_vibration";
+  });
+  const double loss = monitor.integrator_loss();
+  const double flow = monitor.energy_flow();
+  const double least = rounding * std::abs(monitor.initial_energy().potential);
+  if (said || loss <= share_limit * flow + least) return;
+  std::string message = fmt::format(
+      "xpbd took about {:.3g} J from the motion, {:.2g} % of what there was at most and what came "
+      "and went: the step is too long for it; {} may avoid that",
+      loss, 100.0 * loss / flow, remedy(step, StepFault::long_step));
+  warnings.push_back({"integrator_loss", "", std::move(message)});
+}
+
 /// Where nothing puts energy into a scene, there is never more than at first. Steps too long for what swings or spins in them
 /// do make energy: a light weight on a taut cable, pulled round a wheel; the gyroscopic motion of long bodies. So do springs
 /// that are stretched without a force, because sweeps have not got to it.
-void append_energy_warning(const Scene& scene, const RunMonitor& monitor,
-                           std::vector<Warning>& warnings) {
+void append_energy_warning(const Scene& scene, const Simulation& simulation,
+                           const RunMonitor& monitor, std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.1;
   constexpr double rounding = 1e-12;  // of the potential energy
   if (!measure::is_conservative(scene)) return;
   const double size = monitor.most_vivid_energy();
   const double gain = monitor.max_energy_gain();
-  const double potential = std::abs(monitor.initial_energy().potential);
+  // Of the heights that weights could have in the scene, and not of those that they have: these may be 0.
+  const BodySet& bodies = simulation.world.bodies();
+  double potential = std::abs(monitor.initial_energy().potential);
+  for (int i = 0; i < bodies.count(); ++i) {
+    potential += bodies[i].mass * bodies.gravity().norm() * bodies.scale();
+  }
   if (gain <= share_limit * size + rounding * (size + potential)) return;
   std::string message = fmt::format(
       "there was {:.3g} J more energy than at the start, although nothing puts any into the scene, "
@@ -195,15 +300,38 @@ void append_solver_warnings(const RunStatistics& statistics, std::vector<Warning
 
 }  // namespace
 
+std::vector<Warning> scene_warnings(const CableSystem& cables) {
+  std::vector<Warning> warnings;
+  for (const CableSystem::WindingWarning& warning : cables.winding_warnings()) {
+    std::string message = fmt::format(
+        "cable \"{}\" crosses itself beside link {} on \"{}\", which looks like the wrong winding; "
+        "try "
+        "\"winding\": \"{}\" there, or \"turns\": 1 if a whole turn is meant",
+        warning.cable, warning.link, warning.body,
+        winding_names[static_cast<std::size_t>(warning.better)]);
+    warnings.push_back({"crossed_winding", warning.cable, std::move(message)});
+  }
+  return warnings;
+}
+
+std::vector<Warning> scene_warnings(const Scene& scene) {
+  const Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
+  if (!simulation || simulation->cables == nullptr) return {};
+  return scene_warnings(*simulation->cables);
+}
+
 std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simulation,
                                       const RunStatistics& statistics, const RunMonitor& monitor) {
   std::vector<Warning> warnings;
   if (simulation.cables != nullptr) {
     append_cable_warnings(*simulation.cables, warnings);
+    append_shortage_warnings(*simulation.cables, simulation.world.bodies(), warnings);
     append_stretch_warnings(simulation, monitor, warnings);
   }
+  append_joint_warnings(simulation, statistics, monitor, warnings);
   append_damping_warning(scene.model.step, statistics, monitor, warnings);
-  append_energy_warning(scene, monitor, warnings);
+  append_loss_warning(scene.model.step, monitor, warnings);
+  append_energy_warning(scene, simulation, monitor, warnings);
   append_rounding_warning(simulation.world, warnings);
   append_solver_warnings(statistics, warnings);
   return warnings;

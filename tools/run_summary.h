@@ -10,6 +10,7 @@
 #include "measure/error_estimate.h"
 #include "scenes/check.h"
 #include "scenes/scene.h"
+#include "tools/run_checker.h"
 #include "tools/run_monitor.h"
 #include "tools/simulate.h"
 
@@ -49,17 +50,28 @@ struct RunSummary {
   bool checked = false;  ///< whether checks were asked for
   std::vector<CheckResult> checks;
   std::optional<measure::ErrorEstimate> error_estimate;  ///< if it was asked for
+  double trust = default_trust;  ///< figures of the certificate above it make the run doubtful
 
   [[nodiscard]] bool checks_passed() const;
+  /// Whether the run was done and its own numbers contradict each other.
+  [[nodiscard]] bool doubtful() const;
+  /// "done", "doubtful", "diverged", "interrupted".
+  [[nodiscard]] std::string_view status() const;
 };
 
-/// Warnings about the course of a run: spans that had no tangent, wraps that found no place, rigid cables that do not keep
+/// Warnings about a scene and the course of its run: spans that had no tangent, wraps that found no place, drives that
+/// stalled for want of cable, rigid cables that do not keep
 /// their length, vibrations that the step damps, steps too short for the digits of positions, substeps that the direct solver
 /// or rattle left to the other one, energy that nothing has put into the scene.
 [[nodiscard]] std::vector<Warning> collect_warnings(const Scene& scene,
                                                     const Simulation& simulation,
                                                     const RunStatistics& statistics,
                                                     const RunMonitor& monitor);
+
+/// Warnings about a scene that can be run but may not be what was meant: windings that look as if they were entered the wrong
+/// way round.
+[[nodiscard]] std::vector<Warning> scene_warnings(const CableSystem& cables);
+[[nodiscard]] std::vector<Warning> scene_warnings(const Scene& scene);
 
 /// One JSON object in one line, keys as in the documentation. Numbers that are not finite or not
 /// known are null.

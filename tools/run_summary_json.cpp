@@ -40,6 +40,7 @@ RunJson statistics(const RunStatistics& statistics) {
           {"set_changes", statistics.set_changes},
           {"solver_fallbacks", statistics.solver_fallbacks},
           {"redundant_rows", statistics.redundant_rows},
+          {"compromises", statistics.compromises},
           {"integrator_fallbacks", statistics.integrator_fallbacks},
           {"cut_substeps", statistics.cut_substeps},
           {"substep_parts", statistics.substep_parts},
@@ -106,13 +107,16 @@ RunJson joints(const RunSummary& summary) {
       coordinates.push_back({{"name", coordinate.name},
                              {"value", coordinate.value},
                              {"rate", coordinate.rate},
-                             {"drive_force", known ? RunJson(coordinate.drive_force) : RunJson()}});
+                             {"drive_force", known ? RunJson(coordinate.drive_force) : RunJson()},
+                             {"drive_error", known ? RunJson(coordinate.drive_error) : RunJson()}});
     }
     list.push_back({{"name", joint.name},
                     {"type", joint.type},
                     {"force", known ? run_json(joint.force) : RunJson()},
                     {"torque", known ? run_json(joint.torque) : RunJson()},
                     {"coordinates", std::move(coordinates)},
+                    {"error", joint.error},
+                    {"angle_error", joint.angle_error},
                     {"broken_at", joint.broken_at ? RunJson(*joint.broken_at) : RunJson()}});
   }
   return list;
@@ -204,6 +208,30 @@ RunJson run_json(const measure::StepDifference& difference) {
           {"error", difference.error()}};
 }
 
+RunJson run_json(const CertificateItem& item) {
+  return {{"kind", certificate_kind_names[static_cast<std::size_t>(item.kind)]},
+          {"name", item.name},
+          {"value", item.value},
+          {"unit", item.unit},
+          {"scale", item.scale},
+          {"relative", item.relative},
+          {"time", item.time},
+          {"advice", item.advice}};
+}
+
+RunJson certificate(const RunSummary& summary) {
+  const Certificate& own = summary.outcome.certificate;
+  RunJson items = RunJson::array();
+  for (const CertificateItem& item : own.items) items.push_back(run_json(item));
+  const CertificateItem* worst = own.worst();
+  return {{"clean", own.clean(summary.trust)},
+          {"trust", summary.trust},
+          {"substeps", own.substeps},
+          {"worst", worst == nullptr ? RunJson() : run_json(*worst)},
+          {"items", std::move(items)},
+          {"text", certificate_text(own, summary.trust)}};
+}
+
 RunJson error_estimate(const measure::ErrorEstimate& estimate, const World& world) {
   RunJson bodies = RunJson::array();
   for (const measure::BodyDifference& body : estimate.bodies) {
@@ -243,7 +271,7 @@ std::string to_json(const RunSummary& summary) {
   RunJson object{{"scene", summary.scene_path},
                  {"name", summary.scene.name},
                  {"version", version_string},
-                 {"status", name_of(outcome.status)},
+                 {"status", summary.status()},
                  {"steps", outcome.steps},
                  {"sim_time", world.state().time},
                  {"wall_time", outcome.wall_time},
@@ -253,11 +281,14 @@ std::string to_json(const RunSummary& summary) {
                   {{"initial", summary.monitor.initial_energy().total()},
                    {"final", summary.monitor.final_energy().total()},
                    {"max_drift", summary.monitor.max_energy_drift()},
+                   {"integrator_loss", summary.monitor.integrator_loss()},
+                   {"flow", summary.monitor.energy_flow()},
                    {"parts", run_json(summary.monitor.final_energy())}}},
                  {"cables", cables(summary)},
                  {"joints", joints(summary)},
                  {"bodies", bodies(world)},
                  {"statistics", statistics(outcome.statistics)},
+                 {"certificate", certificate(summary)},
                  {"events", events(summary)},
                  {"warnings", warnings(summary.warnings)}};
   if (!world.model().colliders.empty()) object["contacts"] = contacts(world);

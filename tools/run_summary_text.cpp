@@ -45,7 +45,7 @@ std::string head(const RunSummary& summary) {
   std::string text = summary.scene.name.empty()
                          ? std::string(summary.scene_path)
                          : fmt::format("{} ({})", summary.scene.name, summary.scene_path);
-  text += fmt::format("\n{}: {} steps to t = {} s", name_of(outcome.status), outcome.steps,
+  text += fmt::format("\n{}: {} steps to t = {} s", summary.status(), outcome.steps,
                       short_number(summary.simulation.world.state().time));
   if (outcome.steps > 0) {
     text += fmt::format(", {} us per step", short_number(1e6 * time_per_step(outcome)));
@@ -153,6 +153,8 @@ std::string invariants(const RunSummary& summary) {
               short_number(monitor.final_energy().total()),
               short_number(monitor.max_energy_drift())});
   std::string text = "\n" + energy.text();
+  text += fmt::format("  the integrator took {} J of {} J\n",
+                      short_number(monitor.integrator_loss()), short_number(monitor.energy_flow()));
   const std::vector<CableReport> reports = summary.simulation.cable_reports();
   if (reports.empty()) return text;
   TextTable lengths({"cable", "length [m]", "relative error", "largest stretch"}, 1);
@@ -180,6 +182,7 @@ std::string checks_text(const std::vector<CheckResult>& checks) {
 std::string to_text(const RunSummary& summary) {
   std::string text = head(summary) + body_lines(summary.simulation.world) + cable_lines(summary) +
                      joint_lines(summary) + event_lines(summary) + invariants(summary);
+  text += "\n" + certificate_text(summary.outcome.certificate, summary.trust) + "\n";
   if (summary.error_estimate) text += "\n" + error_estimate_text(*summary.error_estimate);
   if (summary.checked) text += "\n" + checks_text(summary.checks);
   return text;

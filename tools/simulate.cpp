@@ -25,6 +25,7 @@ void accumulate(const StepStatistics& step, RunStatistics& total) {
   total.rounds += step.rounds;
   total.set_changes += step.set_changes;
   total.solver_fallbacks += step.solver_fallbacks;
+  total.compromises += step.compromises;
   total.redundant_rows = std::max(total.redundant_rows, step.redundant_rows);
   total.integrator_fallbacks += step.integrator_fallbacks;
   total.cut_substeps += step.cut_substeps;
@@ -43,11 +44,12 @@ std::string_view name_of(RunStatus status) {
 }
 
 RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& progress,
-                    const std::function<bool()>& observe) {
+                    const std::function<bool(const RunStatistics&)>& observe) {
   RunOutcome outcome;
   World& world = simulation.world;
   const Clock::time_point start = Clock::now();
-  bool wanted = observe();
+  RunChecker checker(simulation, last_step);
+  bool wanted = observe(outcome.statistics);
   while (wanted && world.state().steps < last_step) {
     if (interrupted()) {
       outcome.status = RunStatus::interrupted;
@@ -63,12 +65,14 @@ RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& pr
       break;
     }
     ++outcome.steps;
-    wanted = observe();
+    checker.observe(simulation);
+    wanted = observe(outcome.statistics);
     if (progress.due()) {
       progress.update(static_cast<double>(world.state().steps),
                       fmt::format("t = {:.4g} s", world.state().time));
     }
   }
+  outcome.certificate = checker.certificate();
   outcome.wall_time = seconds_since(start);
   return outcome;
 }

@@ -8,6 +8,7 @@
 
 #include "cable/simulation.h"
 #include "tools/progress.h"
+#include "tools/run_checker.h"
 
 namespace sheave::tools {
 
@@ -27,6 +28,7 @@ struct RunStatistics {
   std::int64_t set_changes = 0;
   std::int64_t solver_fallbacks = 0;      ///< substeps left to Gauss-Seidel
   int redundant_rows = 0;                 ///< the most in one round
+  std::int64_t compromises = 0;           ///< rounds in which rows contradicted each other
   std::int64_t integrator_fallbacks = 0;  ///< substeps of `rattle` left to `xpbd`
   std::int64_t cut_substeps = 0;          ///< done in smaller parts
   std::int64_t substep_parts = 0;         ///< in how many, all together
@@ -44,12 +46,13 @@ struct RunOutcome {
   double step_time = 0.0;                ///< wall time spent in steps alone [s]
   double wall_time = 0.0;                ///< including observers [s]
   RunStatistics statistics;
+  Certificate certificate;  ///< of the steps that were checked
 };
 
 /// Steps until `last_step` steps are complete, the state diverges or a signal comes. Calls
-/// `observe` at the start and after every step; it may return false to stop early, which counts as
-/// done.
+/// `observe` with what the steps did so far, at the start and after every step; it may return false to stop early, which
+/// counts as done.
 RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& progress,
-                    const std::function<bool()>& observe);
+                    const std::function<bool(const RunStatistics&)>& observe);
 
 }  // namespace sheave::tools

@@ -24,6 +24,7 @@ StressJson cell_json(const StressResult& result, std::size_t i) {
            std::isfinite(outcome.verdict.error) ? StressJson(outcome.verdict.error) : StressJson()},
           {"detail", outcome.verdict.detail},
           {"warnings", outcome.warnings},
+          {"doubt", outcome.doubt},
           {"silent", outcome.silent()},
           {"command", cell.command(result.settings.solver, result.settings.integrator)}};
 }

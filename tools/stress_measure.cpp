@@ -38,25 +38,29 @@ StressOutcome run_cell(const measure::StressCell& cell, const StressSettings& se
   const SceneResult scene = cell.scene(settings.solver, settings.integrator);
   if (!scene) {
     const std::string fault = scene.errors.empty() ? "" : to_string(scene.errors.front());
-    return {{StressKind::refused, std::nan(""), fault}, {}};
+    return {{StressKind::refused, std::nan(""), fault}, {}, {}};
   }
   Result<Simulation> simulation = Simulation::create(scene->model, scene->cables);
-  if (!simulation) return {{StressKind::refused, std::nan(""), to_text(simulation.errors())}, {}};
+  if (!simulation)
+    return {{StressKind::refused, std::nan(""), to_text(simulation.errors())}, {}, {}};
   measure::StressJudge judge(*scene, *simulation);
   const std::int64_t steps = step_count(*scene);
   RunMonitor monitor(steps);
   Progress none("", 0.0, 1.0, true);
-  const RunOutcome run = simulate(*simulation, steps, none, [&] {
+  const RunOutcome run = simulate(*simulation, steps, none, [&](const RunStatistics& so_far) {
     judge.observe(*simulation);
-    monitor.observe(*simulation);
+    monitor.observe(*simulation, so_far);
     return true;
   });
-  monitor.finish(*simulation);
+  monitor.finish(*simulation, measure::is_conservative(*scene));
   if (run.status == RunStatus::interrupted) throw Failure(ExitCode::interrupted, "interrupted");
-  StressOutcome outcome{judge.verdict(*simulation, run.divergence), {}};
+  StressOutcome outcome{judge.verdict(*simulation, run.divergence), {}, {}};
   if (!cell.similar_to.empty() && !run.divergence) compare(cell, settings, *scene, outcome.verdict);
   for (const Warning& warning : collect_warnings(*scene, *simulation, run.statistics, monitor)) {
     outcome.warnings.push_back(warning.kind);
+  }
+  if (!run.certificate.clean(default_trust)) {
+    outcome.doubt = doubt_text(run.certificate, default_trust);
   }
   return outcome;
 }

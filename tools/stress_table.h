@@ -22,11 +22,12 @@ struct StressSettings {
 struct StressOutcome {
   measure::StressVerdict verdict;
   std::vector<std::string> warnings;  ///< kinds of the warnings that `sheave run` gives
-  /// A wrong result that nobody would notice: the run ended well and without any warning.
+  std::string doubt;  ///< what `sheave run` calls doubtful, with its default trust; empty: nothing
+  /// A wrong result that nobody would notice: the run ended well, without any warning, and its certificate is clean.
   [[nodiscard]] bool silent() const { return verdict.failed() && !said(); }
   /// Whether the run itself says that something is not as it should be.
   [[nodiscard]] bool said() const {
-    return verdict.kind == measure::StressKind::diverged || !warnings.empty();
+    return verdict.kind == measure::StressKind::diverged || !warnings.empty() || !doubt.empty();
   }
 };
 

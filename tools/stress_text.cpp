@@ -98,7 +98,11 @@ std::string stress_text(const std::vector<StressResult>& results) {
     table.add(summary_cells(result));
     worst += worst_text(result, "  ");
   }
-  return table.text() + (worst.empty() ? "" : "\nThe worst cells:\n" + worst);
+  int silent = 0;
+  for (const StressResult& result : results) silent += result.silent();
+  const std::string count =
+      fmt::format("\n{} silent: wrong, without a warning, and with a clean certificate\n", silent);
+  return table.text() + count + (worst.empty() ? "" : "\nThe worst cells:\n" + worst);
 }
 
 std::string stress_markdown(const std::vector<StressResult>& results,
@@ -107,7 +111,8 @@ std::string stress_markdown(const std::vector<StressResult>& results,
   text += fmt::format(
       "Made by `sheave stress --markdown`, sheave {}. Errors are relative to closed forms, to the "
       "same machine in other units, or of\nrigid cables' lengths, the largest of each run; above "
-      "{:g} they are bold. `!`: a failure of which `sheave run` does not warn.\n\n",
+      "{:g} they are bold. `!`: a failure of which `sheave run` says nothing, neither by a warning "
+      "nor by its certificate.\n\n",
       version_string, measure::stress_error_limit);
   text += table_row(stress_head) + table_row(std::vector<std::string>(stress_head.size(), "---"));
   for (const StressResult& result : results) text += table_row(summary_cells(result));

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tools/command.h"
+#include "tools/run_summary.h"
 #include "tools/scene_options.h"
 #include "tools/terminal.h"
 
@@ -17,6 +18,9 @@ ExitCode validate(const std::vector<std::string>& paths) {
     const SceneResult result = load_file_or_stdin(path);
     if (result) {
       print(path + ": ok\n");
+      for (const Warning& warning : scene_warnings(*result)) {
+        print_warning(path + ": " + warning.message);
+      }
       continue;
     }
     print_error(to_text(result));
@@ -37,7 +41,7 @@ Action declare_validate(CLI::App& app) {
   sheave validate crane.json
   sheave validate scenes/*/*.json
 
-Prints "ok" for each scene that can be run, and all faults of every other one, each with file, line,
+Prints "ok" for each scene that can be run, with warnings on standard error, and all faults of every other one, each with file, line,
 column and JSON pointer. Exit codes: 0 all are right, 65 a scene is wrong, 66 no such file, 74 a
 file cannot be read.)");
   return [paths] { return validate(*paths); };

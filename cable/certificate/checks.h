@@ -26,4 +26,8 @@ void check_lengths(const Evidence& evidence, Findings& findings);
 [[nodiscard]] double rim_travel(const Evidence& evidence, const SpanSide& side, double sense,
                                 double reported);
 
+/// By how much the rest length that a span has gained by rolling, `rolled` [m], differs from what its rims have moved.
+[[nodiscard]] double unrolled(const Evidence& evidence, const CableEvidence& cable,
+                              const SpanEvidence& span, double rolled);
+
 }  // namespace sheave::certify

@@ -6,8 +6,8 @@
 // what already moves away. What implicit Euler takes (m |v1 - v0|^2 / 2, springs, the curvature of ways) follows from these
 // forces and the states, and is explained. So are dissipation by friction, slip and damping, and the work of drives.
 //
-// A span of a material with the strain e that gains the unstretched length dL by rolling is given T (1 + e / 2) dL of energy
-// by what it is stretched with, while the rim has done T times the way it moved.
+// Cable of a material takes its strain and energy onto wheels, and what comes off with another strain loses by creep
+// (cable/cable_material.cpp): both balances close if the rim has moved what its strain says, and that is checked.
 
 #include <algorithm>
 #include <cmath>
@@ -121,8 +121,9 @@ class EnergyCheck {
     double unexplained = tension * rims;
     const double rest = span.rest_length[last_end];
     if (cable.definition->axial_stiffness) {
-      const double strain = tension / *cable.definition->axial_stiffness;
-      unexplained -= tension * (1.0 + 0.5 * strain) * rolled;
+      unexplained = span.from.outlined || span.to.outlined
+                        ? 0.0
+                        : tension * unrolled(e_, cable, span, rolled);
     } else {
       unexplained -= tension * rolled;
       // What a body has cut into when the cable comes to touch it is taken in afterwards.

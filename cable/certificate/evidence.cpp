@@ -48,21 +48,21 @@ Substep placed_at(const BodySet& bodies, const State& start, const State& end, d
 
 }  // namespace
 
-Evidence::Evidence(const Simulation& of, const LastSubstep& last)
-    : simulation(of),
-      model(of.world.model()),
-      bodies(of.world.bodies()),
+Evidence::Evidence(const Simulation& observed, const LastSubstep& last)
+    : simulation(observed),
+      model(observed.world.model()),
+      bodies(observed.world.bodies()),
       start(last.start),
-      end(of.world.state()),
+      end(observed.world.state()),
       h(last.h),
       rattle(last.integrator == IntegratorKind::rattle),
       moments{Moment{&bodies, &start.bodies}, Moment{&bodies, &end.bodies}} {
   balances.resize(at(bodies.count()) + 1);
   if (simulation.cables != nullptr) collect_cables(last);
   if (!model.joints.empty()) collect_joints(last);
-  for (std::size_t f = 0; f < of.world.features().size(); ++f) {
-    if (of.world.features()[f]->name() == "ground contacts") collect_ground(last, f);
-    if (of.world.features()[f]->name() == "contacts") collect_contacts(last, f);
+  for (std::size_t f = 0; f < observed.world.features().size(); ++f) {
+    if (observed.world.features()[f]->name() == "ground contacts") collect_ground(last, f);
+    if (observed.world.features()[f]->name() == "contacts") collect_contacts(last, f);
   }
   apply_cables();
   apply_joints();
@@ -199,10 +199,11 @@ void Evidence::collect_cables(const LastSubstep& last) {
                           differs(system.next_index(i)) || differs(system.wrap_index(i));
     }
     const std::vector<CableEvent>& events = system.events();
-    for (auto event = events.rbegin(); event != events.rend(); ++event) {
-      if (event->time < start.time) break;
+    for (std::size_t i = events.size(); i-- > 0;) {
+      const CableEvent& event = events[i];
+      if (event.time < start.time) break;
       cable.was_changed =
-          cable.was_changed || (event->time == start.time && event->cable == cable.name);
+          cable.was_changed || (event.time == start.time && event.cable == cable.name);
     }
     if (!cable.start.cut) collect_cable(cable, at_start[c], at_end[c]);
   }
@@ -237,6 +238,7 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
         const LinkReport& seen = report.links[at(link)];
         own.body = bodies.index(seen.body);
         own.link = link;
+        own.place = places[at(link)];
         own.radius = seen.radius;
         own.winding = seen.winding;
         own.outlined = !seen.path.empty();
@@ -263,7 +265,7 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
 }
 
 void Evidence::collect_passes(CableEvidence& cable, const CableReport& first,
-                              const CableReport& second, const std::vector<int>& places) {
+                              const CableReport& second, const std::vector<int>& places) const {
   const CableReport after = cable.has_changed ? first : cable.end.with_wraps_in_place();
   const auto change = [&](int link, double LinkReport::*of) {
     return after.links[at(link)].*of - first.links[at(link)].*of;

@@ -51,7 +51,8 @@ struct Moment {
 /// One end of a span.
 struct SpanSide {
   int body = 0;
-  int link = -1;  ///< within the cable's way, wraps included
+  int link = -1;   ///< within the cable's way, wraps included
+  int place = -1;  ///< within the cable's list; -1: a wrap
   double radius = 0.0;
   int winding = 0;
   bool outlined = false;
@@ -139,7 +140,7 @@ struct Balance {
 
 class Evidence {
  public:
-  explicit Evidence(const Simulation& simulation, const LastSubstep& last);
+  explicit Evidence(const Simulation& observed, const LastSubstep& last);
 
   const Simulation& simulation;
   const Model& model;
@@ -169,7 +170,7 @@ class Evidence {
   void collect_cables(const LastSubstep& last);
   void collect_cable(CableEvidence& cable, const CableReport& first, const CableReport& second);
   void collect_passes(CableEvidence& cable, const CableReport& first, const CableReport& second,
-                      const std::vector<int>& places);
+                      const std::vector<int>& places) const;
   void collect_joints(const LastSubstep& last);
   void collect_ground(const LastSubstep& last, std::size_t feature);
   void collect_contacts(const LastSubstep& last, std::size_t feature);
@@ -178,8 +179,8 @@ class Evidence {
   void apply_cables();
   void apply_joints();
   void apply_contacts();
-  void push(End end, int body, const Vector3& point, const Vector3& force);
-  void twist(End end, int body, const Vector3& torque);
+  void push(End when, int body, const Vector3& point, const Vector3& force);
+  void twist(End when, int body, const Vector3& torque);
   void mark_unknown(int body);
 };
 

@@ -17,6 +17,11 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
   const double after = cable.spans[at(pass.after)].tension();
   const double bound =
       std::exp(pass.friction * std::max(pass.wrap_angle[first_end], pass.wrap_angle[last_end]));
+  // Out of a span of constant compliance that has no rest length left nothing can slide.
+  const SpanEvidence& giving = cable.spans[at(before < after ? pass.before : pass.after)];
+  const bool drained = cable.definition->compliance.value_or(0.0) > 0.0 &&
+                       giving.rest_length[first_end] <= 1e-13 * evidence.bodies.scale();
+  if (drained) return;
   const double high = std::max(before, after);
   const double low = std::min(before, after);
   // Tensions that are nothing beside those of the cable have no ratio that would count.

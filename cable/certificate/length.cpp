@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cable/certificate/checks.h"
+#include "cable/links/attachment.h"
 
 namespace sheave::certify {
 namespace {
@@ -44,6 +45,25 @@ void check_cable(const Evidence& evidence, const CableEvidence& cable, Findings&
   findings.note(Kind::length, "m", -shortest, size, 1e-12 * longest, whole);
 }
 
+/// What an attachment with a feed speed pays out, as long as there is cable to take in.
+void check_feeds(const Evidence& evidence, const CableEvidence& cable, Findings& findings) {
+  if (cable.has_changed || cable.start.cut) return;
+  for (const SpanEvidence& span : cable.spans) {
+    double speed = 0.0;
+    for (const SpanSide* side : {&span.from, &span.to}) {
+      if (side->place < 0) continue;
+      const auto* link =
+          dynamic_cast<const AttachmentLink*>(cable.definition->links[at(side->place)].get());
+      if (link != nullptr) speed += link->feed_speed;
+    }
+    const double asked = speed * evidence.h;
+    if (speed == 0.0 || span.rest_length[first_end] + asked <= 0.0) continue;
+    findings.note(Kind::drive, "m", std::abs(span.fed - asked), std::abs(asked),
+                  1e-13 * (cable.end.total_length + evidence.bodies.scale()),
+                  [&] { return span.name(); });
+  }
+}
+
 void check_spans_of(const Evidence& evidence, const CableEvidence& cable, Findings& findings) {
   if (cable.has_changed || cable.start.cut ||
       cable.definition->tangent_update != TangentUpdate::iteration) {
@@ -63,7 +83,7 @@ void check_spans_of(const Evidence& evidence, const CableEvidence& cable, Findin
     // What moves is the scale; what is slower than a size in the run so far does not count.
     const double size = std::min(cable.free_length, evidence.bodies.scale());
     const double moved = std::max({std::abs(first), std::abs(second), std::abs(passed)});
-    findings.note(Kind::length, "m", std::abs(rolled - first - second),
+    findings.note(Kind::length, "m", std::abs(unrolled(evidence, cable, span, rolled)),
                   std::max(moved, 1e-6 * size), 1e-12 * (size + cable.end.total_length),
                   [&] { return span.name(); });
   }
@@ -88,10 +108,35 @@ double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, 
   return factor * (angle + 2.0 * pi * turns);
 }
 
+double unrolled(const Evidence& evidence, const CableEvidence& cable, const SpanEvidence& span,
+                double rolled) {
+  const double first = rim_travel(evidence, span.from, -1.0, rolled);
+  const double second = rim_travel(evidence, span.to, 1.0, rolled - first);
+  if (!cable.definition->axial_stiffness) return rolled - first - second;
+  // What comes onto a rim has the strain of the span, what comes off it one with which some of it lies there.
+  double strain = 0.0;
+  for (const End when : {first_end, last_end}) {
+    if (span.rest_length[when] > 0.0) {
+      strain += 0.5 * std::max(span.length[when] / span.rest_length[when] - 1.0, 0.0);
+    }
+  }
+  double most = strain;
+  for (const LinkReport& link : cable.start.links) most = std::max(most, link.most_strain);
+  for (const WrapReport& wrap : cable.start.wraps) most = std::max(most, wrap.link.most_strain);
+  double low = 0.0;
+  double high = 0.0;
+  for (const double travel : {first, second}) {
+    low += travel / (1.0 + (travel < 0.0 ? strain : most));
+    high += travel < 0.0 ? travel / (1.0 + strain) : travel;
+  }
+  return rolled - std::clamp(rolled, low, high);
+}
+
 void check_lengths(const Evidence& evidence, Findings& findings) {
   for (const CableEvidence& cable : evidence.cables) {
     check_cable(evidence, cable, findings);
     check_spans_of(evidence, cable, findings);
+    check_feeds(evidence, cable, findings);
   }
 }
 

@@ -143,7 +143,12 @@ class SpanCheck {
       const SpanEvidence& span = cable_.spans[k];
       if (!span.has_tangent) return;
       // What is fed in a substep is there from its start.
-      before += span.length[first_end] - span.rest_length[first_end] - span.fed;
+      double start = span.length[first_end] - span.rest_length[first_end] - span.fed;
+      // A material's force is the mean of both ends', whatever the length is at either.
+      if (cable.axial_stiffness && span.rest_length[first_end] > 0.0) {
+        start *= span.rest_length[last_end] / span.rest_length[first_end];
+      }
+      before += start;
       const double stretch = span.length[last_end] - span.rest_length[last_end];
       now += stretch;
       const double a = compliance_of(cable, span.rest_length[last_end]);

@@ -19,7 +19,7 @@ Result<LinkGeometry> HybridLink::compile(const BodySet& bodies, const std::strin
     return Error{path + "/body", "a hybrid link needs a circular wheel; give it a \"radius\""};
   }
   link->ends_here = true;
-  link->hybrid = true;
+  link->hold_end();
   link->given_stored_length = stored_length;
   return link;
 }

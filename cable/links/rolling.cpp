@@ -27,6 +27,8 @@ std::span<const Field> RollingLink::field_table() {
 Result<LinkGeometry> RollingLink::compile(const BodySet& bodies, const std::string& path) const {
   Result<LinkGeometry> link = place(bodies, path);
   if (!link) return link;
+  // An end of the cable is fixed to the wheel.
+  if (stored_length && !link->outline) link->hold_end();
   carry_by_axle(bodies, *link);
   link->given_stored_length = stored_length.value_or(std::numeric_limits<double>::quiet_NaN());
   link->extra_turns = turns;

@@ -7,7 +7,7 @@
 namespace sheave {
 
 /// The cable runs over a wheel without slipping. At the end of an open cable it is wound onto the
-/// wheel, which then needs a stored length.
+/// wheel, which then needs a stored length; a round one holds the end by its rim when that is used up, as a hybrid link does.
 class RollingLink final : public WheelLink {
  public:
   /// Cable on the wheel at time 0 [m], >= 0; default: the arc between the tangents. Required at the

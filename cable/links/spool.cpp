@@ -20,7 +20,7 @@ Result<LinkGeometry> SpoolLink::compile(const BodySet& bodies, const std::string
   if (link->outline && layer_pitch > 0.0) {
     return Error{path + "/layer_pitch", "only a round drum can be wound in layers"};
   }
-  link->hybrid = !link->outline;  // the end is fixed to the drum
+  if (!link->outline) link->hold_end();  // the end is fixed to the drum
   link->ends_here = true;
   link->given_stored_length = stored_length;
   link->layer_pitch = layer_pitch;

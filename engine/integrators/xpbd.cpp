@@ -92,12 +92,13 @@ void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
   const double to = substep.next.time;
   double spin = axis.dot(start.angular_velocity);
   double angle = 0.0;
-  if (body.drive == DriveKind::speed) {
-    spin = body.drive_table.at(to);
-    angle = body.drive_table.integral(from, to);
-  } else if (body.drive == DriveKind::angle) {
-    angle = body.drive_table.at(to) - body.drive_table.at(from);
-    spin = angle / substep.h;
+  if (body.prescribed()) {
+    const DriveShare share =
+        substep.drive_shares.empty() ? DriveShare{} : substep.drive_shares[at(i)];
+    const double turn = body.driven_turn(from, to);
+    spin =
+        share.speed * (body.drive == DriveKind::speed ? body.drive_table.at(to) : turn / substep.h);
+    angle = share.way * turn;
   } else {
     if (body.axis_inertia > 0.0) {
       const double inertia = body.axis_inertia;
@@ -119,6 +120,15 @@ void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
 }
 
 }  // namespace
+
+void limit_drives(Substep& substep, std::span<const std::unique_ptr<ConstraintBatch>> features) {
+  substep.drive_shares.clear();
+  for (const auto& feature : features) {
+    if (!feature->limits_drives()) continue;
+    substep.drive_shares.resize(at(substep.bodies.count()));
+    feature->limit_drives(substep);
+  }
+}
 
 void move_kinematic_bodies(Substep& substep) {
   for (int i = 0; i < substep.bodies.count(); ++i) {

@@ -126,7 +126,10 @@ std::unique_ptr<ConstraintBatch> BallJoint::make_batch(
     turn.friction = joint.friction;
     append_effects(joint.twist, BallKernel::twist, part.effects);
     append_effects(swing, BallKernel::swing, part.effects);
-    for (int k = 0; k < 3; ++k) append_effects(turn, BallKernel::first_turn + k, part.effects);
+    for (int k = 0; k < 3; ++k) {
+      append_effects(turn, BallKernel::first_turn + k, part.effects);
+      if (joint.friction > 0.0) part.effects.back().motion = BallKernel::first_turn;
+    }
     part.counts_coordinates = joint.axis.has_value() || !part.effects.empty();
     parts.push_back(std::move(part));
   }

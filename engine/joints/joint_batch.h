@@ -168,6 +168,7 @@ class JointBatch final : public JointFeature {
     report.force = wrench.force;
     report.torque = wrench.torque;
     append_coordinates(now, joint, own, report);
+    if (!report.broken_at) find_errors(now, joint, own, report);
     return report;
   }
 
@@ -234,6 +235,24 @@ class JointBatch final : public JointFeature {
     double value = measure(substep, joint, acting.coordinate, starts, row);
     if (acting.second >= 0) value = add_second(substep, joint, acting, starts, value, row);
     set_effect(acting, substep, value, starts[at(joint.first_coordinate + acting.coordinate)], row);
+    if (acting.motion >= 0 && acting.motion != acting.coordinate &&
+        goes_on(substep, joint, acting, starts)) {
+      row.lower = row.upper = 0.0;
+    }
+  }
+  /// Whether the bodies move on, along the direction of their motion, whatever friction does in a substep.
+  bool goes_on(const Substep& substep, const Joint& joint, const JointEffect& friction,
+               std::span<const double> starts) const {
+    Row row;
+    measure(substep, joint, friction.motion, starts, row);
+    double speed = 0.0;
+    for (const RowTerm& term : row.active_terms()) {
+      const BodyState& body = substep.start.bodies[at(term.body)];
+      speed += dot(term.linear, body.velocity) + dot(term.angular, body.angular_velocity);
+    }
+    RowResponse response;
+    respond(row, substep.moving, response);
+    return std::abs(speed) > substep.h * friction.limit * response.inverse_mass;
   }
   /// Makes `row`, of the first coordinate, that of the sum of two; returns the sum.
   double add_second(const Substep& substep, const Joint& joint, const JointEffect& acting,
@@ -309,9 +328,39 @@ class JointBatch final : public JointFeature {
         const JointEffect& acting = effect(joint, i);
         if (acting.coordinate != k || !acting.is_drive()) continue;
         coordinate.drive_force = own.reals[at(joint.first_row + i)];
+        coordinate.drive_target = acting.signal.at(now.start.time);
+        coordinate.drive_error = drive_error(acting, now.start.time, coordinate.drive_force,
+                                             coordinate.value, coordinate.rate);
       }
       report.coordinates.push_back(coordinate);
     }
+  }
+
+  void find_errors(const Substep& now, const Joint& joint, const FeatureState& own,
+                   JointReport& report) const {
+    // Anchors coincide in any direction, so their errors add up as vectors do.
+    double squares = 0.0;
+    Row row;
+    for (int i = 0; i < joint.lock_count + joint.effect_count; ++i) {
+      const bool lock = i < joint.lock_count;
+      if (!lock && !effect(joint, i).holds()) continue;
+      evaluate_at(now, joint, i, coordinates(own), row);
+      if (row.compliance > 0.0) continue;
+      const bool meets = (row.lower == 0.0 && row.value > 0.0) ||  // one-sided, on its free side
+                         (row.upper == 0.0 && row.value < 0.0);
+      if (meets) continue;
+      const double error = std::abs(row.value);
+      const bool angle = std::all_of(row.terms.begin(), row.terms.begin() + row.term_count,
+                                     [](const RowTerm& term) { return is_zero(term.linear); });
+      if (angle && row.term_count > 0) {
+        report.angle_error = std::max(report.angle_error, error);
+      } else if (lock) {
+        squares += error * error;
+      } else {
+        report.error = std::max(report.error, error);
+      }
+    }
+    report.error = std::max(report.error, std::sqrt(squares));
   }
 
   std::string name_;

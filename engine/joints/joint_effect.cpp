@@ -44,6 +44,15 @@ void append_effects(const JointCoordinate& settings, int coordinate,
   }
 }
 
+double drive_error(const JointEffect& drive, double time, double force, double value, double rate) {
+  constexpr double nearly = 1.0 - 1e-9;
+  const bool stalls = std::abs(force) >= nearly * drive.limit;
+  if (stalls || drive.compliance > 0.0) return 0.0;
+  if (drive.kind == JointEffect::Kind::position) return value - drive.signal.at(time);
+  if (drive.kind == JointEffect::Kind::speed) return rate - drive.signal.at(time);
+  return 0.0;
+}
+
 void set_effect(const JointEffect& effect, const Substep& substep, double now, double start,
                 Row& row) {
   using Kind = JointEffect::Kind;

@@ -5,7 +5,9 @@
 //   upper stop       C = c - upper <= 0           multiplier in (-inf, 0]
 //   spring           C = c - rest                 compliance 1 / stiffness, with the damping
 //   damper           C = c - c0                   a row without memory: force = -damping dc/dt
-//   dry friction     C = c - c0                   |force| <= friction: it holds what it can
+//   dry friction     C = c - c0                   |force| <= friction: it holds what it can. Where several directions share one
+//                                                 friction, it acts along the motion alone while that is faster than friction
+//                                                 can stop in a substep; slower, each direction is held by itself
 //   drive, position  C = c - p(t)                 |force| <= limit
 //   drive, speed     C = c - c0 - integral of v   |force| <= limit
 //   drive, force     the multiplier has equal bounds: the mean of F over the substep
@@ -33,10 +35,16 @@ struct JointEffect {
   double compliance = 0.0;        ///< [m/N or rad/(N m)]
   double damping = 0.0;           ///< [N s/m or N m s/rad]
   double limit = Row::unbounded;  ///< of the force [N or N m]
-  TimeSignal signal;              ///< of drives
+  /// Friction in several directions: the coordinate whose direction is that of the motion; < 0 if there is but one direction.
+  int motion = -1;
+  TimeSignal signal;  ///< of drives
 
   [[nodiscard]] bool is_drive() const {
     return kind == Kind::position || kind == Kind::speed || kind == Kind::force;
+  }
+  /// Whether it holds the coordinate, from one side or both, whatever acts on it.
+  [[nodiscard]] bool holds() const {
+    return kind == Kind::lower || kind == Kind::upper || kind == Kind::coupling;
   }
   /// Whether it stores energy when it is deflected.
   [[nodiscard]] bool elastic() const {
@@ -47,6 +55,11 @@ struct JointEffect {
 /// Appends what `settings` ask for along the coordinate of this number.
 void append_effects(const JointCoordinate& settings, int coordinate,
                     std::vector<JointEffect>& effects);
+
+/// By how much a coordinate with this value and rate is off what the drive asks for at `time`, while it has this force; 0 if
+/// it asks for nothing (JointCoordinateReport::drive_error).
+[[nodiscard]] double drive_error(const JointEffect& drive, double time, double force, double value,
+                                 double rate);
 
 /// Completes `row`, which has the gradient of c, whose value is `now` and was `start` at the start.
 void set_effect(const JointEffect& effect, const Substep& substep, double now, double start,

@@ -103,8 +103,10 @@ std::unique_ptr<ConstraintBatch> PlaneJoint::make_batch(
     JointCoordinate slide;
     slide.damping = joint.damping;
     slide.friction = joint.friction;
-    append_effects(slide, 1, part.effects);
-    append_effects(slide, 2, part.effects);
+    for (int k = 1; k <= 2; ++k) {
+      append_effects(slide, k, part.effects);
+      if (joint.friction > 0.0) part.effects.back().motion = 1;
+    }
     parts.push_back(std::move(part));
   }
   return std::make_unique<JointBatch<PlaneKernel>>("plane joints", bodies, joints,

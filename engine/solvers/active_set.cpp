@@ -58,17 +58,21 @@ void ActiveSetSolver::relax(const ComplementarityProblem& problem, int sweeps) {
   }
 }
 
-bool ActiveSetSolver::solve(ComplementarityProblem& problem) {
+bool ActiveSetSolver::solve(ComplementarityProblem& problem, bool compromise) {
   constexpr int patience = 3;  // block changes without progress
   changes_ = dropped_ = 0;
+  contradicts_ = false;
+  bool yields = false;
   int fewest = problem.size + 1;
   int left = patience;
   const int most_tries = 50 + 2 * problem.size;
   for (int tries = 0; tries < most_tries; ++tries) {
     solve_free(problem);
+    if (yields) find_compromise(problem);
     mark_violations(problem);
     // Also where violations go round: one that comes from a redundant row without its share tells the wrong bound.
-    if (violated_.empty() || left < 0) {
+    if (!yields && (violated_.empty() || left < 0)) {
+      contradicts_ = false;
       const int blocking = blocking_unknown(problem);
       if (blocking >= 0) {
         problem.free[at(blocking)] = blocked_above_ ? ComplementarityProblem::at_upper : 0;
@@ -76,8 +80,15 @@ bool ActiveSetSolver::solve(ComplementarityProblem& problem) {
         fewest = problem.size + 1;
         continue;
       }
-      if (violated_.empty()) return true;
+      if (violated_.empty() && (!compromise || !contradicts_)) return true;
+      if (compromise && contradicts_) {
+        yields = true;
+        fewest = problem.size + 1;
+        left = patience;
+        continue;
+      }
     }
+    if (violated_.empty()) return true;
     const auto count = static_cast<int>(violated_.size());
     if (count < fewest) {
       fewest = count;
@@ -136,6 +147,52 @@ void ActiveSetSolver::solve_free(const ComplementarityProblem& problem) {
   dropped_ = factor_.dropped();
   factor_.solve(rhs);
   solution_ = rhs;
+  find_residuals(problem);
+}
+
+void ActiveSetSolver::find_compromise(const ComplementarityProblem& problem) {
+  constexpr double softness = 1e-6;
+  const std::size_t n = at(problem.size);
+  softened_ = diagonal_;  // as solve_free() has left them
+  for (std::size_t i = 0; i < n; ++i) {
+    if (problem.free[i] == 1) softened_[i] *= 1.0 + softness;
+  }
+  if (problem.symmetric) {
+    factor_.factor(softened_, values_);
+  } else {
+    factor_.factor(softened_, values_, lower_values_);
+  }
+  // The right-hand side of the free rows, then A B^-1 of it, in `null_vector_`.
+  std::vector<double>& rhs = null_vector_;
+  rhs.assign(n, 0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    rhs[i] = problem.free[i] == 1 ? -problem.constant[i] : solution_[i];
+  }
+  for (std::size_t e = 0; e < entries_.size(); ++e) {
+    const auto [i, j] = entries_[e];
+    const bool free_i = problem.free[at(i)] == 1;
+    const bool free_j = problem.free[at(j)] == 1;
+    const double below = problem.symmetric ? problem.values[e] : problem.lower_values[e];
+    if (free_i && !free_j) rhs[at(i)] -= problem.values[e] * solution_[at(j)];
+    if (free_j && !free_i) rhs[at(j)] -= below * solution_[at(i)];
+  }
+  factor_.solve(rhs);
+  for (std::size_t i = 0; i < n; ++i) residual_[i] = diagonal_[i] * rhs[i];
+  for (std::size_t e = 0; e < entries_.size(); ++e) {
+    const auto [i, j] = entries_[e];
+    residual_[at(i)] += values_[e] * rhs[at(j)];
+    const double below = problem.symmetric ? values_[e] : lower_values_[e];
+    residual_[at(j)] += below * rhs[at(i)];
+  }
+  factor_.solve(residual_);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (problem.free[i] == 1) solution_[i] = residual_[i];
+  }
+  find_residuals(problem);
+}
+
+void ActiveSetSolver::find_residuals(const ComplementarityProblem& problem) {
+  const std::size_t n = at(problem.size);
   // r = c + A dl.
   for (std::size_t i = 0; i < n; ++i) {
     residual_[i] = problem.constant[i] + problem.diagonal[i] * solution_[i];
@@ -172,6 +229,7 @@ int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem) {
     null_vector_[at(j)] = 1.0;
     const int blocking = first_blocked(problem, j, residual_[at(j)] < 0.0 ? 1.0 : -1.0);
     if (blocking >= 0) return blocking;
+    contradicts_ = true;
   }
   return -1;
 }

@@ -10,7 +10,10 @@
 // Where A is singular, a free unknown can be redundant (its pivot is dropped) and yet contradict the others: a cable lifts a
 // weight that the floor's rows still hold down. Along the null vector z with z_j = 1 of the redundant unknown j no residual
 // changes, so dl + t z is as good a solution for every t; t goes the way that r_j wants until the first unknown meets its
-// bound, and that one is no longer free. If none does, nothing can satisfy the row.
+// bound, and that one is no longer free. If none does, nothing can satisfy the row: it contradicts the others. Which of them
+// was left out is then an accident of the order, so all of them give way: with the diagonal matrix D of A, e = 1e-6 and
+// B = A + e D, the solution dl = -B^-1 A B^-1 c leaves the residuals with the least sum of r^2 / D, and what it has along
+// the null vectors, forces that hold each other in balance without end, is nearly 0.
 
 #include <span>
 #include <utility>
@@ -41,8 +44,9 @@ class ActiveSetSolver {
  public:
   /// Where A has entries off its diagonal.
   void analyse(int size, std::span<const std::pair<int, int>> entries);
-  /// Returns false if no set was found in a number of tries that grows with the size.
-  bool solve(ComplementarityProblem& problem);
+  /// Returns false if no set was found in a number of tries that grows with the size. `compromise`: rows that contradict each
+  /// other all give way; otherwise some of them are left out.
+  bool solve(ComplementarityProblem& problem, bool compromise = false);
 
   /// Projected Gauss-Seidel from dl = 0 instead: sweeps over the unknowns in their order.
   void relax(const ComplementarityProblem& problem, int sweeps);
@@ -50,9 +54,15 @@ class ActiveSetSolver {
   [[nodiscard]] std::span<const double> solution() const { return solution_; }
   [[nodiscard]] int changes() const { return changes_; }  ///< of sides in the last solve()
   [[nodiscard]] int dropped() const { return dropped_; }  ///< redundant rows in the last solve()
+  /// Whether in the last solve() some free rows contradicted each other.
+  [[nodiscard]] bool contradicts() const { return contradicts_; }
 
  private:
   void solve_free(const ComplementarityProblem& problem);
+  /// The residuals of the solution.
+  void find_residuals(const ComplementarityProblem& problem);
+  /// Solves for the free unknowns again so that all rows that contradict each other give way.
+  void find_compromise(const ComplementarityProblem& problem);
   void mark_violations(const ComplementarityProblem& problem);
   /// What rounding leaves of row i's equation [unit of c].
   [[nodiscard]] double noise(const ComplementarityProblem& problem, std::size_t i) const;
@@ -80,8 +90,10 @@ class ActiveSetSolver {
   std::vector<int> violated_;
   std::vector<double> null_vector_;
   bool blocked_above_ = false;  ///< by which of its bounds
+  std::vector<double> softened_;
   int changes_ = 0;
   int dropped_ = 0;
+  bool contradicts_ = false;
 };
 
 }  // namespace sheave

@@ -11,6 +11,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
   double first = 0.0;
   bool revised = false;
   bool adding_up = false;
+  bool compromise = false;
   system_.move_on(substep);
   for (int round = 0; round < substep.iterations; ++round) {
     before = violated;
@@ -21,17 +22,21 @@ void DirectSolver::solve(Substep& substep, Features features) {
       break;
     }
     // Rows that nothing can satisfy, between driven bodies, stay violated however many rounds there are.
-    if (round > 2 && adding_up && !revised && violated > stagnation * before) break;
+    const bool settled = adding_up || compromise;
+    if (round > 2 && settled && !revised && violated > stagnation * before) break;
     if (round == 0) first = violated;
     const bool lost = !(violated <= growth * first);
-    if (round > 1 && !adding_up && (lost || (!revised && violated > slow * before))) {
+    // In the first rounds what bends may look like a contradiction.
+    compromise = compromise || (round > 1 && system_.contradicts());
+    const bool stuck = !compromise && !revised && violated > slow * before;
+    if (round > 1 && !adding_up && (lost || stuck)) {
       adding_up = true;
       system_.begin_adding_up();
       // What has run away is no start for Newton's method.
       if (lost) system_.start_again(substep, features);
       system_.linearise(substep, features, RowSystem::Rule::backward, true);
     }
-    if (!system_.solve(substep)) {
+    if (!system_.solve(substep, compromise)) {
       if (substep.resort != Resort::anything) {
         substep.failed = true;
         return;

@@ -54,6 +54,10 @@ bool RowSystem::match_start() {
         if (start.terms[t].body != row.terms[t].body) return false;
       }
       start_values_[at(i)] = start.value;
+      // The mean of the forces, F = (F0 + F1) / 2, where the compliance has changed on the way.
+      if (row.compliance != start.compliance && start.compliance > 0.0) {
+        start_values_[at(i)] *= row.compliance / start.compliance;
+      }
       responses_[at(i)] = start_responses_[at(place)];
       std::swap(rows_[at(i)].weight, rows_[at(i)].start_weight);
     }
@@ -309,14 +313,15 @@ double RowSystem::yield(std::size_t g) const {
   return sum;
 }
 
-bool RowSystem::solve(Substep& substep) {
+bool RowSystem::solve(Substep& substep, bool compromise) {
   find_pattern(substep);
   assemble(substep);
-  const bool solved = active_set_.solve(problem_);
+  const bool solved = active_set_.solve(problem_, compromise);
   StepStatistics& statistics = substep.statistics;
   ++statistics.rounds;
   statistics.row_solves += static_cast<std::int64_t>(rows_.size());
   statistics.set_changes += active_set_.changes();
+  if (compromise && active_set_.contradicts()) ++statistics.compromises;
   statistics.redundant_rows = std::max(statistics.redundant_rows, active_set_.dropped());
   return solved;
 }

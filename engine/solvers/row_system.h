@@ -85,7 +85,10 @@ class RowSystem {
   /// across the rows it is from where bodies are.
   void follow_gradients(Substep& substep) const;
   /// Finds the unknowns; false if no active set was found. Counts into the substep's statistics.
-  bool solve(Substep& substep);
+  bool solve(Substep& substep, bool compromise = false);
+  /// Whether in the last solve() some rows contradicted each other, so that nothing satisfies them all. `compromise` makes
+  /// all of them give way, where otherwise some are left out.
+  [[nodiscard]] bool contradicts() const { return active_set_.contradicts(); }
   /// Sweeps over the unknowns instead: projected Gauss-Seidel.
   void relax(Substep& substep, int sweeps);
   /// Moves the bodies and the multipliers.

@@ -166,5 +166,51 @@ TEST(ActiveSet, ARedundantRowThatContradictsTheOthersReleasesThem) {
   }
 }
 
+TEST(ActiveSet, RowsThatContradictEachOtherAllGiveWay) {
+  // A = J J^T of more rows than unknowns of motion, so c is mostly out of reach. The least sum of r^2 / D has A r / D = 0: with
+  // the softness e = 1e-6, and s the eigenvalues of S = D^-1/2 A D^-1/2, what is left of a part c' of D^-1/2 c is
+  // c' (1 - (s / (s + e))^2), and S times that at most 2 e c'. Along null vectors, s = 0, dl is rounding over e^2.
+  constexpr double softness = 1e-6;
+  std::mt19937 generator(8);
+  std::uniform_real_distribution<double> value(-1.0, 1.0);
+  for (int trial = 0; trial < 100; ++trial) {
+    const int n = 4 + trial % 5;
+    const int motions = 3;
+    Eigen::MatrixXd gradients(n, motions);
+    for (int i = 0; i < n * motions; ++i) gradients(i / motions, i % motions) = value(generator);
+    const Eigen::MatrixXd matrix = gradients * gradients.transpose();
+    ComplementarityProblem p;
+    p.size = n;
+    std::vector<std::pair<int, int>> entries;
+    for (int i = 0; i < n; ++i) {
+      for (int j = i + 1; j < n; ++j) {
+        entries.emplace_back(i, j);
+        p.values.push_back(matrix(i, j));
+      }
+      p.diagonal.push_back(matrix(i, i));
+      p.constant.push_back(value(generator));
+      p.lower.push_back(-no_bound);
+      p.upper.push_back(no_bound);
+      p.free.push_back(1);
+    }
+    ActiveSetSolver solver;
+    solver.analyse(n, entries);
+    ASSERT_TRUE(solver.solve(p, true));
+    EXPECT_TRUE(solver.contradicts());
+    Eigen::VectorXd x(n);
+    for (int i = 0; i < n; ++i) x[i] = solver.solution()[static_cast<std::size_t>(i)];
+    const Eigen::VectorXd c = Eigen::Map<Eigen::VectorXd>(p.constant.data(), n);
+    const Eigen::VectorXd root = matrix.diagonal().cwiseSqrt();
+    const Eigen::VectorXd scaled_residual = (matrix * x + c).cwiseQuotient(root);
+    const Eigen::VectorXd scaled_constant = c.cwiseQuotient(root);
+    const Eigen::VectorXd slope =
+        (matrix * scaled_residual.cwiseQuotient(root)).cwiseQuotient(root);
+    EXPECT_LE(slope.norm(), 2.1 * softness * scaled_constant.norm());
+    // Left to themselves some rows are left out, and their residuals are not shared.
+    ASSERT_TRUE(solver.solve(p));
+    EXPECT_TRUE(solver.contradicts());
+  }
+}
+
 }  // namespace
 }  // namespace sheave

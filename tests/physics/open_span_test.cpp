@@ -274,7 +274,8 @@ TEST_P(OpenSpan, ADrivenWheelSlipsBetweenPostsThatHold) {
   EXPECT_NEAR(t[3], 2.0 * g, 1e-9);
   // The wheel drags the rope towards the second weight.
   EXPECT_NEAR(t[1] / t[2], std::exp(0.1 * pi), 1e-9);
-  EXPECT_NEAR(report.links[2].slip, -0.5 * setup.radius * setup.speeding, exact);
+  EXPECT_NEAR(report.links[2].slip, -0.5 * WheelBetweenPosts::radius * WheelBetweenPosts::speeding,
+              exact);
   EXPECT_LE(t[1] / t[0], std::exp(0.4 * pi) * (1.0 + exact));
   EXPECT_LE(t[3] / t[2], std::exp(0.4 * pi) * (1.0 + exact));
 }
@@ -285,7 +286,7 @@ TEST_P(OpenSpan, ADrivenWheelDragsTheRopeOverPostsThatDoNot) {
   test::run(s.world, 1.0);
   const CableReport report = s.cable_reports()[0];
   const std::vector<double> t = tensions(report);
-  const double a = setup.radius * setup.speeding;
+  const double a = WheelBetweenPosts::radius * WheelBetweenPosts::speeding;
   EXPECT_NEAR(s.world.position({0}).y(), -5.0 + 0.5 * a, exact);
   EXPECT_NEAR(s.world.position({1}).y(), -5.0 - 0.5 * a, exact);
   EXPECT_NEAR(t[0], 2.0 * (g + a), 1e-8);

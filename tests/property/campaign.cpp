@@ -38,9 +38,16 @@ void Finding::worsen(double new_value, double new_limit, const std::string& wher
 
 void run_campaign(const std::string& property, const Traits& traits,
                   const std::function<Finding(const Machine&, std::uint64_t seed)>& check) {
+  run_campaign_on(
+      property, instrumented || !optimised ? 10 : 100,
+      [&](std::uint64_t seed) { return random_machine(seed, traits); }, check);
+}
+
+void run_campaign_on(const std::string& property, std::uint64_t usual_cases,
+                     const std::function<RandomMachine(std::uint64_t seed)>& draw,
+                     const std::function<Finding(const Machine&, std::uint64_t seed)>& check) {
   const std::uint64_t first = from_environment("SHEAVE_SEED", 1);
-  const std::uint64_t cases =
-      from_environment("SHEAVE_CASES", instrumented || !optimised ? 10 : 100);
+  const std::uint64_t cases = from_environment("SHEAVE_CASES", usual_cases);
   std::uint64_t checked = 0;
   long refused = 0;
   std::string failures;
@@ -50,7 +57,7 @@ void run_campaign(const std::string& property, const Traits& traits,
     RandomMachine random;
     Finding finding;
     try {
-      random = random_machine(seed, traits);
+      random = draw(seed);
       finding = check(random.machine, seed);
     } catch (const std::exception& error) {
       finding = {true, 1.0, 0.0, error.what()};

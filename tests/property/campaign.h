@@ -24,6 +24,10 @@ struct Finding {
   void worsen(double new_value, double new_limit, const std::string& where);
 };
 
+/// The same for any kind of machine; `draw` makes that of a seed, `usual_cases` is the number of seeds by default.
+void run_campaign_on(const std::string& property, std::uint64_t usual_cases,
+                     const std::function<RandomMachine(std::uint64_t seed)>& draw,
+                     const std::function<Finding(const Machine&, std::uint64_t seed)>& check);
 /// Runs `check` on the machines of many seeds. Every failure fails the test and names its seed and its machine.
 void run_campaign(const std::string& property, const Traits& traits,
                   const std::function<Finding(const Machine&, std::uint64_t seed)>& check);

@@ -95,7 +95,6 @@ Traits conservative() {
   traits.friction = false;
   traits.frozen =
       false;  // tangent points that stay on the bodies are another machine in each substep
-  traits.layers = false;  // as are drums whose radius stays
   return traits;
 }
 

@@ -1,10 +1,16 @@
 // The generator itself: reproducible, accepted as a rule, and with all that it promises among its machines.
 
+#include <cstdlib>
+#include <fstream>
 #include <map>
 
 #include <gtest/gtest.h>
 
+#include "engine/joint.h"
+#include "scenes/scene.h"
 #include "tests/property/campaign.h"
+#include "tests/property/shrink.h"
+#include "tests/property/wide_machine.h"
 
 namespace sheave::test {
 namespace {
@@ -40,6 +46,55 @@ TEST(RandomMachine, HasEveryKindOfLink) {
         "EA",          "compliance", "frozen",         "radius",    "rest lengths given",
         "pitch 0.0",   " direct ",   " gauss-seidel ", " xpbd;",    " rattle;"}) {
     EXPECT_NE(all.find(part), std::string::npos) << part;
+  }
+}
+
+// With SHEAVE_MACHINES=FOLDER their scenes are written there, SHEAVE_CASES of them: for tools that run scenes.
+TEST(WideMachine, IsASceneThatMovesTheSame) {
+  const char* folder = std::getenv("SHEAVE_MACHINES");
+  const char* cases = std::getenv("SHEAVE_CASES");
+  const std::uint64_t count =
+      folder != nullptr && cases != nullptr ? std::strtoull(cases, nullptr, 10) : 40;
+  for (std::uint64_t seed = 1; seed <= count; ++seed) {
+    const Machine machine = wide_machine(seed);
+    const std::string text = scene_of(machine);
+    if (folder != nullptr) {
+      std::ofstream(std::string(folder) + "/machine-" + std::to_string(seed) + ".json") << text;
+      continue;
+    }
+    const SceneResult scene = load_scene_text(text, "machine");
+    ASSERT_TRUE(scene) << to_string(scene.errors.front()) << text;
+    // Orientations are made unit on the way, so numbers may differ by rounding.
+    Simulation one = start(machine);
+    Simulation other = start(Machine{scene->model, scene->cables});
+    ASSERT_TRUE(one.world.step().ok() && other.world.step().ok()) << "seed " << seed;
+    for (std::size_t i = 0; i < machine.model.bodies.size(); ++i) {
+      const BodyState& a = one.world.state().bodies[i];
+      const BodyState& b = other.world.state().bodies[i];
+      EXPECT_LT((a.position - b.position).norm(), 1e-9) << "seed " << seed << " body " << i;
+    }
+  }
+}
+
+TEST(WideMachine, HasEveryFeature) {
+  std::string all;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) all += scene_of(wide_machine(seed));
+  for (const auto& type : joint_types()) {
+    EXPECT_NE(all.find("\"type\": \"" + std::string(type.name) + "\""), std::string::npos)
+        << type.name;
+  }
+  for (const auto& type : link_types()) {
+    EXPECT_NE(all.find("\"type\": \"" + std::string(type.name) + "\""), std::string::npos)
+        << type.name;
+  }
+  for (
+      const char* key :
+      {"lower",        "upper",           "stiffness",        "friction",         "drive",
+       "drive_limit",  "drive_amplitude", "backlash",         "limit_compliance", "breaking_force",
+       "feed_speed",   "wrappable",       "restitution",      "layer_pitch",      "axial_stiffness",
+       "compliance",   "damping",         "ground",           "colliders",        "mount",
+       "spin_inertia", "angular_damping", "breaking_tension", "swing_limit"}) {
+    EXPECT_NE(all.find("\"" + std::string(key) + "\":"), std::string::npos) << key;
   }
 }
 

@@ -3,9 +3,19 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "cable/links/hybrid.h"
-#include "cable/links/pinhole.h"
-#include "cable/links/spool.h"
+#include "engine/joints/ball.h"
+#include "engine/joints/cylindrical.h"
+#include "engine/joints/distance.h"
+#include "engine/joints/fixed.h"
+#include "engine/joints/gear.h"
+#include "engine/joints/hinge.h"
+#include "engine/joints/plane.h"
+#include "engine/joints/rack.h"
+#include "engine/joints/slider.h"
+#include "engine/joints/universal.h"
+#include "engine/shapes/half_space.h"
+#include "tests/property/link_change.h"
+#include "tests/property/machine_values.h"
 #include "tests/support/shapes.h"
 
 namespace sheave::test {
@@ -24,6 +34,9 @@ std::shared_ptr<const Shape> mirrored_shape(const std::shared_ptr<const Shape>& 
   if (const auto* hull = dynamic_cast<const Polyhedron*>(shape.get())) {
     return polyhedron(turned_over(hull->points));
   }
+  if (const auto* space = dynamic_cast<const HalfSpace*>(shape.get())) {
+    return make<HalfSpace>([&](HalfSpace& s) { s.normal = test::mirrored(space->normal); });
+  }
   return shape;  // boxes and cylinders are their own mirror image
 }
 
@@ -36,6 +49,7 @@ BodyDef mirrored_body(BodyDef body) {
   body.force = test::mirrored(body.force);
   body.torque = mirrored_axial(body.torque);
   body.oscillation = test::mirrored(body.oscillation);
+  for (double& value : body.drive_values) value = -value;  // about an axis mirrored as a polar one
   for (PlacedShape& placed : body.shapes) {
     placed.position = test::mirrored(placed.position);
     placed.orientation = test::mirrored(placed.orientation);
@@ -44,20 +58,42 @@ BodyDef mirrored_body(BodyDef body) {
   return body;
 }
 
-/// A copy of a link, changed by `point` (attachments and pinholes) or `wheel` (all others).
-template <class Point, class Wheel>
-std::shared_ptr<const LinkDef> changed(const LinkDef& link, Point point, Wheel wheel) {
-  const auto copy = [&](const auto* original, auto change) {
-    auto result = std::make_shared<std::remove_cvref_t<decltype(*original)>>(*original);
-    change(*result);
-    return std::shared_ptr<const LinkDef>(result);
-  };
-  if (const auto* a = dynamic_cast<const AttachmentLink*>(&link)) return copy(a, point);
-  if (const auto* p = dynamic_cast<const PinholeLink*>(&link)) return copy(p, point);
-  if (const auto* r = dynamic_cast<const RollingLink*>(&link)) return copy(r, wheel);
-  if (const auto* h = dynamic_cast<const HybridLink*>(&link)) return copy(h, wheel);
-  if (const auto* s = dynamic_cast<const SpoolLink*>(&link)) return copy(s, wheel);
-  throw std::logic_error("no such link type");
+/// The coordinate counted the other way.
+void turn_round(JointCoordinate& c) {
+  std::swap(c.lower, c.upper);
+  for (std::optional<double>* stop : {&c.lower, &c.upper}) {
+    if (*stop) **stop = -**stop;
+  }
+  c.rest = -c.rest;
+  for (double& value : c.drive_values) value = -value;
+  c.drive_amplitude = -c.drive_amplitude;
+}
+
+/// Axes of rotation are mirrored as axial vectors, so that angles keep their signs; directions of translation as polar ones.
+void mirror_joint(JointDef& any) {
+  const auto polar = [](Vector3& v) { v = test::mirrored(v); };
+  const auto axial = [](Vector3& v) { v = mirrored_axial(v); };
+  if (auto* j = dynamic_cast<HingeJoint*>(&any)) polar(j->anchor), axial(j->axis);
+  if (auto* j = dynamic_cast<SliderJoint*>(&any)) polar(j->anchor), polar(j->axis);
+  if (auto* j = dynamic_cast<PlaneJoint*>(&any)) polar(j->anchor), axial(j->normal);
+  if (auto* j = dynamic_cast<FixedJoint*>(&any)) polar(j->anchor);
+  if (auto* j = dynamic_cast<DistanceJoint*>(&any)) polar(j->anchor_a), polar(j->anchor_b);
+  if (auto* j = dynamic_cast<GearJoint*>(&any)) axial(j->axis_a), axial(j->axis_b);
+  if (auto* j = dynamic_cast<CylindricalJoint*>(&any)) {
+    polar(j->anchor), polar(j->axis);
+    turn_round(j->angle);
+  }
+  if (auto* j = dynamic_cast<BallJoint*>(&any)) {
+    polar(j->anchor);
+    // Without an axis there is no twist, and swing has no direction.
+    if (j->axis) axial(*j->axis);
+  }
+  if (auto* j = dynamic_cast<UniversalJoint*>(&any)) {
+    polar(j->anchor), axial(j->axis_a), axial(j->axis_b);
+  }
+  if (auto* j = dynamic_cast<RackJoint*>(&any)) {
+    axial(j->axis), polar(j->direction), polar(j->anchor);
+  }
 }
 
 }  // namespace
@@ -66,6 +102,15 @@ Machine mirrored(const Machine& machine) {
   Machine image = machine;
   image.model.gravity = mirrored(machine.model.gravity);
   for (BodyDef& body : image.model.bodies) body = mirrored_body(body);
+  for (auto& joint : image.model.joints) {
+    auto copy = copy_of(*joint);
+    mirror_joint(*copy);
+    joint = copy;
+  }
+  if (image.model.ground) {
+    image.model.ground->point = mirrored(image.model.ground->point);
+    image.model.ground->normal = mirrored(image.model.ground->normal);
+  }
   for (CableDef& cable : image.cables) {
     for (auto& link : cable.links) {
       link = changed(

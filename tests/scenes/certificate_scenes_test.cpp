@@ -12,7 +12,7 @@
 namespace sheave::test {
 namespace {
 
-Certificate certify_scene(Scene scene, double time, int every) {
+Certificate certify_scene(const Scene& scene, double time, int every) {
   auto simulation = Simulation::create(scene.model, scene.cables);
   EXPECT_TRUE(simulation);
   Certificate all;

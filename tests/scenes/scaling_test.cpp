@@ -13,24 +13,25 @@ namespace {
 using testing::SizeIs;
 
 TEST(Scaling, PowersComeFromUnits) {
-  const auto expect = [](std::string_view unit, int length, int mass) {
+  const auto expect = [](std::string_view unit, int length, int mass, int time) {
     const auto powers = unit_powers(unit);
     ASSERT_TRUE(powers.has_value()) << unit;
     EXPECT_EQ(powers->length, length) << unit;
     EXPECT_EQ(powers->mass, mass) << unit;
+    EXPECT_EQ(powers->time, time) << unit;
   };
-  expect("", 0, 0);
-  expect("s", 0, 0);
-  expect("Hz", 0, 0);
-  expect("m", 1, 0);
-  expect("m/s2", 1, 0);
-  expect("kg/m3", -3, 1);
-  expect("kg m2", 2, 1);
-  expect("N", 1, 1);
-  expect("m/N", 0, -1);
-  expect("N s/m", 0, 1);
-  expect("N m s/rad", 2, 1);
-  expect("rad/(N m)", -2, -1);
+  expect("", 0, 0, 0);
+  expect("s", 0, 0, 1);
+  expect("Hz", 0, 0, -1);
+  expect("m", 1, 0, 0);
+  expect("m/s2", 1, 0, -2);
+  expect("kg/m3", -3, 1, 0);
+  expect("kg m2", 2, 1, 0);
+  expect("N", 1, 1, -2);
+  expect("m/N", 0, -1, 2);
+  expect("N s/m", 0, 1, -1);
+  expect("N m s/rad", 2, 1, -1);
+  expect("rad/(N m)", -2, -1, 2);
   EXPECT_FALSE(unit_powers("furlong").has_value());
   EXPECT_FALSE(unit_powers("rad/s, rad or N m").has_value());
 }
@@ -59,12 +60,12 @@ TEST(Scaling, UnitOfADriveDependsOnItsKind) {
   EXPECT_THAT(powers("angle"), SizeIs(0));
   ASSERT_THAT(powers("torque"), SizeIs(1));
   EXPECT_EQ(powers("torque")[0].pointer, "/bodies/0/drive_values");
-  EXPECT_EQ(powers("torque")[0].powers, (UnitPowers{2, 1}));
+  EXPECT_EQ(powers("torque")[0].powers, (UnitPowers{2, 1, -2}));
 }
 
 TEST(Scaling, ScalesNumbersVectorsAndLists) {
-  EXPECT_EQ(scaled({"/a", "3", {1, 0}}, 2.0).value, "6.0");
-  EXPECT_EQ(scaled({"/a", "[1,[2,-3]]", {1, 0}}, 2.0).value, "[2.0,[4.0,-6.0]]");
+  EXPECT_EQ(scaled({"/a", "3", {1, 0, 0}}, 2.0).value, "6.0");
+  EXPECT_EQ(scaled({"/a", "[1,[2,-3]]", {1, 0, 0}}, 2.0).value, "[2.0,[4.0,-6.0]]");
 }
 
 }  // namespace

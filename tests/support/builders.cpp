@@ -36,7 +36,7 @@ void run(World& world, double time) {
 }
 
 StepSettings settings(double dt, int substeps, int iterations) {
-  StepSettings step;
+  StepSettings step = StepSettings::paper();
   step.dt = dt;
   step.substeps = substeps;
   step.iterations = iterations;

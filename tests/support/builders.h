@@ -32,7 +32,7 @@ struct Machine {
 /// Steps until `time` [s]; throws if the run diverges.
 void run(World& world, double time);
 
-/// dt, substeps and iterations at once.
+/// The paper's settings with these dt, substeps and iterations.
 [[nodiscard]] StepSettings settings(double dt, int substeps, int iterations);
 
 /// A wheel on a fixed axle along z with the moment of inertia `inertia` about it; mass 1 kg.

@@ -49,6 +49,20 @@ TEST(Warnings, SweepsThatActLikeASpringAreAWarning) {
   EXPECT_EQ(warned({short_run, "--integrator", "rattle"}), "stretched");
 }
 
+TEST(Warnings, AWindingTheWrongWayRoundIsAWarning) {
+  const TemporaryFolder folder;
+  std::string text = atwood_scene;
+  const std::string clockwise = "\"winding\": \"clockwise\"";
+  text.replace(text.find(clockwise), clockwise.size(), "\"winding\": \"counter-clockwise\"");
+  const std::string crossed = folder.write("crossed.json", text);
+  EXPECT_EQ(warned({crossed}), "crossed_winding");
+  EXPECT_EQ(warned({folder.write("atwood.json", atwood_scene)}), "");
+  const ProcessResult result = run_sheave({"validate", crossed});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("link 1 on \"wheel\""));
+  EXPECT_THAT(result.err, HasSubstr(clockwise));
+}
+
 TEST(Warnings, AVibrationThatTheStepDampsIsAWarning) {
   // w = 8.7 rad/s: in half a second xpbd takes w^2 h 0.5 s = 1.2 of it at 1/30 s, a hundredth of that at 1/3000 s.
   const TemporaryFolder folder;
@@ -63,6 +77,23 @@ TEST(Warnings, AVibrationThatTheStepDampsIsAWarning) {
   EXPECT_EQ(warned(run), "damped_vibration");
   EXPECT_EQ(warned(with({"--integrator", "rattle"})), "");
   EXPECT_EQ(warned(with({"--substeps", "100"})), "");
+}
+
+TEST(Warnings, WhatTheIntegratorTakesIsToldAndAWarning) {
+  // Of Atwood's machine after t xpbd has taken a h t / 2 x (m2 - m1) g, and the kinetic energy is a t^2 / 2 x (m2 - m1) g: h / t of
+  // it. 1 s and 0.01 s: 1 %; a duration of 0.5 s: 2 %.
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::vector<std::string> run{"run",    "--json",       "--quiet", scene,        "--solver",
+                                     "direct", "--integrator", "xpbd",    "--duration", "0.5"};
+  const json summary = json::parse(run_sheave(run).out);
+  // (m2 - m1) g = 10 N, a = 2 m/s2.
+  EXPECT_NEAR(summary["energy"]["integrator_loss"], 10.0 * 2.0 * 0.01 * 0.5 / 2.0, 1e-6);
+  EXPECT_NEAR(summary["energy"]["flow"], 10.0 * 2.0 * 0.5 * 0.5 / 2.0, 1e-6);
+  EXPECT_EQ(warned({scene, "--solver", "direct", "--integrator", "xpbd", "--duration", "0.5"}),
+            "integrator_loss");
+  EXPECT_EQ(warned({scene, "--solver", "direct", "--integrator", "xpbd", "--duration", "1.5"}), "");
+  EXPECT_EQ(warned({scene, "--solver", "direct", "--integrator", "rattle"}), "");
 }
 
 TEST(Warnings, MotionInTheRoundingOfPositionsIsAWarning) {
@@ -106,6 +137,46 @@ TEST(Warnings, EnergyFromNowhereIsAWarning) {
   resolved.insert(resolved.end(), {"--substeps", "40"});
   EXPECT_EQ(warned(resolved), "");
   EXPECT_EQ(warned({scene, "--solver", "direct"}), "");
+}
+
+TEST(Warnings, AWinchThatHasDrawnAllItsCableIsAWarning) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("winch.json", R"json({
+    "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 2,
+    "step": {"dt": 0.01, "solver": "direct"},
+    "bodies": [
+      {"name": "drum", "mobility": "rotor", "mass": 1, "drive": "speed", "drive_values": [2],
+       "shape": {"type": "cylinder", "radius": 0.2, "length": 0.1}},
+      {"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 2, "position": [0.2, -0.5, 0]}],
+    "cables": [{"name": "rope", "links": [
+      {"type": "attachment", "body": "load"},
+      {"type": "spool", "body": "drum", "winding": "counter-clockwise", "stored_length": 0}]}]
+  })json");
+  EXPECT_EQ(warned({scene}), "stalled");
+  EXPECT_EQ(warned({scene, "--duration", "1"}), "");
+  const json summary = json::parse(run_sheave({"run", "--json", "--quiet", scene}).out);
+  ASSERT_EQ(summary["events"].size(), 1U);
+  EXPECT_EQ(summary["events"][0]["kind"], "stall");
+  EXPECT_EQ(summary["events"][0]["body"], "drum");
+  EXPECT_NEAR(summary["events"][0]["time"].get<double>(), 1.25, 0.011);
+}
+
+TEST(Warnings, HingesThatContradictEachOtherAreAWarning) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("bar.json", R"json({
+    "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 1,
+    "step": {"dt": 0.01, "solver": "direct"},
+    "bodies": [
+      {"name": "led", "mobility": "kinematic", "position": [1, 0, 0], "velocity": [0.3, 0, 0]},
+      {"name": "bar", "mass": 2, "position": [0.5, 0, 0],
+       "shape": {"type": "box", "size": [1, 0.1, 0.1]}}],
+    "joints": [
+      {"name": "a", "type": "hinge", "body_b": "bar", "anchor": [0, 0, 0], "axis": [0, 0, 1]},
+      {"name": "b", "type": "hinge", "body_a": "led", "body_b": "bar", "anchor": [1, 0, 0],
+       "axis": [0, 0, 1]}]
+  })json");
+  EXPECT_EQ(warned({scene}), "joint_open");
+  EXPECT_EQ(warned({scene, "--set", "/bodies/0/velocity=[0, 0, 0]"}), "");
 }
 
 }  // namespace

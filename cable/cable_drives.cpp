@@ -1,0 +1,390 @@
+// Drives that would need cable which is not there.
+//
+// A prescribed rotation turns whatever pulls at it, and a feed likewise. Between links over which cable does not pass unless
+// their bodies turn by themselves (driven wheels, what stands still, the cable's ends) lies a chain of spans, whose rest
+// lengths together change by what drives feed and draw. Two things limit what can be drawn:
+//
+// - No rest length is below 0. What the chain has, and what is wound on a free drum at its end, is all that there is: a
+//   load has come up to its drum.
+// - Where nothing but drives can move any part of a rigid chain (wheels on fixed axles may turn in between: they gain for
+//   one span what they take from the other), rest lengths are no shorter than the spans: a belt over two wheels that are
+//   driven at different speeds.
+//
+// And from a drum that is not round no more can be paid out than is on it. (A round one then holds the cable by its rim.)
+//
+// What is drawn beyond that, nothing can give. The drives that draw then stall: of their way in the substep they do the share
+// for which it is enough, and at its end they have the speed at which they draw what is fed; the other drives go on. If a
+// drive that is slowed down feeds another chain, that one may be short in turn, and so on; shares only fall. So lengths stay
+// where they can be, none is lost, and the solver meets no rows that contradict each other.
+//
+// A drum that has drawn all cable stays locked until its drive turns the other way or stops, though its load, thrown up as the
+// drum stops, may unwind a little: the load is at the drum.
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/cable_system.h"
+#include "cable/link_contact.h"
+#include "engine/index.h"
+
+namespace sheave {
+namespace {
+
+/// What rounding leaves of lengths that are drawn and fed alike, relative to both together; the next substep finds it again.
+constexpr double overlooked = 1e-9;
+
+/// The spin at the end of the substep [rad/s].
+double driven_speed(const BodyProperties& body, const Substep& substep, double turn) {
+  return body.drive == DriveKind::speed ? body.drive_table.at(substep.next.time) : turn / substep.h;
+}
+
+double driven_turn(const BodyProperties& body, const Substep& substep) {
+  return body.driven_turn(substep.start.time, substep.next.time);
+}
+
+/// The largest lever that a cable has on the link's body [m].
+double reach_of(const LinkGeometry& link) {
+  return link.outline ? 0.5 * link.perimeter() : std::abs(link.signed_radius);
+}
+
+}  // namespace
+
+void CableSystem::begin_drives(const FeatureState& state) {
+  std::fill(stalled_.begin(), stalled_.end(), 0);
+  for (const CompiledCable& cable : cables_) {
+    for (const int link : cable.driven_links) {
+      locked_[at(link)] = static_cast<int>(state.integers[stall_index(link)]);
+    }
+  }
+}
+
+int CableSystem::driven_way(const Substep& substep, int link) const {
+  const BodyProperties& body = substep.bodies[links_[at(link)].body];
+  if (!body.prescribed()) return 0;
+  const double turn = driven_turn(body, substep);
+  return turn > 0.0 ? 1 : turn < 0.0 ? -1 : 0;
+}
+
+bool CableSystem::ends_chain(const BodySet& bodies, const LinkGeometry& link) {
+  if (link.passes()) return false;
+  if (!link.wraps() || link.body == bodies.count()) return true;
+  const BodyProperties& body = bodies[link.body];
+  const bool turns = body.mobility == Mobility::free || body.mobility == Mobility::planar ||
+                     body.mobility == Mobility::rotor;
+  return !turns || body.prescribed();
+}
+
+bool CableSystem::can_move(const BodySet& bodies, const LinkGeometry& link) {
+  if (link.carrier == bodies.count()) return false;
+  const BodyProperties& carrier = bodies[link.carrier];
+  return carrier.mobility != Mobility::fixed && !carrier.prescribed();
+}
+
+bool CableSystem::may_fall_short(const Substep& substep, const CompiledCable& cable) const {
+  if (cable.may_lock) return true;
+  for (const int link : cable.driven_links) {
+    if (locked_[at(link)] != 0) return true;
+    const LinkGeometry& geometry = links_[at(link)];
+    const BodyProperties& body = substep.bodies[geometry.body];
+    double most = std::abs(geometry.feed_speed) * substep.h;
+    if (body.prescribed()) most += reach_of(geometry) * std::abs(driven_turn(body, substep));
+    for (const bool after : {true, false}) {
+      const int span = after ? link - cable.first_link : link - cable.first_link - 1;
+      if (span < 0 || span >= cable.span_count) {
+        if (cable.closed) return true;
+        continue;
+      }
+      const int k = cable.first_span + span;
+      if (!spans_[at(k)].active || (after ? spans_[at(k)].first : spans_[at(k)].second) != link) {
+        return true;
+      }
+      if (references_[at(k)].rest_length < 2.0 * most) return true;
+    }
+    if (runs_out(cable, link) && stored_arcs_[at(link)] < 2.0 * most) return true;
+  }
+  return false;
+}
+
+void CableSystem::limit_drives(Substep& substep) {
+  chains_.clear();
+  pulls_.clear();
+  for (auto& shares : feed_shares_) shares = {};
+  for (const CompiledCable& cable : cables_) {
+    for (const int link : cable.driven_links) {
+      if (driven_way(substep, link) != locked_[at(link)]) locked_[at(link)] = 0;
+    }
+    if (cable.driven_links.empty() || !may_fall_short(substep, cable)) continue;
+    find_chains(substep, cable);
+    add_stored_cable(substep, cable);
+  }
+  if (chains_.empty()) return;
+  // Slower drives may leave others short; where that goes on and on they stop.
+  constexpr int patience = 50;
+  const int most = patience + static_cast<int>(pulls_.size());
+  bool short_of_cable = true;
+  for (int round = 0; short_of_cable && round < most; ++round) {
+    short_of_cable = false;
+    for (const Chain& chain : chains_) {
+      short_of_cable = stall(substep, chain, round >= patience) || short_of_cable;
+    }
+  }
+  for (const Pull& pull : pulls_) {
+    if (pull.span < 0) continue;
+    const DriveShare& share = feed_shares_[at(pull.span)][at(pull.end)];
+    double& fed = fed_[at(pull.span)][at(pull.end)];
+    references_[at(pull.span)].rest_length -= (1.0 - share.way) * fed;
+    fed *= share.way;
+    feed_rates_[at(pull.span)] -= (1.0 - share.speed) * pull.speed;
+  }
+}
+
+bool CableSystem::stall(Substep& substep, const Chain& chain, bool altogether) {
+  std::array<double, 2> fed{};  // way [m] and speed [m/s] of cable
+  std::array<double, 2> drawn{};
+  double gross = 0.0;
+  const auto pulls = std::span(pulls_).subspan(at(chain.first_pull), at(chain.pull_count));
+  for (const Pull& pull : pulls) {
+    const DriveShare& share = share_of(substep, pull);
+    gross += share.way * pull.gross;
+    const std::array change{share.way * pull.way, share.speed * pull.speed};
+    for (std::size_t i = 0; i < 2; ++i) (change[i] > 0.0 ? fed : drawn)[i] += std::abs(change[i]);
+  }
+  const double there = std::max(chain.available + fed[0], 0.0);
+  if (!(drawn[0] - there > overlooked * gross)) return false;
+  const double way = altogether ? 0.0 : there / drawn[0];
+  const double speed = altogether || !(drawn[1] > 0.0) ? 0.0 : std::min(fed[1] / drawn[1], 1.0);
+  for (const Pull& pull : pulls) {
+    if (!(pull.way < 0.0)) continue;
+    DriveShare& share = share_of(substep, pull);
+    share.way *= way;
+    share.speed *= speed;
+    stalled_[at(pull.link)] = 1;
+    if (chain.moves && pull.span < 0) {
+      locked_[at(pull.link)] = driven_way(substep, pull.link);
+    }
+  }
+  return true;
+}
+
+DriveShare& CableSystem::share_of(Substep& substep, const Pull& pull) {
+  return pull.span < 0 ? substep.drive_shares[at(links_[at(pull.link)].body)]
+                       : feed_shares_[at(pull.span)][at(pull.end)];
+}
+
+void CableSystem::find_chains(Substep& substep, const CompiledCable& cable) {
+  const BodySet& bodies = substep.bodies;
+  int first = first_active_span(cable, spans_);
+  if (first < 0) return;
+  if (cable.closed) {
+    // Begin behind a link that ends a chain; if there is none, the ring is one.
+    for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+      if (!spans_[at(k)].active || !ends_chain(bodies, links_[at(spans_[at(k)].second)])) continue;
+      first = next_span(cable, k);
+      break;
+    }
+  }
+  ChainLengths lengths;
+  begin_chain(substep, cable, spans_[at(first)].first, lengths);
+  for (int k = first;;) {
+    add_to_chain(substep, k, lengths);
+    const int link = spans_[at(k)].second;
+    k = next_span(cable, k);
+    const bool last = k == first;
+    const bool ends = last || ends_chain(bodies, links_[at(link)]);
+    lengths.moves = lengths.moves || can_move(bodies, links_[at(link)]);
+    if (!ends) continue;
+    end_chain(substep, cable, link, lengths);
+    if (last) return;
+    begin_chain(substep, cable, link, lengths);
+  }
+}
+
+void CableSystem::begin_chain(const Substep& substep, const CompiledCable& cable, int link,
+                              ChainLengths& lengths) {
+  lengths = {};
+  lengths.moves = cable.compliance > 0.0 || cable.inverse_stiffness > 0.0;
+  Chain chain;
+  chain.first_pull = static_cast<int>(pulls_.size());
+  chains_.push_back(chain);
+  add_drum(substep, cable, link, lengths);
+}
+
+void CableSystem::end_chain(const Substep& substep, const CompiledCable& cable, int link,
+                            ChainLengths& lengths) {
+  add_drum(substep, cable, link, lengths);
+  Chain& chain = chains_.back();
+  chain.pull_count = static_cast<int>(pulls_.size()) - chain.first_pull;
+  chain.moves = lengths.moves;
+  chain.available = lengths.moves ? lengths.rest_length : lengths.rest_length - lengths.length;
+  // Points that a drive moves change the spans, which matters where these have to be as long as they are.
+  const auto begin = pulls_.begin() + chain.first_pull;
+  if (lengths.moves) {
+    for (auto pull = begin; pull != pulls_.end(); ++pull) {
+      pull->way -= pull->way_of_points;
+      pull->speed -= pull->speed_of_points;
+      if (pull->way < 0.0 && locked_[at(pull->link)] != 0) chain.available = 0.0;
+    }
+  }
+}
+
+void CableSystem::add_drum(const Substep& substep, const CompiledCable& cable, int link,
+                           ChainLengths& lengths) const {
+  const LinkGeometry& geometry = links_[at(link)];
+  if (can_move(substep.bodies, geometry)) lengths.moves = true;
+  if (cable.closed || (link != cable.first_link && link != cable.last_listed_link())) return;
+  if (!geometry.wraps() || ends_chain(substep.bodies, geometry)) return;
+  lengths.moves = true;
+  lengths.rest_length += std::max(stored_arcs_[at(link)], 0.0);
+}
+
+void CableSystem::add_to_chain(const Substep& substep, int span, ChainLengths& lengths) {
+  const SpanSetup& setup = spans_[at(span)];
+  const SpanGeometry geometry = geometry_of(substep, span);
+  lengths.rest_length += references_[at(span)].rest_length;
+  lengths.length += geometry.length;
+  for (const int end : {0, 1}) {
+    const int index = end == 0 ? setup.first : setup.second;
+    const LinkGeometry& link = links_[at(index)];
+    if (link.feed_speed != 0.0) {
+      const double fed = fed_[at(span)][at(end)];
+      // What is fed is in the rest length already.
+      lengths.rest_length -= fed;
+      add_pull({index, span, end, fed, link.feed_speed, std::abs(fed), 0.0, 0.0});
+    }
+    const BodyProperties& body = substep.bodies[link.body];
+    if (!body.prescribed()) continue;
+    const double turn = driven_turn(body, substep);
+    const double speed = driven_speed(body, substep, turn);
+    // As in the gradient of the span's row.
+    const Vector3& point = end == 0 ? geometry.start : geometry.end;
+    const Vector3 arm = cross(point - substep.position(link.body), geometry.direction);
+    const double lever = (end == 0 ? 1.0 : -1.0) * dot(body.axis, arm);
+    const double of_points = link.wraps() ? 0.0 : lever;
+    add_pull({index, -1, 0, lever * turn, lever * speed, std::abs(lever * turn), of_points * turn,
+              of_points * speed});
+  }
+}
+
+void CableSystem::add_stored_cable(const Substep& substep, const CompiledCable& cable) {
+  for (const int link : cable.driven_links) {
+    const BodyProperties& body = substep.bodies[links_[at(link)].body];
+    const bool first = link == cable.first_link;
+    const int span = first ? span_after(cable, link) : span_before(cable, link, spans_);
+    if (!runs_out(cable, link) || !body.prescribed() || span < 0 || !spans_[at(span)].active) {
+      continue;
+    }
+    const SpanGeometry geometry = geometry_of(substep, span);
+    const Vector3& point = first ? geometry.start : geometry.end;
+    const Vector3 arm = cross(point - substep.position(links_[at(link)].body), geometry.direction);
+    const double lever = (first ? -1.0 : 1.0) * dot(body.axis, arm);
+    const double turn = driven_turn(body, substep);
+    const double way = lever * turn;
+    Chain chain;
+    chain.first_pull = static_cast<int>(pulls_.size());
+    chain.pull_count = 1;
+    chain.available = stored_arcs_[at(link)];
+    chains_.push_back(chain);
+    pulls_.push_back(
+        {link, -1, 0, way, lever * driven_speed(body, substep, turn), std::abs(way), 0.0, 0.0});
+  }
+}
+
+void CableSystem::add_pull(const Pull& pull) {
+  // A wheel that cable passes, or that has both ends of the chain, draws only what it does not feed.
+  for (std::size_t i = at(chains_.back().first_pull); i < pulls_.size(); ++i) {
+    Pull& other = pulls_[i];
+    if (pull.span >= 0 || other.span >= 0) continue;
+    if (links_[at(other.link)].body != links_[at(pull.link)].body) continue;
+    if (pull.way < other.way) other.link = pull.link;
+    other.way += pull.way;
+    other.speed += pull.speed;
+    other.gross += pull.gross;
+    other.way_of_points += pull.way_of_points;
+    other.speed_of_points += pull.speed_of_points;
+    return;
+  }
+  pulls_.push_back(pull);
+}
+
+void CableSystem::wind(int span, const SpanTransport& transport, FeatureState& next) {
+  const SpanSetup& setup = spans_[at(span)];
+  const CompiledCable& cable = cables_[at(setup.cable)];
+  double& rest_length = next.reals[rest_length_index(span)];
+  const std::array<int, 2> ends{setup.first, setup.second};
+  const std::array<double, 2> amounts{transport.from_first, transport.from_second};
+  std::array<double, 2> moved{};
+  // What is smaller than the quantum waits for the next substep.
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (!links_[at(ends[end])].wraps()) continue;
+    double& remainder = next.reals[remainder_index(span, static_cast<int>(end))];
+    moved[end] = cable.quantised(amounts[end] + remainder);
+    remainder += amounts[end] - moved[end];
+  }
+  if (rest_length + moved[0] + moved[1] < 0.0) slide_over_ends(span, moved, next);
+  for (std::size_t end = 0; end < 2; ++end) {
+    double& stored = next.reals[stored_length_index(ends[end])];
+    if (moved[end] > stored && runs_out(cable, ends[end])) {
+      // The cable's end slides over the edge that it has come to.
+      next.reals[slip_index(ends[end])] += (end == 0 ? -1.0 : 1.0) * (moved[end] - stored);
+      moved[end] = stored;
+      slid_[at(ends[end])] = 1;
+      slides_ = true;
+    }
+    rest_length += moved[end];
+    stored -= moved[end];
+  }
+}
+
+// Wheels that would take in cable which is not there: it slides over them instead.
+void CableSystem::slide_over_ends(int span, std::array<double, 2>& moved, FeatureState& next) {
+  double missing = -(next.reals[rest_length_index(span)] + moved[0] + moved[1]);
+  for (std::size_t end = 0; end < 2; ++end) {
+    const double kept = std::min(missing, std::max(-moved[end], 0.0));
+    if (!(kept > 0.0)) continue;
+    const int link = end == 0 ? spans_[at(span)].first : spans_[at(span)].second;
+    moved[end] += kept;
+    missing -= kept;
+    next.reals[slip_index(link)] += end == 0 ? kept : -kept;
+    slid_[at(link)] = 1;
+    slides_ = true;
+  }
+}
+
+void CableSystem::record_stalls(const Substep& substep, FeatureState& next) {
+  const auto observe = [&](const CompiledCable& cable, int link, bool happens, Stall& stall,
+                           CableEvent::Kind kind) {
+    if (happens && !stall.now) record(substep, cable, link, kind);
+    stall.now = happens;
+    if (happens && stall.observed.substeps++ == 0) stall.observed.first_time = substep.next.time;
+  };
+  for (const CompiledCable& cable : cables_) {
+    for (const int link : cable.driven_links) {
+      observe(cable, link, stalled_[at(link)] != 0, stalls_[at(link)], CableEvent::Kind::stall);
+      next.integers[stall_index(link)] = locked_[at(link)];
+    }
+    if (!slides_) continue;
+    for (int link = cable.first_link; link < cable.first_link + cable.link_count; ++link) {
+      observe(cable, link, slid_[at(link)] != 0, slides_at_[at(link)], CableEvent::Kind::slip);
+      slid_[at(link)] = 0;
+    }
+  }
+  slides_ = std::any_of(slides_at_.begin(), slides_at_.end(),
+                        [](const Stall& slide) { return slide.now; });
+}
+
+std::vector<CableSystem::LinkWarning> CableSystem::link_warnings(
+    const std::vector<Stall>& of_links) const {
+  std::vector<LinkWarning> warnings;
+  for (const CompiledCable& cable : cables_) {
+    for (int i = 0; i < cable.link_count; ++i) {
+      const int link = cable.first_link + i;
+      const Fallback& observed = of_links[at(link)].observed;
+      if (observed.substeps == 0) continue;
+      warnings.push_back({cable.name, i < cable.listed_links ? i : -1, links_[at(link)].body,
+                          observed.substeps, observed.first_time});
+    }
+  }
+  return warnings;
+}
+
+}  // namespace sheave

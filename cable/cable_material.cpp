@@ -1,0 +1,166 @@
+// Cable of a material (`axial_stiffness` EA) that comes onto wheels and off them with its strain.
+//
+// Lengths in the state are unstretched: L of a span, s of a link. A rim that turns by an arc moves arc / (1 + strain) of
+// that, with the strain e = l / L - 1 of the span for what comes onto the link, and the strain w with which it lies there for
+// what comes off (cable/stored_strain.h). With the arcs `on` and G = the unstretched length that `off` brings,
+//   dL = dG - d(on) / (1 + e)     =>     L de = dl + d(on) - (1 + e) dG.
+// Energy: of the span EA e^2 L / 2, of what is stored EA / 2 times the integral of w^2 over its unstretched length. With
+// the tension T = EA e and d(off) = (1 + w) dG,
+//   d(energy) = T (dl + d(on) - d(off)) - EA (e - w)^2 / 2 dG.
+// So the force is T along the span's direction and T R on the rims, as of a rigid cable: the row's gradient stays what it
+// is. And what comes off with another strain than the span's loses EA (e - w)^2 / 2 per unstretched length: the creep of
+// belts (Grashof). A driving wheel's rim runs with the tight side, a driven one's with the slack side, so the rims' speeds
+// have the ratio (1 + e_slack) / (1 + e_tight), 1 - (T1 - T2) / EA to first order. `creep_loss` adds it up.
+//
+// Over a substep, with e0 and L0 at its start and both on and G linear in between (trapezoidal, so of second order),
+//   A (e1 - e0) = l1 - l0 + on - (1 + e0) G,   A = L0 + G - on / (2 (1 + e0)).
+// That is a spring of the length A: the row's value is -A e1, its compliance A / EA, and L1 = l1 / (1 + e1), which leaves
+// no difference between the force's law and the geometry. A is written with y = on / (2 (1 + e0)) as
+// B^2 / (B + y), B = L0 + G, the same to second order and positive however much is wound on. For on = 0 it is L0 + G, the
+// value L0 + G - l1. A slack span has e = 0; then the value is L0 + G - on - l1, as of a rigid cable.
+//
+// The residual value + compliance T, whose zero solvers seek, changes by -(dl + d(on) - d(off)) for T = EA e0 and w = e0,
+// and by a share e1 - e0 or w - e0 of the arcs besides. So Newton's method with the row's gradient is exact but for changes
+// of strain, which also vanish for stiff cables.
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/cable_system.h"
+#include "engine/index.h"
+
+namespace sheave {
+namespace {
+
+using End = StoredStrain::End;
+
+}  // namespace
+
+double CableSystem::strain_of(const CompiledCable& cable, double length, double rest_length) {
+  if (cable.inverse_stiffness == 0.0 || !(rest_length > 0.0)) return 0.0;
+  return std::max(length / rest_length - 1.0, 0.0);
+}
+
+StoredStrain CableSystem::stored_strain(const FeatureState& own, int link) const {
+  const int place = strain_places_[at(link)];
+  if (place < 0) return {};
+  return StoredStrain(std::span(own.reals).subspan(strain_index(place), StoredStrain::real_count));
+}
+
+void CableSystem::save_strain(const StoredStrain& stored, int link, FeatureState& own) const {
+  const int place = strain_places_[at(link)];
+  if (place < 0) return;
+  stored.save(std::span(own.reals).subspan(strain_index(place), StoredStrain::real_count));
+}
+
+double CableSystem::stored_arc(const FeatureState& own, int link) const {
+  const double length = own.reals[stored_length_index(link)];
+  return strain_places_[at(link)] < 0 ? length : length + stored_strain(own, link).total().stretch;
+}
+
+void CableSystem::fit_strain(int link, End end, double strain, FeatureState& own) const {
+  if (strain_places_[at(link)] < 0) return;
+  StoredStrain stored = stored_strain(own, link);
+  stored.fit(end, own.reals[stored_length_index(link)], strain);
+  save_strain(stored, link, own);
+}
+
+CableSystem::StretchedSpan CableSystem::stretched(int span, const SpanTransport& arcs,
+                                                  double length) const {
+  const SpanSetup& setup = spans_[at(span)];
+  const SpanReference& reference = references_[at(span)];
+  const double strain = strains_[at(span)];
+  StretchedSpan result;
+  const auto gain = [&](double arc, int link, End end) {
+    if (!(arc > 0.0)) {
+      result.on -= arc;
+      return 0.0;
+    }
+    const int place = strain_places_[at(link)];
+    return place < 0 ? arc : stored_[at(place)].rest_of(end, arc, strain);
+  };
+  result.gained[0] = gain(arcs.from_first, setup.first, End::outgoing);
+  result.gained[1] = gain(arcs.from_second, setup.second, End::incoming);
+  const double before = reference.rest_length + result.gained[0] + result.gained[1];
+  const double half = 0.5 * result.on / (1.0 + strain);
+  result.spring_length = before > 0.0 && half > 0.0 ? before * (before / (before + half)) : before;
+  result.value = before + strain * (before - result.spring_length) - result.on - length;
+  return result;
+}
+
+double CableSystem::rest_length_of(const CompiledCable& cable, const Row& row, double length) {
+  if (cable.inverse_stiffness == 0.0 || row.value >= 0.0) return row.value + length;
+  return rest_length_under(row.value, row.compliance / cable.inverse_stiffness, length);
+}
+
+double CableSystem::rest_length_under(double value, double spring_length, double length) {
+  // l1 / (1 + e1) with e1 = -value / A; slack cable has its rest length as value + length.
+  if (value >= 0.0) return value + length;
+  return spring_length > 0.0 ? length * (spring_length / (spring_length - value)) : 0.0;
+}
+
+SpanTransport CableSystem::material_transport(const CompiledCable& cable, int span,
+                                              const SpanTransport& arcs, double length,
+                                              FeatureState& next) {
+  const SpanSetup& setup = spans_[at(span)];
+  const SpanReference& reference = references_[at(span)];
+  const StretchedSpan result = stretched(span, arcs, length);
+  const double before = reference.rest_length + result.gained[0] + result.gained[1];
+  SpanTransport moved{result.gained[0], result.gained[1]};
+  double onto = 0.0;  // unstretched length of `on`
+  if (result.on > 0.0) {
+    onto = before - rest_length_under(result.value, result.spring_length, length);
+    if (arcs.from_first < 0.0) moved.from_first = onto * (arcs.from_first / result.on);
+    if (arcs.from_second < 0.0) moved.from_second = onto * (arcs.from_second / result.on);
+  }
+  const double end_strain =
+      result.spring_length > 0.0 ? std::max(-result.value, 0.0) / result.spring_length : 0.0;
+  const double mean = 0.5 * (strains_[at(span)] + end_strain);
+  const double on_strain = onto > 0.0 ? std::max(result.on / onto - 1.0, 0.0) : 0.0;
+  const auto wind = [&](int link, End end, double gained) {
+    const int place = strain_places_[at(link)];
+    if (place < 0 || gained == 0.0) return;
+    StoredStrain& stored = stored_end_[at(place)];
+    if (gained < 0.0) {
+      stored.put(end, -gained, on_strain);
+      return;
+    }
+    const StoredStrain::Piece off = stored.take(end, gained);
+    next.reals[creep_index(place)] +=
+        0.5 / cable.inverse_stiffness *
+        (off.square - 2.0 * mean * off.stretch + mean * mean * off.length);
+  };
+  wind(setup.first, End::outgoing, moved.from_first);
+  wind(setup.second, End::incoming, moved.from_second);
+  return moved;
+}
+
+void CableSystem::keep_strains(FeatureState& next) {
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const int place = strain_places_[i];
+    if (place < 0) continue;
+    const auto link = static_cast<int>(i);
+    // What is below the quantum stays with the spans; the end where the cable came off or on last has the strain of either.
+    StoredStrain& stored = stored_end_[at(place)];
+    const StoredStrain::Piece total = stored.total();
+    stored.fit(End::outgoing, next.reals[stored_length_index(link)], total.strain());
+    save_strain(stored, link, next);
+  }
+}
+
+double CableSystem::stored_energy(const FeatureState& own) const {
+  double energy = 0.0;
+  for (std::size_t c = 0; c < cables_.size(); ++c) {
+    const CompiledCable& cable = cables_[c];
+    if (cable.inverse_stiffness == 0.0 || own.integers[cut_index(static_cast<int>(c))] != 0) {
+      continue;
+    }
+    for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
+      if (strain_places_[at(i)] < 0) continue;
+      energy += 0.5 / cable.inverse_stiffness * stored_strain(own, i).total().square;
+    }
+  }
+  return energy;
+}
+
+}  // namespace sheave

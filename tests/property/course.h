@@ -1,0 +1,47 @@
+#pragma once
+// Runs of machines, compared step by step, and how far apart two runs may be.
+//
+// Two runs that ought to agree differ by rounding, and by what a solver leaves over; the machine makes more of it. How much
+// more is measured: twins of the machine, every number of which is changed by about as much, are run beside it. What they
+// differ by from the machine, times a safety factor of 30 (random changes miss the worst direction; each substep rounds
+// anew), is what the other run may differ by. Once twins differ by 1e-4 of the machine's size nothing can be said any more.
+
+#include <functional>
+#include <vector>
+
+#include "tests/property/campaign.h"
+
+namespace sheave::test {
+
+/// What is compared after each step.
+struct Moment {
+  std::vector<BodyState> bodies;
+  std::vector<std::vector<double>> tensions;  ///< of each cable, its spans in order [N]
+};
+
+struct Course {
+  std::vector<Moment> moments;  ///< after each step
+  bool failed = false;          ///< it diverged after them
+  bool lost = false;            ///< a span had no tangent after them
+};
+[[nodiscard]] Course follow(const Machine& machine, int steps);
+
+/// Between two moments: of motion in shares of the machine's size, turns and velocities times a step included; of tension in
+/// shares of the largest so far.
+struct Apart {
+  double motion = 0.0;
+  double tension = 0.0;
+};
+
+/// How another machine's course is told in terms of the first one's.
+struct Retold {
+  std::function<BodyState(BodyState)> body = [](BodyState b) { return b; };
+  double tension = 1.0;            ///< factor
+  bool tensions_reversed = false;  ///< spans of each cable are counted from the other end
+};
+
+/// Whether two machines move alike. `noise`: relative, what their runs differ by in each substep.
+[[nodiscard]] Finding alike(const Machine& machine, const Machine& other, const Retold& retold,
+                            int steps, double noise, std::uint64_t seed);
+
+}  // namespace sheave::test
