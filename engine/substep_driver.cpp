@@ -1,5 +1,7 @@
 #include "engine/substep_driver.h"
 
+#include <algorithm>
+
 namespace sheave {
 
 SubstepDriver::SubstepDriver(const StepSettings& settings,
@@ -9,25 +11,49 @@ SubstepDriver::SubstepDriver(const StepSettings& settings,
 
 std::optional<Divergence> SubstepDriver::run(int index) {
   divergence_.reset();
+  rounds_before_ = substep_.statistics.rounds;
   const Part whole{index, settings_.substeps};
   if (attempt(whole, Resort::none)) {
     keep();
   } else if (!divergence_) {
-    left_to_others_ = 0;
-    if (advance_in_halves(whole)) {
-      ++substep_.statistics.cut_substeps;
-    } else if (!divergence_) {
-      make_do(whole);
-    }
+    cut(whole);
   }
   if (divergence_) forget();
   return std::move(divergence_);
 }
 
+void SubstepDriver::cut(Part whole) {
+  left_to_others_ = 0;
+  parts_ = 0;
+  start_ = state_;
+  if (advance_in_halves(whole)) {
+    ++substep_.statistics.cut_substeps;
+    substep_.statistics.substep_parts += parts_;
+    return;
+  }
+  if (divergence_) return;
+  // What a short part leaves of its constraints would be a large velocity.
+  state_.bodies = start_.bodies;
+  state_.features = start_.features;
+  state_.time = start_.time;
+  substep_.next = state_;
+  if (others() && attempt(whole, Resort::other_integrator)) {
+    keep();
+  } else if (!divergence_ && attempt(whole, Resort::anything)) {
+    keep();
+    ++substep_.statistics.unconverged;
+  }
+}
+
+bool SubstepDriver::others() const { return settings_.integrator == IntegratorKind::rattle; }
+
 bool SubstepDriver::attempt(Part part, Resort resort) {
   const auto count = static_cast<double>(part.count);
   substep_.h = settings_.dt / count;
   substep_.load_share = settings_.integrator == IntegratorKind::rattle ? 0.5 : 1.0;
+  substep_.iterations = part.count == settings_.substeps
+                            ? settings_.iterations
+                            : std::min(settings_.iterations, rounds_of_part);
   substep_.resort = resort;
   substep_.failed = false;
   substep_.restart();
@@ -46,35 +72,24 @@ bool SubstepDriver::attempt(Part part, Resort resort) {
 }
 
 bool SubstepDriver::advance_in_halves(Part part) {
-  if (!advance_half(part.first_half())) return false;
-  if (!advance_half(part.second_half()) && !divergence_) {
-    make_do(part.second_half());
-    ++substep_.statistics.substep_parts;
-  }
-  return true;
+  return advance_half(part.first_half()) && advance_half(part.second_half());
 }
 
 bool SubstepDriver::advance_half(Part part) {
+  if (substep_.statistics.rounds - rounds_before_ >= most_rounds) return false;
   const bool smallest = part.count >= most_parts * settings_.substeps;
   const bool tired = left_to_others_ >= patience;
-  const bool others = settings_.integrator == IntegratorKind::rattle;
   bool done = attempt(part, Resort::none);
-  if (!done && !divergence_ && others && (smallest || tired)) {
+  if (!done && !divergence_ && others() && (smallest || tired)) {
     done = attempt(part, Resort::other_integrator);
     if (done) ++left_to_others_;
   }
   if (done) {
     keep();
-    ++substep_.statistics.substep_parts;
+    ++parts_;
     return true;
   }
   return !divergence_ && !smallest && advance_in_halves(part);
-}
-
-void SubstepDriver::make_do(Part part) {
-  if (!attempt(part, Resort::anything)) return;
-  keep();
-  ++substep_.statistics.unconverged;
 }
 
 void SubstepDriver::keep() {

@@ -6,8 +6,9 @@
 // The halves are done in turn, each of them as a whole first. Nothing carries over from one substep to the next, so a run
 // depends on its state alone.
 //
-// Where the first part does not converge either, however short it is, time is not what is wrong (drives that contradict each
-// other): the substep is done as a whole, with what the solvers make of it, and counted.
+// Where a part does not converge, however short it is, time is not what is wrong (drives that contradict each other), and where
+// parts have taken so many rounds there is no end to them: the substep starts again and is done as a whole, by the other
+// integrator if that converges, or else with what the solvers make of it, and is counted.
 
 #include <cstdint>
 #include <optional>
@@ -20,8 +21,14 @@ namespace sheave {
 
 class SubstepDriver {
  public:
-  /// The most equal parts that a substep is done in.
-  static constexpr std::int64_t most_parts = 1024;
+  /// The most equal parts that a substep is done in. Depth costs little, for only what does not converge is cut, and velocities
+  /// of so short a part are still rounded by no more than 1e-9 of a scene size per second.
+  static constexpr std::int64_t most_parts = 131072;
+  /// Rounds in which a part converges, or else is cut: Newton's method needs far fewer where it works.
+  static constexpr int rounds_of_part = 16;
+  /// When so many rounds have been spent on a substep and its parts it is given up. The hardest of
+  /// tests/physics/light_cart_test.cpp takes less than 300.
+  static constexpr std::int64_t most_rounds = 512;
   /// So many of the smallest parts may be left to another integrator before larger ones are, too: it is no matter of time
   /// then.
   static constexpr int patience = 4;
@@ -50,13 +57,14 @@ class SubstepDriver {
   };
   /// All stages; false if a solver gave up or the result is no state, and then nothing has changed.
   bool attempt(Part part, Resort resort);
-  /// A part that does not converge as a whole, half by half; false if not even its first piece converges, and then nothing
-  /// has changed.
+  /// A substep that does not converge as a whole.
+  void cut(Part whole);
+  /// A part half by half; false where it does not converge, and then what has been done of it is void.
   bool advance_in_halves(Part part);
   bool advance_half(Part part);
-  /// The part as a whole, converged or not.
-  void make_do(Part part);
   void keep();
+  /// Whether another integrator can stand in.
+  [[nodiscard]] bool others() const;
 
   const StepSettings& settings_;
   std::span<const std::unique_ptr<ConstraintBatch>> features_;
@@ -64,9 +72,12 @@ class SubstepDriver {
   Substep& substep_;
   State& state_;
   State before_;
+  State start_;  ///< of a substep that is cut
   bool has_stepped_ = false;
   std::optional<Divergence> divergence_;
-  int left_to_others_ = 0;  ///< parts of this substep that another integrator has done
+  int left_to_others_ = 0;          ///< parts of this substep that another integrator has done
+  std::int64_t parts_ = 0;          ///< of this substep that are done
+  std::int64_t rounds_before_ = 0;  ///< of the step before this substep
 };
 
 }  // namespace sheave

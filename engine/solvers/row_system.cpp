@@ -27,16 +27,16 @@ void RowSystem::collect_rows(Substep& substep, Features features) {
 void RowSystem::remember_start(Substep& substep, Features features) {
   begin_rounds();
   collect_rows(substep, features);
-  start_rows_ = rows_;
-  start_responses_.resize(rows_.size());
+  std::swap(start_rows_, rows_);  // which are collected anew in each round
+  start_responses_.resize(start_rows_.size());
   start_places_.resize(features.size());
   for (std::size_t f = 0; f < features.size(); ++f) {
     start_places_[f].assign(features[f]->multipliers().size(), -1);
     for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
-      start_places_[f][at(rows_[at(i)].index)] = i;
+      start_places_[f][at(start_rows_[at(i)].index)] = i;
     }
   }
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
+  for (std::size_t i = 0; i < start_rows_.size(); ++i) {
     respond(start_rows_[i], substep.moving, start_responses_[i]);
   }
 }
@@ -282,10 +282,13 @@ void RowSystem::settle(const Substep& substep) {
 }
 
 void RowSystem::follow_gradients(Substep& substep) const {
+  constexpr double negligible_turn = 1e-12;  // a hundredth of what rounds leave
   for (std::size_t b = 0; b < motion_.size(); ++b) {
     MovingBody& body = substep.moving[b];
     if (body.translates) body.position += motion_[b].linear;
-    if (body.rotates) body.rotate(motion_[b].angular);
+    if (body.rotates && motion_[b].angular.cwiseAbs().maxCoeff() > negligible_turn) {
+      body.rotate(motion_[b].angular);
+    }
   }
 }
 

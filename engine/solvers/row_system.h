@@ -74,8 +74,8 @@ class RowSystem {
   void remember_places(const Substep& substep);
   /// The problem of the velocities in substep.next, with K = J at the current positions: the impulses m [N s] for which
   /// dC/dt = 0 (or >= 0) on rows that have acted or are closed. Springs have acted and get none. Rows are those of `positions`,
-  /// whose last linearise() must have been at the current positions.
-  void linearise_velocities(Substep& substep, const RowSystem& positions);
+  /// whose last linearise() must have been at the current positions; it takes them from there.
+  void linearise_velocities(Substep& substep, RowSystem& positions);
 
   /// The largest violation [m or rad] of what the problem asks for, before it is solved, as far as bounds let unknowns make up
   /// for it.

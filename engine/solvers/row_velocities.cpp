@@ -19,12 +19,12 @@ double RowSystem::rate_of(const Substep& substep, const Row& row) const {
   return rate;
 }
 
-void RowSystem::linearise_velocities(Substep& substep, const RowSystem& positions) {
+void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
   // Closer than this a row counts as closed: far below what a substep moves, far above what the solver leaves.
   const double closed = 1e-8 * substep.bodies.scale();
   const double share =
       0.5 / substep.h;  // of the bounds, for an impulse in the second half of the substep
-  rows_ = positions.rows_;
+  std::swap(rows_, positions.rows_);  // which have served their turn
   for (Row& row : rows_) std::swap(row.weight, row.start_weight);
   feature_rows_ = positions.feature_rows_;
   previous_ = positions.previous_;

@@ -109,7 +109,7 @@ TEST(LightCart, MakesNoEnergyHoweverLight) {
         // The solver ends at 1e-10 of a scene of about 1 m.
         EXPECT_LE(run.stretch, 1e-9);
         // Velocities are differences of positions of 1 m over a part of h: each is rounded by eps / h, as if at random.
-        const double shortest = 1.0 / (60.0 * substeps * (run.cut > 0 ? 1024.0 : 1.0));
+        const double shortest = 1.0 / (60.0 * substeps * (run.cut > 0 ? 131072.0 : 1.0));
         const double roundings = std::sqrt(120.0 * substeps + static_cast<double>(run.parts));
         EXPECT_LE(run.momentum, 1e-12 + 2.2e-16 / shortest * roundings);
         if (integrator == IntegratorKind::xpbd) {
@@ -117,13 +117,13 @@ TEST(LightCart, MakesNoEnergyHoweverLight) {
           EXPECT_LE(run.most, 0.01 * cart_swing);
           EXPECT_GE(run.least, -cart_swing - 1e-6) << "all there is";
         } else if (run.left == 0) {
-          // Each part that a whip is cut into is off by a thousandth of the energy at the most, with one sign before the
-          // cart is above the bob and with the other behind it; swings and their errors follow each other in 2 s.
-          EXPECT_LE(run.most, 0.01 * cart_swing);
-          EXPECT_GE(run.least, -0.01 * cart_swing);
+          // A part in which the cable turns by a does work of a^3, a hundredth of the energy at the most: a = 0.2, eight of
+          // them in the quarter turn of a whip before the cart is above the bob. Those behind it have the other sign.
+          EXPECT_LE(run.most, 0.08 * cart_swing);
+          EXPECT_GE(run.least, -0.08 * cart_swing);
         } else {
           // A whip shorter than the smallest part is an impact that xpbd takes for an inelastic one.
-          EXPECT_LE(run.most, 0.01 * cart_swing);
+          EXPECT_LE(run.most, 0.08 * cart_swing);
         }
       }
     }
