@@ -42,7 +42,9 @@ class RattleSolver {
   void solve_velocities(Substep& substep, Features features);
 
  private:
-  [[nodiscard]] bool try_positions(Substep& substep, Features features);
+  enum class Outcome { found, not_found, contradiction };
+
+  [[nodiscard]] Outcome try_positions(Substep& substep, Features features);
 
   SolverKind solver_;
   RowSystem positions_;
