@@ -76,6 +76,9 @@ struct Row {
   /// Added to the row's yield w [1/kg], >= 0: shares a load among rows of which fewer would do. Unlike a compliance it is no
   /// spring; the multiplier l leaves the row off by softness x l.
   double softness = 0.0;
+  /// A row that closes faster than this at the end of a substep of `rattle` rebounds in the next one [m/s]: its velocity is
+  /// not stopped.
+  double rebound_speed = unbounded;
   int index = 0;        ///< of its multiplier among those of its feature
   bool active = false;  ///< whether its multiplier was off its bounds in the last substep
   /// Whether it shares one unknown with the row before it, which may do the same: their values are added, and the
@@ -90,6 +93,7 @@ struct Row {
     active = tied = false;
     weight = start_weight = 1.0;
     softness = 0.0;
+    rebound_speed = unbounded;
     value = rate = compliance = damping = 0.0;
     lower = -unbounded;
     upper = unbounded;

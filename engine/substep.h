@@ -35,8 +35,20 @@ struct StepStatistics {
   int contacts = 0;  ///< the most points in one substep, those about to touch among them
   double deepest_overlap = 0.0;           ///< [m]
   std::int64_t integrator_fallbacks = 0;  ///< substeps of `rattle` that were left to `xpbd`
+  // Of substeps that did not converge (engine/substep_driver.h).
+  std::int64_t cut_substeps = 0;   ///< done in smaller parts
+  std::int64_t substep_parts = 0;  ///< in how many, all together
+  /// Substeps, or parts, whose constraints are not met at their end, and no parts of them are.
+  std::int64_t unconverged = 0;
   /// Energy that `xpbd` took from the vibration of elastic cables [J], which is none of their damping's.
   double numerical_damping = 0.0;
+};
+
+/// What solvers do in a substep in which they do not converge.
+enum class Resort {
+  none,              ///< they give up
+  other_integrator,  ///< `xpbd` does it, for `rattle`, and must converge
+  anything,          ///< they make do with what they find
 };
 
 /// How much of its prescribed motion a drive does in a substep; less than all where it would need what is not there.
@@ -51,7 +63,7 @@ struct DriveShare {
 struct Substep {
   const BodySet& bodies;
   const State& start;  ///< state at the start of the substep
-  double h;            ///< length [s]
+  double h;            ///< length of the substep, or of the part of it that is being done [s]
   int iterations;
   double time =
       0.0;  ///< of the positions in `moving`: the start's, from the prediction on the end's [s]
@@ -66,6 +78,9 @@ struct Substep {
   std::vector<std::vector<double>> late_forces;
   /// Share of the loads' impulse that predict() gives to the velocities: all of it, or the first half.
   double load_share = 1.0;
+  /// Set by a solver that gives up: what it found is no solution, and the stages end here.
+  bool failed = false;
+  Resort resort = Resort::anything;
 
   /// A substep of `bodies` from `state_at_start`; both must outlive it. Bodies are placed at the
   /// start, with their inverse mass and inertia there; nothing is predicted yet.

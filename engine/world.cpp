@@ -6,13 +6,10 @@
 #include "engine/contacts/ground_batch.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
+#include "engine/substep_driver.h"
 
 namespace sheave {
 namespace {
-
-/// Beyond this many scene sizes from the origin, or per substep, a state means nothing any more:
-/// with 16 digits, positions there have lost the scene's own length scale.
-constexpr double runaway_sizes = 1e9;
 
 void check_joints(const Model& model, const BodySet& bodies, Errors& errors) {
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
@@ -96,10 +93,9 @@ struct World::Content {
   std::shared_ptr<const BodySet> bodies;
   std::vector<std::unique_ptr<ConstraintBatch>> features;
   State state;
-  State before;  // at the start of the last substep
-  bool has_stepped = false;
   Substep substep;
   std::vector<Stage> stages;
+  SubstepDriver driver;
   std::size_t contacts = 0;  // which feature; means something if the model has colliders
 
   Content(Model m, std::shared_ptr<const BodySet> b,
@@ -109,46 +105,9 @@ struct World::Content {
         features(std::move(f)),
         state(std::move(s)),
         substep(*bodies, state, model.step.dt / model.step.substeps, model.step.iterations),
-        stages(substep_stages(model, features)) {
+        stages(substep_stages(model, features)),
+        driver(model.step, features, stages, substep, state) {
     substep.next = state;
-  }
-
-  /// What is wrong with one body's new state; null if nothing is.
-  [[nodiscard]] const char* fault_of(const BodyState& body) const {
-    const double farthest = runaway_sizes * bodies->scale();
-    // allFinite() first: a maximum may or may not see a NaN.
-    const auto beyond = [](const Vector3& v, double limit) {
-      return !v.allFinite() || v.cwiseAbs().maxCoeff() > limit;
-    };
-    if (beyond(body.position, farthest)) return "position";
-    if (beyond(substep.h * body.velocity, farthest)) return "velocity";
-    if (!body.orientation.coeffs().allFinite()) return "orientation";
-    if (beyond(substep.h * body.angular_velocity, runaway_sizes)) return "angular velocity";
-    return nullptr;
-  }
-
-  /// The first body whose new state is not finite or has run away, or else the first feature.
-  [[nodiscard]] std::optional<Divergence> find_divergence() const {
-    const double time = substep.next.time;
-    // Texts only where there is something to tell: this runs in every substep.
-    const auto when = [&] { return " at time " + number_text(time) + " s"; };
-    for (int i = 0; i < bodies->count(); ++i) {
-      const char* what = fault_of(substep.next.bodies[at(i)]);
-      if (what == nullptr) continue;
-      return Divergence{
-          {i},
-          time,
-          "body \"" + bodies->name(i) + "\": " + what + " is not finite or has run away" + when()};
-    }
-    for (std::size_t i = 0; i < features.size(); ++i) {
-      const std::vector<double>& reals = substep.next.features[i].reals;
-      if (std::all_of(reals.begin(), reals.end(), [](double x) { return std::isfinite(x); })) {
-        continue;
-      }
-      return Divergence{BodyId::world(), time,
-                        std::string(features[i]->name()) + ": the state is not finite" + when()};
-    }
-    return std::nullopt;
   }
 };
 
@@ -183,31 +142,8 @@ StepReport World::step() {
   Content& c = *content_;
   StepReport report;
   c.substep.statistics = {};
-  const int substeps = c.model.step.substeps;
-  for (int i = 0; i < substeps; ++i) {
-    // Time comes from counters, not from a running sum, so that it does not drift.
-    const double end = static_cast<double>(i + 1) / substeps;
-    c.substep.restart();
-    for (std::vector<double>& late : c.substep.late_forces) late.clear();
-    // Features may ask for it when they begin.
-    c.substep.load_share = c.model.step.integrator == IntegratorKind::rattle ? 0.5 : 1.0;
-    c.substep.next.time = (static_cast<double>(c.state.steps) + end) * c.model.step.dt;
-    for (const Stage& stage : c.stages) stage.run(c.substep);
-    report.divergence = c.find_divergence();
-    if (report.divergence) {
-      c.has_stepped = false;
-      c.substep.next = c.state;  // stages build on what `next` held at the start
-      break;
-    }
-    // Same shape on all sides, so this copies without allocating, and what was is kept without a copy.
-    c.state.bodies.swap(c.before.bodies);
-    c.state.features.swap(c.before.features);
-    c.before.time = c.state.time;
-    c.before.steps = c.state.steps;
-    c.has_stepped = true;
-    c.state.bodies = c.substep.next.bodies;
-    c.state.features = c.substep.next.features;
-    c.state.time = c.substep.next.time;
+  for (int i = 0; i < c.model.step.substeps && report.ok(); ++i) {
+    report.divergence = c.driver.run(i);
   }
   if (report.ok()) ++c.state.steps;
   report.statistics = c.substep.statistics;
@@ -233,10 +169,11 @@ std::vector<ContactReport> World::contacts() const {
 
 std::optional<LastSubstep> World::last_substep() const {
   const Content& c = *content_;
-  if (!c.has_stepped) return std::nullopt;
+  const State* before = c.driver.before();
+  if (before == nullptr) return std::nullopt;
   const bool rattle =
       c.model.step.integrator == IntegratorKind::rattle && c.substep.load_share != 1.0;
-  return LastSubstep{c.before, c.substep.h, rattle ? IntegratorKind::rattle : IntegratorKind::xpbd,
+  return LastSubstep{*before, c.substep.h, rattle ? IntegratorKind::rattle : IntegratorKind::xpbd,
                      rattle ? std::span<const std::vector<double>>(c.substep.late_forces)
                             : std::span<const std::vector<double>>()};
 }
@@ -258,7 +195,7 @@ Errors World::restore(const State& state) {
              "and cables"}};
   }
   content_->state = state;
-  content_->has_stepped = false;
+  content_->driver.forget();
   content_->substep.next = state;
   return {};
 }

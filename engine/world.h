@@ -12,17 +12,11 @@
 #include <vector>
 
 #include "engine/contacts/contact_report.h"
+#include "engine/divergence.h"
 #include "engine/model.h"
 #include "engine/step.h"
 
 namespace sheave {
-
-/// A state that no longer means anything: not finite, or out of all proportion to the scene.
-struct Divergence {
-  BodyId body;          ///< the first bad body
-  double time = 0.0;    ///< end of the substep that produced it [s]
-  std::string message;  ///< one sentence: body, quantity, time
-};
 
 /// What one step did.
 struct StepReport {

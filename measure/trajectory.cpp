@@ -124,8 +124,8 @@ Result<Trajectory> record(const Scene& scene, const FrameObserver& observe) {
     StepReport report = simulation->world.step();
     trajectory.row_solves += report.statistics.row_solves;
     trajectory.rounds += report.statistics.rounds;
-    trajectory.fallbacks +=
-        report.statistics.solver_fallbacks + report.statistics.integrator_fallbacks;
+    trajectory.fallbacks += report.statistics.solver_fallbacks +
+                            report.statistics.integrator_fallbacks + report.statistics.unconverged;
     if (!report.ok()) {
       trajectory.divergence = std::move(report.divergence);
       break;

@@ -55,8 +55,8 @@ struct Trajectory {
   int most_spans =
       0;  ///< free spans of all cables, wraps among them, in the frame that has the most
   std::int64_t row_solves = 0;
-  std::int64_t rounds = 0;               ///< of the direct solver
-  std::int64_t fallbacks = 0;            ///< substeps left to Gauss-Seidel or to `xpbd`
+  std::int64_t rounds = 0;     ///< of the direct solver
+  std::int64_t fallbacks = 0;  ///< substeps left to Gauss-Seidel or to `xpbd`, or not converged
   std::optional<Divergence> divergence;  ///< if set, the frames end early
 
   [[nodiscard]] bool complete() const { return !divergence.has_value(); }

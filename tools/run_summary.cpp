@@ -261,6 +261,43 @@ void append_rounding_warning(const World& world, std::vector<Warning>& warnings)
   }
 }
 
+/// What the solver and the integrator could not do as asked.
+void append_solver_warnings(const RunStatistics& statistics, std::vector<Warning>& warnings) {
+  if (statistics.solver_fallbacks > 0) {
+    std::string message = fmt::format(
+        "the direct solver did not find which rows act in {} {} and left {} to Gauss-Seidel "
+        "sweeps, so that precision is theirs there",
+        statistics.solver_fallbacks, statistics.solver_fallbacks == 1 ? "substep" : "substeps",
+        statistics.solver_fallbacks == 1 ? "it" : "them");
+    warnings.push_back({"solver_fallback", "", std::move(message)});
+  }
+  if (statistics.integrator_fallbacks > 0) {
+    std::string message = fmt::format(
+        "things moved too far for rattle in {} {}, or in the smallest part of one, which left {} "
+        "to "
+        "xpbd and its damping; more substeps avoid that",
+        statistics.integrator_fallbacks,
+        statistics.integrator_fallbacks == 1 ? "substep" : "substeps",
+        statistics.integrator_fallbacks == 1 ? "it" : "them");
+    warnings.push_back({"integrator_fallback", "", std::move(message)});
+  }
+  if (statistics.cut_substeps > 0) {
+    std::string message = fmt::format(
+        "{} {} did not converge as a whole and {} done in {} parts, with more work but no less "
+        "precision; more substeps avoid that",
+        statistics.cut_substeps, statistics.cut_substeps == 1 ? "substep" : "substeps",
+        statistics.cut_substeps == 1 ? "was" : "were", statistics.substep_parts);
+    warnings.push_back({"cut_substeps", "", std::move(message)});
+  }
+  if (statistics.unconverged > 0) {
+    std::string message = fmt::format(
+        "{} {} did not converge, in however small parts: constraints that contradict each other? "
+        "What they left off has become velocity",
+        statistics.unconverged, statistics.unconverged == 1 ? "substep" : "substeps");
+    warnings.push_back({"unconverged", "", std::move(message)});
+  }
+}
+
 }  // namespace
 
 std::vector<Warning> scene_warnings(const CableSystem& cables) {
@@ -296,23 +333,7 @@ std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simu
   append_loss_warning(scene.model.step, monitor, warnings);
   append_energy_warning(scene, simulation, monitor, warnings);
   append_rounding_warning(simulation.world, warnings);
-  if (statistics.solver_fallbacks > 0) {
-    std::string message = fmt::format(
-        "the direct solver did not find which rows act in {} {} and left {} to Gauss-Seidel "
-        "sweeps, so that precision is theirs there",
-        statistics.solver_fallbacks, statistics.solver_fallbacks == 1 ? "substep" : "substeps",
-        statistics.solver_fallbacks == 1 ? "it" : "them");
-    warnings.push_back({"solver_fallback", "", std::move(message)});
-  }
-  if (statistics.integrator_fallbacks > 0) {
-    std::string message = fmt::format(
-        "things moved too far in {} {} for rattle, which left {} to xpbd and its damping; more "
-        "substeps avoid that",
-        statistics.integrator_fallbacks,
-        statistics.integrator_fallbacks == 1 ? "substep" : "substeps",
-        statistics.integrator_fallbacks == 1 ? "it" : "them");
-    warnings.push_back({"integrator_fallback", "", std::move(message)});
-  }
+  append_solver_warnings(statistics, warnings);
   return warnings;
 }
 

@@ -42,6 +42,9 @@ RunJson statistics(const RunStatistics& statistics) {
           {"redundant_rows", statistics.redundant_rows},
           {"compromises", statistics.compromises},
           {"integrator_fallbacks", statistics.integrator_fallbacks},
+          {"cut_substeps", statistics.cut_substeps},
+          {"substep_parts", statistics.substep_parts},
+          {"unconverged", statistics.unconverged},
           {"contacts", statistics.contacts},
           {"deepest_overlap", statistics.deepest_overlap},
           {"numerical_damping", statistics.numerical_damping}};

@@ -27,10 +27,16 @@ std::string direct_solver(const RunSummary& summary) {
   if (step.solver != SolverKind::direct || outcome.steps == 0 || outcome.divergence) return "";
   const RunStatistics& statistics = outcome.statistics;
   const double substeps = static_cast<double>(outcome.steps) * step.substeps;
-  return fmt::format(
+  std::string text = fmt::format(
       "{} rows: {} rounds per substep, {} substeps left to Gauss-Seidel, at most {} redundant\n",
       statistics.rows, short_number(static_cast<double>(statistics.rounds) / substeps),
       statistics.solver_fallbacks, statistics.redundant_rows);
+  if (statistics.cut_substeps > 0) {
+    text += fmt::format("{} {} cut into {} parts\n", statistics.cut_substeps,
+                        statistics.cut_substeps == 1 ? "substep" : "substeps",
+                        statistics.substep_parts);
+  }
+  return text;
 }
 
 std::string head(const RunSummary& summary) {

@@ -28,6 +28,9 @@ void accumulate(const StepStatistics& step, RunStatistics& total) {
   total.compromises += step.compromises;
   total.redundant_rows = std::max(total.redundant_rows, step.redundant_rows);
   total.integrator_fallbacks += step.integrator_fallbacks;
+  total.cut_substeps += step.cut_substeps;
+  total.substep_parts += step.substep_parts;
+  total.unconverged += step.unconverged;
   total.contacts = std::max(total.contacts, step.contacts);
   total.numerical_damping += step.numerical_damping;
   total.deepest_overlap = std::max(total.deepest_overlap, step.deepest_overlap);

@@ -30,6 +30,9 @@ struct RunStatistics {
   int redundant_rows = 0;                 ///< the most in one round
   std::int64_t compromises = 0;           ///< rounds in which rows contradicted each other
   std::int64_t integrator_fallbacks = 0;  ///< substeps of `rattle` left to `xpbd`
+  std::int64_t cut_substeps = 0;          ///< done in smaller parts
+  std::int64_t substep_parts = 0;         ///< in how many, all together
+  std::int64_t unconverged = 0;           ///< substeps or parts whose constraints are not met
   int contacts = 0;                       ///< the most points in one substep
   double deepest_overlap = 0.0;           ///< of bodies that touch [m]
   double numerical_damping = 0.0;         ///< of elastic cables' vibration, by `xpbd`, in all [J]

@@ -4,7 +4,8 @@
 //   target = e |w_i| (h - T) + a (h - T)^2 / 2,   and grows at  e |w_i| + a (h - T).
 // So a ball loses nothing of its height by where in a substep it meets the floor. `xpbd` keeps the mean velocity of a
 // substep for the velocity of a body, so its w is that plus a h / 2. That settles positions; for velocities the approach is
-// taken from the end (rebound.cpp). Bodies that meet at less than 2 |a| h do not bounce: they would for ever.
+// taken from the end (rebound.cpp). Bodies that touch at the end of a substep, and approach, bounce in the next one: `rattle`,
+// which has the velocities of the end, must not stop them before. Bodies that meet at less than 2 |a| h do not bounce: they would for ever.
 //
 // Tangents. What slides has friction against its sliding and none across it, so it has one row, along its velocity at the
 // start. (A second one would hold it to that direction.) What is slow enough to stop, or sticks, has two. They bound the
@@ -70,6 +71,8 @@ double tangent_yield(const Substep& substep, const Contact& contact) {
 void meet(const Substep& substep, double restitution, double rate, double acceleration,
           Contact& contact) {
   const double h = substep.h;
+  const double slowest = slow_impact * std::abs(acceleration) * h;
+  contact.rebound_speed = slowest;
   const double shift = contact.mean_velocities ? 0.5 * h * acceleration : 0.0;
   const double closing = -(rate + shift);
   const double gap = std::max(contact.start_gap, 0.0);
@@ -77,12 +80,13 @@ void meet(const Substep& substep, double restitution, double rate, double accele
   if (!(closing > 0.0) || !(square > 0.0)) return;
   const double impact = std::sqrt(square);
   const double left = h - 2.0 * gap / (closing + impact);
-  if (!(left > 0.0) || impact <= slow_impact * std::abs(acceleration) * h) return;
+  if (!(left > 0.0) || impact <= slowest) return;
   const double target = left * (restitution * impact + 0.5 * acceleration * left);
   const double rebound = restitution * impact + acceleration * left;
   if (!(target >= 0.0) || !(rebound > 0.0)) return;
   contact.target = target;
   contact.rebound = rebound;
+  contact.rebound_speed = Row::unbounded;
   contact.restitution = restitution;
   contact.acceleration = acceleration;
 }
@@ -158,6 +162,7 @@ void Contact::evaluate(const Substep& substep, int index, Row& row) const {
     row.value = dot(normal, surface_a - surface_b) - target;
     row.compliance = compliance;
     row.lower = 0.0;
+    row.rebound_speed = rebound_speed;
     substep.add_force(row, body_a, surface_a, normal);
     substep.add_force(row, body_b, surface_b, -normal);
     return;

@@ -42,6 +42,8 @@ struct Contact {
   double target = 0.0;                ///< gap at the end of the substep
   /// Normal velocity after an impact in this substep [m/s]; 0: none. Refined when velocities are known (rebound.h).
   double rebound = 0.0;
+  /// Approach above which the end of the substep leaves an impact to the next one [m/s] (Row::rebound_speed).
+  double rebound_speed = Row::unbounded;
   /// Whether velocities are means of the substep before, as those of `xpbd` are, or of the moment.
   bool mean_velocities = true;
   double restitution = 0.0;

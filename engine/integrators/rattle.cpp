@@ -5,12 +5,23 @@
 
 #include "engine/index.h"
 #include "engine/integrators/loads.h"
+#include "engine/kinetic_energy.h"
 #include "engine/stages.h"
 
 namespace sheave {
 namespace {
 
 bool left_to_xpbd(const Substep& substep) { return substep.load_share == 1.0; }
+
+/// Of the velocities in substep.next [J].
+double energy_of_motion(const Substep& substep) {
+  double sum = 0.0;
+  for (int i = 0; i < substep.bodies.count(); ++i) {
+    const BodyState& next = substep.next.bodies[at(i)];
+    sum += kinetic_energy(substep, i, next.velocity, next.angular_velocity);
+  }
+  return sum;
+}
 
 }  // namespace
 
@@ -20,7 +31,7 @@ void RattleSolver::begin(Substep& substep, Features features) {
   positions_.remember_start(substep, features);
 }
 
-bool RattleSolver::try_positions(Substep& substep, Features features) {
+RattleSolver::Outcome RattleSolver::try_positions(Substep& substep, Features features) {
   const double enough = DirectSolver::tolerance * substep.bodies.scale();
   // Newton's last round leaves far less than it found. A sweep leaves a share, which is a force still, so when what the
   // features decide is settled, sweeps go on to rounding.
@@ -34,16 +45,18 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   // the last round has left, which only the rows at x1 tell. The velocities need these rows, too.
   positions_.move_on(substep);
   for (int round = 0; round <= substep.iterations; ++round) {
-    if (!positions_.linearise(substep, features, RowSystem::Rule::midpoint, false)) return false;
+    if (!positions_.linearise(substep, features, RowSystem::Rule::midpoint, false)) {
+      return Outcome::not_found;
+    }
     violated = positions_.violation();
-    if (!std::isfinite(violated)) return false;
+    if (!std::isfinite(violated)) return Outcome::not_found;
     if (round == 0) first = violated;
     settled = settled || (round > 0 && !revised && violated <= enough);
     if ((settled && violated <= done) || round == substep.iterations) break;
     if (solver_ == SolverKind::direct) {
       // What rows ask for that contradict each other no round finds; xpbd makes them give way.
-      if (round > 2 && positions_.contradicts()) return false;
-      if (!positions_.solve(substep)) return false;
+      if (round > 2 && positions_.contradicts()) return Outcome::contradiction;
+      if (!positions_.solve(substep)) return Outcome::not_found;
     } else {
       positions_.relax(substep, 1);
     }
@@ -66,14 +79,21 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
     substep.statistics.rows = positions_.row_count();
     substep.statistics.last_correction = std::max(substep.statistics.last_correction, violated);
   }
-  return found;
+  return found ? Outcome::found : Outcome::not_found;
 }
 
 void RattleSolver::solve_positions(Substep& substep, Features features) {
   const bool impact = std::any_of(features.begin(), features.end(),
                                   [](const auto& feature) { return feature->meets(); });
   if (!impact) {
-    if (try_positions(substep, features)) return;
+    if (substep.resort != Resort::other_integrator) {
+      const Outcome outcome = try_positions(substep, features);
+      if (outcome == Outcome::found) return;
+      // Sweeps need not converge, and no smaller part resolves a contradiction.
+      substep.failed = solver_ == SolverKind::direct && outcome == Outcome::not_found &&
+                       substep.resort == Resort::none;
+      if (substep.failed) return;
+    }
     ++substep.statistics.integrator_fallbacks;
   }
   substep.load_share = 1.0;
@@ -97,8 +117,16 @@ void RattleSolver::solve_velocities(Substep& substep, Features features) {
   velocities_.linearise_velocities(substep, positions_);
   const bool direct = solver_ == SolverKind::direct;
   if (!direct || !velocities_.solve(substep, true)) {
+    substep.failed = direct && substep.resort != Resort::anything;
+    if (substep.failed) return;
     if (direct) ++substep.statistics.solver_fallbacks;
     velocities_.relax(substep, substep.iterations);
+  }
+  // Sweeps leave velocities off the constraints, which do work of their own.
+  if (direct && substep.resort != Resort::anything &&
+      velocities_.work_error(substep, positions_) > unresolved * energy_of_motion(substep)) {
+    substep.failed = true;
+    return;
   }
   velocities_.apply_impulses(substep, features);
 }

@@ -15,8 +15,9 @@
 // - A row that closes in a substep stops the motion against it: an inelastic impact. No row makes energy.
 // - Free rotation is an explicit midpoint step that conserves the angular momentum (engine/integrators/xpbd.cpp).
 // - A substep in which bodies meet and rebound is done by xpbd, whose impulses act where bodies are at its end.
-// - Where no l brings C(x1) to 0 (a swing of a right angle in one substep has no such l), the substep is done again by
-//   xpbd, and counted.
+// - Where no l brings C(x1) to 0 (a swing of a right angle in one substep has no such l) the substep has failed, and so it
+//   has where forces that do no work have done more than a share of the kinetic energy: rows that turn far in a substep
+//   have another gradient in its middle than at either end. What cannot be cut any smaller is done by xpbd, and counted.
 
 #include "engine/solvers/direct.h"
 #include "engine/solvers/row_system.h"
@@ -27,6 +28,10 @@ namespace sheave {
 /// The constraint part of the integrator and its scratch.
 class RattleSolver {
  public:
+  /// Work of workless forces above which a substep counts as failed, as a share of the kinetic energy. Rows that turn by
+  /// an angle a in the substep do about a^3 of it.
+  static constexpr double unresolved = 1e-2;
+
   explicit RattleSolver(SolverKind solver) : solver_(solver) {}
 
   /// Before anything moves.
@@ -37,7 +42,9 @@ class RattleSolver {
   void solve_velocities(Substep& substep, Features features);
 
  private:
-  [[nodiscard]] bool try_positions(Substep& substep, Features features);
+  enum class Outcome { found, not_found, contradiction };
+
+  [[nodiscard]] Outcome try_positions(Substep& substep, Features features);
 
   SolverKind solver_;
   RowSystem positions_;

@@ -7,16 +7,20 @@ namespace sheave {
 void DirectSolver::solve(Substep& substep, Features features) {
   const double enough = tolerance * substep.bodies.scale();
   double violated = 0.0;
+  double before = 0.0;
   double first = 0.0;
   bool revised = false;
   bool adding_up = false;
   bool compromise = false;
   system_.move_on(substep);
   for (int round = 0; round < substep.iterations; ++round) {
-    const double before = violated;
+    before = violated;
     system_.linearise(substep, features, RowSystem::Rule::backward, adding_up);
     violated = system_.violation();
-    if (round > 0 && !revised && violated <= enough) break;
+    if (round > 0 && !revised && violated <= enough) {
+      if (!adding_up) system_.follow_gradients(substep);
+      break;
+    }
     // Rows that nothing can satisfy, between driven bodies, stay violated however many rounds there are.
     const bool settled = adding_up || compromise;
     if (round > 2 && settled && !revised && violated > stagnation * before) break;
@@ -27,11 +31,16 @@ void DirectSolver::solve(Substep& substep, Features features) {
     const bool stuck = !compromise && !revised && violated > slow * before;
     if (round > 1 && !adding_up && (lost || stuck)) {
       adding_up = true;
+      system_.begin_adding_up();
       // What has run away is no start for Newton's method.
       if (lost) system_.start_again(substep, features);
       system_.linearise(substep, features, RowSystem::Rule::backward, true);
     }
     if (!system_.solve(substep, compromise)) {
+      if (substep.resort != Resort::anything) {
+        substep.failed = true;
+        return;
+      }
       substep.statistics.rows = system_.row_count();
       ++substep.statistics.solver_fallbacks;
       if (round == 0) system_.start_again(substep, features);
@@ -44,6 +53,14 @@ void DirectSolver::solve(Substep& substep, Features features) {
     if (round + 1 == substep.iterations) break;
     for (const auto& feature : features) revised = feature->revise(substep) || revised;
   }
+  // Two rounds do not tell whether more of them would converge: so few were asked for.
+  const bool tried = adding_up || substep.iterations > 2;
+  const bool near = violated <= std::max(enough, nearly * first) || violated <= slow * before;
+  const bool contradiction = compromise && system_.contradicts();
+  const bool lost = (tried && !near && !contradiction) ||
+                    (adding_up && violated <= enough && system_.energy_gain(substep) > unresolved);
+  substep.failed = lost && substep.resort != Resort::anything;
+  if (substep.failed) return;
   substep.statistics.rows = system_.row_count();
   substep.statistics.last_correction = std::max(substep.statistics.last_correction, violated);
 }

@@ -3,8 +3,10 @@
 //
 // Each round solves engine/solvers/row_system.h with XPBD's compliance and damping. The first round leaves what the
 // motion of one substep bends the constraints by, the next one the square of it. Rounds end when no row is violated by
-// more than `tolerance` times the scene's size, at the latest after `iterations` of them. If no active set is found the
-// substep goes on with Gauss-Seidel, and is counted.
+// more than `tolerance` times the scene's size where its multipliers and the gradients found last put the bodies, to which
+// they are then moved (rows do not tell how far that is across them: up to the root of the tolerance), at the latest after
+// `iterations` of them. Where they do not come near a solution, or find no active set, the substep has failed; in one that
+// has to make do, what the rounds leave is kept, or Gauss-Seidel goes on, and is counted.
 //
 // At first each round starts again from the prediction, with the gradients of the last one, so that what rests has its
 // static forces. Where bodies swing too far within a substep for that, the rounds stop converging, and corrections are added
@@ -26,6 +28,12 @@ class DirectSolver {
   static constexpr double slow = 0.5;
   /// The same once the violation is larger by this than that of the first round, whatever the features decide meanwhile.
   static constexpr double growth = 10.0;
+
+  /// What is left of the violation that the first round found counts as no solution above this share.
+  static constexpr double nearly = 1e-3;
+  /// Corrections that have been added up can end far from implicit Euler, on another side of a short swing. It makes no
+  /// energy; what makes more than this share of the kinetic energy counts as no solution, either.
+  static constexpr double unresolved = 1e-2;
 
   void solve(Substep& substep, Features features);
 

@@ -27,16 +27,16 @@ void RowSystem::collect_rows(Substep& substep, Features features) {
 void RowSystem::remember_start(Substep& substep, Features features) {
   begin_rounds();
   collect_rows(substep, features);
-  start_rows_ = rows_;
-  start_responses_.resize(rows_.size());
+  std::swap(start_rows_, rows_);  // which are collected anew in each round
+  start_responses_.resize(start_rows_.size());
   start_places_.resize(features.size());
   for (std::size_t f = 0; f < features.size(); ++f) {
     start_places_[f].assign(features[f]->multipliers().size(), -1);
     for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
-      start_places_[f][at(rows_[at(i)].index)] = i;
+      start_places_[f][at(start_rows_[at(i)].index)] = i;
     }
   }
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
+  for (std::size_t i = 0; i < start_rows_.size(); ++i) {
     respond(start_rows_[i], substep.moving, start_responses_[i]);
   }
 }
@@ -281,16 +281,39 @@ void RowSystem::settle(const Substep& substep) {
   }
 }
 
+void RowSystem::follow_gradients(Substep& substep) const {
+  constexpr double negligible_turn = 1e-12;  // a hundredth of what rounds leave
+  for (std::size_t b = 0; b < motion_.size(); ++b) {
+    MovingBody& body = substep.moving[b];
+    if (body.translates) body.position += motion_[b].linear;
+    if (body.rotates && motion_[b].angular.cwiseAbs().maxCoeff() > negligible_turn) {
+      body.rotate(motion_[b].angular);
+    }
+  }
+}
+
 double RowSystem::violation() const {
   double worst = 0.0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const double r = problem_.constant[g];
-    const bool at_lower = !(problem_.lower[g] < 0.0);
-    const bool at_upper = !(problem_.upper[g] > 0.0);
-    if ((at_lower && r > 0.0) || (at_upper && r < 0.0) || (at_lower && at_upper)) continue;
-    worst = std::max(worst, std::abs(r) / groups_[g].scale);
+    // An unknown can make up for what its bounds leave room for: friction that slips and a force that has just ended are
+    // none of a violation, though bounds that follow other forces have moved on a little.
+    const double room = r > 0.0 ? -problem_.lower[g] : problem_.upper[g];
+    if (!(room > 0.0)) continue;
+    double off = std::abs(r);
+    if (std::isfinite(room)) off = std::min(off, room * yield(g));
+    worst = std::max(worst, off / groups_[g].scale);
   }
   return worst;
+}
+
+double RowSystem::yield(std::size_t g) const {
+  const Group& group = groups_[g];
+  double sum = problem_.diagonal[g];
+  for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
+    sum += rows_[at(i)].weight * responses_[at(i)].inverse_mass;
+  }
+  return sum;
 }
 
 bool RowSystem::solve(Substep& substep, bool compromise) {

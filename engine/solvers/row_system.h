@@ -59,6 +59,12 @@ class RowSystem {
   /// move at the start of the substep: constraints have the same forces from one substep to the next, more or less, and without
   /// them bodies are much farther from the solution. So the first round has better gradients.
   void move_on(Substep& substep);
+  /// Energy that the rows have made in the substep with the multipliers and positions of the last linearise(), but for what
+  /// springs, drives and prescribed motion give, as a share of the kinetic energy; 0 where rounding hides it. Implicit Euler
+  /// makes none. To be called after begin_adding_up().
+  [[nodiscard]] double energy_gain(const Substep& substep) const;
+  /// Keeps the predicted positions, before the first round from here.
+  void begin_adding_up() { prediction_ = origin_; }
   /// Puts bodies back to what move_on() has kept, with multipliers of 0.
   void start_again(Substep& substep, Features features);
   /// The problem at the current positions, of features among others that have moved the bodies, too, since the last round:
@@ -68,11 +74,16 @@ class RowSystem {
   void remember_places(const Substep& substep);
   /// The problem of the velocities in substep.next, with K = J at the current positions: the impulses m [N s] for which
   /// dC/dt = 0 (or >= 0) on rows that have acted or are closed. Springs have acted and get none. Rows are those of `positions`,
-  /// whose last linearise() must have been at the current positions.
-  void linearise_velocities(Substep& substep, const RowSystem& positions);
+  /// whose last linearise() must have been at the current positions; it takes them from there.
+  void linearise_velocities(Substep& substep, RowSystem& positions);
 
-  /// The largest violation [m or rad; m/s or rad/s] of what the problem asks for, before it is solved.
+  /// The largest violation [m or rad] of what the problem asks for, before it is solved, as far as bounds let unknowns make up
+  /// for it.
   [[nodiscard]] double violation() const;
+  /// Moves the bodies to where the multipliers put them along the gradients of the last linearise(), which was not from here:
+  /// the next round would, if its multipliers did not change. violation() is that of this place; it does not see how far
+  /// across the rows it is from where bodies are.
+  void follow_gradients(Substep& substep) const;
   /// Finds the unknowns; false if no active set was found. Counts into the substep's statistics.
   bool solve(Substep& substep, bool compromise = false);
   /// Whether in the last solve() some rows contradicted each other, so that nothing satisfies them all. `compromise` makes
@@ -82,6 +93,9 @@ class RowSystem {
   void relax(Substep& substep, int sweeps);
   /// Moves the bodies and the multipliers.
   void apply(Substep& substep, Features features);
+  /// Energy that the rows whose forces do no work have made in the substep, or taken, with the impulses just found and the
+  /// multipliers of `positions` [J]; of rows that may take energy, only what they have made.
+  [[nodiscard]] double work_error(const Substep& substep, const RowSystem& positions) const;
   /// Changes the velocities and adds h m to the multipliers, whose mean force over the substep is l / h^2 + m / h.
   void apply_impulses(Substep& substep, Features features);
 
@@ -136,6 +150,8 @@ class RowSystem {
   /// Which bounds rows are at in the solution: what the next round of the substep begins with.
   void remember_sides(Features features);
   void recall_sides();
+  /// What a unit of the group's unknown makes of its own value.
+  [[nodiscard]] double yield(std::size_t group) const;
   void remember_origin(const Substep& substep);
   void settle(const Substep& substep);
   void find_pattern(const Substep& substep);
@@ -161,7 +177,8 @@ class RowSystem {
   /// Per feature and index of multiplier: ComplementarityProblem::free in the last round, -1 if there was none.
   std::vector<std::vector<char>> sides_;
   std::vector<Pose> origin_;  ///< per body: where it moves from, in the first round its prediction
-  std::vector<Pose> placed_;  ///< per body: where the last round among others has left it
+  std::vector<Pose> prediction_;  ///< per body, where corrections are added up
+  std::vector<Pose> placed_;      ///< per body: where the last round among others has left it
   bool from_here_ = true;
   /// Per body: displacement and turn, or their rates; `body` is not used.
   std::vector<RowTerm> motion_;

@@ -19,12 +19,12 @@ double RowSystem::rate_of(const Substep& substep, const Row& row) const {
   return rate;
 }
 
-void RowSystem::linearise_velocities(Substep& substep, const RowSystem& positions) {
+void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
   // Closer than this a row counts as closed: far below what a substep moves, far above what the solver leaves.
   const double closed = 1e-8 * substep.bodies.scale();
   const double share =
       0.5 / substep.h;  // of the bounds, for an impulse in the second half of the substep
-  rows_ = positions.rows_;
+  std::swap(rows_, positions.rows_);  // which have served their turn
   for (Row& row : rows_) std::swap(row.weight, row.start_weight);
   feature_rows_ = positions.feature_rows_;
   previous_ = positions.previous_;
@@ -44,9 +44,10 @@ void RowSystem::linearise_velocities(Substep& substep, const RowSystem& position
       rate += rate_of(substep, rows_[at(i)]);
       problem_.diagonal[g] += rows_[at(i)].weight * rows_[at(i)].softness;
     }
-    const bool acts = !group.elastic && (group.multiplier != 0.0 || std::abs(value) <= closed ||
-                                         (std::isfinite(first.lower) && value < 0.0) ||
-                                         (std::isfinite(first.upper) && value > 0.0));
+    const bool acts = !group.elastic && !(rate < -first.rebound_speed) &&
+                      (group.multiplier != 0.0 || std::abs(value) <= closed ||
+                       (std::isfinite(first.lower) && value < 0.0) ||
+                       (std::isfinite(first.upper) && value > 0.0));
     const bool bilateral = !std::isfinite(first.lower) && !std::isfinite(first.upper);
     problem_.constant[g] = rate;
     problem_.lower[g] = acts ? share * first.lower : 0.0;

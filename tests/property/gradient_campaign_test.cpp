@@ -30,6 +30,15 @@ double size_of(const Simulation& simulation) {
   return size;
 }
 
+/// Whether every span has a tangent where the bodies are now. Between outlines in skew planes there may be no pair of
+/// corners that suits both (cable/span_row.cpp): such spans are counted and warned of, and their values jump.
+bool all_have_tangents(const World& world, Substep& substep, ConstraintBatch& batch) {
+  FeatureState next = world.state().features.back();
+  substep.next = world.state();
+  batch.finish(substep, next);
+  return substep.statistics.geometry_fallbacks == 0;
+}
+
 /// The row of a material has the gradient of its tension, not of its value, as tests/cable/span_gradient_test.cpp compares:
 /// here such a cable has a compliance instead.
 Machine without_material(Machine machine) {
@@ -57,6 +66,7 @@ Finding gradient_finding(const Machine& machine, std::uint64_t seed, double angl
   batch.begin(substep, world.state().features.back());
   displace(substep, distance, angle, static_cast<unsigned>(seed));
   const GradientCheck check = check_gradients(substep, batch, true);
+  if (!all_have_tangents(world, substep, batch)) return {false, 0.0, 0.0, ""};
   return {check.compared > 0, check.error,
           10.0 * (2e-12 / std::pow(shortest, 4) + 4e-12 * size_of(s)), check.worst};
 }

@@ -1,0 +1,57 @@
+#include "engine/divergence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/field_check.h"
+#include "engine/index.h"
+
+namespace sheave {
+namespace {
+
+/// Beyond this many scene sizes from the origin, or per substep, a state means nothing any more:
+/// with 16 digits, positions there have lost the scene's own length scale.
+constexpr double runaway_sizes = 1e9;
+
+/// What is wrong with one body's new state; null if nothing is.
+const char* fault_of(const BodyState& body, double size, double h) {
+  const double farthest = runaway_sizes * size;
+  // allFinite() first: a maximum may or may not see a NaN.
+  const auto beyond = [](const Vector3& v, double limit) {
+    return !v.allFinite() || v.cwiseAbs().maxCoeff() > limit;
+  };
+  if (beyond(body.position, farthest)) return "position";
+  if (beyond(h * body.velocity, farthest)) return "velocity";
+  if (!body.orientation.coeffs().allFinite()) return "orientation";
+  if (beyond(h * body.angular_velocity, runaway_sizes)) return "angular velocity";
+  return nullptr;
+}
+
+}  // namespace
+
+std::optional<Divergence> find_divergence(
+    const Substep& substep, std::span<const std::unique_ptr<ConstraintBatch>> features) {
+  const BodySet& bodies = substep.bodies;
+  const double time = substep.next.time;
+  // Texts only where there is something to tell: this runs in every substep.
+  const auto when = [&] { return " at time " + number_text(time) + " s"; };
+  for (int i = 0; i < bodies.count(); ++i) {
+    const char* what = fault_of(substep.next.bodies[at(i)], bodies.scale(), substep.h);
+    if (what == nullptr) continue;
+    return Divergence{
+        {i},
+        time,
+        "body \"" + bodies.name(i) + "\": " + what + " is not finite or has run away" + when()};
+  }
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const std::vector<double>& reals = substep.next.features[i].reals;
+    if (std::all_of(reals.begin(), reals.end(), [](double x) { return std::isfinite(x); })) {
+      continue;
+    }
+    return Divergence{BodyId::world(), time,
+                      std::string(features[i]->name()) + ": the state is not finite" + when()};
+  }
+  return std::nullopt;
+}
+
+}  // namespace sheave

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "engine/body_id.h"
+#include "engine/constraint_batch.h"
+#include "engine/substep.h"
+
+namespace sheave {
+
+/// A state that no longer means anything: not finite, or out of all proportion to the scene.
+struct Divergence {
+  BodyId body;          ///< the first bad body
+  double time = 0.0;    ///< end of the substep that produced it [s]
+  std::string message;  ///< one sentence: body, quantity, time
+};
+
+/// What is wrong with the state at the end of a complete substep, if anything: its first body that is not finite or has
+/// run away, or else its first feature.
+[[nodiscard]] std::optional<Divergence> find_divergence(
+    const Substep& substep, std::span<const std::unique_ptr<ConstraintBatch>> features);
+
+}  // namespace sheave

@@ -1,0 +1,95 @@
+// Energy of the rows' work, which tells whether a substep is one of the integrator's: engine/solvers/row_system.h.
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/index.h"
+#include "engine/kinetic_energy.h"
+#include "engine/solvers/row_system.h"
+
+namespace sheave {
+
+namespace {
+
+/// What the solver's tolerance leaves of a row's change over the substep, relative to the scene's size.
+constexpr double change_rounding = 1e-10;
+
+}  // namespace
+
+double RowSystem::energy_gain(const Substep& substep) const {
+  const double h = substep.h;
+  double made = 0.0;
+  double kinetic = 0.0;
+  double rounding = 0.0;
+  for (int i = 0; i < substep.bodies.count(); ++i) {
+    const MovingBody& body = substep.moving[at(i)];
+    if (!body.translates && !body.rotates) continue;
+    const Pose& from = prediction_[at(i)];
+    const Vector3& w = substep.predicted[at(i)].angular_velocity;
+    const auto energy = [&](const Vector3& position, const Vector3& turn) {
+      return kinetic_energy(substep, i, (position - body.start_position) / h,
+                            w + (turn - substep.predicted_turn[at(i)]) / h);
+    };
+    const double own = energy(body.position, body.turn);
+    made += own - energy(from.position, from.turn);
+    kinetic += own;
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Row& row = rows_[i];
+    if (previous_[i] == 0.0) continue;
+    double moved = 0.0;  // by bodies that rows can move
+    double driven = 0.0;
+    for (const RowTerm& term : row.active_terms()) {
+      const MovingBody& body = substep.moving[at(term.body)];
+      const double change =
+          dot(term.linear, body.position - body.start_position) + dot(term.angular, body.turn);
+      (body.translates || body.rotates ? moved : driven) += change;
+    }
+    const bool gives = row.compliance > 0.0 || row.rate != 0.0 ||
+                       (std::isfinite(row.lower) && std::isfinite(row.upper));
+    const double force = previous_[i] / (h * h);
+    made -= force * (gives ? moved : -driven);
+    rounding += std::abs(force) * change_rounding * substep.bodies.scale();
+  }
+  return made > rounding ? made / kinetic : 0.0;
+}
+
+double RowSystem::work_error(const Substep& substep, const RowSystem& positions) const {
+  // An impulse p changes the kinetic energy by its product with the mean of the velocities before and after it. With
+  // J v = 0 at the start and at the end (v counting what drives do) that leaves p J v_half / 2 of each half, with
+  // h v_half = x1 - x0. J (x1 - x0) is the change of C, which is none, and what J turns by.
+  const std::span<const double> impulses = active_set_.solution();
+  const double noise = change_rounding * substep.bodies.scale();
+  double conserving = 0.0;
+  double taking = 0.0;
+  double rounding = 0.0;
+  for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
+    for (int r = feature_rows_[f]; r < feature_rows_[f + 1]; ++r) {
+      const auto i = at(r);
+      const Row& row = rows_[i];
+      const Group& group = groups_[at(group_of_[i])];
+      const double second = row.weight * impulses[at(group_of_[i])];
+      const double first = previous_[i] / substep.h;
+      if (first == 0.0 && second == 0.0) continue;
+      // Drives and feeds give what they give, springs keep what they take, and friction with bounds may be either.
+      const bool bounded = std::isfinite(row.lower) && std::isfinite(row.upper);
+      const Row& start = positions.start_rows_[at(positions.start_places_[f][at(row.index)])];
+      if (group.elastic || row.rate != 0.0 || start.rate != 0.0 || bounded) continue;
+      rounding += (std::abs(first) + std::abs(second)) * noise;
+      // What a row was off by at the start, and what spans that share an unknown pass on to each other, is no work.
+      const double change = row.value - start.value;
+      const double turned = substep_change(start, substep.moving) - change;
+      if (std::abs(turned) <= noise) continue;  // and so by the other gradient
+      const double work =
+          0.5 * (first * turned + second * (substep_change(row, substep.moving) - change));
+      // A row that closes takes energy, and so do rows that share an unknown with friction between them.
+      const bool bilateral = !std::isfinite(row.lower) && !std::isfinite(row.upper);
+      const bool conserves = group.row_count == 1 && (bilateral || row.active);
+      (conserves ? conserving : taking) += work;
+    }
+  }
+  const double worst = std::max(std::abs(conserving), taking);
+  return worst > rounding ? worst / substep.h : 0.0;
+}
+
+}  // namespace sheave

@@ -1,0 +1,107 @@
+#include "engine/substep_driver.h"
+
+#include <algorithm>
+
+namespace sheave {
+
+SubstepDriver::SubstepDriver(const StepSettings& settings,
+                             std::span<const std::unique_ptr<ConstraintBatch>> features,
+                             std::span<const Stage> stages, Substep& substep, State& state)
+    : settings_(settings), features_(features), stages_(stages), substep_(substep), state_(state) {}
+
+std::optional<Divergence> SubstepDriver::run(int index) {
+  divergence_.reset();
+  rounds_before_ = substep_.statistics.rounds;
+  const Part whole{index, settings_.substeps};
+  if (attempt(whole, Resort::none)) {
+    keep();
+  } else if (!divergence_) {
+    cut(whole);
+  }
+  if (divergence_) forget();
+  return std::move(divergence_);
+}
+
+void SubstepDriver::cut(Part whole) {
+  left_to_others_ = 0;
+  parts_ = 0;
+  start_ = state_;
+  if (advance_in_halves(whole)) {
+    ++substep_.statistics.cut_substeps;
+    substep_.statistics.substep_parts += parts_;
+    return;
+  }
+  if (divergence_) return;
+  // What a short part leaves of its constraints would be a large velocity.
+  state_.bodies = start_.bodies;
+  state_.features = start_.features;
+  state_.time = start_.time;
+  substep_.next = state_;
+  if (others() && attempt(whole, Resort::other_integrator)) {
+    keep();
+  } else if (!divergence_ && attempt(whole, Resort::anything)) {
+    keep();
+    ++substep_.statistics.unconverged;
+  }
+}
+
+bool SubstepDriver::others() const { return settings_.integrator == IntegratorKind::rattle; }
+
+bool SubstepDriver::attempt(Part part, Resort resort) {
+  const auto count = static_cast<double>(part.count);
+  substep_.h = settings_.dt / count;
+  substep_.load_share = settings_.integrator == IntegratorKind::rattle ? 0.5 : 1.0;
+  substep_.iterations = part.count == settings_.substeps
+                            ? settings_.iterations
+                            : std::min(settings_.iterations, rounds_of_part);
+  substep_.resort = resort;
+  substep_.failed = false;
+  substep_.restart();
+  for (std::vector<double>& late : substep_.late_forces) late.clear();
+  substep_.next.time =
+      (static_cast<double>(state_.steps) + static_cast<double>(part.index + 1) / count) *
+      settings_.dt;
+  for (const Stage& stage : stages_) {
+    stage.run(substep_);
+    if (substep_.failed) break;
+  }
+  if (!substep_.failed) divergence_ = find_divergence(substep_, features_);
+  if (!substep_.failed && !divergence_) return true;
+  substep_.next = state_;  // stages build on what `next` held at the start
+  return false;
+}
+
+bool SubstepDriver::advance_in_halves(Part part) {
+  return advance_half(part.first_half()) && advance_half(part.second_half());
+}
+
+bool SubstepDriver::advance_half(Part part) {
+  if (substep_.statistics.rounds - rounds_before_ >= most_rounds) return false;
+  const bool smallest = part.count >= most_parts * settings_.substeps;
+  const bool tired = left_to_others_ >= patience;
+  bool done = attempt(part, Resort::none);
+  if (!done && !divergence_ && others() && (smallest || tired)) {
+    done = attempt(part, Resort::other_integrator);
+    if (done) ++left_to_others_;
+  }
+  if (done) {
+    keep();
+    ++parts_;
+    return true;
+  }
+  return !divergence_ && !smallest && advance_in_halves(part);
+}
+
+void SubstepDriver::keep() {
+  // Same shape on all sides, so this copies without allocating, and what was is kept without a copy.
+  state_.bodies.swap(before_.bodies);
+  state_.features.swap(before_.features);
+  before_.time = state_.time;
+  before_.steps = state_.steps;
+  has_stepped_ = true;
+  state_.bodies = substep_.next.bodies;
+  state_.features = substep_.next.features;
+  state_.time = substep_.next.time;
+}
+
+}  // namespace sheave
