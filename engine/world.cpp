@@ -145,8 +145,8 @@ struct World::Content {
       if (std::all_of(reals.begin(), reals.end(), [](double x) { return std::isfinite(x); })) {
         continue;
       }
-      return Divergence{BodyId::world(), time,
-                        std::string(features[i]->name()) + ": the state is not finite" + when()};
+      const std::string name(features[i]->name());
+      return Divergence{BodyId::world(), time, name + ": the state is not finite" + when(), name};
     }
     return std::nullopt;
   }
