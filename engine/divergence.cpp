@@ -48,8 +48,8 @@ std::optional<Divergence> find_divergence(
     if (std::all_of(reals.begin(), reals.end(), [](double x) { return std::isfinite(x); })) {
       continue;
     }
-    return Divergence{BodyId::world(), time,
-                      std::string(features[i]->name()) + ": the state is not finite" + when()};
+    const std::string name(features[i]->name());
+    return Divergence{BodyId::world(), time, name + ": the state is not finite" + when(), name};
   }
   return std::nullopt;
 }

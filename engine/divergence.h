@@ -13,9 +13,11 @@ namespace sheave {
 
 /// A state that no longer means anything: not finite, or out of all proportion to the scene.
 struct Divergence {
-  BodyId body;          ///< the first bad body
-  double time = 0.0;    ///< end of the substep that produced it [s]
-  std::string message;  ///< one sentence: body, quantity, time
+  /// The first bad body; the world if all bodies are well and a feature is not.
+  BodyId body;
+  double time = 0.0;      ///< end of the substep that produced it [s]
+  std::string message;    ///< one sentence: body or feature, quantity, time
+  std::string feature{};  ///< name of the first bad feature, e.g. "cables"; empty if it is a body
 };
 
 /// What is wrong with the state at the end of a complete substep, if anything: its first body that is not finite or has

@@ -101,6 +101,13 @@ std::string to_bytes(const State& state) {
 Result<State> state_from_bytes(const std::string& bytes) {
   Reader reader(bytes);
   if (reader.word() != format_tag) {
+    constexpr std::size_t tag_size = 8;
+    const std::string tag = bytes.substr(0, tag_size);
+    const bool version = tag.starts_with("SHSTATE") && tag.back() > ' ' && tag.back() < 0x7f;
+    if (version && tag.size() == tag_size) {
+      return Error{"", "a saved state of another version: it is " + tag +
+                           "; this program reads and writes SHSTATE1"};
+    }
     return Error{"", "not a saved state of this program: the first eight bytes must be SHSTATE1"};
   }
   State state;

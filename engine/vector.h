@@ -25,21 +25,21 @@ constexpr double pi = 3.14159265358979323846;
 // inlined at -O2 and cost several times as much. One fixed order of summation, too.
 
 /// a . b
-[[nodiscard]] inline double dot(const Vector3& a, const Vector3& b) {
+[[nodiscard, gnu::always_inline]] inline double dot(const Vector3& a, const Vector3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 /// a x b
-[[nodiscard]] inline Vector3 cross(const Vector3& a, const Vector3& b) {
+[[nodiscard, gnu::always_inline]] inline Vector3 cross(const Vector3& a, const Vector3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 /// m v
-[[nodiscard]] inline Vector3 times(const Matrix3& m, const Vector3& v) {
+[[nodiscard, gnu::always_inline]] inline Vector3 times(const Matrix3& m, const Vector3& v) {
   return {m(0, 0) * v[0] + m(0, 1) * v[1] + m(0, 2) * v[2],
           m(1, 0) * v[0] + m(1, 1) * v[1] + m(1, 2) * v[2],
           m(2, 0) * v[0] + m(2, 1) * v[1] + m(2, 2) * v[2]};
 }
 /// a + s b
-[[nodiscard]] inline Vector3 sum(const Vector3& a, double s, const Vector3& b) {
+[[nodiscard, gnu::always_inline]] inline Vector3 sum(const Vector3& a, double s, const Vector3& b) {
   return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
 }
 
@@ -49,7 +49,7 @@ constexpr double pi = 3.14159265358979323846;
 }
 
 /// q v, in Eigen's order of operations.
-[[nodiscard]] inline Vector3 rotated(const Quaternion& q, const Vector3& v) {
+[[nodiscard, gnu::always_inline]] inline Vector3 rotated(const Quaternion& q, const Vector3& v) {
   const Vector3 axis{q.x(), q.y(), q.z()};
   Vector3 twice = cross(axis, v);
   twice += twice;

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
+#include <fstream>
+#include <iterator>
+#include <sstream>
 #include <utility>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
@@ -57,13 +62,57 @@ class SpawnSettings {
   posix_spawnattr_t attributes{};
 };
 
+/// Processor time that a process of ours has used, in ticks of its own; -1 if that cannot be told.
+long used_time(int process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  // The name, in brackets, may hold anything; state is the first word behind it, utime the 12th.
+  std::istringstream words(text.substr(std::min(text.rfind(')'), text.size() - 1) + 1));
+  std::string skipped;
+  for (int i = 0; i < 11; ++i) words >> skipped;
+  long user = 0;
+  long system = 0;
+  return words >> user >> system ? user + system : -1;
+}
+
+/// Whether a child gets on while we wait for it.
+class Watch {
+ public:
+  Watch(int process, double seconds) : process_(process), seconds_(seconds) {}
+  /// To be called now and then; true once the child has done nothing for too long.
+  [[nodiscard]] bool hangs() {
+    const long used = used_time(process_);
+    if (used != used_) {
+      used_ = used;
+      since_ = Clock::now();
+    }
+    return std::chrono::duration<double>(Clock::now() - since_).count() > seconds_;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  int process_;
+  double seconds_;
+  long used_ = -2;
+  Clock::time_point since_ = Clock::now();
+};
+
+constexpr int longest_poll_ms = 100;
+constexpr int first_poll_ms = 1;
+
 }  // namespace
 
-ChildProcess::ChildProcess(std::string name, int process, int input, int messages)
-    : name_(std::move(name)), process_(process), input_(input), messages_(messages) {}
+ChildProcess::ChildProcess(std::string name, int process, int input, int messages,
+                           double stall_seconds)
+    : name_(std::move(name)),
+      stall_seconds_(stall_seconds),
+      process_(process),
+      input_(input),
+      messages_(messages) {}
 
 ChildProcess::ChildProcess(ChildProcess&& other) noexcept
     : name_(std::move(other.name_)),
+      stall_seconds_(other.stall_seconds_),
       process_(std::exchange(other.process_, -1)),
       input_(std::exchange(other.input_, -1)),
       messages_(std::exchange(other.messages_, -1)) {}
@@ -71,7 +120,9 @@ ChildProcess::ChildProcess(ChildProcess&& other) noexcept
 ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
   if (this != &other) {
     kill();
+    close_if_open(messages_);
     name_ = std::move(other.name_);
+    stall_seconds_ = other.stall_seconds_;
     process_ = std::exchange(other.process_, -1);
     input_ = std::exchange(other.input_, -1);
     messages_ = std::exchange(other.messages_, -1);
@@ -79,9 +130,13 @@ ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
   return *this;
 }
 
-ChildProcess::~ChildProcess() { kill(); }
+ChildProcess::~ChildProcess() {
+  kill();
+  close_if_open(messages_);
+}
 
-Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments) {
+Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments,
+                                         double stall_seconds) {
   const std::string& name = arguments.front();
   // A socket rather than a pipe: MSG_NOSIGNAL turns a broken connection into an error without
   // touching the program's handling of SIGPIPE.
@@ -115,37 +170,60 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
     close_if_open(messages);
     return Error{"", "cannot start the program '" + name + "': " + std::strerror(status)};
   }
-  return ChildProcess(name, process, ends[0], messages);
+  return ChildProcess(name, process, ends[0], messages, stall_seconds);
 }
 
 Errors ChildProcess::write(std::span<const std::uint8_t> bytes) {
+  Watch watch(process_, stall_seconds_);
   while (!bytes.empty()) {
-    const ssize_t count = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (count < 0) {
-      if (errno == EINTR) continue;
-      const std::string reason = std::strerror(errno);
-      const std::string said = last_words();
-      return {Error{"", "'" + name_ + "' stopped taking input: " + (said.empty() ? reason : said)}};
+    const ssize_t count = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (count >= 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(count));
+      if (count > 0) watch = Watch(process_, stall_seconds_);
+      continue;
     }
-    bytes = bytes.subspan(static_cast<std::size_t>(count));
+    if (errno == EINTR) continue;
+    if (errno == EAGAIN || errno == EWOULDBLOCK) {
+      pollfd ready{input_, POLLOUT, 0};
+      if (::poll(&ready, 1, longest_poll_ms) == 0 && watch.hangs()) return give_up();
+      continue;
+    }
+    const std::string reason = std::strerror(errno);
+    const std::string said = last_words();
+    return {Error{"", "'" + name_ + "' stopped taking input: " + (said.empty() ? reason : said)}};
   }
   return {};
 }
 
 Errors ChildProcess::finish() {
   if (process_ < 0) return {Error{"", "'" + name_ + "' has already ended"}};
-  close_if_open(input_);
+  close_input();
+  Watch watch(process_, stall_seconds_);
   int status = 0;
-  while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  int wait_ms = first_poll_ms;
+  for (;;) {
+    const pid_t ended = ::waitpid(process_, &status, WNOHANG);
+    if (ended == process_) break;
+    if (ended < 0 && errno != EINTR) {
+      process_ = -1;
+      return {Error{"", "'" + name_ + "' is lost: " + std::strerror(errno)}};
+    }
+    if (watch.hangs()) return give_up();
+    // Short at first, for most end at once.
+    ::poll(nullptr, 0, wait_ms);
+    wait_ms = std::min(2 * wait_ms, longest_poll_ms);
   }
   process_ = -1;
-  const std::string said = last_words();
-  close_files();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   std::string how = WIFEXITED(status) ? "ended with status " + std::to_string(WEXITSTATUS(status))
                                       : "was ended by signal " + std::to_string(WTERMSIG(status));
-  if (!said.empty()) how += ": " + said;
+  if (const std::string said = last_words(); !said.empty()) how += ": " + said;
   return {Error{"", "'" + name_ + "' " + how}};
+}
+
+Errors ChildProcess::give_up() {
+  kill();
+  return {Error{"", "'" + name_ + "' hangs: it has done nothing for a while, and was ended"}};
 }
 
 void ChildProcess::kill() {
@@ -155,13 +233,10 @@ void ChildProcess::kill() {
     }
     process_ = -1;
   }
-  close_files();
+  close_input();
 }
 
-void ChildProcess::close_files() {
-  close_if_open(input_);
-  close_if_open(messages_);
-}
+void ChildProcess::close_input() { close_if_open(input_); }
 
 std::string ChildProcess::last_words() const {
   constexpr off_t most = 600;

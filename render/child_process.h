@@ -16,7 +16,12 @@ class ChildProcess {
   /// Starts `arguments[0]`, looked up in PATH, with the rest as its arguments. Its standard output
   /// goes nowhere, its standard error into a buffer. It gets its own process group, so that Ctrl-C
   /// in a terminal reaches only the caller, who may still want to finish the output.
-  static Result<ChildProcess> start(const std::vector<std::string>& arguments);
+  ///
+  /// `stall_seconds`: a child that for so long neither takes input nor ends nor uses any processor time hangs; it is
+  /// ended, and that is an error.
+  static constexpr double usual_stall_seconds = 60.0;
+  static Result<ChildProcess> start(const std::vector<std::string>& arguments,
+                                    double stall_seconds = usual_stall_seconds);
   ~ChildProcess();
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&& other) noexcept;
@@ -31,14 +36,17 @@ class ChildProcess {
   Errors finish();
   /// Ends the child at once.
   void kill();
-
- private:
-  ChildProcess(std::string name, int process, int input, int messages);
-  void close_files();
   /// The last few hundred bytes of the child's standard error.
   [[nodiscard]] std::string last_words() const;
 
+ private:
+  ChildProcess(std::string name, int process, int input, int messages, double stall_seconds);
+  void close_input();
+  /// Ends a child that hangs.
+  Errors give_up();
+
   std::string name_;
+  double stall_seconds_;
   int process_ = -1;   ///< -1: ended and waited for
   int input_ = -1;     ///< our end of its standard input
   int messages_ = -1;  ///< file that holds its standard error

@@ -10,6 +10,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "render/destination.h"
+
 namespace sheave::render {
 namespace {
 
@@ -32,20 +34,18 @@ std::string temporary_pattern(const std::string& path, std::size_t& suffix_lengt
   return path.substr(0, start) + "." + stem + ".XXXXXX" + extension;
 }
 
-/// mkostemp makes files private; output should be as readable as the user's umask says.
-mode_t default_mode() {
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return static_cast<mode_t>(0666U & ~mask);
-}
-
 }  // namespace
 
-OutputFile::OutputFile(std::string path, std::string temporary, int descriptor)
-    : path_(std::move(path)), temporary_(std::move(temporary)), descriptor_(descriptor) {}
+OutputFile::OutputFile(std::string path, std::string destination, std::string temporary,
+                       int descriptor)
+    : path_(std::move(path)),
+      destination_(std::move(destination)),
+      temporary_(std::move(temporary)),
+      descriptor_(descriptor) {}
 
 OutputFile::OutputFile(OutputFile&& other) noexcept
     : path_(std::move(other.path_)),
+      destination_(std::move(other.destination_)),
       temporary_(std::exchange(other.temporary_, {})),
       descriptor_(std::exchange(other.descriptor_, -1)) {}
 
@@ -53,6 +53,7 @@ OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
   if (this != &other) {
     discard();
     path_ = std::move(other.path_);
+    destination_ = std::move(other.destination_);
     temporary_ = std::exchange(other.temporary_, {});
     descriptor_ = std::exchange(other.descriptor_, -1);
   }
@@ -63,16 +64,23 @@ OutputFile::~OutputFile() { discard(); }
 
 Result<OutputFile> OutputFile::create(const std::string& path) {
   if (path.empty() || path.back() == '/') return Error{"", "'" + path + "' names no file"};
+  std::string destination = followed(path);
   struct stat status {};
-  if (::stat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode)) {
+  const bool exists = ::stat(destination.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) {
     return Error{"", "'" + path + "' is a folder; a file name is needed"};
   }
+  if (exists && !S_ISREG(status.st_mode)) {
+    return Error{"", "'" + path + "' is a device or a pipe; only a file can be replaced"};
+  }
+  // A rename would replace a file that its owner protected.
+  if (exists && ::access(destination.c_str(), W_OK) != 0) return fault(path, "write to it");
   std::size_t suffix_length = 0;
-  std::string name = temporary_pattern(path, suffix_length);
+  std::string name = temporary_pattern(destination, suffix_length);
   const int descriptor = ::mkostemps(name.data(), static_cast<int>(suffix_length), O_CLOEXEC);
   if (descriptor < 0) return fault(path, "create a file there");
   ::fchmod(descriptor, default_mode());
-  return OutputFile(path, std::move(name), descriptor);
+  return OutputFile(path, std::move(destination), std::move(name), descriptor);
 }
 
 Errors OutputFile::write(std::span<const std::uint8_t> bytes) {
@@ -94,9 +102,19 @@ Errors OutputFile::close() {
   return {};
 }
 
-Errors OutputFile::commit() {
-  Errors errors = close();
-  if (errors.empty() && std::rename(temporary_.c_str(), path_.c_str()) != 0) {
+Errors OutputFile::synchronise_temporary() {
+  // Another program may have written to it, or even replaced it.
+  if (descriptor_ < 0) descriptor_ = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor_ < 0) return {fault(path_, "read what was written")};
+  if (!synchronise(descriptor_)) return {fault(path_, "write")};
+  return {};
+}
+
+Errors OutputFile::commit(Durability durability) {
+  Errors errors;
+  if (durability == Durability::power_loss) errors = synchronise_temporary();
+  if (errors.empty()) errors = close();
+  if (errors.empty() && std::rename(temporary_.c_str(), destination_.c_str()) != 0) {
     errors.push_back(fault(path_, "put the finished file in place"));
   }
   if (!errors.empty()) {
@@ -104,6 +122,7 @@ Errors OutputFile::commit() {
     return errors;
   }
   temporary_.clear();
+  if (durability == Durability::power_loss) synchronise_folder(destination_);
   return {};
 }
 
@@ -112,11 +131,12 @@ void OutputFile::discard() {
   if (!temporary_.empty()) ::unlink(std::exchange(temporary_, {}).c_str());
 }
 
-Errors write_file(const std::string& path, std::span<const std::uint8_t> bytes) {
+Errors write_file(const std::string& path, std::span<const std::uint8_t> bytes,
+                  Durability durability) {
   Result<OutputFile> file = OutputFile::create(path);
   if (!file) return file.errors();
   if (Errors errors = file->write(bytes); !errors.empty()) return errors;
-  return file->commit();
+  return file->commit(durability);
 }
 
 }  // namespace sheave::render

@@ -71,7 +71,9 @@ Result<std::vector<std::uint8_t>> encode_png(const Image& image, PngEffort effor
 Errors write_png(const std::string& path, const Image& image, PngEffort effort) {
   const Result<std::vector<std::uint8_t>> bytes = encode_png(image, effort);
   if (!bytes) return bytes.errors();
-  return write_file(path, bytes.value());
+  // Waiting for the disk after each frame would take longer than drawing it.
+  const bool kept = effort == PngEffort::still;
+  return write_file(path, bytes.value(), kept ? Durability::power_loss : Durability::process);
 }
 
 }  // namespace sheave::render

@@ -10,6 +10,7 @@
 #include "render/child_process.h"
 #include "render/number_text.h"
 #include "render/output_file.h"
+#include "render/video_check.h"
 
 namespace sheave::render {
 namespace {
@@ -73,6 +74,16 @@ std::vector<std::string> command_line(const Container& container, const std::str
   return line;
 }
 
+/// That a finished video has its frames.
+Errors check_frames(const std::string& file, std::int64_t frames) {
+  const Result<std::int64_t> found = count_video_frames(file);
+  if (found && *found == frames) return {};
+  const std::string what =
+      found ? "it has " + std::to_string(*found) + " of its " + std::to_string(frames) + " frames"
+            : found.errors().front().message;
+  return {Error{"", "the encoder has left no video: " + what}};
+}
+
 }  // namespace
 
 struct VideoWriter::Content {
@@ -111,7 +122,8 @@ Result<VideoWriter> VideoWriter::create(const std::string& path, int width, int 
   if (Errors errors = file->close(); !errors.empty()) return errors;
   Result<ChildProcess> encoder =
       ChildProcess::start(command_line(*container_of(path), file->temporary_path(),
-                                       width + width % 2, height + height % 2, options));
+                                       width + width % 2, height + height % 2, options),
+                          options.stall_seconds);
   if (!encoder) {
     Errors errors = encoder.errors();
     errors.front().message += "; videos need ffmpeg (Debian: apt install ffmpeg)";
@@ -146,6 +158,12 @@ Errors VideoWriter::finish() {
   const std::string name = "video '" + content->file.path() + "': ";
   if (content->frames == 0) return {Error{"", name + "it has no frames"}};
   Errors errors = content->encoder.finish();
+  // An encoder may end with success and still have written nothing, or half.
+  if (errors.empty()) {
+    errors = check_frames(content->file.temporary_path(), content->frames);
+    const std::string said = content->encoder.last_words();
+    if (!errors.empty() && !said.empty()) errors.front().message += ": " + said;
+  }
   for (Error& error : errors) error.message = name + error.message;
   if (!errors.empty()) return errors;
   return content->file.commit();

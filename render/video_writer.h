@@ -10,6 +10,7 @@
 #include <string>
 
 #include "engine/result.h"
+#include "render/child_process.h"
 #include "render/image.h"
 
 namespace sheave::render {
@@ -20,6 +21,7 @@ struct VideoOptions {
   int quality = 18;
   /// Name or path of the encoder, looked up in PATH.
   std::string program = "ffmpeg";
+  double stall_seconds = ChildProcess::usual_stall_seconds;  ///< see ChildProcess::start
 };
 
 /// Writes H.264 in 4:2:0 that every player and browser shows. Frames with an odd width or height
@@ -38,7 +40,7 @@ class VideoWriter {
 
   /// Appends a frame of the size given to create().
   [[nodiscard]] Errors add(const Image& frame);
-  /// Ends the video and moves it to its path. Fails if no frame was added.
+  /// Ends the video, checks that the file has its frames, and moves it to its path. Fails if no frame was added.
   [[nodiscard]] Errors finish();
   /// Ends the encoder and removes what it wrote.
   void discard();

@@ -7,9 +7,12 @@
 
 #include "tools/bench_table.h"
 #include "tools/command.h"
+#include "tools/command_line.h"
 #include "tools/gnuplot.h"
 #include "tools/interrupt.h"
+#include "tools/output_faults.h"
 #include "tools/output_file.h"
+#include "tools/output_paths.h"
 #include "tools/terminal.h"
 
 namespace sheave::tools {
@@ -33,6 +36,11 @@ void check_arguments(const BenchArguments& arguments) {
 }
 
 ExitCode bench(const BenchArguments& arguments) {
+  check_paths({{"--compare", arguments.compare}},
+              {{"--save", arguments.save},
+               {"--markdown", arguments.markdown},
+               {"--chart", arguments.chart}},
+              true);
   check_arguments(arguments);
   if (arguments.list) {
     const BenchTable rows = list_table(arguments.bench);
@@ -43,12 +51,17 @@ ExitCode bench(const BenchArguments& arguments) {
   }
   catch_interrupts();
   const BenchTable table = measure_table(arguments.bench);
-  print(arguments.json ? bench_json(table) : bench_text(table));
+  OutputFaults faults;
+  faults.attempt([&] { print(arguments.json ? bench_json(table) : printable(bench_text(table))); });
   if (table.machine.assertions) print_warning("built with assertions: the times mean nothing");
-  if (!arguments.save.empty()) write_file(arguments.save, bench_json(table));
-  if (!arguments.markdown.empty()) write_file(arguments.markdown, bench_markdown(table));
-  if (!arguments.chart.empty()) draw_chart(table, arguments.chart);
-  if (arguments.compare.empty()) return ExitCode::done;
+  if (!arguments.save.empty()) {
+    faults.attempt([&] { write_file(arguments.save, bench_json(table)); });
+  }
+  if (!arguments.markdown.empty()) {
+    faults.attempt([&] { write_file(arguments.markdown, bench_markdown(table)); });
+  }
+  if (!arguments.chart.empty()) faults.attempt([&] { draw_chart(table, arguments.chart); });
+  if (arguments.compare.empty()) return faults.report(ExitCode::done);
   const BenchComparison comparison =
       compare_with_baseline(table, arguments.compare, arguments.allow);
   if (!comparison.other_machine.empty()) {
@@ -60,9 +73,9 @@ ExitCode bench(const BenchArguments& arguments) {
   if (arguments.json) {
     print_note(text);
   } else {
-    print("\n" + text);
+    faults.attempt([&] { print("\n" + text); });
   }
-  return comparison.any_slower() ? ExitCode::check_failed : ExitCode::done;
+  return faults.report(comparison.any_slower() ? ExitCode::check_failed : ExitCode::done);
 }
 
 }  // namespace
@@ -86,7 +99,7 @@ Action declare_bench(CLI::App& app) {
       ->option_text("N");
   app.add_option("--reference-seconds", arguments->bench.reference_seconds,
                  "CPU time after which the step of a reference is halved no further; default: 60")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(number_between(0.0, 1e6))
       ->option_text("X");
   app.add_flag("--json", arguments->json, "print one JSON object instead of the table");
   app.add_option("--markdown", arguments->markdown, "write the table as Markdown")
@@ -102,7 +115,7 @@ Action declare_bench(CLI::App& app) {
          "--allow", arguments->allow,
          "by which factor a row may be slower than the baseline; default: 1.1. A row is only "
          "slower if the quartiles are apart too")
-      ->check(CLI::Range(1.0, 1000.0))
+      ->check(number_between(1.0, 1000.0))
       ->option_text("X");
   app.footer(R"(Examples:
   sheave bench

@@ -1,8 +1,7 @@
 // sheave bench: the table as JSON, and comparing with one that was kept.
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <limits>
 #include <map>
 
 #include <fmt/format.h>
@@ -10,6 +9,8 @@
 
 #include "tools/bench_table.h"
 #include "tools/failure.h"
+#include "tools/input_file.h"
+#include "tools/json_check.h"
 
 namespace sheave::tools {
 namespace {
@@ -67,33 +68,67 @@ BenchJson row_json(const BenchRow& row) {
   return json;
 }
 
+JsonRule baseline_row() {
+  constexpr double largest = std::numeric_limits<double>::max();
+  constexpr std::int64_t most = std::int64_t{1} << 53U;
+  // What JSON has no number for was written as null.
+  const JsonRule number = json_optional(json_number(-largest, largest));
+  const JsonRule time = json_number(0.0, largest);
+  const JsonRule error = json_object(
+      {{"position", number}, {"position_end", number}, {"tension", number}, {"energy", number}});
+  const JsonRule settings = json_object({{"dt", time},
+                                         {"substeps", json_integer(1, most)},
+                                         {"iterations", json_integer(1, most)},
+                                         {"solver", json_text()},
+                                         {"integrator", json_text()}});
+  const JsonRule paper =
+      json_object({{"joints", number}, {"seconds_per_frame", number}, {"source", json_text()}});
+  const JsonRule seconds = json_object({{"median", time},
+                                        {"lower_quartile", time},
+                                        {"upper_quartile", time},
+                                        {"minimum", time},
+                                        {"samples", json_integer(0, most)}});
+  return json_object({{"name", json_text()},
+                      {"scene", json_text()},
+                      {"file", json_text()},
+                      {"settings", settings},
+                      {"paper", paper},
+                      {"fault", json_text(), false},
+                      {"joints", json_integer(0, most), false},
+                      {"seconds_per_frame", seconds, false},
+                      {"paper_ratio", number, false},
+                      {"error", error, false},
+                      {"reference_error", error, false},
+                      {"stretch", number, false},
+                      {"length_error", number, false},
+                      {"row_solves_per_frame", number, false},
+                      {"rounds_per_frame", number, false},
+                      {"seconds_per_row_solve", number, false},
+                      {"instructions_per_frame", number, false},
+                      {"fallbacks", json_integer(0, most), false}});
+}
+
+JsonRule baseline() {
+  constexpr std::int64_t most = std::int64_t{1} << 53U;
+  const JsonRule anything = [](const JsonCheck&, json::NodeId) {};
+  const JsonRule machine = json_object({{"cpu", json_text()},
+                                        {"cores", json_integer(0, most)},
+                                        {"compiler", json_text()},
+                                        {"assertions", json_boolean()}});
+  return json_object({{"format", json_text()},
+                      {"version", json_text()},
+                      {"machine", machine},
+                      {"repetitions", json_integer(0, most)},
+                      {"rows", json_list(baseline_row())},
+                      {"references", json_list(anything)},
+                      {"no_instructions", json_text(), false}});
+}
+
 BenchJson baseline_from(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Failure(ExitCode::no_input, path + ": no such file");
-  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  BenchJson json = BenchJson::parse(text, nullptr, false);
-  const bool right = json.is_object() && json.value("format", BenchJson()) == baseline_format &&
-                     json.contains("rows") && json["rows"].is_array();
-  if (!right) {
-    throw Failure(ExitCode::bad_scene,
-                  fmt::format("{}: no baseline: it must be a file of `sheave bench --save`, an "
-                              "object with \"format\": \"{}\"",
-                              path, baseline_format));
-  }
-  return json;
-}
-
-/// A number at a JSON pointer of a row.
-double number_at(const BenchJson& row, const std::string& pointer, const std::string& path) {
-  const BenchJson::json_pointer place(pointer);
-  if (row.contains(place) && row.at(place).is_number()) return row.at(place).get<double>();
-  throw Failure(ExitCode::bad_scene, path + ": no baseline: a row has no number at " + pointer);
-}
-
-std::string cpu_of(const BenchJson& baseline) {
-  const BenchJson::json_pointer place("/machine/cpu");
-  const bool known = baseline.contains(place) && baseline.at(place).is_string();
-  return known ? baseline.at(place).get<std::string>() : "unknown";
+  constexpr std::size_t most_bytes = std::size_t{64} << 20U;
+  const std::string text = read_input(path, most_bytes);
+  check_json(text, path, baseline_format, baseline());
+  return BenchJson::parse(text, nullptr, false, true);
 }
 
 }  // namespace
@@ -128,13 +163,12 @@ BenchComparison compare_with_baseline(const BenchTable& table, const std::string
   const BenchJson baseline = baseline_from(path);
   std::map<std::string, const BenchJson*> before;
   for (const BenchJson& row : baseline["rows"]) {
-    const bool named = row.is_object() && row.contains("name") && row["name"].is_string();
-    if (!named) throw Failure(ExitCode::bad_scene, path + ": no baseline: a row has no name");
     if (row.contains("seconds_per_frame")) before[row["name"].get<std::string>()] = &row;
   }
   BenchComparison comparison;
   comparison.path = path;
-  if (cpu_of(baseline) != table.machine.cpu) comparison.other_machine = cpu_of(baseline);
+  const std::string cpu = baseline["machine"]["cpu"];
+  if (cpu != table.machine.cpu) comparison.other_machine = cpu;
   for (const BenchRow& row : table.rows) {
     if (!row.measured()) continue;
     const auto found = before.find(row.name());
@@ -142,8 +176,9 @@ BenchComparison compare_with_baseline(const BenchTable& table, const std::string
       comparison.missing.push_back(row.name());
       continue;
     }
-    const double median = number_at(*found->second, "/seconds_per_frame/median", path);
-    const double upper = number_at(*found->second, "/seconds_per_frame/upper_quartile", path);
+    const BenchJson& seconds = found->second->at("seconds_per_frame");
+    const double median = seconds.at("median");
+    const double upper = seconds.at("upper_quartile");
     BenchChange change{row.name(), median, row.seconds.median};
     change.slower = change.ratio() > allowed_ratio && row.seconds.lower > upper;
     comparison.changes.push_back(change);

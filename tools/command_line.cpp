@@ -1,10 +1,12 @@
 #include "tools/command_line.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include "scenes/suggestion.h"
 #include "tools/failure.h"
@@ -121,6 +123,29 @@ bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
     throw Failure(ExitCode::usage, std::string(error.what()) + "\nSee " + name + " --help");
   }
   return false;
+}
+
+CLI::Validator number_between(double low, double high) {
+  const std::string allowed = fmt::format("a number from {} to {}", low, high);
+  return {[=](const std::string& text) {
+            double value = 0.0;
+            const bool number = CLI::detail::lexical_cast(text, value);
+            // Written so that NaN is refused.
+            if (number && value >= low && value <= high) return std::string();
+            return fmt::format("{} is not {}", text, allowed);
+          },
+          "", "number_between"};
+}
+
+CLI::Validator finite_number() {
+  return {[](const std::string& text) {
+            double value = 0.0;
+            if (CLI::detail::lexical_cast(text, value) && std::isfinite(value)) {
+              return std::string();
+            }
+            return text + " is not a finite number";
+          },
+          "", "finite_number"};
 }
 
 }  // namespace sheave::tools

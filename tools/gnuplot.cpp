@@ -1,6 +1,9 @@
 #include "tools/gnuplot.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <fstream>
+#include <iterator>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,6 +16,18 @@
 #endif
 
 namespace sheave::tools {
+namespace {
+
+/// The last `count` bytes of a file, or fewer; none if it cannot be read.
+[[maybe_unused]] std::string tail_of_file(const std::string& path, std::size_t count) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  const auto size = static_cast<std::streamoff>(file.tellg());
+  if (size < 0) return {};
+  file.seekg(std::max<std::streamoff>(0, size - static_cast<std::streamoff>(count)));
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
 
 void check_chart_name(const std::string& path) {
   if (path.ends_with(".png") || path.ends_with(".svg")) return;
@@ -35,6 +50,18 @@ std::string gnuplot_terminal(const std::string& output, int height) {
 
 #if SHEAVE_HAS_RENDER
 
+namespace {
+
+/// Whether a .png or .svg file ends as such a file does: gnuplot ends with success on a full disk, too.
+bool is_whole_picture(const std::string& path) {
+  constexpr std::size_t longest = 16;
+  const std::string text = tail_of_file(path, longest);
+  return path.ends_with(".png") ? text.find("IEND") != std::string::npos
+                                : text.find("</svg>") != std::string::npos;
+}
+
+}  // namespace
+
 void draw_with_gnuplot(const std::string& path,
                        const std::function<std::string(const std::string& output)>& script_for) {
   check_chart_name(path);
@@ -51,9 +78,14 @@ void draw_with_gnuplot(const std::string& path,
   const std::string script = script_for(file->temporary_path());
   const std::vector<std::uint8_t> bytes(script.begin(), script.end());
   Errors errors = gnuplot->write(bytes);
-  if (const Errors end = gnuplot->finish(); errors.empty()) errors = end;
-  if (errors.empty()) errors = file->commit();
+  if (errors.empty()) errors = gnuplot->finish();
+  if (errors.empty() && !is_whole_picture(file->temporary_path())) {
+    const std::string said = gnuplot->last_words();
+    errors.push_back({"", "'gnuplot' has left no picture" + (said.empty() ? "" : ": " + said)});
+  }
   if (!errors.empty()) throw Failure(ExitCode::io, path + ": " + to_text(errors));
+  errors = file->commit();
+  if (!errors.empty()) throw Failure(ExitCode::io, to_text(errors));
 }
 
 #else

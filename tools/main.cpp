@@ -68,6 +68,6 @@ ExitCode run_command_line(int argc, char** argv) {
 }  // namespace sheave::tools
 
 int main(int argc, char** argv) {
-  sheave::tools::ignore_broken_pipes();
+  sheave::tools::turn_signals_into_errors();
   return static_cast<int>(sheave::tools::run_command_line(argc, argv));
 }

@@ -1,6 +1,6 @@
 // NumPy's .npy format: magic, version, length of a header, the header (a Python dictionary, padded
-// with blanks so that the data is aligned), the data. The number of rows is known only at the end,
-// so the header keeps room for the largest and is written again then.
+// with blanks so that the data is aligned), the data. The header keeps room for any number of rows and tells those that are there,
+// also while the file is being written.
 
 #include <bit>
 #include <cstdint>
@@ -35,54 +35,97 @@ std::string description(const std::vector<std::string>& columns) {
   return text + "]";
 }
 
-std::string header(const std::string& descriptor, std::size_t rows) {
-  // 20 places for the number of rows, so that every header of a table has the same length.
-  std::string text = fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': ({},), }}{:{}}",
-                                 descriptor, rows, "", 20 - fmt::formatted_size("{}", rows));
-  const std::size_t longest = text.size() + 1 + 12 + alignment;
+/// What follows the bracket of the shape; always as long. Until the table is complete the number is
+/// at the right, so that only digits change; then it is as NumPy writes it.
+constexpr std::size_t rows_size = 25;
+std::string rows_text(std::int64_t rows, bool complete) {
+  if (complete) return fmt::format("{:<25}", fmt::format("{},), }}", rows));
+  return fmt::format("{:>20},), }}", rows);
+}
+
+struct Header {
+  std::string text;
+  std::size_t rows_at = 0;  // where rows_text() is
+};
+
+Header header(const std::string& descriptor) {
+  std::string text = fmt::format("{{'descr': {}, 'fortran_order': False, ", descriptor);
+  const std::string shape = "'shape': (";
+  const std::size_t longest = text.size() + shape.size() + rows_size + 1 + 12 + 2 * alignment;
   const bool short_length = longest <= max_short_header;
   const std::size_t before = short_length ? 10 : 12;
+  // Within one page, for whoever kills the process may do so between the pages of a write.
+  constexpr std::size_t page = 4096;
+  const std::size_t place = before + text.size() + shape.size();
+  if (place / page != (place + rows_size - 1) / page) text += std::string(rows_size, ' ');
+  text += shape;
+  const std::size_t rows_at = before + text.size();
+  text += rows_text(0, false);
   const std::size_t padding = (alignment - (before + text.size() + 1) % alignment) % alignment;
   text += std::string(padding, ' ') + "\n";
   std::string magic = "\x93NUMPY";
   magic += short_length ? std::string("\x01\x00", 2) : std::string("\x02\x00", 2);
-  return magic + little_endian(text.size(), short_length ? 2 : 4) + text;
+  return {magic + little_endian(text.size(), short_length ? 2 : 4) + text, rows_at};
 }
 
 class NpyWriter final : public TableWriter {
  public:
-  NpyWriter(const std::string& path, const std::vector<std::string>& columns)
-      : file_(path), descriptor_(description(columns)) {
+  NpyWriter(const std::string& path, const std::vector<std::string>& columns) : file_(path) {
     if (!file_.is_seekable()) {
       throw Failure(ExitCode::usage, path + ": a .npy file cannot be written to a pipe or device");
     }
-    const std::string text = header(descriptor_, 0);
-    if (text.size() > max_default_header) {
+    const Header start = header(description(columns));
+    rows_at_ = start.rows_at;
+    if (start.text.size() > max_default_header) {
       print_note(
           fmt::format("{0}: for its {1} columns read it with "
                       "numpy.load(path, max_header_size={2})",
-                      path, columns.size(), text.size()));
+                      path, columns.size(), start.text.size()));
     }
-    file_.write(text);
+    file_.write(start.text);
+    file_.flush();
   }
 
   void write_row(std::span<const double> values) override {
     bytes_.resize(values.size_bytes());
     std::memcpy(bytes_.data(), values.data(), values.size_bytes());
     file_.write(bytes_);
-    ++rows_;
+    // Rows first, then their number: so it never promises what is not there.
+    if (written() != told_) tell_rows(false);
   }
 
   void finish() override {
-    file_.overwrite(0, header(descriptor_, rows_));
+    file_.flush();
+    tell_rows(true);
     file_.commit();
   }
 
+  bool salvage() override {
+    try {
+      tell_rows(true);
+    } catch (const Failure&) {
+      // Then the number told before still holds.
+    }
+    if (told_ == 0) return false;
+    file_.salvage();
+    return true;
+  }
+
+  [[nodiscard]] std::int64_t rows() const override { return told_; }
+
  private:
+  /// The first record is the header.
+  [[nodiscard]] std::int64_t written() const { return file_.records() - 1; }
+  void tell_rows(bool complete) {
+    const std::int64_t rows = written();
+    file_.overwrite(rows_at_, rows_text(rows, complete));
+    told_ = rows;
+  }
+
   OutputFile file_;
-  std::string descriptor_;
   std::string bytes_;
-  std::size_t rows_ = 0;
+  std::size_t rows_at_ = 0;
+  std::int64_t told_ = 0;
 };
 
 }  // namespace

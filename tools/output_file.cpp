@@ -1,35 +1,22 @@
 #include "tools/output_file.h"
 
+#include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
-#include <memory>
 #include <utility>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "render/destination.h"
 #include "tools/failure.h"
 
 namespace sheave::tools {
 namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 18U;
-
-/// `path` with symbolic links followed, so that a link stays one; `path` itself if it is new.
-std::string followed(const std::string& path) {
-  const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr),
-                                                         &std::free);
-  return real ? std::string(real.get()) : path;
-}
-
-/// mkostemp makes files private; output should be as readable as the user's umask says.
-mode_t default_mode() {
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return static_cast<mode_t>(0666U & ~mask);
-}
+constexpr std::chrono::seconds longest_wait{1};
 
 }  // namespace
 
@@ -39,7 +26,7 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
     if (descriptor_ < 0) fail("cannot write to standard output");
     return;
   }
-  destination_ = followed(path_);
+  destination_ = render::followed(path_);
   struct stat status {};
   const bool exists = ::stat(destination_.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) {
@@ -57,14 +44,12 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
 }
 
 void OutputFile::create_temporary() {
-  const std::size_t slash = destination_.find_last_of('/');
-  const std::size_t start = slash == std::string::npos ? 0 : slash + 1;
+  const std::string folder = render::folder_part(destination_);
   // Names have a limit (255 bytes nearly everywhere) that the addition must not exceed.
-  std::string name =
-      destination_.substr(0, start) + "." + destination_.substr(start, 200) + ".XXXXXX";
+  std::string name = folder + "." + destination_.substr(folder.size(), 200) + ".XXXXXX";
   descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
   if (descriptor_ < 0) fail("cannot create it");
-  ::fchmod(descriptor_, default_mode());
+  ::fchmod(descriptor_, render::default_mode());
   temporary_ = std::move(name);
 }
 
@@ -73,44 +58,85 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       destination_(std::move(other.destination_)),
       temporary_(std::exchange(other.temporary_, {})),
       buffer_(std::move(other.buffer_)),
+      ends_(std::move(other.ends_)),
+      records_(other.records_),
+      size_(other.size_),
+      flushed_(other.flushed_),
       descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 OutputFile::~OutputFile() { discard(); }
 
-void OutputFile::write(std::string_view bytes) {
-  buffer_.append(bytes);
-  if (buffer_.size() >= buffer_size) flush();
+void OutputFile::write(std::string_view record) {
+  buffer_.append(record);
+  ends_.push_back(buffer_.size());
+  // Whoever kills the process loses no more than this.
+  if (buffer_.size() >= buffer_size || Clock::now() - flushed_ >= longest_wait) flush();
 }
 
 void OutputFile::flush() {
-  write_through(buffer_);
-  buffer_.clear();
-}
-
-void OutputFile::write_through(std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) fail("cannot write");
-    bytes.remove_prefix(static_cast<std::size_t>(count));
+  flushed_ = Clock::now();
+  std::size_t done = 0;
+  int reason = 0;
+  while (done < buffer_.size() && reason == 0) {
+    const ssize_t count = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
+    if (count >= 0) done += static_cast<std::size_t>(count);
+    if (count < 0 && errno != EINTR) reason = errno;
   }
+  const auto whole = std::upper_bound(ends_.begin(), ends_.end(), done);
+  records_ += whole - ends_.begin();
+  size_ += whole == ends_.begin() ? 0 : *(whole - 1);
+  buffer_.clear();
+  ends_.clear();
+  if (reason == 0) return;
+  errno = reason;
+  fail("cannot write");
 }
 
 void OutputFile::overwrite(std::size_t offset, std::string_view bytes) {
-  flush();
-  const auto at = static_cast<off_t>(offset);
-  if (::lseek(descriptor_, at, SEEK_SET) != at) fail("cannot go back in it");
-  write_through(bytes);
-  if (::lseek(descriptor_, 0, SEEK_END) < 0) fail("cannot go back in it");
+  while (!bytes.empty()) {
+    const ssize_t count =
+        ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail("cannot write");
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+    offset += static_cast<std::size_t>(count);
+  }
 }
 
 void OutputFile::commit() {
   flush();
   // Some file systems report a full disk only here.
+  if (!temporary_.empty() && !render::synchronise(descriptor_)) fail("cannot write");
+  put_in_place();
+}
+
+void OutputFile::cut_to_whole_records() {
+  if (::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) fail("cannot shorten it");
+  ::lseek(descriptor_, 0, SEEK_END);
+}
+
+void OutputFile::salvage() {
+  buffer_.clear();
+  ends_.clear();
+  if (temporary_.empty() || descriptor_ < 0) return;
+  cut_to_whole_records();
+  // What is left is worth having even where nobody promises that it outlives a power loss.
+  static_cast<void>(render::synchronise(descriptor_));
+  put_in_place();
+}
+
+void OutputFile::put_in_place() {
   if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot write");
   if (temporary_.empty()) return;
-  if (::rename(temporary_.c_str(), destination_.c_str()) != 0) fail("cannot put it in place");
+  if (::rename(temporary_.c_str(), destination_.c_str()) != 0) {
+    const int reason = errno;
+    // The work of hours may be in it.
+    const std::string left = std::exchange(temporary_, {});
+    errno = reason;
+    fail(("cannot put it in place, so it stays in " + left).c_str());
+  }
   temporary_.clear();
+  render::synchronise_folder(destination_);
 }
 
 void OutputFile::discard() noexcept {

@@ -37,18 +37,15 @@ State between(const State& a, const State& b, double f) {
 class Shutter {
  public:
   Shutter(const Scene& scene, std::span<const double> times,
-          const std::function<void(std::size_t, const Simulation&)>& show)
+          const std::function<bool(std::size_t, const Simulation&)>& show)
       : scene_(scene), times_(times), show_(show), tolerance_(1e-6 * scene.model.step.dt) {}
 
-  /// To be called at the start and after every step; false once all moments have been shown.
+  /// To be called at the start and after every step; false once all moments have been shown or no more are wanted.
   bool observe(const Simulation& simulation) {
     const State& now = simulation.world.state();
     for (; next_ < times_.size() && times_[next_] <= now.time + tolerance_; ++next_) {
-      if (times_[next_] >= now.time - tolerance_ || !before_) {
-        show_(next_, simulation);
-      } else {
-        show_between(now);
-      }
+      const bool exact = times_[next_] >= now.time - tolerance_ || !before_;
+      if (!(exact ? show_(next_, simulation) : show_between(now))) return false;
     }
     if (next_ == times_.size()) return false;
     // The next step need be remembered only if a moment lies within it.
@@ -62,18 +59,18 @@ class Shutter {
   }
 
  private:
-  void show_between(const State& now) {
+  bool show_between(const State& now) {
     // A simulation of its own: the one that runs must not be disturbed.
     if (!shown_) shown_.emplace(make_simulation(scene_));
     const double f = (times_[next_] - before_->time) / (now.time - before_->time);
     const Errors errors = shown_->world.restore(between(*before_, now, f));
     if (!errors.empty()) throw Failure(ExitCode::internal, to_text(errors));
-    show_(next_, *shown_);
+    return show_(next_, *shown_);
   }
 
   const Scene& scene_;
   std::span<const double> times_;
-  const std::function<void(std::size_t, const Simulation&)>& show_;
+  const std::function<bool(std::size_t, const Simulation&)>& show_;
   double tolerance_;
   std::size_t next_ = 0;
   std::optional<State> before_;      // at the start of the step, if a moment lies within it
@@ -89,7 +86,7 @@ Simulation make_simulation(const Scene& scene) {
 }
 
 RunOutcome play(const Scene& scene, std::span<const double> times, Progress& progress,
-                const std::function<void(std::size_t, const Simulation&)>& show) {
+                const std::function<bool(std::size_t, const Simulation&)>& show) {
   Simulation simulation = make_simulation(scene);
   Shutter shutter(scene, times, show);
   return simulate(simulation, step_count(scene), progress,

@@ -1,5 +1,6 @@
 #include "tools/recorder.h"
 
+#include <algorithm>
 #include <limits>
 
 #include <fnmatch.h>
@@ -19,7 +20,9 @@ Recorder::Recorder(const RecordOptions& options, const Simulation& simulation)
   for (const int column : columns_) {
     names.push_back(observables_.names()[static_cast<std::size_t>(column)]);
   }
-  for (const std::string& path : options.paths) tables_.push_back(open_table(path, names));
+  for (const std::string& path : options.paths) {
+    tables_.push_back({path, open_table(path, names), 0, {}});
+  }
 }
 
 void Recorder::choose_columns(const std::vector<std::string>& patterns) {
@@ -42,21 +45,59 @@ void Recorder::choose_columns(const std::vector<std::string>& patterns) {
   }
 }
 
-void Recorder::observe(const Simulation& simulation) {
+bool Recorder::observe(const Simulation& simulation) {
   const std::int64_t steps = simulation.world.state().steps;
-  if (tables_.empty() || steps % every_ != 0) return;
+  if (tables_.empty() || steps % every_ != 0) return true;
   observables_.sample(simulation, columns_, values_);
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (steps == 0 && !observables_.known_at_start(columns_[i])) {
       values_[i] = std::numeric_limits<double>::quiet_NaN();
     }
   }
-  for (const auto& table : tables_) table->write_row(values_);
+  bool well = true;
+  for (RecordedTable& table : tables_) {
+    if (table.writer == nullptr) continue;
+    well &= attempt(table, [&](TableWriter& writer) { writer.write_row(values_); });
+  }
   ++rows_;
+  return well;
+}
+
+bool Recorder::attempt(RecordedTable& table, const std::function<void(TableWriter&)>& action) {
+  try {
+    action(*table.writer);
+    return true;
+  } catch (const Failure& failure) {
+    table.fault = failure.what();
+  }
+  try {
+    if (table.path == "-") {
+      table.rows = table.writer->rows();
+    } else if (table.writer->salvage()) {
+      table.rows = table.writer->rows();
+      table.fault += fmt::format("; it keeps its first {} rows", table.rows);
+    } else {
+      table.fault += "; nothing of it is kept";
+    }
+  } catch (const Failure& failure) {
+    table.fault += fmt::format("; {}", failure.what());
+  }
+  table.writer.reset();
+  return false;
 }
 
 void Recorder::finish() {
-  for (const auto& table : tables_) table->finish();
+  for (RecordedTable& table : tables_) {
+    if (table.writer == nullptr) continue;
+    if (!attempt(table, [](TableWriter& writer) { writer.finish(); })) continue;
+    table.rows = rows_;
+    table.writer.reset();
+  }
+}
+
+bool Recorder::is_writing() const {
+  return std::any_of(tables_.begin(), tables_.end(),
+                     [](const RecordedTable& table) { return table.writer != nullptr; });
 }
 
 }  // namespace sheave::tools

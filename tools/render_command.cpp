@@ -7,6 +7,7 @@
 #if SHEAVE_HAS_RENDER
 
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include <fmt/format.h>
@@ -15,7 +16,9 @@
 #include "render/view_builder.h"
 #include "render/view_survey.h"
 #include "tools/camera_choice.h"
+#include "tools/command_line.h"
 #include "tools/interrupt.h"
+#include "tools/output_paths.h"
 #include "tools/player.h"
 #include "tools/render_outputs.h"
 #include "tools/scene_options.h"
@@ -90,6 +93,7 @@ Look survey(const Scene& scene, const PictureOptions& options, std::span<const d
   const RunOutcome outcome =
       play(scene, times, progress, [&](std::size_t /*k*/, const Simulation& simulation) {
         survey.add(simulation.world, reports_to_show(scene, simulation));
+        return true;
       });
   if (outcome.status == RunStatus::interrupted) {
     throw Failure(ExitCode::interrupted, "interrupted before anything was drawn");
@@ -129,11 +133,14 @@ ExitCode report(const RunOutcome& outcome, const PictureOutputs& outputs,
   const bool diverged = outcome.status == RunStatus::diverged;
   std::string text =
       diverged ? "diverged: " + outcome.divergence->message : std::string("interrupted");
-  for (const std::string& path : {options.video, options.png}) {
-    if (path.empty()) continue;
-    text += outputs.frames() > 0 ? fmt::format("\n{}: partial, {} frames", path, outputs.frames())
-                                 : fmt::format("\n{}: no frame was drawn", path);
-  }
+  const auto tell = [&](const std::string& path, long frames) {
+    if (path.empty()) return;
+    text += frames > 0 ? fmt::format("\n{}: partial, {} frames", path, frames)
+                       : fmt::format("\n{}: no frame was drawn", path);
+  };
+  // What is at fault is told with its fault.
+  if (outputs.has_video() || outputs.frames() == 0) tell(options.video, outputs.frames());
+  tell(options.png, outputs.png_frames());
   if (!options.still.empty() && !outputs.has_still()) {
     text += "\n" + options.still + ": not written, its time was not reached";
   }
@@ -147,6 +154,10 @@ ExitCode report(const RunOutcome& outcome, const PictureOutputs& outputs,
 
 ExitCode render_scene(const RenderOptions& options) {
   const PictureOptions& pictures = options.pictures;
+  const NamedPath first_frame{
+      "--png", pictures.png.empty() ? "" : fmt::format("{}/frame_000000.png", pictures.png)};
+  check_paths({{"the scene", options.scene.path}},
+              {{"--video", pictures.video}, {"--still", pictures.still}, first_frame}, false);
   const Scene scene = load(options.scene);
   const Moments moments = choose_moments(scene, pictures);
   catch_interrupts();
@@ -156,16 +167,23 @@ ExitCode render_scene(const RenderOptions& options) {
   const Look look = survey(scene, pictures, moments.times, survey_progress);
   survey_progress.clear();
   Progress progress("draw", 0.0, steps, options.quiet);
-  const RunOutcome outcome =
-      play(scene, moments.times, progress, [&](std::size_t k, const Simulation& simulation) {
-        const render::DrawList list =
-            look.builder.build(simulation.world, reports_to_show(scene, simulation));
-        if (moments.is_frame(k)) outputs.add_frame(list, look.camera);
-        if (k == moments.still) outputs.add_still(list, look.camera);
-      });
+  const auto show = [&](std::size_t k, const Simulation& simulation) {
+    const render::DrawList list =
+        look.builder.build(simulation.world, reports_to_show(scene, simulation));
+    if (moments.is_frame(k)) outputs.add_frame(list, look.camera);
+    if (k == moments.still) outputs.add_still(list, look.camera);
+    return outputs.any_left();
+  };
+  RunOutcome outcome;
+  try {
+    outcome = play(scene, moments.times, progress, show);
+  } catch (...) {
+    outputs.finish();  // keeps what has been drawn
+    throw;
+  }
   progress.clear();
   outputs.finish();
-  return report(outcome, outputs, pictures);
+  return outputs.faults().report(report(outcome, outputs, pictures));
 }
 
 void check_usage(const PictureOptions& options) {
@@ -193,7 +211,7 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
   CLI::Option* still = app.add_option("--still", options.still, "write one picture (.png)");
   still->option_text("FILE");
   app.add_option("--at", options.at, "time of the still [s]; default: the end")
-      ->check(CLI::NonNegativeNumber)
+      ->check(number_between(0.0, std::numeric_limits<double>::max()))
       ->option_text("T")
       ->needs(still);
   app.add_option("--width", options.width, "pixels; default 1280")
@@ -203,11 +221,11 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
       ->check(CLI::Range(render::Renderer::min_side, render::Renderer::max_side / 2))
       ->option_text("N");
   app.add_option("--fps", options.fps, "frames per second of the video; default 60")
-      ->check(CLI::Range(0.001, 1000.0))
+      ->check(number_between(0.001, 1000.0))
       ->option_text("X");
   app.add_option("--speed", options.speed,
                  "simulated seconds per second of the video; default 1, 0.1 is slow motion")
-      ->check(CLI::Range(1e-9, 1e9))
+      ->check(number_between(1e-9, 1e9))
       ->option_text("X");
   app.add_flag("--labels", options.labels, "write the tensions [N] beside the cables");
 }

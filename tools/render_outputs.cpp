@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "render/destination.h"
 #include "render/output_file.h"
 #include "render/png_writer.h"
 #include "tools/failure.h"
@@ -63,11 +64,17 @@ std::string PictureOutputs::frame_path(long frame) const {
 }
 
 void PictureOutputs::add_frame(const render::DrawList& list, const render::Camera& camera) {
+  const bool to_folder = !options_.png.empty() && png_well_;
+  if (!video_ && !to_folder) return;
   const render::Image image =
       value_or_fail(frame_renderer_->draw(list, camera), ExitCode::internal);
-  if (video_) check(video_->add(image), ExitCode::io);
-  if (!options_.png.empty()) {
-    check(render::write_png(frame_path(frames_), image, render::PngEffort::sequence), ExitCode::io);
+  // Without an encoder that takes all frames there is no video at all.
+  if (video_ && !faults_.attempt([&] { check(video_->add(image), ExitCode::io); })) video_.reset();
+  if (to_folder) {
+    const std::string path = frame_path(frames_);
+    png_well_ = faults_.attempt(
+        [&] { check(render::write_png(path, image, render::PngEffort::sequence), ExitCode::io); });
+    if (png_well_) ++png_frames_;
   }
   ++frames_;
 }
@@ -78,13 +85,26 @@ void PictureOutputs::add_still(const render::DrawList& list, const render::Camer
       render::Renderer::create(options_.width, options_.height, {.supersample = still_supersample}),
       ExitCode::internal);
   const render::Image image = value_or_fail(renderer.draw(list, camera), ExitCode::internal);
-  check(render::write_png(options_.still, image, render::PngEffort::still), ExitCode::io);
-  has_still_ = true;
+  still_well_ = faults_.attempt([&] {
+    check(render::write_png(options_.still, image, render::PngEffort::still), ExitCode::io);
+  });
+  has_still_ = still_well_;
+}
+
+bool PictureOutputs::any_left() const {
+  const bool folder = !options_.png.empty() && png_well_;
+  const bool still = !options_.still.empty() && !has_still_ && still_well_;
+  return video_.has_value() || folder || still;
 }
 
 void PictureOutputs::finish() {
-  if (video_ && frames_ > 0) check(video_->finish(), ExitCode::io);
-  if (!options_.png.empty() && frames_ > 0) warn_of_old_frames();
+  if (video_ && frames_ > 0) {
+    video_done_ = faults_.attempt([&] { check(video_->finish(), ExitCode::io); });
+  }
+  if (options_.png.empty() || png_frames_ == 0) return;
+  // One wait for the disk instead of one for each frame.
+  render::synchronise_files_beside(frame_path(0));
+  if (png_well_) warn_of_old_frames();
 }
 
 void PictureOutputs::warn_of_old_frames() const {

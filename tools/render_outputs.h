@@ -7,6 +7,7 @@
 
 #include "render/renderer.h"
 #include "render/video_writer.h"
+#include "tools/output_faults.h"
 
 namespace sheave::tools {
 
@@ -25,21 +26,28 @@ struct PictureOptions {
   [[nodiscard]] bool has_frames() const { return !video.empty() || !png.empty(); }
 };
 
-/// Opens what the options name, draws into it, and puts it in place. Throws a Failure (74) that
-/// names the path, or (70) if nothing can be drawn.
+/// Opens what the options name, draws into it, and puts it in place. An output that cannot be written is given up and told in
+/// faults(), the others go on.
 class PictureOutputs {
  public:
-  /// Fails at once if a folder cannot be written to, ffmpeg is missing or there is no GL.
+  /// Throws a Failure at once if a folder cannot be written to, ffmpeg is missing (74) or there is no GL (70).
   explicit PictureOutputs(const PictureOptions& options);
 
-  /// Draws one frame of the video and the folder.
+  /// Draws one frame of the video and the folder, as far as they are still written. A Failure (70) if nothing can be drawn.
   void add_frame(const render::DrawList& list, const render::Camera& camera);
   /// Draws the still, in higher quality.
   void add_still(const render::DrawList& list, const render::Camera& camera);
   /// Completes the video; without any frame there is none.
   void finish();
 
+  /// Whether anything is still to be drawn for.
+  [[nodiscard]] bool any_left() const;
+  [[nodiscard]] OutputFaults& faults() { return faults_; }
+
+  [[nodiscard]] bool has_video() const { return video_done_; }
+  /// Frames that were drawn, and those of them that are in the folder.
   [[nodiscard]] long frames() const { return frames_; }
+  [[nodiscard]] long png_frames() const { return png_frames_; }
   [[nodiscard]] bool has_still() const { return has_still_; }
 
  private:
@@ -49,7 +57,12 @@ class PictureOutputs {
   PictureOptions options_;
   std::optional<render::Renderer> frame_renderer_;
   std::optional<render::VideoWriter> video_;
-  long frames_ = 0;
+  OutputFaults faults_;
+  bool png_well_ = true;
+  bool still_well_ = true;
+  bool video_done_ = false;
+  long frames_ = 0;      // that were drawn
+  long png_frames_ = 0;  // of them in the folder
   bool has_still_ = false;
 };
 

@@ -14,9 +14,9 @@
 #include "measure/stress_judge.h"
 #include "tools/command.h"
 #include "tools/interrupt.h"
-#include "tools/output_file.h"
+#include "tools/output_paths.h"
 #include "tools/player.h"
-#include "tools/recorder.h"
+#include "tools/run_files.h"
 #include "tools/run_summary.h"
 #include "tools/scene_options.h"
 #include "tools/state_file.h"
@@ -73,14 +73,16 @@ ExitCode exit_code(const RunSummary& summary, bool strict) {
 }
 
 /// Says on standard error why a run ended early, and what is left of its output.
-void explain_early_end(const RunOptions& options, const RunSummary& summary, std::int64_t rows) {
+void explain_early_end(const RunOptions& options, const RunSummary& summary) {
   if (summary.outcome.status == RunStatus::done) return;
   std::string text =
       summary.outcome.divergence
           ? "diverged: " + summary.outcome.divergence->message
           : fmt::format("interrupted at {} s", number_text(summary.simulation.world.state().time));
-  for (const std::string& path : options.record.paths) {
-    text += fmt::format("\n{}: partial, {} rows", path == "-" ? "standard output" : path, rows);
+  for (const OutputSummary& table : summary.outputs) {
+    if (table.kind != OutputSummary::Kind::table || !table.fault.empty()) continue;
+    text += fmt::format("\n{}: partial, {} rows",
+                        table.path == "-" ? "standard output" : table.path, table.rows);
   }
   if (!options.save_state.empty()) {
     text += "\n" + options.save_state +
@@ -98,10 +100,19 @@ bool writes_to_stdout(const RunOptions& options) {
   return std::count(options.record.paths.begin(), options.record.paths.end(), "-") > 0;
 }
 
-void report(const RunOptions& options, const RunSummary& summary, std::int64_t rows) {
+bool is_summarised(const RunOptions& options) {
+  return !options.json && !options.quiet && !writes_to_stdout(options);
+}
+
+/// Whether a run is of use even if all its tables fail.
+bool has_other_output(const RunOptions& options) {
+  return options.json || options.check || is_summarised(options) || !options.save_state.empty();
+}
+
+void report(const RunOptions& options, const RunSummary& summary) {
   for (const Warning& warning : summary.warnings) print_warning(warning.message);
-  explain_early_end(options, summary, rows);
-  const bool summarised = !options.json && !options.quiet && !writes_to_stdout(options);
+  explain_early_end(options, summary);
+  const bool summarised = is_summarised(options);
   if (!summary.checks_passed() && !summarised) {
     print_error("checks failed\n" + checks_text(summary.checks));
   }
@@ -109,7 +120,7 @@ void report(const RunOptions& options, const RunSummary& summary, std::int64_t r
     print_warning("doubtful: " + doubt_text(summary.outcome.certificate, summary.trust));
   }
   if (options.json) print(to_json(summary));
-  if (summarised) print(to_text(summary));
+  if (summarised) print(printable(to_text(summary)));
 }
 
 /// "0.1%" or "1e-3".
@@ -135,7 +146,16 @@ std::optional<measure::ErrorEstimator> make_estimator(const RunOptions& options,
   return std::move(estimator).value();
 }
 
+void check_run_paths(const RunOptions& options) {
+  std::vector<NamedPath> outputs;
+  for (const std::string& path : options.record.paths) outputs.push_back({"--out", path});
+  outputs.push_back({"--save-state", options.save_state});
+  check_paths({{"the scene", options.scene.path}, {"--load-state", options.load_state}}, outputs,
+              options.json || is_summarised(options));
+}
+
 ExitCode run(const RunOptions& options) {
+  check_run_paths(options);
   const double trust = options.trust.empty() ? default_trust : trusted_share(options.trust);
   const Scene scene = load(options.scene);
   Simulation simulation = make_simulation(scene);
@@ -148,32 +168,27 @@ ExitCode run(const RunOptions& options) {
   const std::int64_t first_step = simulation.world.state().steps;
 
   catch_interrupts();
-  Recorder recorder(options.record, simulation);
-  std::optional<OutputFile> state_file;
-  if (!options.save_state.empty()) state_file.emplace(options.save_state);
+  RunFiles files(options.record, options.save_state, has_other_output(options), simulation);
   RunMonitor monitor(last_step - simulation.world.state().steps);
   std::optional<CheckRecorder> checks;
   if (options.check) checks.emplace(scene, simulation);
 
   Progress progress("run", static_cast<double>(simulation.world.state().steps),
                     static_cast<double>(last_step), options.quiet);
+  const auto observe = [&](const RunStatistics& so_far) {
+    const bool wanted = files.observe(simulation, progress);
+    monitor.observe(simulation, so_far);
+    if (checks) checks->record(simulation);
+    const bool stepped = simulation.world.state().steps > first_step;
+    if (estimator && stepped) estimator->observe(simulation);
+    return wanted;
+  };
   const RunOutcome outcome =
-      simulate(simulation, last_step, progress, [&](const RunStatistics& so_far) {
-        recorder.observe(simulation);
-        monitor.observe(simulation, so_far);
-        if (checks) checks->record(simulation);
-        const bool stepped = simulation.world.state().steps > first_step;
-        if (estimator && stepped) estimator->observe(simulation);
-        return true;
-      });
+      files.keep_on_throw([&] { return simulate(simulation, last_step, progress, observe); });
   progress.clear();
   monitor.finish(simulation, measure::is_conservative(scene));
 
-  recorder.finish();
-  if (state_file && outcome.status != RunStatus::diverged) {
-    state_file->write(to_bytes(simulation.world.state()));
-    state_file->commit();
-  }
+  files.finish(simulation.world.state(), outcome.status);
   for (Warning& warning : collect_warnings(scene, simulation, outcome.statistics, monitor)) {
     warnings.push_back(std::move(warning));
   }
@@ -190,9 +205,10 @@ ExitCode run(const RunOptions& options) {
                            options.check,
                            checks ? checks->results() : std::vector<CheckResult>{},
                            estimator ? std::optional(estimator->estimate()) : std::nullopt,
-                           trust};
-  report(options, summary, recorder.rows());
-  return exit_code(summary, options.strict);
+                           trust,
+                           files.summary()};
+  files.faults().attempt([&] { report(options, summary); });
+  return files.faults().report(exit_code(summary, options.strict));
 }
 
 void add_output_options(CLI::App& app, RunOptions& options) {

@@ -1,6 +1,7 @@
 #pragma once
 // What a run says at its end.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -37,6 +38,15 @@ struct RunEvent {
 [[nodiscard]] std::vector<RunEvent> collect_events(const Simulation& simulation,
                                                    const std::vector<JointReport>& joints);
 
+/// What became of a file of the run.
+struct OutputSummary {
+  enum class Kind { table, state };
+  Kind kind;
+  std::string path;
+  std::int64_t rows;  ///< of a table that are under its name
+  std::string fault;  ///< why it is not complete; empty if it is
+};
+
 /// All that a summary is made of. The references must outlive it.
 struct RunSummary {
   std::string_view scene_path;
@@ -51,6 +61,7 @@ struct RunSummary {
   std::vector<CheckResult> checks;
   std::optional<measure::ErrorEstimate> error_estimate;  ///< if it was asked for
   double trust = default_trust;  ///< figures of the certificate above it make the run doubtful
+  std::vector<OutputSummary> outputs{};
 
   [[nodiscard]] bool checks_passed() const;
   /// Whether the run was done and its own numbers contradict each other.

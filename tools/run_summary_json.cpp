@@ -175,6 +175,19 @@ RunJson warnings(const std::vector<Warning>& warnings) {
   return list;
 }
 
+RunJson outputs(const std::vector<OutputSummary>& outputs) {
+  RunJson list = RunJson::array();
+  for (const OutputSummary& output : outputs) {
+    const bool table = output.kind == OutputSummary::Kind::table;
+    list.push_back({{"kind", table ? "table" : "state"},
+                    {"path", output.path},
+                    {"rows", table ? RunJson(output.rows) : RunJson()},
+                    {"complete", output.fault.empty()},
+                    {"fault", output.fault}});
+  }
+  return list;
+}
+
 RunJson checks(const std::vector<CheckResult>& results) {
   RunJson list = RunJson::array();
   for (const CheckResult& result : results) {
@@ -193,7 +206,10 @@ RunJson checks(const std::vector<CheckResult>& results) {
 }
 
 RunJson divergence(const Divergence& divergence, const World& world) {
-  return {{"body", world.bodies().name(divergence.body.index)},
+  // Bodies may all be well where a feature is not.
+  const bool of_body = !divergence.body.is_world();
+  return {{"body", of_body ? RunJson(world.bodies().name(divergence.body.index)) : RunJson()},
+          {"feature", of_body ? RunJson() : RunJson(divergence.feature)},
           {"time", divergence.time},
           {"message", divergence.message}};
 }
@@ -290,7 +306,8 @@ std::string to_json(const RunSummary& summary) {
                  {"statistics", statistics(outcome.statistics)},
                  {"certificate", certificate(summary)},
                  {"events", events(summary)},
-                 {"warnings", warnings(summary.warnings)}};
+                 {"warnings", warnings(summary.warnings)},
+                 {"outputs", outputs(summary.outputs)}};
   if (!world.model().colliders.empty()) object["contacts"] = contacts(world);
   if (summary.checked) {
     object["checks"] = checks(summary.checks);

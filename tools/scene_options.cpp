@@ -11,6 +11,7 @@
 
 #include "engine/field_check.h"
 #include "scenes/json/document.h"
+#include "tools/command_line.h"
 
 namespace sheave::tools {
 namespace {
@@ -100,7 +101,7 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     CLI::Option* option = app.add_option(shortcut.option, options.*shortcut.value,
                                          shortcut.meaning + choices(shortcut));
     option->group(group)->option_text(shortcut.number ? "X" : "NAME");
-    if (shortcut.number) option->check(CLI::Number);
+    if (shortcut.number) option->check(finite_number());
   }
   app.add_option("--set", options.settings, "any setting, by its JSON pointer; may be repeated")
       ->group("Instead of what the scene says")

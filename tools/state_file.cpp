@@ -2,37 +2,23 @@
 
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 
 #include "engine/field_check.h"
 #include "tools/failure.h"
+#include "tools/input_file.h"
 
 namespace sheave::tools {
 namespace {
 
-std::string read_file(const std::string& path) {
-  std::error_code code;
-  if (!std::filesystem::exists(path, code)) {
-    throw Failure(ExitCode::no_input, path + ": there is no such file");
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream bytes;
-  // A folder opens, but does not read. An empty file sets a failure too, but is none.
-  if (!file || std::filesystem::is_directory(path, code)) {
-    throw Failure(ExitCode::io, path + ": cannot be read");
-  }
-  bytes << file.rdbuf();
-  return bytes.str();
-}
+/// A world of a million bodies with everything that features carry has a tenth of that.
+constexpr std::size_t most_state_bytes = std::size_t{4} << 30U;
 
 }  // namespace
 
 void load_state(World& world, const std::string& path) {
-  const Result<State> state = state_from_bytes(read_file(path));
+  const Result<State> state = state_from_bytes(read_input(path, most_state_bytes));
   if (!state) throw Failure(ExitCode::bad_scene, path + ": " + to_text(state.errors()));
   const double dt = world.model().step.dt;
   constexpr std::int64_t most_steps = std::int64_t{1} << 53;

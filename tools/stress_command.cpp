@@ -12,7 +12,9 @@
 #include "tools/command.h"
 #include "tools/gnuplot.h"
 #include "tools/interrupt.h"
+#include "tools/output_faults.h"
 #include "tools/output_file.h"
+#include "tools/output_paths.h"
 #include "tools/stress_table.h"
 #include "tools/terminal.h"
 
@@ -101,13 +103,17 @@ ExitCode stress(StressArguments& arguments) {
   }
   catch_interrupts();
   const std::vector<StressResult> results = measure_stress(options);
-  print(arguments.json ? stress_json(results) : stress_text(results));
+  OutputFaults faults;
+  faults.attempt(
+      [&] { print(arguments.json ? stress_json(results) : printable(stress_text(results))); });
   if (!arguments.markdown.empty()) {
-    write_file(arguments.markdown, stress_markdown(results, [&](const StressResult& result) {
-                 return picture_of(arguments, result);
-               }));
+    faults.attempt([&] {
+      write_file(arguments.markdown, stress_markdown(results, [&](const StressResult& result) {
+                   return picture_of(arguments, result);
+                 }));
+    });
   }
-  if (!arguments.chart.empty()) draw_maps(results, arguments);
+  if (!arguments.chart.empty()) faults.attempt([&] { draw_maps(results, arguments); });
   return ExitCode::done;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Files of numbers: a row per recorded moment, a column per observable.
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -8,8 +9,8 @@
 
 namespace sheave::tools {
 
-/// One file of one table; it appears when finish() is called, whole. Throws a Failure (74) if the
-/// disk is full and alike.
+/// One file of one table; it appears when finish() is called. Throws a Failure (74) if the disk is full and alike; then
+/// salvage() keeps what is there.
 class TableWriter {
  public:
   virtual ~TableWriter() = default;
@@ -19,6 +20,11 @@ class TableWriter {
   /// One value per column; NaN is a missing value.
   virtual void write_row(std::span<const double> values) = 0;
   virtual void finish() = 0;
+  /// After a fault: puts the whole rows that were written in place, as a table of their own. False, and nothing appears, if
+  /// there is none.
+  virtual bool salvage() = 0;
+  /// Rows that have reached the file.
+  [[nodiscard]] virtual std::int64_t rows() const = 0;
 
  protected:
   TableWriter() = default;

@@ -1,5 +1,6 @@
 #include "tools/terminal.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -8,6 +9,9 @@
 
 #include <unistd.h>
 
+#include <fmt/format.h>
+
+#include "scenes/json/text.h"
 #include "tools/failure.h"
 
 namespace sheave::tools {
@@ -30,13 +34,34 @@ void say(std::string_view kind, const char* color, std::string_view text) {
     const bool colored = stderr_has_color();
     message += (colored ? color : "") + std::string(kind) + (colored ? "\033[0m" : "") + ": ";
   }
-  message += text;
+  message += printable(text);
   if (!message.ends_with('\n')) message += '\n';
   // If nobody can hear it there is nobody to tell.
   static_cast<void>(write_all(STDERR_FILENO, message));
 }
 
 }  // namespace
+
+std::string printable(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t length = json::character_length(text);
+    const auto first = static_cast<unsigned char>(text.front());
+    const bool control = first < 0x20 ? first != '\n' && first != '\t' : first == 0x7f;
+    // U+0080 to U+009F are control characters too, and some terminals act on them.
+    const bool high_control =
+        length == 2 && first == 0xc2 && static_cast<unsigned char>(text[1]) < 0xa0;
+    if (length == 0 || control || high_control) {
+      for (std::size_t i = 0; i < std::max<std::size_t>(length, 1); ++i) {
+        result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i]));
+      }
+    } else {
+      result.append(text.substr(0, length));
+    }
+    text.remove_prefix(std::max<std::size_t>(length, 1));
+  }
+  return result;
+}
 
 void print(std::string_view text) {
   if (!write_all(STDOUT_FILENO, text)) {
@@ -57,6 +82,9 @@ bool stderr_has_color() {
   return stderr_is_terminal() && !dumb && (no_color == nullptr || *no_color == '\0');
 }
 
-void ignore_broken_pipes() { std::signal(SIGPIPE, SIG_IGN); }
+void turn_signals_into_errors() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
 
 }  // namespace sheave::tools

@@ -2,6 +2,7 @@
 // Standard output and standard error: data goes to the first, everything said to a person to the
 // second.
 
+#include <string>
 #include <string_view>
 
 namespace sheave::tools {
@@ -9,8 +10,13 @@ namespace sheave::tools {
 /// Writes to standard output at once; throws a Failure (74) if that is closed or full.
 void print(std::string_view text);
 
+/// `text` as it may be shown on a terminal: bytes that are no UTF-8 and control characters other than line breaks and tabs, which a
+/// file's name may hold, become "\x1b" and alike.
+[[nodiscard]] std::string printable(std::string_view text);
+
 /// Writes "sheave: error: <text>" and alike to standard error. Only the first line gets that head:
-/// further ones may be of a form that editors understand ("file:line:column: ...").
+/// further ones may be of a form that editors understand ("file:line:column: ..."). All of them make
+/// the text printable.
 void print_error(std::string_view text);
 void print_warning(std::string_view text);
 void print_note(std::string_view text);
@@ -20,7 +26,8 @@ void print_note(std::string_view text);
 /// Whether that somebody wants colours there (https://no-color.org).
 [[nodiscard]] bool stderr_has_color();
 
-/// From now on writing to a closed pipe is an error like any other, not the end of the process.
-void ignore_broken_pipes();
+/// From now on writing to a closed pipe, or beyond the limit of a file's size (`ulimit -f`), is an
+/// error like any other, not the end of the process.
+void turn_signals_into_errors();
 
 }  // namespace sheave::tools

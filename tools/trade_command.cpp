@@ -2,19 +2,22 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "scenes/json/document.h"
 #include "scenes/scene_text.h"
 #include "tools/command.h"
+#include "tools/command_line.h"
 #include "tools/gnuplot.h"
+#include "tools/input_file.h"
 #include "tools/interrupt.h"
+#include "tools/output_faults.h"
 #include "tools/output_file.h"
+#include "tools/output_paths.h"
 #include "tools/scene_options.h"
 #include "tools/terminal.h"
 #include "tools/trade_table.h"
@@ -70,15 +73,9 @@ TradeQuestion check_trade_arguments(const TradeArguments& arguments) {
   return question;
 }
 
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Failure(ExitCode::io, path + ": cannot be opened for reading");
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
 /// Writes the setting into the scene's file; everything else in it stays as it is.
 void apply_setting(const std::string& path, const TradeSetting& setting) {
-  std::string text = text_of(path);
+  std::string text = read_input(path, json::Limits{}.bytes);
   const SceneResult from = load_scene_text(text, path);
   if (!from) throw Failure(exit_code(from), to_text(from));
   const Scene wanted = setting.applied(*from);
@@ -119,8 +116,29 @@ bool answer_question(const TradeArguments& arguments, const TradeTable& table,
   return true;
 }
 
+void write_trade_files(const TradeArguments& arguments, const TradeTable& table,
+                       OutputFaults& faults) {
+  if (!arguments.csv.empty()) {
+    faults.attempt([&] { write_file(arguments.csv, trade_csv(table)); });
+  }
+  if (!arguments.markdown.empty()) {
+    faults.attempt([&] { write_file(arguments.markdown, trade_markdown(table)); });
+  }
+  if (arguments.chart.empty()) return;
+  faults.attempt([&] {
+    draw_with_gnuplot(arguments.chart,
+                      [&](const std::string& output) { return trade_chart_script(table, output); });
+  });
+}
+
 ExitCode trade(TradeArguments& arguments) {
   const TradeQuestion question = check_trade_arguments(arguments);
+  check_paths({{"the scene", arguments.scene.path}},
+              {{"--resume", arguments.trade.resume},
+               {"--csv", arguments.csv},
+               {"--markdown", arguments.markdown},
+               {"--chart", arguments.chart}},
+              true);
   TradeGrid& grid = arguments.trade.grid;
   no_doubles(grid.substeps);
   no_doubles(grid.iterations);
@@ -131,16 +149,14 @@ ExitCode trade(TradeArguments& arguments) {
   if (scene.name.empty()) scene.name = std::filesystem::path(arguments.scene.path).stem().string();
   catch_interrupts();
   const TradeTable table = measure_trade(scene, arguments.trade);
-  print(arguments.json ? trade_json(table) : trade_text(table));
+  OutputFaults faults;
+  faults.attempt([&] { print(arguments.json ? trade_json(table) : printable(trade_text(table))); });
   if (table.machine.assertions) print_warning("built with assertions: the times mean nothing");
-  if (!arguments.csv.empty()) write_file(arguments.csv, trade_csv(table));
-  if (!arguments.markdown.empty()) write_file(arguments.markdown, trade_markdown(table));
-  if (!arguments.chart.empty()) {
-    draw_with_gnuplot(arguments.chart,
-                      [&](const std::string& output) { return trade_chart_script(table, output); });
-  }
-  if (arguments.budget.empty() && arguments.error.empty()) return ExitCode::done;
-  return answer_question(arguments, table, question) ? ExitCode::done : ExitCode::check_failed;
+  write_trade_files(arguments, table, faults);
+  if (arguments.budget.empty() && arguments.error.empty()) return faults.report(ExitCode::done);
+  bool answered = false;
+  faults.attempt([&] { answered = answer_question(arguments, table, question); });
+  return faults.report(answered ? ExitCode::done : ExitCode::check_failed);
 }
 
 void add_trade_scene(CLI::App& app, SceneOptions& scene) {
@@ -148,10 +164,10 @@ void add_trade_scene(CLI::App& app, SceneOptions& scene) {
       ->required()
       ->option_text("SCENE");
   app.add_option("--dt", scene.dt, "time per frame [s] instead of the scene's")
-      ->check(CLI::Number)
+      ->check(finite_number())
       ->option_text("X");
   app.add_option("--duration", scene.duration, "time to simulate [s] instead of the scene's")
-      ->check(CLI::Number)
+      ->check(finite_number())
       ->option_text("X");
 }
 
@@ -215,12 +231,12 @@ Action declare_trade(CLI::App& app) {
       ->option_text("N");
   app.add_option("--reference-seconds", arguments->trade.reference_seconds,
                  "CPU time after which the step of the reference is halved no further; default: 30")
-      ->check(CLI::Range(0.0, 1e6))
+      ->check(number_between(0.0, 1e6))
       ->option_text("X");
   app.add_option("--minutes", arguments->trade.minutes,
                  "time for everything, about; settings that do not fit are named and skipped, the "
                  "most expensive first; default: 5")
-      ->check(CLI::Range(0.01, 1e6))
+      ->check(number_between(0.01, 1e6))
       ->option_text("X");
   app.add_option("--parallel", arguments->trade.threads,
                  "threads that measure errors; times are taken by one; default: one per core")

@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -17,16 +15,16 @@
 #include <nlohmann/json.hpp>
 
 #include "tools/failure.h"
+#include "tools/input_file.h"
 #include "tools/machine_info.h"
 #include "tools/output_file.h"
 #include "tools/terminal.h"
+#include "tools/trade_journal_check.h"
 
 namespace sheave::tools {
 namespace {
 
 using nlohmann::json;
-
-constexpr const char* journal_format = "sheave-trade-journal/1";
 
 /// FNV-1a, 64 bits.
 class Hash {
@@ -44,10 +42,8 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
 
-std::string bytes_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
+/// Far more than any journal or program.
+constexpr std::size_t most_bytes = std::size_t{1} << 30U;
 
 double now_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -110,10 +106,10 @@ std::string ladder_key(const TradeSetting& setting) {
 
 std::string trade_key(const Scene& scene, const TradeOptions& options) {
   Hash hash;
-  hash.add(journal_format);
+  hash.add(trade_journal_format);
   hash.add(version_string);
   // Two builds of one version differ in their bytes.
-  hash.add(bytes_of("/proc/self/exe"));
+  hash.add(read_input("/proc/self/exe", most_bytes));
   hash.add(machine_info().cpu);
   hash.add(write_scene(scene));
   hash.add(fmt::format("{} {}", options.repetitions, options.reference_seconds));
@@ -125,12 +121,10 @@ TradeJournal::TradeJournal(std::string path, const std::string& key)
     : path_(std::move(path)), data_(std::make_unique<json>(json::object())) {
   json& data = *data_;
   if (!path_.empty() && std::filesystem::exists(path_)) {
-    json found = json::parse(bytes_of(path_), nullptr, false);
-    if (!found.is_object() || found.value("format", "") != journal_format) {
-      throw Failure(ExitCode::bad_scene,
-                    "--resume " + path_ + ": the file is none that sheave trade has written");
-    }
-    if (found.value("key", "") == key) {
+    const std::string text = read_input(path_, most_bytes);
+    check_trade_journal(text, path_);
+    json found = json::parse(text, nullptr, false, true);
+    if (found.at("key") == key) {
       data = std::move(found);
       print_note(fmt::format("{}: {} settings are known", path_,
                              data.value("rows", json::object()).size()));
@@ -138,7 +132,7 @@ TradeJournal::TradeJournal(std::string path, const std::string& key)
     }
     print_note(path_ + ": of another scene, setting, machine or build; begun anew");
   }
-  data["format"] = journal_format;
+  data["format"] = trade_journal_format;
   data["key"] = key;
   data["rows"] = json::object();
 }

@@ -193,7 +193,9 @@ void repeat_reference(TradeRun& run) {
       });
   if (interrupted()) stop_interrupted();
   if (!again || !again->complete()) {
-    throw Failure(ExitCode::internal, "the reference that was good before diverges now");
+    throw Failure(ExitCode::bad_scene,
+                  "--resume " + run.options.resume +
+                      ": the reference that it tells of cannot be run; was the file changed?");
   }
   run.truth = std::move(again).value();
 }

@@ -17,7 +17,7 @@ ExitCode validate(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     const SceneResult result = load_file_or_stdin(path);
     if (result) {
-      print(path + ": ok\n");
+      print(printable(path + ": ok\n"));
       for (const Warning& warning : scene_warnings(*result)) {
         print_warning(path + ": " + warning.message);
       }

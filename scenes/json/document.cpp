@@ -7,6 +7,7 @@
 
 #include "scenes/json/builder.h"
 #include "scenes/json/pointer.h"
+#include "scenes/json/text.h"
 
 namespace sheave::json {
 namespace {
@@ -84,11 +85,11 @@ NodeId Document::parse_source(std::string_view text, std::string name, const Lim
   for (std::size_t at = begin; at < text_.size(); ++at) {
     if (text_[at] == '\n') lines_.push_back(static_cast<std::uint32_t>(at + 1));
   }
-  // nlohmann takes a null character for the end of the text and would ignore what follows.
-  const std::size_t null_character = text_.find('\0', begin);
-  if (null_character != std::string::npos) {
+  // nlohmann takes a null character for the end of the text and would ignore what follows, and it
+  // does not look into comments.
+  if (TextFault fault = find_text_fault(text); !fault.message.empty()) {
     faults.add(
-        {static_cast<std::uint32_t>(null_character), "", "null character in the text", {}, {}});
+        {begin + static_cast<std::uint32_t>(fault.offset), "", std::move(fault.message), {}, {}});
     return no_node;
   }
   Builder builder(*this, begin, limits, faults);

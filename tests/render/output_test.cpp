@@ -211,6 +211,74 @@ TEST_F(Output, EncoderThatDiesIsAnErrorNotASignal) {
   EXPECT_EQ(file_count(), 0);
 }
 
+/// An encoder made of a shell script; "$@" are the arguments, of which the last names the file.
+std::string script(const std::string& path, const std::string& lines) {
+  std::ofstream(path) << "#!/bin/sh\nfor last; do :; done\nout=${last#file:}\n" << lines;
+  fs::permissions(path, fs::perms::owner_all);
+  return path;
+}
+
+Errors video_of(const std::string& path, const std::string& program, int frames) {
+  auto video = VideoWriter::create(path, 64, 48, {.program = program, .stall_seconds = 0.2});
+  if (!video) return video.errors();
+  Errors errors;
+  for (int t = 0; t < frames && errors.empty(); ++t) errors = video->add(test_frame(64, 48, t));
+  return errors.empty() ? video->finish() : errors;
+}
+
+TEST_F(Output, AnEncoderThatEndsWellButLeavesNoVideoIsAnError) {
+  const struct {
+    const char* lines;
+    const char* message;
+  } encoders[]{
+      {"cat >/dev/null\n", "the file is empty"},
+      {"cat >\"$out\"\n", "the file is no video"},
+      {"ffmpeg \"$@\"; truncate -s -1 \"$out\"\n", "ends early"},
+      {"ffmpeg \"$@\"; truncate -s 300 \"$out\"\n", "ends early"},
+      {"ffmpeg \"$@\"; truncate -s 0 \"$out\"\n", "empty"},
+      {"rm \"$out\"; cat >/dev/null\n", "cannot be read"},
+      {"cat >/dev/null; echo no space >&2\n", "no space"},
+      {"head -c 92160 | ffmpeg \"$@\"\n", ""},
+  };
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  for (const char* name : {"v.mp4", "v.mkv", "v.mov"}) {
+    for (const auto& encoder : encoders) {
+      // The last one is given up by its writer, or leaves the 10 frames that it read.
+      const std::string program = script(file("encoder"), encoder.lines);
+      const Errors errors = video_of(file(name), program, 30);
+      ASSERT_FALSE(errors.empty()) << name << ": " << encoder.lines;
+      EXPECT_NE(errors[0].message.find(encoder.message), std::string::npos) << errors[0].message;
+      EXPECT_NE(errors[0].message.find(name), std::string::npos) << errors[0].message;
+      EXPECT_EQ(file_count(), 1) << "nothing but the script";
+    }
+    EXPECT_TRUE(video_of(file(name), script(file("encoder"), "exec ffmpeg \"$@\"\n"), 30).empty());
+    fs::remove(file(name));
+  }
+}
+
+TEST_F(Output, AnEncoderThatHangsIsGivenUp) {
+  const std::string program = script(file("encoder"), "exec sleep 1000000\n");
+  // Few frames fit into what the system keeps for the encoder, so that it hangs at the end; many do not.
+  for (const int frames : {1, 1000}) {
+    const Errors errors = video_of(file("v.mp4"), program, frames);
+    ASSERT_FALSE(errors.empty()) << frames;
+    EXPECT_NE(errors[0].message.find("hangs"), std::string::npos) << errors[0].message;
+    EXPECT_EQ(file_count(), 1);
+  }
+}
+
+TEST_F(Output, ALinkStaysOneAndADeviceIsNotReplaced) {
+  fs::create_symlink("target.png", file("link.png"));
+  for (int i = 0; i < 2; ++i) {  // the target is new, then it is there
+    ASSERT_TRUE(write_png(file("link.png"), Image(2, 2)).empty());
+    EXPECT_TRUE(fs::is_symlink(file("link.png")));
+    EXPECT_TRUE(test::read_png(file("target.png")));
+  }
+  fs::create_symlink("/dev/null", file("null.png"));
+  EXPECT_FALSE(write_png(file("null.png"), Image(2, 2)).empty());
+  EXPECT_EQ(file_count(), 3);
+}
+
 TEST_F(Output, ImpossibleVideosAreRefused) {
   EXPECT_EQ(VideoWriter::create(file("v.avi"), 0, 70000, {.frames_per_second = -1.0, .quality = 99})
                 .errors()

@@ -128,7 +128,7 @@ TEST_F(Bench, RefusesWhatIsNoBaselineBeforeItMeasures) {
     const std::string path = folder.write("wrong.json", text);
     const ProcessResult result = bench({"--compare", path});
     EXPECT_EQ(result.exit_code, 65) << text;
-    EXPECT_THAT(result.err, HasSubstr("no baseline")) << text;
+    EXPECT_THAT(result.err, HasSubstr("wrong.json")) << text;
     EXPECT_THAT(result.out, IsEmpty()) << text;
   }
 }

@@ -14,6 +14,7 @@
 
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -82,6 +83,11 @@ Process::Process(const std::vector<std::string>& arguments, const ProcessOptions
     ::signal(SIGPIPE, SIG_DFL);
     for (const std::string& variable : options.environment) {
       ::putenv(const_cast<char*>(variable.c_str()));  // NOLINT(*-const-cast): exec follows
+    }
+    if (options.file_size_limit >= 0) {
+      const auto limit = static_cast<rlim_t>(options.file_size_limit);
+      const rlimit both{limit, limit};
+      ::setrlimit(RLIMIT_FSIZE, &both);
     }
     ::execv(SHEAVE_COMMAND, pointers.data());
     ::_exit(127);

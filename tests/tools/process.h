@@ -1,6 +1,7 @@
 #pragma once
 // Runs the sheave command as a child process and looks at what it did.
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -23,6 +24,7 @@ struct ProcessOptions {
   bool closed_stdout = false;              ///< its standard output is a pipe that nobody reads
   std::string stdout_path{};               ///< its standard output goes to this file instead
   bool terminal_stderr = false;            ///< its standard error is a terminal
+  std::int64_t file_size_limit = -1;       ///< bytes that a file of it may have; -1: no limit
 };
 
 /// The command, running.

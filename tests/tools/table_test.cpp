@@ -12,6 +12,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/tools/npy_file.h"
 #include "tests/tools/process.h"
 #include "tests/tools/scenes.h"
 
@@ -97,33 +98,8 @@ TEST_F(Table, FilesFollowTheUmask) {
   EXPECT_EQ(static_cast<unsigned>(permissions), 0640U);
 }
 
-/// What a .npy file holds.
-struct Array {
-  std::string header;
-  std::vector<double> data;
-};
-
-Array parse_npy(const std::string& bytes) {
-  Array array;
-  EXPECT_EQ(bytes.substr(0, 6), "\x93NUMPY");
-  const bool short_length = bytes.at(6) == 1;
-  std::size_t length = 0;
-  for (std::size_t i = short_length ? 2 : 4; i-- > 0;) {
-    length = length << 8U | static_cast<unsigned char>(bytes.at(8 + i));
-  }
-  const std::size_t begin = short_length ? 10 : 12;
-  EXPECT_EQ((begin + length) % 64, 0U) << "numpy wants aligned data";
-  array.header = bytes.substr(begin, length);
-  EXPECT_EQ(array.header.back(), '\n');
-  const std::size_t size = bytes.size() - begin - length;
-  EXPECT_EQ(size % sizeof(double), 0U);
-  array.data.resize(size / sizeof(double));
-  std::memcpy(array.data.data(), bytes.data() + begin + length, size);
-  return array;
-}
-
 TEST_F(Table, NpyIsAStructuredArray) {
-  const Array array = parse_npy(run("out.npy", {"--columns", "light.y,rope.0.tension"}));
+  const NpyFile array = parse_npy(run("out.npy", {"--columns", "light.y,rope.0.tension"}));
   EXPECT_THAT(array.header, testing::StartsWith("{'descr': [('t', '<f8'), ('light.y', '<f8'), "
                                                 "('rope.0.tension', '<f8'), ], "
                                                 "'fortran_order': False, 'shape': (101,), }"));
@@ -145,14 +121,14 @@ TEST_F(Table, NpyOfThousandsOfColumnsHasALongHeader) {
   EXPECT_THAT(result.err, HasSubstr("max_header_size"));
   const std::string bytes = read_file(file);
   EXPECT_EQ(bytes.at(6), 2) << "version 2.0";
-  const Array array = parse_npy(bytes);
+  const NpyFile array = parse_npy(bytes);
   EXPECT_THAT(array.header, HasSubstr("'shape': (3,), }"));
 }
 
 TEST_F(Table, CsvAndNpyOfOneRunHoldTheSameNumbers) {
   const std::string npy = folder.path("out.npy");
   const std::vector<std::string> lines = split(run("out.csv", {"--out", npy}), '\n');
-  const Array array = parse_npy(read_file(npy));
+  const NpyFile array = parse_npy(read_file(npy));
   const std::vector<std::string> last = split(lines.back(), ',');
   ASSERT_EQ(array.data.size(), last.size() * 101U);
   for (std::size_t i = 0; i < last.size(); ++i) {
