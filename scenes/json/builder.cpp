@@ -93,8 +93,11 @@ bool Builder::binary(nlohmann::json::binary_t& /*value*/) { return false; }  // 
 bool Builder::key(std::string& value) {
   key_begin_ = next_token();
   cursor_ = token_end(key_begin_);
-  key_ = static_cast<std::uint32_t>(document_.strings_.size());
-  document_.strings_.push_back(std::move(value));
+  // A scene has few different keys, and may have millions of them.
+  const auto next = static_cast<std::uint32_t>(document_.strings_.size());
+  const auto [known, is_new] = known_keys_.try_emplace(value, next);
+  key_ = known->second;
+  if (is_new) document_.strings_.push_back(std::move(value));
   return true;
 }
 

@@ -96,6 +96,8 @@ NodeId Document::parse_source(std::string_view text, std::string name, const Lim
   const bool complete =
       nlohmann::json::sax_parse(text_.data() + begin, text_.data() + text_.size(), &builder,
                                 nlohmann::json::input_format_t::json, true, true);
+  nodes_.shrink_to_fit();  // of a large scene they are what takes most
+  children_.shrink_to_fit();
   return complete ? builder.root() : no_node;
 }
 
