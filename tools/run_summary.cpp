@@ -9,6 +9,7 @@
 #include "engine/field_check.h"
 #include "engine/integrators/loads.h"
 #include "measure/stress_judge.h"
+#include "scenes/magnitude.h"
 #include "tools/remedy.h"
 
 namespace sheave::tools {
@@ -277,10 +278,24 @@ std::vector<Warning> scene_warnings(const CableSystem& cables) {
   return warnings;
 }
 
+std::vector<Warning> magnitude_warnings(const Scene& scene) {
+  constexpr std::size_t most = 10;
+  std::vector<Warning> warnings;
+  for (MagnitudeWarning& warning : check_magnitudes(scene, most)) {
+    warnings.push_back({"magnitude", std::move(warning.pointer), std::move(warning.message)});
+  }
+  return warnings;
+}
+
 std::vector<Warning> scene_warnings(const Scene& scene) {
+  std::vector<Warning> warnings = magnitude_warnings(scene);
+  if (scene.cables.empty()) return warnings;
   const Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
-  if (!simulation || simulation->cables == nullptr) return {};
-  return scene_warnings(*simulation->cables);
+  if (!simulation || simulation->cables == nullptr) return warnings;
+  for (Warning& warning : scene_warnings(*simulation->cables)) {
+    warnings.push_back(std::move(warning));
+  }
+  return warnings;
 }
 
 std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simulation,
