@@ -182,7 +182,7 @@ SceneResult failure(const json::Faults& faults, const json::Document* document,
     if (document != nullptr) location = document->location(fault.offset);
     result.errors.push_back({std::string(location.file), location.line, location.column,
                              std::move(fault.pointer), std::move(fault.message),
-                             std::move(fault.value), std::move(fault.allowed)});
+                             std::move(fault.value), std::move(fault.allowed), fault.code});
   }
   if (faults.omitted() > 0) {
     result.errors.push_back({file_name,
@@ -191,13 +191,16 @@ SceneResult failure(const json::Faults& faults, const json::Document* document,
                              "",
                              fmt::format("{} further faults are not listed", faults.omitted()),
                              {},
-                             {}});
+                             {},
+                             FaultCode::too_large});
   }
   return result;
 }
 
 SceneResult file_error(const std::string& path, SceneStatus status, std::string message) {
-  return {std::nullopt, {{path, 0, 0, "", std::move(message), {}, {}}}, status};
+  const FaultCode code =
+      status == SceneStatus::not_found ? FaultCode::not_found : FaultCode::unreadable;
+  return {std::nullopt, {{path, 0, 0, "", std::move(message), {}, {}, code}}, status};
 }
 
 }  // namespace

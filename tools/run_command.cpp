@@ -297,9 +297,9 @@ The columns of the files, and the names that checks use, are
 Tensions at time 0 are not known yet and left empty.
 
 Exit codes: 0 done, 1 a check failed, 2 wrong usage, 65 bad scene, 66 no such file, 70 internal
-error, 74 input or output failed, 75 diverged, 76 doubtful
-(with --strict), 130 interrupted. After 75 and 130 the output so far
-is kept, whole rows only.)");
+error, 74 input or output failed (whatever else happened), 75 diverged, 76 doubtful
+(with --strict), 130 interrupted. After 74, 75 and 130 the output so far
+is kept, whole rows only, and outputs that did not fail are whole.)");
   return [options] {
     if (options->json && writes_to_stdout(*options)) {
       throw Failure(ExitCode::usage, "--json and --out - would both write to standard output");

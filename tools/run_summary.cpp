@@ -292,8 +292,16 @@ std::vector<Warning> scene_warnings(const Scene& scene) {
   if (scene.cables.empty()) return warnings;
   const Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
   if (!simulation || simulation->cables == nullptr) return warnings;
-  for (Warning& warning : scene_warnings(*simulation->cables)) {
-    warnings.push_back(std::move(warning));
+  const auto& windings = simulation->cables->winding_warnings();
+  std::vector<Warning> of_cables = scene_warnings(*simulation->cables);
+  for (std::size_t i = 0; i < of_cables.size(); ++i) {
+    // One for each, in this order. Whoever corrects the scene wants to know where.
+    const auto cable =
+        std::find_if(scene.cables.begin(), scene.cables.end(),
+                     [&](const CableDef& own) { return own.name == windings[i].cable; });
+    of_cables[i].subject =
+        fmt::format("/cables/{}/links/{}", cable - scene.cables.begin(), windings[i].link);
+    warnings.push_back(std::move(of_cables[i]));
   }
   return warnings;
 }

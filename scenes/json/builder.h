@@ -56,7 +56,7 @@ class Builder {
   void report_duplicates(NodeId object);
   /// Pointer of the value that is being read.
   [[nodiscard]] std::string current_pointer() const;
-  bool fail(std::uint32_t offset, std::string message, std::string value = {});
+  bool fail(std::uint32_t offset, FaultCode code, std::string message, std::string value = {});
 
   Document& document_;
   const Limits& limits_;
