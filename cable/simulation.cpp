@@ -24,6 +24,12 @@ Result<Simulation> Simulation::create(const Model& model, const std::vector<Cabl
                     std::make_shared<const std::vector<CableDef>>(cables)};
 }
 
+Errors Simulation::check(const Model& model, const std::vector<CableDef>& cables) {
+  if (cables.empty()) return World::check(model);
+  const Result<Simulation> simulation = create(model, cables);
+  return simulation ? Errors{} : simulation.errors();
+}
+
 std::vector<CableReport> Simulation::cable_reports() const {
   if (cables == nullptr) return {};
   return cables->report(world.bodies(), world.state(), world.state().features.back());

@@ -1,6 +1,7 @@
 #include "engine/body_check.h"
 
-#include <set>
+#include <string_view>
+#include <unordered_set>
 
 #include <Eigen/Eigenvalues>
 
@@ -305,14 +306,16 @@ class BodyCheck {
 
 Errors check_bodies(const Model& model) {
   Errors errors;
-  std::set<std::string> names;
+  std::unordered_set<std::string_view> names;
   for (int i = 0; i < static_cast<int>(model.bodies.size()); ++i) {
     const std::string& name = model.bodies[static_cast<std::size_t>(i)].name;
-    const std::string path = "/bodies/" + std::to_string(i) + "/name";
-    if (name.empty()) errors.push_back({path, "a body needs a name that is not empty"});
-    if (name == "world") errors.push_back({path, "the name \"world\" belongs to the fixed frame"});
+    const auto fail = [&](std::string message) {
+      errors.push_back({"/bodies/" + std::to_string(i) + "/name", std::move(message)});
+    };
+    if (name.empty()) fail("a body needs a name that is not empty");
+    if (name == "world") fail("the name \"world\" belongs to the fixed frame");
     if (!names.insert(name).second) {
-      errors.push_back({path, "two bodies are called \"" + name + "\"; names must differ"});
+      fail("two bodies are called \"" + name + "\"; names must differ");
     }
     BodyCheck(model, i, errors).run();
   }

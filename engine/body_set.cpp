@@ -138,6 +138,7 @@ Result<BodySet> BodySet::create(const Model& model) {
   BodySet set;
   set.definitions_ = model.bodies;
   set.gravity_ = model.gravity;
+  set.properties_.reserve(model.bodies.size() + 1);
   for (const BodyDef& body : model.bodies) set.properties_.push_back(compile_body(body));
   for (int i = 0; i < set.count(); ++i) {
     if (model.bodies[at(i)].mount) lump_mounted_rotor(set.properties_, model.bodies, i);

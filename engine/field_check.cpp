@@ -5,55 +5,65 @@
 namespace sheave {
 namespace {
 
-/// Checks the numbers of one field.
+/// Checks the numbers of one field. Paths are made only where there is something to tell: a scene may have a million bodies.
 class NumberCheck {
  public:
   NumberCheck(const Field& field, const std::string& path, Errors& errors)
-      : field_(field), path_(path + "/" + std::string(field.name)), errors_(errors) {}
+      : field_(field), path_(path), errors_(errors) {}
 
   // Pointers to const would lose to the template below, which takes what holds no number.
   // NOLINTBEGIN(readability-non-const-parameter)
-  void operator()(double* value) const { check(*value, path_); }
-  void operator()(int* value) const { check(*value, path_); }
-  void operator()(Vector3* value) const { check_components(*value, path_); }
+  void operator()(double* value) const { check(*value); }
+  void operator()(int* value) const { check(*value); }
+  void operator()(Vector3* value) const { check_components(*value); }
   void operator()(Quaternion* value) const {
     const double norm = value->norm();
     if (std::abs(norm - 1.0) <= 1e-6) return;  // what six printed decimals leave
-    errors_.push_back({path_, std::string(field_.name) +
-                                  " must be a unit quaternion [w, x, y, z]; "
-                                  "its length is " +
-                                  number_text(norm)});
+    errors_.push_back({place(none, none), std::string(field_.name) +
+                                              " must be a unit quaternion [w, x, y, z]; "
+                                              "its length is " +
+                                              number_text(norm)});
   }
   void operator()(std::optional<double>* value) const {
-    if (*value) check(**value, path_);
+    if (*value) check(**value);
   }
   void operator()(std::optional<Vector3>* value) const {
-    if (*value) check_components(**value, path_);
+    if (*value) check_components(**value);
   }
   void operator()(std::vector<double>* value) const {
-    for (std::size_t i = 0; i < value->size(); ++i) check((*value)[i], item(i));
+    for (std::size_t i = 0; i < value->size(); ++i) check((*value)[i], i);
   }
   void operator()(std::vector<Vector3>* value) const {
-    for (std::size_t i = 0; i < value->size(); ++i) check_components((*value)[i], item(i));
+    for (std::size_t i = 0; i < value->size(); ++i) check_components((*value)[i], i);
   }
   // NOLINTEND(readability-non-const-parameter)
   template <class Other>
   void operator()(const Other& /*no number*/) const {}
 
  private:
-  [[nodiscard]] std::string item(std::size_t i) const { return path_ + "/" + std::to_string(i); }
-  void check_components(const Vector3& value, const std::string& path) const {
-    for (int i = 0; i < 3; ++i) check(value[i], path + "/" + std::to_string(i));
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+
+  /// The field, an item of it, a component of that.
+  [[nodiscard]] std::string place(std::size_t item, std::size_t component) const {
+    std::string result = path_ + "/" + std::string(field_.name);
+    for (const std::size_t index : {item, component}) {
+      if (index != none) result += "/" + std::to_string(index);
+    }
+    return result;
   }
-  void check(double value, const std::string& path) const {
+  void check_components(const Vector3& value, std::size_t item = none) const {
+    for (int i = 0; i < 3; ++i) check(value[i], item, static_cast<std::size_t>(i));
+  }
+  void check(double value, std::size_t item = none, std::size_t component = none) const {
     if (field_.range.contains(value)) return;
-    errors_.push_back({path, std::string(field_.name) + " is " + number_text(value) +
-                                 "; it must be " + describe(field_.range) +
-                                 (field_.unit.empty() ? "" : " " + std::string(field_.unit))});
+    errors_.push_back(
+        {place(item, component), std::string(field_.name) + " is " + number_text(value) +
+                                     "; it must be " + describe(field_.range) +
+                                     (field_.unit.empty() ? "" : " " + std::string(field_.unit))});
   }
 
   const Field& field_;
-  std::string path_;
+  const std::string& path_;
   Errors& errors_;
 };
 

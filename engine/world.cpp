@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/body_check.h"
 #include "engine/contacts/contact_batch.h"
 #include "engine/contacts/ground_batch.h"
 #include "engine/field_check.h"
@@ -136,6 +137,16 @@ Result<World> World::create(Model model, std::shared_ptr<const BodySet> bodies,
                                            std::move(state));
   if (!content->model.colliders.empty()) content->contacts = own_features - 1;
   return World(std::move(content));
+}
+
+Errors World::check(const Model& model) {
+  if (model.joints.empty() && model.colliders.empty()) {
+    Errors errors = check_bodies(model);
+    // Nothing in it refers to a body.
+    return errors.empty() ? check_model(model, BodySet()) : errors;
+  }
+  const Result<BodySet> bodies = BodySet::create(model);
+  return bodies ? check_model(model, *bodies) : bodies.errors();
 }
 
 StepReport World::step() {

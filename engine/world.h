@@ -55,6 +55,8 @@ class World {
   /// The same for bodies that are already compiled (features of other libraries need them first).
   static Result<World> create(Model model, std::shared_ptr<const BodySet> bodies,
                               std::vector<std::unique_ptr<ConstraintBatch>> features);
+  /// What is wrong with a model by itself, without building a world: what create(model) would report.
+  static Errors check(const Model& model);
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;

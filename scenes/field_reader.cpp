@@ -17,15 +17,16 @@ std::string quoted(std::string_view text) { return fmt::format("\"{}\"", text); 
 
 }  // namespace
 
-void FieldReader::fail(NodeId node, std::string message, std::string allowed) {
-  report(document_, faults_, node, std::move(message), std::move(allowed));
+void FieldReader::fail(NodeId node, FaultCode code, std::string message, std::string allowed) {
+  report(document_, faults_, node, code, std::move(message), std::move(allowed));
 }
 
 bool FieldReader::read_object(NodeId node, const ObjectFormat& format,
                               std::span<void* const> objects, const Variant* variant,
                               void* settings) {
   if (document_.kind(node) != Kind::object) {
-    fail(node, fmt::format("must be an object ({})", format.meaning), "an object");
+    fail(node, FaultCode::wrong_type, fmt::format("must be an object ({})", format.meaning),
+         "an object");
     return false;
   }
   check_keys(node, format, variant);
@@ -49,7 +50,8 @@ void FieldReader::check_keys(NodeId node, const ObjectFormat& format, const Vari
   for (const auto& [one, other] : format.exclusive) {
     const NodeId second = document_.member(node, other);
     if (document_.member(node, one) == no_node || second == no_node) continue;
-    fail(second, fmt::format("{} and {} exclude each other; leave one out", one, other));
+    fail(second, FaultCode::exclusive_keys,
+         fmt::format("{} and {} exclude each other; leave one out", one, other));
   }
   for (const NodeId child : document_.children(node)) {
     const std::string& key = document_.key(child);
@@ -62,7 +64,8 @@ void FieldReader::check_keys(NodeId node, const ObjectFormat& format, const Vari
          fmt::format("unknown key in a {}{}", variant != nullptr ? variant->name : format.name,
                      suggestion.question()),
          {},
-         fmt::format("{}", fmt::join(known, ", "))});
+         fmt::format("{}", fmt::join(known, ", ")),
+         FaultCode::unknown_key});
   }
 }
 
@@ -76,7 +79,8 @@ void FieldReader::read_table(NodeId node, std::span<const Field> fields, void* o
                    fmt::format("{}/{}", document_.pointer(node), field.name),
                    "required key is missing",
                    {},
-                   describe(field, field.slot(object))});
+                   describe(field, field.slot(object)),
+                   FaultCode::missing_key});
     }
   }
 }
@@ -85,15 +89,16 @@ void FieldReader::check_name(NodeId node) {
   if (node == no_node || document_.kind(node) != Kind::string) return;  // reported already
   const std::string& name = document_.string(node);
   if (!is_name(name)) {
-    fail(node, fmt::format("a name must consist of {}", name_rule));
+    fail(node, FaultCode::bad_name, fmt::format("a name must consist of {}", name_rule));
   } else if (name == "world") {
-    fail(node, "the name \"world\" belongs to the immovable world");
+    fail(node, FaultCode::bad_name, "the name \"world\" belongs to the immovable world");
   }
 }
 
 const Variant* FieldReader::read_type(NodeId node, const ObjectFormat& format) {
   if (document_.kind(node) != Kind::object) {
-    fail(node, fmt::format("must be an object ({})", format.meaning), "an object");
+    fail(node, FaultCode::wrong_type, fmt::format("must be an object ({})", format.meaning),
+         "an object");
     return nullptr;
   }
   std::string allowed;
@@ -106,18 +111,20 @@ const Variant* FieldReader::read_type(NodeId node, const ObjectFormat& format) {
                  document_.pointer(node) + "/type",
                  "required key is missing",
                  {},
-                 allowed});
+                 allowed,
+                 FaultCode::missing_key});
     return nullptr;
   }
   if (document_.kind(type) != Kind::string) {
-    fail(type, "must be one of " + allowed, allowed);
+    fail(type, FaultCode::wrong_type, "must be one of " + allowed, allowed);
     return nullptr;
   }
   const Variant* variant = format.variant(document_.string(type));
   if (variant == nullptr) {
     Suggestion suggestion(document_.string(type));
     for (const Variant& candidate : format.variants) suggestion.consider(candidate.name);
-    fail(type, fmt::format("unknown type of {}{}", format.name, suggestion.question()), allowed);
+    fail(type, FaultCode::unknown_choice,
+         fmt::format("unknown type of {}{}", format.name, suggestion.question()), allowed);
   }
   return variant;
 }
@@ -127,13 +134,14 @@ std::span<const NodeId> FieldReader::list(NodeId object, const Member& member) {
   if (node == no_node) return {};
   const std::string wanted = fmt::format("a list of objects ({})", member.meaning);
   if (document_.kind(node) != Kind::array) {
-    fail(node, "must be " + wanted, wanted);
+    fail(node, FaultCode::wrong_type, "must be " + wanted, wanted);
     return {};
   }
   const auto elements = document_.children(node);
   if (elements.size() > max_list_length) {
-    fail(node, fmt::format("must not have more than {} elements, has {}", max_list_length,
-                           elements.size()));
+    fail(node, FaultCode::too_large,
+         fmt::format("must not have more than {} elements, has {}", max_list_length,
+                     elements.size()));
     return {};
   }
   return elements;
@@ -149,8 +157,9 @@ std::unordered_map<std::string_view, int> FieldReader::unique_names(
     if (is_new) continue;
     const NodeId other =
         document_.member(entities[static_cast<std::size_t>(entry->second)], "name");
-    fail(name, fmt::format("names of {} must differ; this one is first given in line {}", what,
-                           document_.location(document_.offset(other)).line));
+    fail(name, FaultCode::duplicate_name,
+         fmt::format("names of {} must differ; this one is first given in line {}", what,
+                     document_.location(document_.offset(other)).line));
   }
   return first;
 }

@@ -38,7 +38,7 @@ class FieldReader {
                                                          std::string_view what);
 
   /// Reports a fault of a value.
-  void fail(json::NodeId node, std::string message, std::string allowed = {});
+  void fail(json::NodeId node, FaultCode code, std::string message, std::string allowed = {});
 
  private:
   void check_keys(json::NodeId node, const ObjectFormat& format, const Variant* variant);

@@ -31,6 +31,7 @@ class SceneReader {
     if (!reader_.read_object(root, scene_format(), pointers(&scene))) return scene;
     reader_.declare_bodies(list(root, scene_format(), "bodies"));
     read_step(scene);
+    scene.model.bodies.reserve(list(root, scene_format(), "bodies").size());
     for (const NodeId node : list(root, scene_format(), "bodies")) read_body(node, scene.model);
     for (const NodeId node : list(root, scene_format(), "joints")) read_joint(node, scene.model);
     for (const NodeId node : list(root, scene_format(), "cables")) {
@@ -181,7 +182,7 @@ SceneResult failure(const json::Faults& faults, const json::Document* document,
     if (document != nullptr) location = document->location(fault.offset);
     result.errors.push_back({std::string(location.file), location.line, location.column,
                              std::move(fault.pointer), std::move(fault.message),
-                             std::move(fault.value), std::move(fault.allowed)});
+                             std::move(fault.value), std::move(fault.allowed), fault.code});
   }
   if (faults.omitted() > 0) {
     result.errors.push_back({file_name,
@@ -190,13 +191,16 @@ SceneResult failure(const json::Faults& faults, const json::Document* document,
                              "",
                              fmt::format("{} further faults are not listed", faults.omitted()),
                              {},
-                             {}});
+                             {},
+                             FaultCode::too_large});
   }
   return result;
 }
 
 SceneResult file_error(const std::string& path, SceneStatus status, std::string message) {
-  return {std::nullopt, {{path, 0, 0, "", std::move(message), {}, {}}}, status};
+  const FaultCode code =
+      status == SceneStatus::not_found ? FaultCode::not_found : FaultCode::unreadable;
+  return {std::nullopt, {{path, 0, 0, "", std::move(message), {}, {}, code}}, status};
 }
 
 }  // namespace
@@ -205,18 +209,26 @@ SceneResult load_scene_text(std::string_view text, const std::string& file_name,
                             const std::vector<Override>& overrides) {
   const json::Limits limits;
   json::Faults faults(limits.faults);
-  json::Document document = json::Document::parse(text, file_name, limits, faults);
-  if (document.root() == no_node) return failure(faults, &document, file_name);
-  for (const Override& o : overrides) {
-    const std::string origin = o.origin.empty() ? "--set " + o.pointer : o.origin;
-    document.set(o.pointer, o.value, origin, implied_objects, limits, faults);
-  }
-  Scene scene = SceneReader(document, faults).read();
-  if (faults.empty()) {
-    add_errors(validate_scene(scene, overridden("/duration", overrides)), document, faults);
-  }
-  if (!faults.empty()) return failure(faults, &document, file_name);
-  return {std::move(scene), {}, SceneStatus::ok};
+  const auto parsed = [&] {
+    json::Document document = json::Document::parse(text, file_name, limits, faults);
+    if (document.root() == no_node) return document;
+    for (const Override& o : overrides) {
+      const std::string origin = o.origin.empty() ? "--set " + o.pointer : o.origin;
+      document.set(o.pointer, o.value, origin, implied_objects, limits, faults);
+    }
+    return document;
+  };
+  std::optional<json::Document> document = parsed();
+  if (document->root() == no_node) return failure(faults, &*document, file_name);
+  Scene scene = SceneReader(*document, faults).read();
+  if (!faults.empty()) return failure(faults, &*document, file_name);
+  // The tree of a large scene is as large as the scene; only errors need it, and they can wait.
+  document.reset();
+  const Errors errors = validate_scene(scene, overridden("/duration", overrides));
+  if (errors.empty()) return {std::move(scene), {}, SceneStatus::ok};
+  document = parsed();
+  add_errors(errors, *document, faults);
+  return failure(faults, &*document, file_name);
 }
 
 SceneResult load_scene(const std::string& path, const std::vector<Override>& overrides) {
@@ -233,6 +245,8 @@ SceneResult load_scene(const std::string& path, const std::vector<Override>& ove
   // One byte more than allowed is enough to see that there are too many.
   const std::size_t most = json::Limits{}.bytes + 1;
   std::string text;
+  const std::uintmax_t size = std::filesystem::file_size(path, code);  // of no pipe
+  if (!code) text.reserve(std::min<std::uintmax_t>(size, most));
   std::vector<char> block(std::size_t{1} << 16U);
   while (file && text.size() < most) {
     file.read(block.data(), static_cast<std::streamsize>(block.size()));

@@ -50,6 +50,16 @@ void append_quantities(std::string& text) {
   }
 }
 
+void append_codes(std::string& text) {
+  text +=
+      "\n## Codes\n\nWhat `sheave validate --json` calls faults and warnings. A code never changes "
+      "its "
+      "meaning.\n\n| code | severity | meaning |\n|---|---|---|\n";
+  for (const CodeEntry& entry : code_table()) {
+    text += fmt::format("| `{}` | {} | {} |\n", entry.code, entry.severity, entry.meaning);
+  }
+}
+
 /// Text inside a cell of a table.
 std::string cell(std::string_view text) {
   std::string result;
@@ -118,6 +128,7 @@ std::string scene_reference() {
   for (const ObjectFormat* format : formats) add_format(*format, text);
   text += quantities;
   append_quantities(text);
+  append_codes(text);
   return text;
 }
 

@@ -13,6 +13,7 @@
 
 #include "cable/cable.h"
 #include "engine/model.h"
+#include "scenes/fault_code.h"
 
 namespace sheave {
 
@@ -113,6 +114,7 @@ struct SceneError {
   std::string message;
   std::string value;    ///< as it stands in the text, shortened; empty if there is none
   std::string allowed;  ///< what would be right; empty if the message says it
+  FaultCode code = FaultCode::meaning;
 };
 /// One line: "file:line:column: /bodies/3/mass: value -1: must be > 0 [kg]".
 [[nodiscard]] std::string to_string(const SceneError& error);

@@ -165,9 +165,8 @@ Errors validate_scene(const Scene& scene, bool checks_may_end_late) {
     const Result<int> index = observables->index_of(scene.checks[i].quantity);
     if (!index) errors.push_back({path + "/quantity", index.errors().front().message});
   }
-  const Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
-  if (!simulation) {
-    errors.insert(errors.end(), simulation.errors().begin(), simulation.errors().end());
+  for (Error& error : Simulation::check(scene.model, scene.cables)) {
+    errors.push_back(std::move(error));
   }
   return errors;
 }

@@ -27,12 +27,12 @@ struct ValueReader {
 
   [[nodiscard]] bool is(Kind kind) const { return source.kind(node) == kind; }
 
-  void fail(NodeId at, std::string message, std::string allowed = {}) const {
-    report(source, faults, at, std::move(message), std::move(allowed));
+  void fail(NodeId at, FaultCode code, std::string message, std::string allowed = {}) const {
+    report(source, faults, at, code, std::move(message), std::move(allowed));
   }
   void wrong_type(const FieldSlot& slot) const {
     const std::string wanted = describe(field, slot);
-    fail(node, "must be " + wanted, wanted);
+    fail(node, FaultCode::wrong_type, "must be " + wanted, wanted);
   }
 
   /// Reads a number inside the field's range; on a fault `target` stays as it was.
@@ -41,9 +41,9 @@ struct ValueReader {
     const std::string range = range_text(field.range);
     const std::string wanted = "a number" + (range.empty() ? "" : " " + range) + unit;
     if (source.kind(at) != Kind::number) {
-      fail(at, "must be " + wanted, wanted);
+      fail(at, FaultCode::wrong_type, "must be " + wanted, wanted);
     } else if (!field.range.contains(source.number(at))) {
-      fail(at, "must be " + range + unit, range + unit);
+      fail(at, FaultCode::out_of_range, "must be " + range + unit, range + unit);
     } else {
       target = source.number(at);
     }
@@ -93,7 +93,7 @@ struct ValueReader {
     slot->clear();
     for (const NodeId element : source.children(node)) {
       if (!vector(element, slot->emplace_back(Vector3::Zero()))) {
-        fail(element, "must be [x, y, z], numbers");
+        fail(element, FaultCode::wrong_type, "must be [x, y, z], numbers");
       }
     }
   }
@@ -103,7 +103,7 @@ struct ValueReader {
     slot->clear();
     for (const NodeId element : source.children(node)) {
       if (source.kind(element) != Kind::string) {
-        fail(element, "must be a string");
+        fail(element, FaultCode::wrong_type, "must be a string");
         continue;
       }
       slot->push_back(source.string(element));
@@ -112,7 +112,8 @@ struct ValueReader {
   [[nodiscard]] bool too_long() const {
     const std::size_t count = source.children(node).size();
     if (count <= max_list_length) return false;
-    fail(node, fmt::format("must not have more than {} elements, has {}", max_list_length, count));
+    fail(node, FaultCode::too_large,
+         fmt::format("must not have more than {} elements, has {}", max_list_length, count));
     return true;
   }
   void operator()(Quaternion* slot) const {
@@ -126,7 +127,7 @@ struct ValueReader {
     Quaternion q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
     const double norm = q.norm();
     if (!(std::abs(norm - 1.0) <= quaternion_tolerance)) {
-      return fail(node,
+      return fail(node, FaultCode::out_of_range,
                   fmt::format("must be a unit quaternion [w, x, y, z]; its length is {:.9g}", norm),
                   fmt::format("a length of 1 within {}", quaternion_tolerance));
     }
@@ -153,7 +154,7 @@ struct ValueReader {
       for (const std::string_view candidate : bodies.in_order) suggestion.consider(candidate);
       suggestion.consider("world");
     }
-    fail(node, "there is no body of this name" + suggestion.question(),
+    fail(node, FaultCode::unknown_body, "there is no body of this name" + suggestion.question(),
          "the name of a body, or \"world\"");
   }
   void operator()(const ChoiceSlot& slot) const {
@@ -164,16 +165,17 @@ struct ValueReader {
       if (field.choices[i] == name) return slot.set(slot.object, static_cast<int>(i));
       suggestion.consider(field.choices[i]);
     }
-    fail(node, "unknown choice" + suggestion.question(), describe(field, slot));
+    fail(node, FaultCode::unknown_choice, "unknown choice" + suggestion.question(),
+         describe(field, slot));
   }
 };
 
 }  // namespace
 
-void report(const json::Document& document, json::Faults& faults, NodeId node, std::string message,
-            std::string allowed) {
+void report(const json::Document& document, json::Faults& faults, NodeId node, FaultCode code,
+            std::string message, std::string allowed) {
   faults.add({document.offset(node), document.pointer(node), std::move(message),
-              document.excerpt(node), std::move(allowed)});
+              document.excerpt(node), std::move(allowed), code});
 }
 
 void read_value(const json::Document& document, json::Faults& faults, const BodyNames& bodies,

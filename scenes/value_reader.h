@@ -22,7 +22,7 @@ void read_value(const json::Document& document, json::Faults& faults, const Body
                 const Field& field, json::NodeId node, const FieldSlot& slot);
 
 /// Adds a fault of a value, with its place, pointer and text.
-void report(const json::Document& document, json::Faults& faults, json::NodeId node,
+void report(const json::Document& document, json::Faults& faults, json::NodeId node, FaultCode code,
             std::string message, std::string allowed);
 
 }  // namespace sheave

@@ -31,14 +31,8 @@ class CsvWriter final : public TableWriter {
 
   void finish() override { file_.commit(); }
 
-  bool salvage() override {
-    if (rows() <= 0) return false;
-    file_.salvage();
-    return true;
-  }
-
   // The first record is the line of names.
-  [[nodiscard]] std::int64_t rows() const override { return file_.records() - 1; }
+  Salvage salvage() override { return salvage_rows(file_, file_.records() - 1); }
 
  private:
   void append(double value) {

@@ -1,6 +1,8 @@
 // The `sheave` command: its subcommands, and how it ends.
 
 #include <array>
+#include <cstdlib>
+#include <exception>
 #include <new>
 #include <string>
 #include <vector>
@@ -49,6 +51,14 @@ See sheave SUBCOMMAND --help for options and examples.)");
   return ExitCode::internal;
 }
 
+void print_internal_error(const char* what) {
+  try {
+    print_error(std::string("internal: ") + what);
+  } catch (const std::bad_alloc&) {
+    print_error("out of memory");
+  }
+}
+
 /// Every way to end leads through here.
 ExitCode run_command_line(int argc, char** argv) {
   try {
@@ -59,9 +69,27 @@ ExitCode run_command_line(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     print_error("out of memory");
   } catch (const std::exception& error) {
-    print_error(std::string("internal: ") + error.what());
+    print_internal_error(error.what());
   }
   return ExitCode::internal;
+}
+
+/// An exception that a destructor or another function must not throw: libraries allocate in some. The way back is lost, the
+/// reason is not.
+[[noreturn]] void end_at_once() noexcept {
+  try {
+    if (const std::exception_ptr failure = std::current_exception()) {
+      std::rethrow_exception(failure);
+    }
+    print_internal_error("terminated");
+  } catch (const std::bad_alloc&) {
+    print_error("out of memory");
+  } catch (const std::exception& error) {
+    print_internal_error(error.what());
+  } catch (...) {
+    print_internal_error("unknown exception");
+  }
+  std::_Exit(static_cast<int>(ExitCode::internal));
 }
 
 }  // namespace
@@ -69,5 +97,6 @@ ExitCode run_command_line(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   sheave::tools::turn_signals_into_errors();
+  std::set_terminate(sheave::tools::end_at_once);
   return static_cast<int>(sheave::tools::run_command_line(argc, argv));
 }

@@ -2,7 +2,10 @@
 // with blanks so that the data is aligned), the data. The header keeps room for any number of rows and tells those that are there,
 // also while the file is being written.
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 
@@ -38,9 +41,19 @@ std::string description(const std::vector<std::string>& columns) {
 /// What follows the bracket of the shape; always as long. Until the table is complete the number is
 /// at the right, so that only digits change; then it is as NumPy writes it.
 constexpr std::size_t rows_size = 25;
-std::string rows_text(std::int64_t rows, bool complete) {
-  if (complete) return fmt::format("{:<25}", fmt::format("{},), }}", rows));
-  return fmt::format("{:>20},), }}", rows);
+using RowsText = std::array<char, rows_size>;
+/// Without allocating: it must also be told where memory has run out.
+RowsText rows_text(std::int64_t rows, bool complete) {
+  constexpr std::string_view end = ",), }";
+  RowsText text;
+  text.fill(' ');
+  std::array<char, rows_size> digits{};
+  const char* const last = std::to_chars(digits.begin(), digits.end(), rows).ptr;
+  const auto count = static_cast<std::size_t>(last - digits.data());
+  char* const at = text.data() + (complete ? 0 : rows_size - end.size() - count);
+  std::copy_n(digits.begin(), count, at);
+  std::copy_n(end.begin(), end.size(), at + count);
+  return text;
 }
 
 struct Header {
@@ -60,7 +73,8 @@ Header header(const std::string& descriptor) {
   if (place / page != (place + rows_size - 1) / page) text += std::string(rows_size, ' ');
   text += shape;
   const std::size_t rows_at = before + text.size();
-  text += rows_text(0, false);
+  const RowsText no_rows = rows_text(0, false);
+  text.append(no_rows.data(), no_rows.size());
   const std::size_t padding = (alignment - (before + text.size() + 1) % alignment) % alignment;
   text += std::string(padding, ' ') + "\n";
   std::string magic = "\x93NUMPY";
@@ -82,6 +96,7 @@ class NpyWriter final : public TableWriter {
                       "numpy.load(path, max_header_size={2})",
                       path, columns.size(), start.text.size()));
     }
+    header_size_ = start.text.size();
     file_.write(start.text);
     file_.flush();
   }
@@ -100,30 +115,29 @@ class NpyWriter final : public TableWriter {
     file_.commit();
   }
 
-  bool salvage() override {
+  Salvage salvage() override {
     try {
       tell_rows(true);
     } catch (const Failure&) {
       // Then the number told before still holds.
+      file_.keep_at_most(header_size_ + static_cast<std::size_t>(told_) * bytes_.size());
     }
-    if (told_ == 0) return false;
-    file_.salvage();
-    return true;
+    return salvage_rows(file_, told_);
   }
-
-  [[nodiscard]] std::int64_t rows() const override { return told_; }
 
  private:
   /// The first record is the header.
   [[nodiscard]] std::int64_t written() const { return file_.records() - 1; }
   void tell_rows(bool complete) {
     const std::int64_t rows = written();
-    file_.overwrite(rows_at_, rows_text(rows, complete));
+    const RowsText text = rows_text(rows, complete);
+    file_.overwrite(rows_at_, {text.data(), text.size()});
     told_ = rows;
   }
 
   OutputFile file_;
   std::string bytes_;
+  std::size_t header_size_ = 0;
   std::size_t rows_at_ = 0;
   std::int64_t told_ = 0;
 };
@@ -133,6 +147,16 @@ class NpyWriter final : public TableWriter {
 std::unique_ptr<TableWriter> open_npy(const std::string& path,
                                       const std::vector<std::string>& columns) {
   return std::make_unique<NpyWriter>(path, columns);
+}
+
+Salvage salvage_rows(OutputFile& file, std::int64_t rows) {
+  if (file.path() == "-")
+    return {rows, fmt::format("it has taken {} rows", std::max<std::int64_t>(rows, 0))};
+  // The fault has told where it is.
+  if (file.is_elsewhere()) return {};
+  if (rows <= 0) return {0, "nothing of it is kept"};
+  file.salvage();
+  return {rows, fmt::format("it keeps its first {} rows", rows)};
 }
 
 std::unique_ptr<TableWriter> open_table(const std::string& path,

@@ -8,14 +8,21 @@ namespace sheave::tools {
 
 bool OutputFaults::attempt(const std::function<void()>& write) {
   try {
-    write();
-    return true;
-  } catch (const Failure& failure) {
-    add(failure.what(), failure.code());
+    try {
+      write();
+      return true;
+    } catch (const Failure& failure) {
+      add(failure.what(), failure.code());
+    }
   } catch (const std::bad_alloc&) {
-    add("out of memory", ExitCode::internal);
+    add_out_of_memory();
   }
   return false;
+}
+
+void OutputFaults::add_out_of_memory() {
+  out_of_memory_ = true;
+  code_ = ExitCode::internal;
 }
 
 void OutputFaults::add(const std::string& message, ExitCode code) {
@@ -25,7 +32,8 @@ void OutputFaults::add(const std::string& message, ExitCode code) {
 
 ExitCode OutputFaults::report(ExitCode otherwise) const {
   if (!any()) return otherwise;
-  print_error(text_);
+  if (!text_.empty()) print_error(text_);
+  if (out_of_memory_) print_error("out of memory");
   return code_;
 }
 

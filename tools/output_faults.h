@@ -16,13 +16,17 @@ class OutputFaults {
   /// Remembers a fault that was found elsewhere (74).
   void add(const std::string& message, ExitCode code = ExitCode::io);
 
+  /// Remembers that memory was wanting; needs none.
+  void add_out_of_memory();
+
   [[nodiscard]] bool any() const { return code_ != ExitCode::done; }
-  /// Says on standard error what failed. The exit code: that of the first fault, which replaces any other of the command,
-  /// or `otherwise` if there is none.
+  /// Says on standard error what failed. The exit code: 70 if memory was wanting, else that of the first fault, either of which
+  /// replaces any other of the command; `otherwise` if there is none.
   [[nodiscard]] ExitCode report(ExitCode otherwise) const;
 
  private:
   std::string text_;
+  bool out_of_memory_ = false;
   ExitCode code_ = ExitCode::done;
 };
 

@@ -62,6 +62,7 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       records_(other.records_),
       size_(other.size_),
       flushed_(other.flushed_),
+      elsewhere_(other.elsewhere_),
       descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 OutputFile::~OutputFile() { discard(); }
@@ -107,31 +108,36 @@ void OutputFile::commit() {
   flush();
   // Some file systems report a full disk only here.
   if (!temporary_.empty() && !render::synchronise(descriptor_)) fail("cannot write");
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot write");
   put_in_place();
 }
 
 void OutputFile::cut_to_whole_records() {
-  if (::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) fail("cannot shorten it");
-  ::lseek(descriptor_, 0, SEEK_END);
+  while (::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) {
+    if (errno != EINTR) fail("cannot shorten it");
+  }
 }
 
 void OutputFile::salvage() {
   buffer_.clear();
   ends_.clear();
-  if (temporary_.empty() || descriptor_ < 0) return;
-  cut_to_whole_records();
-  // What is left is worth having even where nobody promises that it outlives a power loss.
-  static_cast<void>(render::synchronise(descriptor_));
+  if (temporary_.empty()) return;
+  if (descriptor_ >= 0) {
+    cut_to_whole_records();
+    // What is left is worth having even where nobody promises that it outlives a power loss.
+    static_cast<void>(render::synchronise(descriptor_));
+    ::close(std::exchange(descriptor_, -1));
+  }
   put_in_place();
 }
 
 void OutputFile::put_in_place() {
-  if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot write");
   if (temporary_.empty()) return;
   if (::rename(temporary_.c_str(), destination_.c_str()) != 0) {
     const int reason = errno;
     // The work of hours may be in it.
     const std::string left = std::exchange(temporary_, {});
+    elsewhere_ = true;
     errno = reason;
     fail(("cannot put it in place, so it stays in " + left).c_str());
   }

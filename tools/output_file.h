@@ -5,6 +5,7 @@
 // that cannot be replaced (pipes, devices, standard output), and can save what was written before a
 // fault.
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -38,6 +39,10 @@ class OutputFile {
 
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] bool is_seekable() const { return !temporary_.empty(); }
+  /// What salvage() is to keep at most: the first `size` bytes.
+  void keep_at_most(std::size_t size) { size_ = std::min(size_, size); }
+  /// Whether it could not be put in place and stays under its temporary name, which the Failure told.
+  [[nodiscard]] bool is_elsewhere() const { return elsewhere_; }
   /// Whole records that have been handed to the system.
   [[nodiscard]] std::int64_t records() const { return records_; }
 
@@ -58,6 +63,7 @@ class OutputFile {
   std::int64_t records_ = 0;
   std::size_t size_ = 0;  // of the records that were handed to the system
   Clock::time_point flushed_ = Clock::now();
+  bool elsewhere_ = false;
   int descriptor_ = -1;
 };
 

@@ -1,7 +1,9 @@
 #include "tools/recorder.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <new>
 
 #include <fnmatch.h>
 
@@ -50,7 +52,8 @@ bool Recorder::observe(const Simulation& simulation) {
   if (tables_.empty() || steps % every_ != 0) return true;
   observables_.sample(simulation, columns_, values_);
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    if (steps == 0 && !observables_.known_at_start(columns_[i])) {
+    const bool unknown = steps == 0 && !observables_.known_at_start(columns_[i]);
+    if (unknown || !std::isfinite(values_[i])) {
       values_[i] = std::numeric_limits<double>::quiet_NaN();
     }
   }
@@ -71,14 +74,9 @@ bool Recorder::attempt(RecordedTable& table, const std::function<void(TableWrite
     table.fault = failure.what();
   }
   try {
-    if (table.path == "-") {
-      table.rows = table.writer->rows();
-    } else if (table.writer->salvage()) {
-      table.rows = table.writer->rows();
-      table.fault += fmt::format("; it keeps its first {} rows", table.rows);
-    } else {
-      table.fault += "; nothing of it is kept";
-    }
+    const Salvage left = table.writer->salvage();
+    table.rows = left.rows;
+    if (!left.message.empty()) table.fault += "; " + left.message;
   } catch (const Failure& failure) {
     table.fault += fmt::format("; {}", failure.what());
   }
@@ -87,12 +85,18 @@ bool Recorder::attempt(RecordedTable& table, const std::function<void(TableWrite
 }
 
 void Recorder::finish() {
+  bool out_of_memory = false;
   for (RecordedTable& table : tables_) {
     if (table.writer == nullptr) continue;
-    if (!attempt(table, [](TableWriter& writer) { writer.finish(); })) continue;
-    table.rows = rows_;
-    table.writer.reset();
+    try {
+      if (!attempt(table, [](TableWriter& writer) { writer.finish(); })) continue;
+      table.rows = rows_;
+      table.writer.reset();
+    } catch (const std::bad_alloc&) {
+      out_of_memory = true;  // for this one; the next may need none
+    }
   }
+  if (out_of_memory) throw std::bad_alloc();
 }
 
 bool Recorder::is_writing() const {

@@ -40,7 +40,7 @@ struct RunOptions {
 
 std::vector<Warning> early_warnings(const RunOptions& options, const Scene& scene,
                                     const Simulation& simulation, std::int64_t last_step) {
-  std::vector<Warning> warnings;
+  std::vector<Warning> warnings = magnitude_warnings(scene);
   const double end = static_cast<double>(last_step) * scene.model.step.dt;
   if (!options.steps && std::abs(end - scene.duration) > 1e-9 * scene.duration) {
     warnings.push_back({"duration", "duration",
@@ -146,6 +146,17 @@ std::optional<measure::ErrorEstimator> make_estimator(const RunOptions& options,
   return std::move(estimator).value();
 }
 
+/// Positions and speeds may be finite where their products are not.
+void tell_infinite_energy(const Simulation& simulation, RunOutcome& outcome) {
+  const double time = simulation.world.state().time;
+  outcome.status = RunStatus::diverged;
+  outcome.divergence = Divergence{
+      BodyId::world(), time,
+      fmt::format("energy: it is not finite at time {} s; the scene's numbers are too large",
+                  number_text(time)),
+      "energy"};
+}
+
 void check_run_paths(const RunOptions& options) {
   std::vector<NamedPath> outputs;
   for (const std::string& path : options.record.paths) outputs.push_back({"--out", path});
@@ -176,16 +187,18 @@ ExitCode run(const RunOptions& options) {
   Progress progress("run", static_cast<double>(simulation.world.state().steps),
                     static_cast<double>(last_step), options.quiet);
   const auto observe = [&](const RunStatistics& so_far) {
-    const bool wanted = files.observe(simulation, progress);
     monitor.observe(simulation, so_far);
+    if (!monitor.is_finite()) return false;
+    const bool wanted = files.observe(simulation, progress);
     if (checks) checks->record(simulation);
     const bool stepped = simulation.world.state().steps > first_step;
     if (estimator && stepped) estimator->observe(simulation);
     return wanted;
   };
-  const RunOutcome outcome =
+  RunOutcome outcome =
       files.keep_on_throw([&] { return simulate(simulation, last_step, progress, observe); });
   progress.clear();
+  if (!monitor.is_finite()) tell_infinite_energy(simulation, outcome);
   monitor.finish(simulation, measure::is_conservative(scene));
 
   files.finish(simulation.world.state(), outcome.status);
@@ -284,9 +297,9 @@ The columns of the files, and the names that checks use, are
 Tensions at time 0 are not known yet and left empty.
 
 Exit codes: 0 done, 1 a check failed, 2 wrong usage, 65 bad scene, 66 no such file, 70 internal
-error, 74 input or output failed, 75 diverged, 76 doubtful
-(with --strict), 130 interrupted. After 75 and 130 the output so far
-is kept, whole rows only.)");
+error, 74 input or output failed (whatever else happened), 75 diverged, 76 doubtful
+(with --strict), 130 interrupted. After 74, 75 and 130 the output so far
+is kept, whole rows only, and outputs that did not fail are whole.)");
   return [options] {
     if (options->json && writes_to_stdout(*options)) {
       throw Failure(ExitCode::usage, "--json and --out - would both write to standard output");

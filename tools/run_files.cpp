@@ -21,7 +21,7 @@ bool RunFiles::observe(const Simulation& simulation, Progress& progress) {
 }
 
 void RunFiles::finish(const State& state, RunStatus status) {
-  recorder_.finish();
+  faults_.attempt([&] { recorder_.finish(); });
   for (const RecordedTable& table : recorder_.tables()) {
     if (!table.complete()) faults_.add(table.fault);
     outputs_.push_back({OutputSummary::Kind::table, table.path, table.rows, table.fault});

@@ -31,6 +31,7 @@ RunMonitor::RunMonitor(std::int64_t steps)
 
 void RunMonitor::observe(const Simulation& simulation, const RunStatistics& statistics) {
   final_ = simulation.world.energy();
+  finite_ &= std::isfinite(final_.total());
   if (observed_ == 0) {
     initial_ = final_;
     min_energy_ = final_.total();

@@ -48,6 +48,8 @@ class RunMonitor {
   /// To be called at the end; `conservative`: measure::is_conservative(scene).
   void finish(const Simulation& simulation, bool conservative);
 
+  /// Whether the energy has always been a finite number.
+  [[nodiscard]] bool is_finite() const { return finite_; }
   [[nodiscard]] const Energy& initial_energy() const { return initial_; }
   [[nodiscard]] const Energy& final_energy() const { return final_; }
   /// The largest sum of kinetic and elastic energy [J].
@@ -77,6 +79,7 @@ class RunMonitor {
   std::int64_t observed_ = 0;  // calls of observe()
   Energy initial_;
   Energy final_;
+  bool finite_ = true;
   double max_drift_ = 0.0;
   double max_gain_ = 0.0;
   double most_vivid_ = 0.0;

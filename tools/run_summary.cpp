@@ -9,6 +9,7 @@
 #include "engine/field_check.h"
 #include "engine/integrators/loads.h"
 #include "measure/stress_judge.h"
+#include "scenes/magnitude.h"
 #include "tools/remedy.h"
 
 namespace sheave::tools {
@@ -314,10 +315,32 @@ std::vector<Warning> scene_warnings(const CableSystem& cables) {
   return warnings;
 }
 
+std::vector<Warning> magnitude_warnings(const Scene& scene) {
+  constexpr std::size_t most = 10;
+  std::vector<Warning> warnings;
+  for (MagnitudeWarning& warning : check_magnitudes(scene, most)) {
+    warnings.push_back({"magnitude", std::move(warning.pointer), std::move(warning.message)});
+  }
+  return warnings;
+}
+
 std::vector<Warning> scene_warnings(const Scene& scene) {
+  std::vector<Warning> warnings = magnitude_warnings(scene);
+  if (scene.cables.empty()) return warnings;
   const Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
-  if (!simulation || simulation->cables == nullptr) return {};
-  return scene_warnings(*simulation->cables);
+  if (!simulation || simulation->cables == nullptr) return warnings;
+  const auto& windings = simulation->cables->winding_warnings();
+  std::vector<Warning> of_cables = scene_warnings(*simulation->cables);
+  for (std::size_t i = 0; i < of_cables.size(); ++i) {
+    // One for each, in this order. Whoever corrects the scene wants to know where.
+    const auto cable =
+        std::find_if(scene.cables.begin(), scene.cables.end(),
+                     [&](const CableDef& own) { return own.name == windings[i].cable; });
+    of_cables[i].subject =
+        fmt::format("/cables/{}/links/{}", cable - scene.cables.begin(), windings[i].link);
+    warnings.push_back(std::move(of_cables[i]));
+  }
+  return warnings;
 }
 
 std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simulation,

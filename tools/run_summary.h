@@ -79,7 +79,9 @@ struct RunSummary {
                                                     const RunStatistics& statistics,
                                                     const RunMonitor& monitor);
 
-/// Warnings about a scene that can be run but may not be what was meant: windings that look as if they were entered the wrong
+/// Numbers of a scene that the engine does not vouch for (scenes/magnitude.h).
+[[nodiscard]] std::vector<Warning> magnitude_warnings(const Scene& scene);
+/// Warnings about a scene that can be run but may not be what was meant: such numbers, windings that look as if they were entered the wrong
 /// way round.
 [[nodiscard]] std::vector<Warning> scene_warnings(const CableSystem& cables);
 [[nodiscard]] std::vector<Warning> scene_warnings(const Scene& scene);

@@ -9,6 +9,16 @@
 
 namespace sheave::tools {
 
+class OutputFile;
+
+/// What is left of a table after a fault.
+struct Salvage {
+  std::int64_t rows = 0;  ///< that are under its name
+  std::string message;    ///< what is left, for people; empty if the fault has told
+};
+/// Keeps what `file` has if that is `rows` whole rows.
+[[nodiscard]] Salvage salvage_rows(OutputFile& file, std::int64_t rows);
+
 /// One file of one table; it appears when finish() is called. Throws a Failure (74) if the disk is full and alike; then
 /// salvage() keeps what is there.
 class TableWriter {
@@ -20,11 +30,8 @@ class TableWriter {
   /// One value per column; NaN is a missing value.
   virtual void write_row(std::span<const double> values) = 0;
   virtual void finish() = 0;
-  /// After a fault: puts the whole rows that were written in place, as a table of their own. False, and nothing appears, if
-  /// there is none.
-  virtual bool salvage() = 0;
-  /// Rows that have reached the file.
-  [[nodiscard]] virtual std::int64_t rows() const = 0;
+  /// After a fault: puts the whole rows that were written in place, as a table of their own.
+  virtual Salvage salvage() = 0;
 
  protected:
   TableWriter() = default;

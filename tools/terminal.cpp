@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <new>
 #include <string>
 
 #include <unistd.h>
@@ -28,7 +29,7 @@ bool write_all(int descriptor, std::string_view text) {
   return true;
 }
 
-void say(std::string_view kind, const char* color, std::string_view text) {
+void say_allocating(std::string_view kind, const char* color, std::string_view text) {
   std::string message = "sheave: ";
   if (!kind.empty()) {
     const bool colored = stderr_has_color();
@@ -38,6 +39,24 @@ void say(std::string_view kind, const char* color, std::string_view text) {
   if (!message.ends_with('\n')) message += '\n';
   // If nobody can hear it there is nobody to tell.
   static_cast<void>(write_all(STDERR_FILENO, message));
+}
+
+/// Says something even where there is no memory left to say it well.
+void say(std::string_view kind, const char* color, std::string_view text) {
+  try {
+    say_allocating(kind, color, text);
+  } catch (const std::bad_alloc&) {
+    for (const std::string_view part :
+         {std::string_view("sheave: "), kind, std::string_view(": ")}) {
+      static_cast<void>(write_all(STDERR_FILENO, part));
+    }
+    // Character by character, because a copy without what would disturb a terminal needs memory.
+    for (const char c : text) {
+      const bool plain = c == '\n' || (c >= ' ' && c < 0x7f);
+      static_cast<void>(write_all(STDERR_FILENO, plain ? std::string_view(&c, 1) : "?"));
+    }
+    static_cast<void>(write_all(STDERR_FILENO, "\n"));
+  }
 }
 
 }  // namespace

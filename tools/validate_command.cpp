@@ -1,16 +1,113 @@
 // sheave validate: check scenes without running them.
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 #include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
 
+#include "scenes/json/document.h"
 #include "tools/command.h"
+#include "tools/input_file.h"
 #include "tools/run_summary.h"
 #include "tools/scene_options.h"
 #include "tools/terminal.h"
 
 namespace sheave::tools {
 namespace {
+
+struct ValidateOptions {
+  std::vector<std::string> paths;
+  bool json = false;
+};
+
+// Keeps the keys in the order in which people expect them.
+using ValidateJson = nlohmann::ordered_json;
+
+ValidateJson text_or_null(const std::string& text) {
+  return text.empty() ? ValidateJson() : ValidateJson(text);
+}
+ValidateJson place_or_null(int place) { return place > 0 ? ValidateJson(place) : ValidateJson(); }
+
+ValidateJson faults_json(const std::vector<SceneError>& errors) {
+  ValidateJson list = ValidateJson::array();
+  for (const SceneError& error : errors) {
+    list.push_back({{"code", code_name(error.code)},
+                    {"severity", "error"},
+                    {"pointer", error.pointer},
+                    {"line", place_or_null(error.line)},
+                    {"column", place_or_null(error.column)},
+                    {"value", text_or_null(error.value)},
+                    {"allowed", text_or_null(error.allowed)},
+                    {"message", error.message}});
+  }
+  return list;
+}
+
+/// Of a warning's setting, where it is in the file; standard input is gone.
+std::optional<json::Document> document_of(const std::string& path) {
+  if (path == "-") return {};
+  json::Faults faults;
+  const json::Limits limits;
+  json::Document document =
+      json::Document::parse(read_input(path, limits.bytes), path, limits, faults);
+  if (document.root() == json::no_node) return {};
+  return document;
+}
+
+ValidateJson warnings_json(const std::string& path, const std::vector<Warning>& warnings) {
+  ValidateJson list = ValidateJson::array();
+  if (warnings.empty()) return list;
+  const std::optional<json::Document> document = document_of(path);
+  for (const Warning& warning : warnings) {
+    ValidateJson line;
+    ValidateJson column;
+    ValidateJson value;
+    const bool located = document && warning.subject.starts_with('/');
+    const auto target = located ? document->find(warning.subject) : json::Document::Target{};
+    if (target.exact) {
+      const json::Location place = document->location(document->offset(target.node));
+      line = place.line;
+      column = place.column;
+      value = document->excerpt(target.node);
+    }
+    std::string code = warning.kind;
+    std::replace(code.begin(), code.end(), '_', '-');
+    list.push_back({{"code", code},
+                    {"severity", "warning"},
+                    {"pointer", warning.subject},
+                    {"line", line},
+                    {"column", column},
+                    {"value", value},
+                    {"allowed", ValidateJson()},
+                    {"message", warning.message}});
+  }
+  return list;
+}
+
+/// One scene, for programs.
+ValidateJson scene_json(const std::string& path, const SceneResult& result) {
+  return {{"path", path},
+          {"valid", static_cast<bool>(result)},
+          {"faults", faults_json(result.errors)},
+          {"warnings", result ? warnings_json(path, scene_warnings(*result))
+                              : ValidateJson(ValidateJson::array())}};
+}
+
+ExitCode validate_json(const std::vector<std::string>& paths) {
+  ExitCode code = ExitCode::done;
+  ValidateJson scenes = ValidateJson::array();
+  for (const std::string& path : paths) {
+    const SceneResult result = load_file_or_stdin(path);
+    scenes.push_back(scene_json(path, result));
+    if (!result && code != ExitCode::bad_scene) code = exit_code(result);
+  }
+  const ValidateJson object{{"format", "sheave-validation/1"}, {"scenes", std::move(scenes)}};
+  // File names need not be UTF-8.
+  print(object.dump(-1, ' ', false, ValidateJson::error_handler_t::replace) + "\n");
+  return code;
+}
 
 ExitCode validate(const std::vector<std::string>& paths) {
   ExitCode code = ExitCode::done;
@@ -33,10 +130,13 @@ ExitCode validate(const std::vector<std::string>& paths) {
 }  // namespace
 
 Action declare_validate(CLI::App& app) {
-  auto paths = std::make_shared<std::vector<std::string>>();
-  app.add_option("scenes", *paths, "Scene files; - reads standard input")
+  auto options = std::make_shared<ValidateOptions>();
+  app.add_option("scenes", options->paths, "Scene files; - reads standard input")
       ->required()
       ->option_text("SCENE...");
+  app.add_flag("--json", options->json,
+               "print one JSON object: of each scene all faults and warnings, with codes that "
+               "never change their meaning (scenes/REFERENCE.md)");
   app.footer(R"(Examples:
   sheave validate crane.json
   sheave validate scenes/*/*.json
@@ -44,7 +144,9 @@ Action declare_validate(CLI::App& app) {
 Prints "ok" for each scene that can be run, with warnings on standard error, and all faults of every other one, each with file, line,
 column and JSON pointer. Exit codes: 0 all are right, 65 a scene is wrong, 66 no such file, 74 a
 file cannot be read.)");
-  return [paths] { return validate(*paths); };
+  return [options] {
+    return options->json ? validate_json(options->paths) : validate(options->paths);
+  };
 }
 
 }  // namespace sheave::tools

@@ -75,7 +75,7 @@ bool Builder::number_float(double value, const std::string& text) {
   const std::string_view digits = std::string_view(text).substr(0, text.find_first_of("eE"));
   if (value == 0.0 && digits.find_first_of("123456789") != std::string_view::npos) {
     faults_.add({next_token(), current_pointer(), "number too small for a double", text,
-                 "0 or a magnitude of at least 5e-324"});
+                 "0 or a magnitude of at least 5e-324", FaultCode::number_range});
   }
   return number(value);
 }
@@ -93,8 +93,11 @@ bool Builder::binary(nlohmann::json::binary_t& /*value*/) { return false; }  // 
 bool Builder::key(std::string& value) {
   key_begin_ = next_token();
   cursor_ = token_end(key_begin_);
-  key_ = static_cast<std::uint32_t>(document_.strings_.size());
-  document_.strings_.push_back(std::move(value));
+  // A scene has few different keys, and may have millions of them.
+  const auto next = static_cast<std::uint32_t>(document_.strings_.size());
+  const auto [known, is_new] = known_keys_.try_emplace(value, next);
+  key_ = known->second;
+  if (is_new) document_.strings_.push_back(std::move(value));
   return true;
 }
 
@@ -109,8 +112,9 @@ bool Builder::end_object() {
 
 bool Builder::open(Kind kind) {
   if (open_.size() >= limits_.depth) {
-    return fail(next_token(), fmt::format("arrays and objects must not be nested more than {} deep",
-                                          limits_.depth));
+    return fail(
+        next_token(), FaultCode::too_large,
+        fmt::format("arrays and objects must not be nested more than {} deep", limits_.depth));
   }
   const NodeId id = add(kind);
   if (id == no_node) return false;
@@ -143,13 +147,14 @@ bool Builder::parse_error(std::size_t position, const std::string& /*token*/,
       std::max<std::size_t>(token_end(static_cast<std::uint32_t>(offset)), last_read + 1);
   std::string value = shortened(document_.text_.substr(offset, end - offset), 40);
   if (error.id == 406) {
-    return fail(static_cast<std::uint32_t>(offset), "number too large for a double",
-                std::move(value));
+    return fail(static_cast<std::uint32_t>(offset), FaultCode::number_range,
+                "number too large for a double", std::move(value));
   }
   const std::string what = error.what();
   // "unexpected ..." already names the token.
   if (what.find(" - unexpected ") != std::string::npos) value.clear();
-  return fail(static_cast<std::uint32_t>(offset), complaint(what), std::move(value));
+  return fail(static_cast<std::uint32_t>(offset), FaultCode::syntax, complaint(what),
+              std::move(value));
 }
 
 std::uint32_t Builder::next_token() const {
@@ -189,7 +194,8 @@ std::uint32_t Builder::token_end(std::uint32_t begin) const {
 NodeId Builder::add(Kind kind) {
   const std::uint32_t begin = next_token();
   if (document_.nodes_.size() >= limits_.values) {
-    fail(begin, fmt::format("a scene must not have more than {} values", limits_.values));
+    fail(begin, FaultCode::too_large,
+         fmt::format("a scene must not have more than {} values", limits_.values));
     return no_node;
   }
   const auto id = static_cast<NodeId>(document_.nodes_.size());
@@ -229,7 +235,8 @@ void Builder::report_duplicates(NodeId object) {
                  document_.pointer(object) + "/" + escape(key(by_key_[i])),
                  fmt::format("duplicate key, first given in line {}", other.line),
                  {},
-                 {}});
+                 {},
+                 FaultCode::duplicate_key});
   }
 }
 
@@ -245,8 +252,8 @@ std::string Builder::current_pointer() const {
   return pointer;
 }
 
-bool Builder::fail(std::uint32_t offset, std::string message, std::string value) {
-  faults_.add({offset, current_pointer(), std::move(message), std::move(value), {}});
+bool Builder::fail(std::uint32_t offset, FaultCode code, std::string message, std::string value) {
+  faults_.add({offset, current_pointer(), std::move(message), std::move(value), {}, code});
   return false;
 }
 

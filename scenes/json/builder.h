@@ -7,6 +7,7 @@
 // has checked the token, finding its end needs no grammar.
 
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -55,7 +56,7 @@ class Builder {
   void report_duplicates(NodeId object);
   /// Pointer of the value that is being read.
   [[nodiscard]] std::string current_pointer() const;
-  bool fail(std::uint32_t offset, std::string message, std::string value = {});
+  bool fail(std::uint32_t offset, FaultCode code, std::string message, std::string value = {});
 
   Document& document_;
   const Limits& limits_;
@@ -63,10 +64,11 @@ class Builder {
   std::uint32_t begin_;
   std::uint32_t cursor_;  // end of the last token
   NodeId root_ = no_node;
-  std::vector<Open> open_;                // containers that are not complete, outermost first
-  std::vector<NodeId> pending_;           // their children so far
-  std::vector<NodeId> by_key_;            // scratch of report_duplicates
-  std::uint32_t key_ = Document::no_key;  // of the value to come
+  std::vector<Open> open_;       // containers that are not complete, outermost first
+  std::vector<NodeId> pending_;  // their children so far
+  std::vector<NodeId> by_key_;   // scratch of report_duplicates
+  std::unordered_map<std::string, std::uint32_t> known_keys_;  // where they are
+  std::uint32_t key_ = Document::no_key;                       // of the value to come
   std::uint32_t key_begin_ = 0;
 };
 

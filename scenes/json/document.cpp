@@ -78,7 +78,8 @@ NodeId Document::parse_source(std::string_view text, std::string name, const Lim
          "",
          fmt::format("{} bytes are too many: at most {} are allowed", text.size(), limits.bytes),
          {},
-         {}});
+         {},
+         FaultCode::too_large});
     return no_node;
   }
   text_ += text;
@@ -88,14 +89,20 @@ NodeId Document::parse_source(std::string_view text, std::string name, const Lim
   // nlohmann takes a null character for the end of the text and would ignore what follows, and it
   // does not look into comments.
   if (TextFault fault = find_text_fault(text); !fault.message.empty()) {
-    faults.add(
-        {begin + static_cast<std::uint32_t>(fault.offset), "", std::move(fault.message), {}, {}});
+    faults.add({begin + static_cast<std::uint32_t>(fault.offset),
+                "",
+                std::move(fault.message),
+                {},
+                {},
+                FaultCode::encoding});
     return no_node;
   }
   Builder builder(*this, begin, limits, faults);
   const bool complete =
       nlohmann::json::sax_parse(text_.data() + begin, text_.data() + text_.size(), &builder,
                                 nlohmann::json::input_format_t::json, true, true);
+  nodes_.shrink_to_fit();  // of a large scene they are what takes most
+  children_.shrink_to_fit();
   return complete ? builder.root() : no_node;
 }
 
@@ -148,7 +155,7 @@ void Document::set(std::string_view pointer, std::string_view value, std::string
   if (child == no_node) return;
   const std::uint32_t at = node(child).begin;
   const auto fail = [&](std::string message) {
-    faults.add({at, std::string(pointer), std::move(message), {}, {}});
+    faults.add({at, std::string(pointer), std::move(message), {}, {}, FaultCode::bad_pointer});
   };
   const auto steps = split(pointer);
   if (!steps) return fail("not a JSON pointer: it must begin with \"/\", as in /step/dt");

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/fault_code.h"
+
 namespace sheave::json {
 
 enum class Kind : std::uint8_t { null, boolean, number, string, array, object };
@@ -30,6 +32,7 @@ struct Fault {
   std::string message;
   std::string value;    ///< the offending text, shortened; empty if there is none
   std::string allowed;  ///< what would be right; empty if the message says it
+  FaultCode code = FaultCode::meaning;
 };
 
 /// The faults found so far. Keeps at most Limits::faults of them and counts the others.

@@ -36,6 +36,26 @@ TEST(Divergence, OfAFeatureNamesTheFeature) {
   EXPECT_EQ(divergence["feature"], "cables");
 }
 
+TEST(Divergence, OfTheEnergyAloneEndsTheRunBeforeItIsWritten) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  // Of a speed that is finite the square is not.
+  const ProcessResult result =
+      run_sheave({"run", scene, "--json", "--set", "/bodies/1/mass=1e300", "--set",
+                  "/gravity=[0,-1e20,0]", "--out", folder.path("a.csv")});
+  EXPECT_EQ(result.exit_code, 75) << result.err;
+  EXPECT_THAT(result.err,
+              HasSubstr("/bodies/1/mass is 1e+300: the engine vouches for numbers from"));
+  EXPECT_EQ(json::parse(result.out)["status"], "diverged");
+  EXPECT_THAT(read_file(folder.path("a.csv")), Not(HasSubstr("inf")));
+  EXPECT_THAT(read_file(folder.path("a.csv")), Not(HasSubstr("nan")));
+  const ProcessResult checked =
+      run_sheave({"validate", "-"},
+                 {.input = read_file(scene).replace(read_file(scene).find("0.15"), 4, "1e99")});
+  EXPECT_EQ(checked.exit_code, 0);
+  EXPECT_THAT(checked.err, HasSubstr("/bodies/0/shape/length is 1e+99"));
+}
+
 TEST(Outputs, ATableThatFailsKeepsItsRowsAndLeavesTheOthersWhole) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
