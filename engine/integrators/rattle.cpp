@@ -89,9 +89,9 @@ void RattleSolver::solve_positions(Substep& substep, Features features) {
     if (substep.resort != Resort::other_integrator) {
       const Outcome outcome = try_positions(substep, features);
       if (outcome == Outcome::found) return;
-      // Sweeps need not converge, and no smaller part resolves a contradiction.
-      substep.failed = solver_ == SolverKind::direct && outcome == Outcome::not_found &&
-                       substep.resort == Resort::none;
+      // Sweeps need not converge.
+      substep.failed = solver_ == SolverKind::direct && substep.resort == Resort::none;
+      substep.contradiction = outcome == Outcome::contradiction;
       if (substep.failed) return;
     }
     ++substep.statistics.integrator_fallbacks;
