@@ -80,8 +80,6 @@ struct Substep {
   double load_share = 1.0;
   /// Set by a solver that gives up: what it found is no solution, and the stages end here.
   bool failed = false;
-  /// Set besides if rows seemed to contradict each other. Bodies that swing far in a substep look like that, too.
-  bool contradiction = false;
   Resort resort = Resort::anything;
 
   /// A substep of `bodies` from `state_at_start`; both must outlive it. Bodies are placed at the

@@ -56,7 +56,6 @@ bool SubstepDriver::attempt(Part part, Resort resort) {
                             : std::min(settings_.iterations, rounds_of_part);
   substep_.resort = resort;
   substep_.failed = false;
-  substep_.contradiction = false;
   substep_.restart();
   for (std::vector<double>& late : substep_.late_forces) late.clear();
   substep_.next.time =
@@ -90,9 +89,7 @@ bool SubstepDriver::advance_half(Part part) {
     ++parts_;
     return true;
   }
-  const bool hopeless =
-      substep_.contradiction && part.count >= parts_of_contradiction * settings_.substeps;
-  return !divergence_ && !smallest && !hopeless && advance_in_halves(part);
+  return !divergence_ && !smallest && advance_in_halves(part);
 }
 
 void SubstepDriver::keep() {

@@ -24,8 +24,6 @@ class SubstepDriver {
   /// The most equal parts that a substep is done in. Depth costs little, for only what does not converge is cut, and velocities
   /// of so short a part are still rounded by no more than 1e-9 of a scene size per second.
   static constexpr std::int64_t most_parts = 131072;
-  /// What contradicts itself in a part as short as this does so in any. Swings that only look like it no longer do.
-  static constexpr std::int64_t parts_of_contradiction = 8;
   /// Rounds in which a part converges, or else is cut: Newton's method needs far fewer where it works.
   static constexpr int rounds_of_part = 16;
   /// When so many rounds have been spent on a substep and its parts it is given up. The hardest of
