@@ -76,6 +76,7 @@ LinkReport CableSystem::link_report(const CableView& view, int index, int incomi
   report.most_strain = stored_strain(own, index).most_strain();
   if (link.wraps()) report.wrap_angle = wound_angle(definition, link, arc);
   const double passed = own.reals[slip_index(index)];
+  report.stalled = stalls_[at(index)].now;
   (definitions_[at(index)].feed_speed != 0.0 ? report.fed : report.slip) = passed;
   const bool lifted = own.integers[mode_index(index)] >= lifted_mode;
   if (lifted || (incoming < 0 && outgoing < 0)) {

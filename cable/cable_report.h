@@ -36,6 +36,8 @@ struct LinkReport {
   double wrap_angle = 0.0;
   /// Cable that has slid over the link towards the next span since time 0 [m]; what rolled with a wheel is not counted.
   double slip = 0.0;
+  /// The drive of the link's body, or the link's feed, stood still or slowed down in the last substep, for want of cable.
+  bool stalled = false;
   double fed = 0.0;  ///< cable that an attachment with a feed speed has paid out since time 0 [m]
 };
 

@@ -69,7 +69,9 @@ struct SpanGuess {
     const double scale = 1.0 / distance_squared;
     span.direction = sum(span.length * scale * apart, -difference * scale, across);
   } else {
-    span.has_tangent = false;
+    // Circles that touch have a tangent of no length, but for rounding.
+    constexpr double rounding = 1e-14;
+    span.has_tangent = length_squared >= -rounding * difference * difference;
     if (distance_squared > 0.0) {
       span.direction = across * ((difference > 0.0 ? -1.0 : 1.0) / std::sqrt(distance_squared));
     }

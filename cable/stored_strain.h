@@ -20,7 +20,7 @@ namespace sheave {
 class StoredStrain {
  public:
   static constexpr int most_pieces = 16;
-  static constexpr std::size_t real_count = 3 * most_pieces;  ///< of a saved one
+  static constexpr std::size_t real_count = std::size_t{3} * most_pieces;  ///< of a saved one
 
   enum class End { incoming, outgoing };
 

@@ -19,7 +19,7 @@ const CertificateItem* worst_of(const Certificate& certificate, std::initializer
   return worst;
 }
 
-std::string certificate_share(double relative) { return fmt::format("{:.1g}", relative); }
+std::string certificate_share(double relative) { return fmt::format("{:.1g}", relative + 0.0); }  // -0 is 0
 
 }  // namespace
 

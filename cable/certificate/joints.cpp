@@ -341,6 +341,19 @@ void check_joints(const Evidence& evidence, Findings& findings) {
   }
 }
 
+namespace {
+
+bool stalls(const Evidence& evidence, int body) {
+  for (const CableEvidence& cable : evidence.cables) {
+    for (const LinkReport& link : cable.end.links) {
+      if (link.stalled && evidence.bodies.index(link.body) == body) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 void check_body_drives(const Evidence& evidence, Findings& findings) {
   for (int i = 0; i < evidence.bodies.count(); ++i) {
     const BodyProperties& body = evidence.bodies[i];
@@ -351,9 +364,13 @@ void check_body_drives(const Evidence& evidence, Findings& findings) {
     const bool speed = body.drive == DriveKind::speed;
     const double asked = speed ? body.drive_table.integral(t0, t1)
                                : body.drive_table.at(t1) - body.drive_table.at(t0);
+    // One that has stalled is told as such; it may do less than it is asked for, but nothing else.
+    const double least = stalls(evidence, i) ? std::min(asked, 0.0) : asked;
+    const double greatest = stalls(evidence, i) ? std::max(asked, 0.0) : asked;
+    const double off = std::max({least - turned, turned - greatest, 0.0});
     double most = 0.0;
     for (const double v : body.drive_table.values) most = std::max(most, std::abs(v));
-    findings.note(Kind::drive, "rad", std::abs(turned - asked),
+    findings.note(Kind::drive, "rad", off,
                   std::max(speed ? most * evidence.h : most, 1e-6),
                   1e-13 * (1.0 + std::abs(evidence.end.bodies[at(i)].angle)),
                   [&] { return evidence.body_name(i); });

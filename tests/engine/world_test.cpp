@@ -123,6 +123,7 @@ using Names = std::vector<std::string>;
 
 TEST(Stages, OfAFreeBodyAreTwo) {
   Model model;
+  model.step = StepSettings::paper();
   model.add(test::lump("a", Vector3::Zero(), 1.0));
   EXPECT_EQ(stage_names(test::start(model)), (Names{"predict", "derive velocities"}));
 }
@@ -139,6 +140,7 @@ TEST(Stages, CableAppearsOnlyWithACable) {
 
 TEST(Stages, EachJointTypeAppearsOnlyIfUsed) {
   Model model;
+  model.step = StepSettings::paper();
   model.add(test::lump("a", Vector3::Zero(), 1.0));
   auto ball = std::make_shared<BallJoint>();
   ball->name = "ball";
@@ -159,8 +161,18 @@ TEST(Stages, EachJointTypeAppearsOnlyIfUsed) {
                    "finish ball joints", "finish ground contacts"}));
 }
 
+TEST(Stages, OfASymmetricIntegratorSolveVelocitiesToo) {
+  Model model;
+  model.add(test::lump("a", Vector3::Zero(), 1.0));
+  EXPECT_EQ(
+      stage_names(test::start(model)),
+      (Names{"keep the start", "predict", "solve positions", "derive velocities",
+             "correct gyroscopic velocities", "second half of the loads", "solve velocities"}));
+}
+
 TEST(Stages, KinematicAndMountedBodiesHaveTheirOwn) {
   Model model;
+  model.step = StepSettings::paper();
   BodyDef drive;
   drive.name = "drive";
   drive.mobility = Mobility::kinematic;

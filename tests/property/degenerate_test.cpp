@@ -61,7 +61,7 @@ Encounter random_encounter(std::uint64_t seed, double tilt, bool boxes) {
     auto end = roll(id, random.chance(0.5) ? left : right);
     end->center = Vector3::Zero();
     end->normal = rotation_by(skew) * Vector3::UnitZ();
-    end->stored_length = 5.0;
+    end->stored_length = 50.0;  // never used up, though a span may run round a wheel many times
     if (!boxes) end->radius = random.between(0.05, 0.4);
     // A box of 0.3 m lies within 0.22 m of its centre.
     encounter.radii += end->radius.value_or(0.22);
@@ -75,9 +75,11 @@ Finding encounter_finding(const Encounter& encounter) {
   Result<Simulation> made = Simulation::create(encounter.machine.model, encounter.machine.cables);
   if (!made) return {false, 0.0, 0.0, ""};  // they overlap at time 0
   Simulation& s = *made;
+  // Where the wheels would wind more than the span has, its rest length stays 0 and cable slides over them: as much as is told.
   const auto value = [&] {
-    const SpanReport span = s.cable_reports()[0].spans[0];
-    return span.rest_length - span.length;
+    const CableReport cable = s.cable_reports()[0];
+    const double slid = cable.links[0].slip - cable.links[1].slip;
+    return cable.spans[0].rest_length - slid - cable.spans[0].length;
   };
   const auto apart = [&] { return (s.world.position({1}) - s.world.position({0})).norm(); };
   const double h = encounter.machine.model.step.dt;

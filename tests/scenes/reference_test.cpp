@@ -34,7 +34,7 @@ TEST(reference, names_every_key_with_its_meaning) {
 TEST(reference, shows_ranges_units_and_defaults) {
   const std::string text = scene_reference();
   EXPECT_THAT(text, testing::HasSubstr("| `mass` | a number > 0 [kg] |  |"));
-  EXPECT_THAT(text, testing::HasSubstr("| `substeps` | an integer 1 ... 100000 | `1` |"));
+  EXPECT_THAT(text, testing::HasSubstr("| `substeps` | an integer 1 ... 100000 | `4` |"));
   EXPECT_THAT(text, testing::HasSubstr("| `gravity` | [x, y, z], numbers [m/s2] | required |"));
 }
 

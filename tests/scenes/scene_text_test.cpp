@@ -48,7 +48,7 @@ TEST(SceneText, AppliedChangesGiveTheScene) {
   ASSERT_TRUE(from);
   EXPECT_THAT(step_changes(*from, *from), IsEmpty());
   Scene to = *from;
-  to.model.step = {0.005, 7, 3, SolverKind::direct, IntegratorKind::rattle};
+  to.model.step = {0.005, 7, 3, SolverKind::gauss_seidel, IntegratorKind::xpbd};
   to.cables[0].tangent_update = TangentUpdate::substep;
   const auto changes = step_changes(*from, to);
   EXPECT_THAT(changes, SizeIs(6));

@@ -90,7 +90,8 @@ class TradeOfAFile : public testing::Test {
   TradeOfAFile() {
     const std::string step = R"("step": {)";
     std::string text = "// Two weights.\n" + atwood_scene;
-    text.replace(text.find(step), step.size(), "\"step\": {/* rough */ ");
+    text.replace(text.find(step), step.size(),
+                 R"("step": {/* rough */ "solver": "gauss-seidel", "integrator": "xpbd", )");
     path = folder.write("weights.json", text);
   }
 
@@ -137,8 +138,8 @@ TEST_F(TradeOfAFile, AppliesTheAnswerAndKeepsTheRest) {
   const std::string after = read_file(path);
   EXPECT_THAT(after, HasSubstr("// Two weights.\n"));
   EXPECT_THAT(after,
-              HasSubstr(R"("step": {/* rough */ "dt": 0.01, "substeps": 3, "iterations": 20, )"
-                        R"("solver": "direct", "integrator": "rattle"},)"));
+              HasSubstr(R"("step": {/* rough */ "solver": "direct", "integrator": "rattle", )"
+                        R"("dt": 0.01, "substeps": 3, "iterations": 20},)"));
   EXPECT_THAT(after, HasSubstr(R"("tangent_update": "substep"})"));
   EXPECT_EQ(run_sheave({"validate", path}).exit_code, 0);
   // Once it is so, nothing changes any more.
