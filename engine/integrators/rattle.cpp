@@ -31,7 +31,7 @@ void RattleSolver::begin(Substep& substep, Features features) {
   positions_.remember_start(substep, features);
 }
 
-RattleSolver::Outcome RattleSolver::try_positions(Substep& substep, Features features) {
+bool RattleSolver::try_positions(Substep& substep, Features features) {
   const double enough = DirectSolver::tolerance * substep.bodies.scale();
   // Newton's last round leaves far less than it found. A sweep leaves a share, which is a force still, so when what the
   // features decide is settled, sweeps go on to rounding.
@@ -45,18 +45,16 @@ RattleSolver::Outcome RattleSolver::try_positions(Substep& substep, Features fea
   // the last round has left, which only the rows at x1 tell. The velocities need these rows, too.
   positions_.move_on(substep);
   for (int round = 0; round <= substep.iterations; ++round) {
-    if (!positions_.linearise(substep, features, RowSystem::Rule::midpoint, false)) {
-      return Outcome::not_found;
-    }
+    if (!positions_.linearise(substep, features, RowSystem::Rule::midpoint, false)) return false;
     violated = positions_.violation();
-    if (!std::isfinite(violated)) return Outcome::not_found;
+    if (!std::isfinite(violated)) return false;
     if (round == 0) first = violated;
     settled = settled || (round > 0 && !revised && violated <= enough);
     if ((settled && violated <= done) || round == substep.iterations) break;
     if (solver_ == SolverKind::direct) {
       // What rows ask for that contradict each other no round finds; xpbd makes them give way.
-      if (round > 2 && positions_.contradicts()) return Outcome::contradiction;
-      if (!positions_.solve(substep)) return Outcome::not_found;
+      if (round > 2 && positions_.contradicts()) return false;
+      if (!positions_.solve(substep)) return false;
     } else {
       positions_.relax(substep, 1);
     }
@@ -79,7 +77,7 @@ RattleSolver::Outcome RattleSolver::try_positions(Substep& substep, Features fea
     substep.statistics.rows = positions_.row_count();
     substep.statistics.last_correction = std::max(substep.statistics.last_correction, violated);
   }
-  return found ? Outcome::found : Outcome::not_found;
+  return found;
 }
 
 void RattleSolver::solve_positions(Substep& substep, Features features) {
@@ -87,11 +85,9 @@ void RattleSolver::solve_positions(Substep& substep, Features features) {
                                   [](const auto& feature) { return feature->meets(); });
   if (!impact) {
     if (substep.resort != Resort::other_integrator) {
-      const Outcome outcome = try_positions(substep, features);
-      if (outcome == Outcome::found) return;
-      // Sweeps need not converge, and no smaller part resolves a contradiction.
-      substep.failed = solver_ == SolverKind::direct && outcome == Outcome::not_found &&
-                       substep.resort == Resort::none;
+      if (try_positions(substep, features)) return;
+      // Sweeps need not converge.
+      substep.failed = solver_ == SolverKind::direct && substep.resort == Resort::none;
       if (substep.failed) return;
     }
     ++substep.statistics.integrator_fallbacks;

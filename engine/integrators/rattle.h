@@ -42,9 +42,7 @@ class RattleSolver {
   void solve_velocities(Substep& substep, Features features);
 
  private:
-  enum class Outcome { found, not_found, contradiction };
-
-  [[nodiscard]] Outcome try_positions(Substep& substep, Features features);
+  [[nodiscard]] bool try_positions(Substep& substep, Features features);
 
   SolverKind solver_;
   RowSystem positions_;

@@ -56,8 +56,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
   // Two rounds do not tell whether more of them would converge: so few were asked for.
   const bool tried = adding_up || substep.iterations > 2;
   const bool near = violated <= std::max(enough, nearly * first) || violated <= slow * before;
-  const bool contradiction = compromise && system_.contradicts();
-  const bool lost = (tried && !near && !contradiction) ||
+  const bool lost = (tried && !near) ||
                     (adding_up && violated <= enough && system_.energy_gain(substep) > unresolved);
   substep.failed = lost && substep.resort != Resort::anything;
   if (substep.failed) return;

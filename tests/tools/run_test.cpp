@@ -347,7 +347,7 @@ TEST(RunCommand, SubstepsThatAreCutAreToldAndWarnedOf) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("swing.json", R"json({
     "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 1,
-    "step": {"dt": 0.1, "substeps": 1, "iterations": 10},
+    "step": {"dt": 0.1, "substeps": 1, "solver": "direct", "integrator": "rattle"},
     "bodies": [{"name": "bob", "mobility": "planar", "position": [0, -1, 0], "velocity": [30, 0, 0],
                 "mass": 1, "shape": {"type": "sphere", "radius": 0.1}}],
     "cables": [{"name": "rope", "links": [
