@@ -302,7 +302,8 @@ double RowSystem::violation() const {
     if (!(room > 0.0)) continue;
     double off = std::abs(r);
     if (std::isfinite(room)) off = std::min(off, room * yield(g));
-    worst = std::max(worst, off / groups_[g].scale);
+    // What nothing can yield to no further round mends, nor a shorter substep.
+    if (off > worst * groups_[g].scale && yield(g) > 0.0) worst = off / groups_[g].scale;
   }
   return worst;
 }
