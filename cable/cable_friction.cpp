@@ -19,12 +19,16 @@
 // A span of constant compliance c can be stretched by all of its length. Then no cable is left in it that could slide out, so
 // the links at its ends hold whatever the tensions: it has its length / c, the next span what its own stretch gives.
 //
+// Round a ring the tension comes back to itself, so not all of its links slide (unless their exponents cancel): where they
+// would, the one holds over which the least has passed, of those that slide as there is too much of it.
+//
 // While its links hold, statics leaves the tension of such a span open within the cones of its neighbours, and so beside a
 // dead end. It keeps what it had, which is what the last slip left, if that is inside, or takes the nearest value that
 // is.
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cable/cable_system.h"
 #include "cable/link_contact.h"
@@ -36,8 +40,14 @@ namespace {
 /// More changes of a link between sticking and sliding in one substep are rounding or a solver far from convergence.
 constexpr int most_flips = 4;
 
+/// A link that slid by nothing has been made to hold, and did not.
+constexpr int resting_flips = 2;
+
 /// What rounding leaves of the length that a span lacks or has to spare, relative to the scene's size.
 constexpr double length_rounding = 1e-13;
+
+/// What rounding leaves of sums of exponents.
+constexpr double exponent_rounding = 1e-12;
 
 /// Nothing pulls, as the logarithm of a tension.
 constexpr double no_pull = -std::numeric_limits<double>::infinity();
@@ -295,19 +305,53 @@ void CableSystem::judge_links(const Substep& substep, const CompiledCable& cable
   }
 }
 
+double CableSystem::hold_ring(const Substep& substep, const CompiledCable& cable, Run run,
+                              const std::vector<double>& spare) {
+  int last = run.first;
+  for (int i = 1; i < run.count; ++i) last = next_span(cable, last);
+  if (!cable.closed || !shared(spans_[at(last)].second)) return 0.0;
+  double rise = 0.0;
+  SpanGeometry before = geometry_of(substep, last);
+  for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+    const SpanGeometry span = geometry_of(substep, k);
+    const int link = spans_[at(k)].first;
+    if (slip_[at(link)] != 0)
+      rise += slip_[at(link)] * friction_exponent(substep, link, before, span);
+    before = span;
+  }
+  if (std::abs(rise) <= exponent_rounding) return 0.0;
+  // Of those that slide the way in which there is too much of it, the one over which the least has passed.
+  const int way = rise > 0.0 ? 1 : -1;
+  double passed = 0.0;
+  double least = std::numeric_limits<double>::infinity();
+  int held = -1;
+  for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+    passed = i + 1 < run.count ? passed + spare[at(i)] : 0.0;
+    const int link = spans_[at(k)].second;
+    if (slip_[at(link)] != way || passed * way >= least) continue;
+    least = passed * way;
+    held = link;
+  }
+  pending_slip_[at(held)] = 0;
+  ++flips_[at(held)];
+  return -least * way;
+}
+
 void CableSystem::update_slip(const Substep& substep, const CompiledCable& cable) {
   // Links that slide: has the cable moved with the pull, and by more than rounding?
   const double rounding = length_rounding * substep.bodies.scale();
   for_each_run(cable, [&](Run run) {
     if (run.count == 1) return;
     const std::vector<double>& spare = run_spare(substep, cable, run);
-    double passed = 0.0;
+    double passed = hold_ring(substep, cable, run, spare);
     for (int i = 0, k = run.first; i + 1 < run.count; ++i, k = next_span(cable, k)) {
       passed += spare[at(i)];
       const int link = spans_[at(k)].second;
-      if (links_[at(link)].frictionless()) continue;
       int& slip = pending_slip_[at(link)];
+      if (links_[at(link)].frictionless() || slip == 0) continue;
       if (passed * slip > rounding || flips_[at(link)] >= most_flips) continue;
+      // One that does not hold either, but over which nothing passes, is at its bound.
+      if (passed * slip >= -rounding && flips_[at(link)] >= resting_flips) continue;
       slip = 0;
       ++flips_[at(link)];
     }

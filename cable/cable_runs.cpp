@@ -53,6 +53,46 @@ void pull_slack(std::vector<double>& spare) {
   }
 }
 
+/// Makes the lengths of spans [m] the rest lengths with which their springs have forces in the ratios of `tensions` [N]. Not those
+/// themselves: dampers have their part of them, and those of `rattle` are of the middle of the substep, or half of that in the
+/// course of its rounds. So all strains are s times what tensions say, with the s for which the sum of `rest_lengths` remains;
+/// none of them is below 0.
+void shorten_by_strain(const CompiledCable& cable, const std::vector<double>& rest_lengths,
+                       const std::vector<double>& tensions, std::vector<double>& lengths) {
+  if (cable.inverse_stiffness == 0.0 && cable.compliance == 0.0) return;
+  double excess = 0.0;
+  double whole = 0.0;
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    excess += lengths[i] - rest_lengths[i];
+    whole += lengths[i];
+  }
+  if (!(excess > 0.0)) return;
+  const auto shortened = [&](std::size_t i, double s) {
+    return cable.inverse_stiffness > 0.0
+               ? lengths[i] / (1.0 + s * tensions[i] * cable.inverse_stiffness)
+               : std::max(lengths[i] - s * tensions[i] * cable.compliance, 0.0);
+  };
+  // The sum is convex: Newton's method comes to s from below.
+  double s = 0.0;
+  for (int round = 0; round < 20; ++round) {
+    double left = excess;
+    double slope = 0.0;
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+      const double now = shortened(i, s);
+      left -= lengths[i] - now;
+      if (cable.inverse_stiffness > 0.0) {
+        const double yield = tensions[i] * cable.inverse_stiffness;
+        slope += now * yield / (1.0 + s * yield);
+      } else if (now > 0.0) {
+        slope += tensions[i] * cable.compliance;
+      }
+    }
+    if (!(left > 1e-15 * whole) || !(slope > 0.0)) break;
+    s += left / slope;
+  }
+  for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i] = shortened(i, s);
+}
+
 }  // namespace
 
 bool CableSystem::shared(int link) const {
@@ -231,6 +271,7 @@ const std::vector<double>& CableSystem::run_spare(const Substep& substep,
   std::vector<double>& lengths = run_lengths_;
   spare.clear();
   lengths.clear();
+  run_tensions_.clear();
   const double inverse_square = 1.0 / (substep.h * substep.h);
   bool taut = false;
   double total = 0.0;
@@ -239,16 +280,16 @@ const std::vector<double>& CableSystem::run_spare(const Substep& substep,
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     row.clear();
     const SpanGeometry span = evaluate(substep, k, row);
-    const double tension = multipliers_[at(k)] * inverse_square;
-    taut = taut || tension > 0.0;
-    // The rest length with which the span has its tension; a material's compliance grows with it.
-    const double wanted = cable.inverse_stiffness > 0.0
-                              ? span.length / (1.0 + tension * cable.inverse_stiffness)
-                              : std::max(span.length - tension * cable.compliance, 0.0);
-    spare.push_back(rest_length_of(cable, row, span.length) - wanted);
-    total += spare.back();
-    lengths.push_back(wanted);
-    length += wanted;
+    run_tensions_.push_back(multipliers_[at(k)] * inverse_square);
+    taut = taut || run_tensions_.back() > 0.0;
+    spare.push_back(rest_length_of(cable, row, span.length));
+    lengths.push_back(span.length);
+  }
+  if (taut) shorten_by_strain(cable, spare, run_tensions_, lengths);
+  for (std::size_t i = 0; i < spare.size(); ++i) {
+    spare[i] -= lengths[i];
+    total += spare[i];
+    length += lengths[i];
   }
   if (!taut) {
     std::vector<double>& kept = lengths;

@@ -292,6 +292,10 @@ class CableSystem final : public ConstraintBatch {
                    std::size_t last);
   /// Whether the spans of the run, of constant compliance, have no rest length left.
   [[nodiscard]] bool is_drained(const CompiledCable& cable, Run run) const;
+  /// Holds a link of a ring all of whose links would slide; returns what passes over the ring's first link then [m]. `spare`:
+  /// run_spare().
+  double hold_ring(const Substep& substep, const CompiledCable& cable, Run run,
+                   const std::vector<double>& spare);
   void update_slip(const Substep& substep, const CompiledCable& cable);
   /// Gives spans whose tension is open one that their neighbours hold. `start`: the state at the start of the substep.
   void hold_tensions(const Substep& substep, const CompiledCable& cable, const FeatureState& start);
@@ -539,6 +543,7 @@ class CableSystem final : public ConstraintBatch {
   std::vector<RowTerm> run_gradient_;  ///< per body; `body` is not used
   std::vector<double> run_spare_;
   std::vector<double> run_lengths_;
+  std::vector<double> run_tensions_;
   std::vector<Piece> pieces_;  ///< of one cable
   // Of `rattle`, whose multipliers act as at the start of the substep.
   bool knows_start_ = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cable/certificate/pushes.h"
 #include "engine/substep.h"
@@ -70,6 +71,21 @@ Evidence::Evidence(const Simulation& observed, const LastSubstep& last)
   for (const Balance& balance : balances) {
     largest_force = std::max(largest_force, balance.largest_force);
   }
+  force_rounding = rounding_of_forces();
+}
+
+double Evidence::rounding_of_forces() const {
+  // A few operations on coordinates of this size.
+  constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+  double sum = 0.0;
+  for (int i = 0; i < bodies.count(); ++i) {
+    const BodyProperties& body = bodies[i];
+    if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) continue;
+    const double size = size_of(i);
+    const double spun = size > 0.0 ? body.axis_inertia / (size * size) : 0.0;
+    sum += std::max(body.mass, spun) * (end.bodies[at(i)].position.norm() + bodies.scale());
+  }
+  return rounding * sum / (h * h);
 }
 
 double Evidence::size_of(int body) const {

@@ -155,6 +155,9 @@ class Evidence {
   std::vector<ContactEvidence> contacts;
   std::vector<Balance> balances;  ///< per body and the world
   double largest_force = 0.0;     ///< of all [N]
+  /// What no force is told apart from nothing by: the rounding of positions, as a force that moves all bodies by it within the
+  /// substep [N].
+  double force_rounding = 0.0;
 
   /// Radius of the ball about the centre of mass that contains the body, or that of gyration without a shape [m].
   [[nodiscard]] double size_of(int body) const;
@@ -182,6 +185,7 @@ class Evidence {
   void push(End when, int body, const Vector3& point, const Vector3& force);
   void twist(End when, int body, const Vector3& torque);
   void mark_unknown(int body);
+  [[nodiscard]] double rounding_of_forces() const;
 };
 
 }  // namespace sheave::certify

@@ -24,13 +24,14 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
   if (drained) return;
   const double high = std::max(before, after);
   const double low = std::min(before, after);
-  // Tensions that are nothing beside those of the cable have no ratio that would count.
+  // Tensions that are nothing beside those of the cable, or beside rounding, have no ratio that would count.
   const double scale = std::max(high, 1e-3 * largest);
+  const double rounding = std::max(1e-9 * scale, bound * evidence.force_rounding);
   const auto name = [&] {
     return (pass.link < 0 ? std::string("a wrap") : "link " + std::to_string(pass.link)) +
            " of \"" + std::string(pass.cable) + "\"";
   };
-  findings.note(Kind::friction, "N", std::max(high - bound * low, 0.0), scale, 1e-9 * scale, name);
+  findings.note(Kind::friction, "N", std::max(high - bound * low, 0.0), scale, rounding, name);
   if (pass.slip == 0.0 || pass.friction == 0.0 || !(scale > 0.0)) return;
   // Slipping: the side to which it goes pulls harder by all of the bound.
   const double pulling = pass.slip > 0.0 ? after : before;
@@ -43,7 +44,7 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
   const double creep = 1e-7 * std::min(cable.free_length, evidence.bodies.scale());
   const double weight = std::abs(pass.slip) / (std::abs(pass.slip) + creep);
   findings.note(Kind::friction, "N", weight * std::max(asked - pulling, 0.0),
-                std::max(scale, asked), 1e-9 * scale, name);
+                std::max(scale, asked), rounding, name);
 }
 
 void check_contact(const Evidence& evidence, const ContactEvidence& contact, Findings& findings) {

@@ -75,13 +75,14 @@ class FrameMaker {
     frame_.angular_compliance = joint.angular_compliance;
   }
   void operator()(const DistanceJoint& joint) const {
-    frame_.kind.distance = joint.limit != DistanceLimit::none;
+    frame_.kind.distance = true;
     frame_.own_anchor_a = own(frame_.body_a, joint.anchor_a);
     frame_.own_anchor_b = own(frame_.body_b, joint.anchor_b);
     frame_.length = joint.length.value_or((joint.anchor_a - joint.anchor_b).norm());
     constexpr double any = std::numeric_limits<double>::infinity();
-    frame_.lower = joint.limit == DistanceLimit::at_most ? -any : 0.0;
-    frame_.upper = joint.limit == DistanceLimit::at_least ? any : 0.0;
+    const bool none = joint.limit == DistanceLimit::none;
+    frame_.lower = none || joint.limit == DistanceLimit::at_most ? -any : 0.0;
+    frame_.upper = none || joint.limit == DistanceLimit::at_least ? any : 0.0;
     frame_.compliance = joint.compliance;
     frame_.damping = joint.damping;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cable/certificate/checks.h"
 #include "cable/certificate/joint_frames.h"
@@ -144,6 +145,7 @@ class JointCheck {
   }
 
   void check_distance() {
+    if (frame_.lower != 0.0 && frame_.upper != 0.0) return;  // any distance is permitted
     const auto stretch = [&](const Moment& now) {
       return (frame_.anchor_a(now) - frame_.anchor_b(now)).norm() - frame_.length;
     };
@@ -309,8 +311,14 @@ class JointCheck {
     const double largest =
         std::max({std::abs(acting), std::abs(now.drive_force), std::abs(spring),
                   std::abs(damping * moved), settings.friction, now.angle ? load_ * size_ : load_});
+    // Values and forces are known to the rounding of poses: to that laws can tell.
+    constexpr double digits = 64.0 * std::numeric_limits<double>::epsilon();
+    const double value_rounding =
+        digits * (std::abs(now.value) + (now.angle ? 1.0 : e_.bodies.scale()));
+    const double law_rounding = (settings.stiffness + damping / e_.h) * value_rounding +
+                                e_.force_rounding * (now.angle ? size_ : 1.0);
     note(Kind::force_law, now.angle ? "N m" : "N", stopped ? 0.0 : excess, largest,
-         rounding * 1e2 * largest);
+         rounding * 1e2 * largest + law_rounding);
     // Dry friction takes energy: all of it, against what moves.
     if (settings.friction > 0.0 && !stopped) {
       const double speed = std::abs(moved);
@@ -319,7 +327,7 @@ class JointCheck {
       const double along = moved > 0.0 ? rest : -rest;
       // At its bound where it slips: rest = -friction sign(moved).
       note(Kind::friction, now.angle ? "N m" : "N", weight * std::max(along, 0.0),
-           std::max(largest, settings.friction), 0.0);
+           std::max(largest, settings.friction), law_rounding);
     }
   }
 
@@ -370,8 +378,7 @@ void check_body_drives(const Evidence& evidence, Findings& findings) {
     const double off = std::max({least - turned, turned - greatest, 0.0});
     double most = 0.0;
     for (const double v : body.drive_table.values) most = std::max(most, std::abs(v));
-    findings.note(Kind::drive, "rad", off,
-                  std::max(speed ? most * evidence.h : most, 1e-6),
+    findings.note(Kind::drive, "rad", off, std::max(speed ? most * evidence.h : most, 1e-6),
                   1e-13 * (1.0 + std::abs(evidence.end.bodies[at(i)].angle)),
                   [&] { return evidence.body_name(i); });
   }

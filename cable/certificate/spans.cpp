@@ -149,7 +149,12 @@ class SpanCheck {
         start *= span.rest_length[last_end] / span.rest_length[first_end];
       }
       before += start;
-      const double stretch = span.length[last_end] - span.rest_length[last_end];
+      double stretch = span.length[last_end] - span.rest_length[last_end];
+      if (cable.tangent_update == TangentUpdate::substep) {
+        // What acted is between attachments that keep their places on the bodies; what rolls is in their distance.
+        const double apart = (span.to.point[last_end] - span.from.point[last_end]).norm();
+        stretch = apart - span.rest_length[first_end] - span.fed;
+      }
       now += stretch;
       const double a = compliance_of(cable, span.rest_length[last_end]);
       wanted += a * span.tension();

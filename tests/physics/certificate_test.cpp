@@ -6,7 +6,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cable/links/pinhole.h"
 #include "cable/links/spool.h"
+#include "engine/joints/distance.h"
 #include "engine/joints/hinge.h"
 #include "tests/support/builders.h"
 
@@ -160,6 +162,51 @@ TEST(Certificate, MergeKeepsTheWorstOfEachKind) {
   EXPECT_EQ(all.worst()->kind, Kind::span);
   EXPECT_TRUE(all.clean(0.3));
   EXPECT_FALSE(all.clean(0.29));
+}
+
+// A dashpot locks nothing: any distance is permitted.
+TEST_P(CertificateOf, DashpotLocksNothing) {
+  Machine machine;
+  machine.model.step = exact(GetParam());
+  machine.model.gravity = down;
+  machine.model.add(lump("load", {0, -1.0, 0}, 2.0));
+  auto dashpot = std::make_shared<DistanceJoint>();
+  dashpot->name = "dashpot";
+  dashpot->body_b = {0};
+  dashpot->anchor_b = {0, -1.0, 0};
+  dashpot->limit = DistanceLimit::none;
+  dashpot->damping = 3.0;
+  machine.model.joints.push_back(dashpot);
+  Simulation simulation = start(machine);
+  const Certificate all = certify(simulation, 0.5);
+  EXPECT_TRUE(all.clean(1e-6)) << worst_of(all);
+  // It has sunk: m v' = m g - c v.
+  EXPECT_LT(simulation.world.position({0}).y(), -1.8);
+}
+
+// What falls together with its cable pulls at nothing: what rounding leaves of tensions has no ratio, and what it leaves of
+// damped rates is no force.
+TEST_P(CertificateOf, RoundingIsNoFriction) {
+  Machine machine;
+  machine.model.step = exact(GetParam());
+  machine.model.gravity = down;
+  machine.model.add(lump("a", {0.1, 0.2, 0}, 1.0));
+  machine.model.add(lump("b", {1.3, 0.7, 0.4}, 2.3));
+  machine.model.add(lump("c", {2.9, 0.1, 0}, 0.7));
+  auto hole = std::make_shared<PinholeLink>();
+  hole->body = {1};
+  hole->friction = 0.01;
+  machine.cables.push_back(cable("rope", {attach({0}), hole, attach({2})}));
+  auto hinge = std::make_shared<HingeJoint>();
+  hinge->name = "hinge";
+  hinge->body_a = {0};
+  hinge->body_b = {1};
+  hinge->anchor = {0.7, 0.5, 0.2};
+  hinge->angle.damping = 2.0;
+  machine.model.joints.push_back(hinge);
+  Simulation simulation = start(machine);
+  const Certificate all = certify(simulation, 0.5);
+  EXPECT_TRUE(all.clean(1e-4)) << worst_of(all);
 }
 
 TEST(CertificateSchedule, ChecksTheFirstAndTheLastStepAndEveryNth) {
