@@ -134,7 +134,7 @@ TEST(Warnings, WhatAStepCannotFollowIsAWarning) {
     EXPECT_THAT(warning["message"], testing::Not(HasSubstr("--solver direct")));
   }
   std::vector<std::string> resolved = extreme;
-  resolved.insert(resolved.end(), {"--substeps", "40"});
+  resolved.insert(resolved.end(), {"--substeps", "100"});
   EXPECT_EQ(warned(resolved), "");
   EXPECT_EQ(warned({scene, "--solver", "direct"}), "");
 }
