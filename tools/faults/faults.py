@@ -164,6 +164,24 @@ FAULTS = [
         "return std::max(0.0, 1.3 * contact.restitution * impact + a * since);",
         why="the speed at which bodies meet is not reported, so the coefficient of restitution cannot be checked, only that "
             "no bounce makes energy; and the one scene that bounces was doubtful without the fault when this was made"),
+    # Faults that there once were.
+    one("open-stuck", "runs that no body can lengthen and that have become too short or too long are taken as held",
+        "cable/cable_friction.cpp",
+        "piece.kind = spare > rounding    ? Piece::Kind::too_long\n                   : spare < -rounding ? Piece::Kind::too_short\n"
+        "                                       : Piece::Kind::open;",
+        "static_cast<void>(spare > rounding);\n      piece.kind = Piece::Kind::open;"),
+    one("open-halved", "tensions that statics leaves open are half of what they were", "cable/cable_friction.cpp",
+        "multipliers_[at(k)] = std::exp(pull);", "multipliers_[at(k)] = 0.5 * std::exp(pull);"),
+    one("strain-left", "material comes onto wheels without its strain", "cable/cable_system.cpp",
+        "if (cable.inverse_stiffness > 0.0) {\n      transport = material_transport",
+        "if (false && cable.inverse_stiffness > 0.0) {\n      transport = material_transport"),
+    Fault("unconverged-kept", "what rattle's rounds leave off is accepted, and becomes velocity",
+          [("engine/integrators/rattle.cpp",
+            "substep.failed = solver_ == SolverKind::direct && substep.resort == Resort::none;\n      if (substep.failed) return;",
+            "return;"),
+           ("engine/integrators/rattle.cpp",
+            "    substep.failed = true;\n    return;\n  }\n  velocities_.apply_impulses",
+            "  }\n  velocities_.apply_impulses")], ["engine/integrators/rattle.cpp"]),
 ]
 
 REPOSITORY = [f"scenes/analytic/{name}.json" for name in
@@ -173,5 +191,5 @@ REPOSITORY = [f"scenes/analytic/{name}.json" for name in
 REPOSITORY += [f"scenes/paper/{name}.json" for name in ("bow", "elastic", "hybrid", "merge-split", "servin", "skewed-wheels")]
 REPOSITORY += [f"scenes/machines/{name}.json" for name in ("elevator-brake", "geared-hoist", "winch")]
 REPOSITORY += [f"tools/faults/{name}.json" for name in ("a1-drum-and-post", "a1-eyelets", "a1-feed",
-               "a1-holes", "a2-post", "axles", "feed", "levers", "strained")]
+               "a1-holes", "a2-post", "a3-drum", "a4-strained", "a5-cart", "a5-cart-1", "axles", "feed", "levers", "strained")]
 SCENES = [(scene, "direct", integrator) for scene in REPOSITORY for integrator in ("xpbd", "rattle")]
