@@ -75,7 +75,8 @@ bool is_prefix(const std::string& name, const std::string& left, const std::stri
     const NpyFile all = parse_npy(whole);
     return part.columns == all.columns && part.rows <= all.rows &&
            part.data.size() <= all.data.size() &&
-           std::memcmp(part.data.data(), all.data.data(), part.data.size() * sizeof(double)) == 0;
+           (part.data.empty() ||
+            std::memcmp(part.data.data(), all.data.data(), part.data.size() * sizeof(double)) == 0);
   }
   return name.ends_with(".csv") && left.ends_with('\n') && whole.starts_with(left);
 }

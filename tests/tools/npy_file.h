@@ -39,7 +39,9 @@ inline NpyFile parse_npy(const std::string& bytes, bool complete = true) {
   }
   const std::size_t size = bytes.size() - begin - length;
   npy.data.resize(size / sizeof(double));
-  std::memcpy(npy.data.data(), bytes.data() + begin + length, npy.data.size() * sizeof(double));
+  if (!npy.data.empty()) {
+    std::memcpy(npy.data.data(), bytes.data() + begin + length, npy.data.size() * sizeof(double));
+  }
   if (complete) {
     EXPECT_EQ(size, npy.rows * npy.columns * sizeof(double));
   }

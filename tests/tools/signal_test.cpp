@@ -51,6 +51,7 @@ void expect_npy_prefix(const std::string& left, const std::string& whole) {
   ASSERT_LE(part.rows, all.rows);
   const std::size_t count = part.rows * all.columns;
   ASSERT_GE(part.data.size(), count) << "a row is promised that is not there";
+  if (count == 0) return;
   EXPECT_EQ(std::memcmp(part.data.data(), all.data.data(), count * sizeof(double)), 0);
 }
 
