@@ -9,58 +9,15 @@
 #include <vector>
 
 #include "cable/cable.h"
+#include "cable/cable_parts.h"
 #include "cable/cable_report.h"
+#include "cable/compiled_cable.h"
 #include "cable/span_row.h"
 #include "cable/stored_strain.h"
-#include "cable/wrap_candidate.h"
 #include "engine/constraint_batch.h"
 #include "engine/index.h"
 
 namespace sheave {
-
-/// Constants of one cable.
-struct CompiledCable {
-  std::string name;
-  bool closed = false;
-  /// Its links and spans within those of all cables. Span k begins at link k; behind the links that the user listed there
-  /// are places for wraps on bodies that the cable comes to touch.
-  int first_link = 0;
-  int listed_links = 0;
-  int link_count = 0;
-  int first_span = 0;
-  int listed_spans = 0;
-  int span_count = 0;
-  double compliance = 0.0;         ///< [m/N]; 0 if rigid or of a material
-  double inverse_stiffness = 0.0;  ///< 1/EA [1/N]; 0 if not of a material
-  double damping = 0.0;            ///< [N s/m]
-  double breaking_tension = std::numeric_limits<double>::infinity();  ///< [N]
-  double cut_time = std::numeric_limits<double>::infinity();          ///< [s]
-  double wrap_friction = 0.0;             ///< capstan coefficient on wrappable bodies
-  std::vector<WrapCandidate> candidates;  ///< bodies it can come to touch
-  int first_plane = 0;                    ///< of its places for wraps within those of all cables
-  bool course_changes = false;            ///< it leaves or touches bodies, or can be cut
-  bool planar = false;                    ///< all links stay in one plane
-  Vector3 normal = Vector3::UnitZ();      ///< of that plane
-  std::vector<double> senses;  ///< per link: +1 if its normal is `normal`, -1 if opposite
-  /// Of its listed links those whose body a drive turns, and those that feed.
-  std::vector<int> driven_links;
-  bool may_lock = false;      ///< rigid, and drives alone may decide how long some of its spans are
-  bool shares = false;        ///< cable can pass at one of its links other than by rolling
-  bool has_friction = false;  ///< and at one of them with friction
-  TangentUpdate tangent_update = TangentUpdate::iteration;
-  double start_length = 0.0;  ///< rest and stored lengths at time 0 [m]
-  /// Power of two that all rest and stored lengths are multiples of [m], about 1e-15 of the cable.
-  /// Sums and differences of such numbers are exact, so moving cable from span to wheel to span
-  /// cannot lose any: the length invariant holds to the last bit, for ever.
-  double quantum = 0.0;
-  std::vector<std::string_view> link_types;
-
-  [[nodiscard]] int last_listed_link() const { return first_link + listed_links - 1; }
-  /// The multiple of the quantum nearest to `length` [m].
-  [[nodiscard]] double quantised(double length) const {
-    return std::round(length / quantum) * quantum;
-  }
-};
 
 /// The feature "cables" of a world. Layout of its state, with the spans and links of all cables in order:
 ///
@@ -88,39 +45,15 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] std::vector<CableReport> report(const BodySet& bodies, const State& state,
                                                 const FeatureState& own) const;
 
-  /// A span that had no tangent in some substeps since the system was created.
-  struct TangentWarning {
-    std::string cable;
-    int span = 0;  ///< within its cable's list; -1: behind a wrap
-    long substeps = 0;
-    double first_time = 0.0;  ///< [s]
-  };
+  using TangentWarning = cable_parts::TangentWarning;
   [[nodiscard]] std::vector<TangentWarning> tangent_warnings() const;
-  /// A cable that touched more bodies than `most_wraps` allows: it passed through the others.
-  struct WrapWarning {
-    std::string cable;
-    long substeps = 0;
-    double first_time = 0.0;  ///< [s]
-  };
+  using WrapWarning = cable_parts::WrapWarning;
   [[nodiscard]] std::vector<WrapWarning> wrap_warnings() const;
-  /// A link at which the cable crosses itself at time 0 and would not with the other winding.
-  struct WindingWarning {
-    std::string cable;
-    int link = 0;      ///< within the cable's list
-    std::string body;  ///< that the link is on, or "world"
-    Winding better = Winding::clockwise;
-  };
+  using WindingWarning = cable_parts::WindingWarning;
   [[nodiscard]] const std::vector<WindingWarning>& winding_warnings() const {
     return winding_warnings_;
   }
-  /// A link at which something happened that nobody asked for.
-  struct LinkWarning {
-    std::string cable;
-    int link = 0;  ///< within its cable's list; -1: a wrap
-    int body = 0;  ///< that it is on; the world comes last
-    long substeps = 0;
-    double first_time = 0.0;  ///< [s]
-  };
+  using LinkWarning = cable_parts::LinkWarning;
   /// Drives and feeds that would have needed cable which was not there, and did not go on (cable/cable_drives.cpp).
   [[nodiscard]] std::vector<LinkWarning> stall_warnings() const { return link_warnings(stalls_); }
   /// Links that cable slid over because there was no more of it, where it ought not to slide.
@@ -204,11 +137,7 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] SpanGeometry geometry_of(const Substep& substep, int span) const;
 
   // Cable that passes between spans: cable/cable_runs.cpp.
-  /// Spans first, first + 1, ... of a cable (cyclic if it is closed) that share one multiplier.
-  struct Run {
-    int first = 0;
-    int count = 0;
-  };
+  using Run = cable_parts::Run;
   [[nodiscard]] int next_span(const CompiledCable& cable, int span) const;
   [[nodiscard]] bool shared(int link) const;
   /// Finds the frictionless links beside drained spans of a cable of constant compliance that pass nothing in the substep.
@@ -219,16 +148,9 @@ class CableSystem final : public ConstraintBatch {
   double solve_span(Substep& substep, int span);
   double sweep_spans(Substep& substep, const CompiledCable& cable);
   double sweep_runs(Substep& substep, int cable_index);
-  struct RunWeights {
-    double now = 0.0;
-    double start = 0.0;
-  };
+  using RunWeights = cable_parts::RunWeights;
   void linearise_run(Substep& substep, const CompiledCable& cable, Run run, std::vector<Row>& rows);
-  /// The sum of the values of a run's rows [m], and its change since the start of the substep where it is damped.
-  struct RunValue {
-    double error = 0.0;
-    double change = 0.0;
-  };
+  using RunValue = cable_parts::RunValue;
   /// Evaluates the spans of a run; sums their gradients body by body and their values, and collects the logarithms of the
   /// weights k_i. Returns the largest of these.
   double evaluate_run(const Substep& substep, const CompiledCable& cable, Run run, RunValue& value);
@@ -241,37 +163,7 @@ class CableSystem final : public ConstraintBatch {
   void share_lengths(Substep& substep, const CompiledCable& cable, FeatureState& next);
   void share_run(Substep& substep, const CompiledCable& cable, Run run, FeatureState& next);
   // Links with friction: cable/cable_friction.cpp.
-  /// A run, as the links that stick at its ends see it. Pulls are logarithms of multipliers.
-  struct Piece {
-    enum class Kind {
-      moves,      ///< bodies decide its tension
-      open,       ///< rigid, and no body can lengthen it: its tension is what its neighbours hold
-      too_long,   ///< the same, and slack
-      too_short,  ///< the same, and cable has to come in
-    };
-    Run run;
-    int last = 0;  ///< its last span
-    Kind kind = Kind::moves;
-    int link = -1;  ///< behind it, where cable can pass; -1: none
-    double first_pull = 0.0;
-    double last_pull = 0.0;
-    double rise =
-        0.0;  ///< of the pull from its first span to its last, where it is not Kind::moves
-    /// Friction times wrap angle at `link`; NaN: not asked for yet.
-    double grip = std::numeric_limits<double>::quiet_NaN();
-    // Of one too long or too short: the pull that either side would give it, NaN if there is none, the pieces where that
-    // comes from, and which of them do.
-    double from_before = std::numeric_limits<double>::quiet_NaN();
-    double from_behind = std::numeric_limits<double>::quiet_NaN();
-    std::size_t before = 0;
-    std::size_t behind = 0;
-    bool fed_before = false;
-    bool fed_behind = false;
-    bool served = false;
-    // Of one that is held: the pulls that what lies behind allows.
-    double low = 0.0;
-    double high = 0.0;
-  };
+  using Piece = cable_parts::Piece;
   /// Friction times wrap angle at a link, now.
   [[nodiscard]] double friction_exponent(const Substep& substep, int link,
                                          const SpanGeometry& incoming,
@@ -304,26 +196,13 @@ class CableSystem final : public ConstraintBatch {
   void apply_held(const Substep& substep, const CompiledCable& cable, const Piece& piece,
                   double pull);
   // Drums with layers: cable/cable_layers.cpp.
-  /// A span with the radii that its links have now.
-  struct LayeredSpan {
-    SpanSetup setup;
-    LinkGeometry first;
-    LinkGeometry second;
-    SpanGeometry geometry;
-    SpanTransport transport;
-  };
+  using LayeredSpan = cable_parts::LayeredSpan;
   [[nodiscard]] bool layered(int span) const;
   [[nodiscard]] LayeredSpan layered_span(const Substep& substep, int span) const;
   SpanGeometry evaluate_layered(const Substep& substep, int span, Row& row,
                                 SpanTransport& transport) const;
   // Cable of a material on wheels: cable/cable_material.cpp.
-  /// The row of a span of a material, but for its gradient.
-  struct StretchedSpan {
-    double value = 0.0;              ///< [m]
-    double spring_length = 0.0;      ///< A: compliance x EA [m]
-    double on = 0.0;                 ///< arc that comes onto its links [m, >= 0]
-    std::array<double, 2> gained{};  ///< unstretched length that comes off its links [m, >= 0]
-  };
+  using StretchedSpan = cable_parts::StretchedSpan;
   [[nodiscard]] StretchedSpan stretched(int span, const SpanTransport& arcs, double length) const;
   /// Strain of a span, 0 if it is slack or its cable not of a material.
   [[nodiscard]] static double strain_of(const CompiledCable& cable, double length,
@@ -408,29 +287,9 @@ class CableSystem final : public ConstraintBatch {
   void record(const Substep& substep, const CompiledCable& cable, int link, CableEvent::Kind kind);
   void remember_sides(const Substep& substep, const CompiledCable& cable);
   // Drives that need more cable than there is: cable/cable_drives.cpp.
-  /// What a drive does to the rest lengths of a chain if it does its whole share.
-  struct Pull {
-    int link = 0;
-    int span = -1;               ///< of a feed, whose link this is; else < 0
-    int end = 0;                 ///< and at which of its ends
-    double way = 0.0;            ///< in the substep [m], < 0 draws
-    double speed = 0.0;          ///< at its end [m/s]
-    double gross = 0.0;          ///< of `way`, what is both drawn and fed counted twice [m]
-    double way_of_points = 0.0;  ///< part of the above that moves spans' ends instead
-    double speed_of_points = 0.0;
-  };
-  /// Spans between two links over which no cable passes.
-  struct Chain {
-    int first_pull = 0;
-    int pull_count = 0;
-    double available = 0.0;  ///< cable that can be drawn [m]
-    bool moves = false;      ///< what limits it is that no rest length is below 0
-  };
-  struct ChainLengths {
-    double rest_length = 0.0;  ///< and what is on free drums at its ends [m]
-    double length = 0.0;       ///< of the spans [m]
-    bool moves = false;        ///< elastic, or forces can move one of its links
-  };
+  using Pull = cable_parts::Pull;
+  using Chain = cable_parts::Chain;
+  using ChainLengths = cable_parts::ChainLengths;
   /// Whether no cable passes the link unless a drive turns its body, or nothing does.
   [[nodiscard]] static bool ends_chain(const BodySet& bodies, const LinkGeometry& link);
   /// Whether forces can move the link's place.

@@ -1,0 +1,137 @@
+#pragma once
+// What CableSystem tells and computes with, part by part.
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <string>
+
+#include "cable/cable.h"
+#include "cable/span_row.h"
+
+namespace sheave::cable_parts {
+
+/// A span that had no tangent in some substeps since the system was created.
+struct TangentWarning {
+  std::string cable;
+  int span = 0;  ///< within its cable's list; -1: behind a wrap
+  long substeps = 0;
+  double first_time = 0.0;  ///< [s]
+};
+
+/// A cable that touched more bodies than `most_wraps` allows: it passed through the others.
+struct WrapWarning {
+  std::string cable;
+  long substeps = 0;
+  double first_time = 0.0;  ///< [s]
+};
+
+/// A link at which the cable crosses itself at time 0 and would not with the other winding.
+struct WindingWarning {
+  std::string cable;
+  int link = 0;      ///< within the cable's list
+  std::string body;  ///< that the link is on, or "world"
+  Winding better = Winding::clockwise;
+};
+
+/// A link at which something happened that nobody asked for.
+struct LinkWarning {
+  std::string cable;
+  int link = 0;  ///< within its cable's list; -1: a wrap
+  int body = 0;  ///< that it is on; the world comes last
+  long substeps = 0;
+  double first_time = 0.0;  ///< [s]
+};
+
+/// Spans first, first + 1, ... of a cable (cyclic if it is closed) that share one multiplier.
+struct Run {
+  int first = 0;
+  int count = 0;
+};
+
+struct RunWeights {
+  double now = 0.0;
+  double start = 0.0;
+};
+
+/// The sum of the values of a run's rows [m], and its change since the start of the substep where it is damped.
+struct RunValue {
+  double error = 0.0;
+  double change = 0.0;
+};
+
+/// A run, as the links that stick at its ends see it. Pulls are logarithms of multipliers.
+struct Piece {
+  enum class Kind {
+    moves,      ///< bodies decide its tension
+    open,       ///< rigid, and no body can lengthen it: its tension is what its neighbours hold
+    too_long,   ///< the same, and slack
+    too_short,  ///< the same, and cable has to come in
+  };
+  Run run;
+  int last = 0;  ///< its last span
+  Kind kind = Kind::moves;
+  int link = -1;  ///< behind it, where cable can pass; -1: none
+  double first_pull = 0.0;
+  double last_pull = 0.0;
+  double rise = 0.0;  ///< of the pull from its first span to its last, where it is not Kind::moves
+  /// Friction times wrap angle at `link`; NaN: not asked for yet.
+  double grip = std::numeric_limits<double>::quiet_NaN();
+  // Of one too long or too short: the pull that either side would give it, NaN if there is none, the pieces where that
+  // comes from, and which of them do.
+  double from_before = std::numeric_limits<double>::quiet_NaN();
+  double from_behind = std::numeric_limits<double>::quiet_NaN();
+  std::size_t before = 0;
+  std::size_t behind = 0;
+  bool fed_before = false;
+  bool fed_behind = false;
+  bool served = false;
+  // Of one that is held: the pulls that what lies behind allows.
+  double low = 0.0;
+  double high = 0.0;
+};
+
+/// A span with the radii that its links have now.
+struct LayeredSpan {
+  SpanSetup setup;
+  LinkGeometry first;
+  LinkGeometry second;
+  SpanGeometry geometry;
+  SpanTransport transport;
+};
+
+/// The row of a span of a material, but for its gradient.
+struct StretchedSpan {
+  double value = 0.0;              ///< [m]
+  double spring_length = 0.0;      ///< A: compliance x EA [m]
+  double on = 0.0;                 ///< arc that comes onto its links [m, >= 0]
+  std::array<double, 2> gained{};  ///< unstretched length that comes off its links [m, >= 0]
+};
+
+/// What a drive does to the rest lengths of a chain if it does its whole share.
+struct Pull {
+  int link = 0;
+  int span = -1;               ///< of a feed, whose link this is; else < 0
+  int end = 0;                 ///< and at which of its ends
+  double way = 0.0;            ///< in the substep [m], < 0 draws
+  double speed = 0.0;          ///< at its end [m/s]
+  double gross = 0.0;          ///< of `way`, what is both drawn and fed counted twice [m]
+  double way_of_points = 0.0;  ///< part of the above that moves spans' ends instead
+  double speed_of_points = 0.0;
+};
+
+/// Spans between two links over which no cable passes.
+struct Chain {
+  int first_pull = 0;
+  int pull_count = 0;
+  double available = 0.0;  ///< cable that can be drawn [m]
+  bool moves = false;      ///< what limits it is that no rest length is below 0
+};
+
+struct ChainLengths {
+  double rest_length = 0.0;  ///< and what is on free drums at its ends [m]
+  double length = 0.0;       ///< of the spans [m]
+  bool moves = false;        ///< elastic, or forces can move one of its links
+};
+
+}  // namespace sheave::cable_parts

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cable/cable.h"
+#include "cable/wrap_candidate.h"
+#include "engine/vector.h"
+
+namespace sheave {
+
+/// Constants of one cable.
+struct CompiledCable {
+  std::string name;
+  bool closed = false;
+  /// Its links and spans within those of all cables. Span k begins at link k; behind the links that the user listed there
+  /// are places for wraps on bodies that the cable comes to touch.
+  int first_link = 0;
+  int listed_links = 0;
+  int link_count = 0;
+  int first_span = 0;
+  int listed_spans = 0;
+  int span_count = 0;
+  double compliance = 0.0;         ///< [m/N]; 0 if rigid or of a material
+  double inverse_stiffness = 0.0;  ///< 1/EA [1/N]; 0 if not of a material
+  double damping = 0.0;            ///< [N s/m]
+  double breaking_tension = std::numeric_limits<double>::infinity();  ///< [N]
+  double cut_time = std::numeric_limits<double>::infinity();          ///< [s]
+  double wrap_friction = 0.0;             ///< capstan coefficient on wrappable bodies
+  std::vector<WrapCandidate> candidates;  ///< bodies it can come to touch
+  int first_plane = 0;                    ///< of its places for wraps within those of all cables
+  bool course_changes = false;            ///< it leaves or touches bodies, or can be cut
+  bool planar = false;                    ///< all links stay in one plane
+  Vector3 normal = Vector3::UnitZ();      ///< of that plane
+  std::vector<double> senses;  ///< per link: +1 if its normal is `normal`, -1 if opposite
+  /// Of its listed links those whose body a drive turns, and those that feed.
+  std::vector<int> driven_links;
+  bool may_lock = false;      ///< rigid, and drives alone may decide how long some of its spans are
+  bool shares = false;        ///< cable can pass at one of its links other than by rolling
+  bool has_friction = false;  ///< and at one of them with friction
+  TangentUpdate tangent_update = TangentUpdate::iteration;
+  double start_length = 0.0;  ///< rest and stored lengths at time 0 [m]
+  /// Power of two that all rest and stored lengths are multiples of [m], about 1e-15 of the cable.
+  /// Sums and differences of such numbers are exact, so moving cable from span to wheel to span
+  /// cannot lose any: the length invariant holds to the last bit, for ever.
+  double quantum = 0.0;
+  std::vector<std::string_view> link_types;
+
+  [[nodiscard]] int last_listed_link() const { return first_link + listed_links - 1; }
+  /// The multiple of the quantum nearest to `length` [m].
+  [[nodiscard]] double quantised(double length) const {
+    return std::round(length / quantum) * quantum;
+  }
+};
+
+}  // namespace sheave
