@@ -16,6 +16,7 @@
 #include "tests/property/wide_machine.h"
 #include "tests/support/combinations.h"
 #include "tests/support/effort.h"
+#include "tests/support/random.h"
 #include "tests/support/rounding.h"
 
 namespace sheave::test {
