@@ -19,7 +19,8 @@ const CertificateItem* worst_of(const Certificate& certificate, std::initializer
   return worst;
 }
 
-std::string certificate_share(double relative) { return fmt::format("{:.1g}", relative + 0.0); }  // -0 is 0
+/// Of -0 as 0.
+std::string certificate_share(double relative) { return fmt::format("{:.1g}", relative + 0.0); }
 
 }  // namespace
 

@@ -57,8 +57,8 @@ FAULTS = [
     one("feed-sign", "feeds with the wrong sign", "cable/cable_ends.cpp",
         "first = links_[at(setup.first)].feed_speed * h;", "first = -links_[at(setup.first)].feed_speed * h;",
         why="what has been fed is reported with the same sign"),
-    one("stored-lost", "what a wheel takes is not stored", "cable/cable_system.cpp",
-        "next.reals[stored_length_index(link)] -= moved;", "next.reals[stored_length_index(link)] -= 0.5 * moved;"),
+    one("stored-lost", "half of what a wheel takes is not stored", "cable/cable_drives.cpp",
+        "    stored -= moved[end];", "    stored -= 0.5 * moved[end];"),
     one("merge-loss", "what a wheel has stored is lost when the cable leaves it", "cable/cable_contacts.cpp",
         "rest_before += rest_after + stored;", "rest_before += rest_after;",
         why="when a cable leaves a wheel, next to nothing is stored there: the length that is lost is 1.4e-4 of the "
