@@ -217,6 +217,8 @@ double CableSystem::numerical_damping(const CompiledCable& cable, std::array<dou
   // Less damping than this share of the spring's force is lost in the rounding of the stretch.
   constexpr double negligible = 1e-6;
   const double compliance = compliance_of(cable, rest_length);
+  // Of a material that is used up: nothing is there to vibrate.
+  if (!(compliance > 0.0)) return 0.0;
   const double share = cable.damping * compliance / h;
   const auto [before, now] = tensions;
   double change = before > 0.0 ? compliance * (now - before) : 0.0;

@@ -332,6 +332,33 @@ TEST_P(CableLimits, AnElasticBeltIsDrawnNoFurtherThanItsSpanIsLong) {
   EXPECT_NEAR(std::abs(s.world.state().bodies[0].angle), 2.5, 1e-9);
 }
 
+TEST_P(CableLimits, OfAMaterialThatIsUsedUpNothingVibrates) {
+  // Compliance and stretch are both 0 then, and so is what implicit Euler takes: the weight has fallen as far as its springs
+  // let it, and never more is taken than its 2 kg x g x 0.5 m and what the feed has put in.
+  test::Machine m;
+  m.model.gravity = test::down;
+  m.model.step = step_settings(0.004, 20);
+  const BodyId load = m.model.add(test::weight("load", {0.0, -0.5, 0.0}, 2.0));
+  auto mouth = attach(BodyId::world(), Vector3::Zero());
+  mouth->feed_speed = -0.4;
+  CableDef rope = cable("rope", {mouth, attach(load)});
+  rope.axial_stiffness = 2e4;
+  m.cables.push_back(rope);
+  Simulation s = test::start(m);
+  double taken = 0.0;
+  bool used_up = false;
+  for (int i = 0; i < 500; ++i) {
+    const StepReport step = s.world.step();
+    ASSERT_TRUE(step.ok());
+    taken += step.statistics.numerical_damping;
+    ASSERT_TRUE(std::isfinite(taken)) << i;
+    used_up = used_up || s.cable_reports()[0].spans[0].rest_length == 0.0;
+  }
+  EXPECT_TRUE(used_up);
+  EXPECT_GE(taken, 0.0);
+  EXPECT_LT(taken, 2.0 * 2.0 * g * 0.5);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, CableLimits, testing::ValuesIn(test::combinations),
                          test::combination_name);
 
