@@ -26,12 +26,15 @@ void SubstepDriver::cut(Part whole) {
   left_to_others_ = 0;
   parts_ = 0;
   start_ = state_;
+  const std::int64_t fallbacks = substep_.statistics.integrator_fallbacks;
   if (advance_in_halves(whole)) {
     ++substep_.statistics.cut_substeps;
     substep_.statistics.substep_parts += parts_;
     return;
   }
   if (divergence_) return;
+  // Only what is kept counts as left to the other integrator.
+  substep_.statistics.integrator_fallbacks = fallbacks;
   // What a short part leaves of its constraints would be a large velocity.
   state_.bodies = start_.bodies;
   state_.features = start_.features;
@@ -49,6 +52,7 @@ bool SubstepDriver::others() const { return settings_.integrator == IntegratorKi
 
 bool SubstepDriver::attempt(Part part, Resort resort) {
   const auto count = static_cast<double>(part.count);
+  const std::int64_t fallbacks = substep_.statistics.integrator_fallbacks;
   substep_.h = settings_.dt / count;
   substep_.load_share = settings_.integrator == IntegratorKind::rattle ? 0.5 : 1.0;
   substep_.iterations = part.count == settings_.substeps
@@ -67,6 +71,7 @@ bool SubstepDriver::attempt(Part part, Resort resort) {
   }
   if (!substep_.failed) divergence_ = find_divergence(substep_, features_);
   if (!substep_.failed && !divergence_) return true;
+  substep_.statistics.integrator_fallbacks = fallbacks;
   substep_.next = state_;  // stages build on what `next` held at the start
   return false;
 }
