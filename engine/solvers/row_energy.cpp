@@ -68,7 +68,7 @@ double RowSystem::work_error(const Substep& substep, const RowSystem& positions)
       const auto i = at(r);
       const Row& row = rows_[i];
       const Group& group = groups_[at(group_of_[i])];
-      const double second = row.weight * impulses[at(group_of_[i])];
+      const double second = row.weight * (group.multiplier + impulses[at(group_of_[i])]);
       const double first = previous_[i] / substep.h;
       if (first == 0.0 && second == 0.0) continue;
       // Drives and feeds give what they give, springs keep what they take, and friction with bounds may be either.

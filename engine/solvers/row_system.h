@@ -160,6 +160,8 @@ class RowSystem {
   /// Adds the motion that `change` of row i's multiplier causes.
   void add_motion(const Substep& substep, std::size_t row, double change);
   void act_springs(Substep& substep);
+  /// Counts the impulses in the groups' multipliers as given: the unknowns are what is added to them.
+  void start_from_impulses(const Substep& substep);
   void move_velocities(Substep& substep);
   [[nodiscard]] double rate_of(const Substep& substep, const Row& row) const;
 

@@ -24,6 +24,9 @@ void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
   const double closed = 1e-8 * substep.bodies.scale();
   const double share =
       0.5 / substep.h;  // of the bounds, for an impulse in the second half of the substep
+  // Velocities alone tell nothing of forces that hold each other in balance. They stay what they were in the first half,
+  // where the bounds and the links have judged them.
+  const bool redundant = positions.active_set_.dropped() > 0;
   std::swap(rows_, positions.rows_);  // which have served their turn
   for (Row& row : rows_) std::swap(row.weight, row.start_weight);
   feature_rows_ = positions.feature_rows_;
@@ -49,12 +52,31 @@ void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
                        (std::isfinite(first.lower) && value < 0.0) ||
                        (std::isfinite(first.upper) && value > 0.0));
     const bool bilateral = !std::isfinite(first.lower) && !std::isfinite(first.upper);
-    problem_.constant[g] = rate;
-    problem_.lower[g] = acts ? share * first.lower : 0.0;
-    problem_.upper[g] = acts ? share * first.upper : 0.0;
+    const double lower = acts ? share * first.lower : 0.0;
+    const double upper = acts ? share * first.upper : 0.0;
     problem_.free[g] =
         acts && first.lower != first.upper && (bilateral || group.multiplier != 0.0) ? 1 : 0;
-    group.multiplier = 0.0;  // of the impulse
+    group.multiplier =
+        redundant ? std::clamp(group.multiplier / substep.h, lower, upper) : 0.0;  // of the impulse
+    problem_.constant[g] = rate;
+    problem_.lower[g] = lower - group.multiplier;
+    problem_.upper[g] = upper - group.multiplier;
+  }
+  if (redundant) start_from_impulses(substep);
+}
+
+void RowSystem::start_from_impulses(const Substep& substep) {
+  motion_.assign(substep.moving.size(), RowTerm{});
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const double impulse = rows_[i].weight * groups_[at(group_of_[i])].multiplier;
+    if (impulse != 0.0) add_motion(substep, i, impulse);
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    double& constant = problem_.constant[at(group_of_[i])];
+    for (const RowTerm& term : rows_[i].active_terms()) {
+      const RowTerm& motion = motion_[at(term.body)];
+      constant += dot(term.linear, motion.linear) + dot(term.angular, motion.angular);
+    }
   }
 }
 
@@ -94,7 +116,8 @@ void RowSystem::apply_impulses(Substep& substep, Features features) {
       const auto i = at(r);
       const Group& group = groups_[at(group_of_[i])];
       const double impulse =
-          group.elastic ? previous_[i] / substep.h : rows_[i].weight * impulses[at(group_of_[i])];
+          group.elastic ? previous_[i] / substep.h
+                        : rows_[i].weight * (group.multiplier + impulses[at(group_of_[i])]);
       multipliers[at(rows_[i].index)] = previous_[i] + substep.h * impulse;
       late[at(rows_[i].index)] = impulse / substep.h;
       if (!group.elastic) add_motion(substep, i, impulse);
