@@ -229,7 +229,7 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
 }
 
 void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Run run,
-                                std::vector<Row>& rows) {
+                                RowList& rows) {
   const std::size_t start = rows.size();
   // Logarithms, and the largest of them.
   RunWeights weights;

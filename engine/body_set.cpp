@@ -149,6 +149,7 @@ Result<BodySet> BodySet::create(const Model& model) {
     finish_body(body, model.bodies[at(i)]);
   }
   set.properties_.emplace_back();  // the world
+  set.coordinates_ = Coordinates(set.properties_);
   set.scale_ = scene_scale(model.bodies);
   return set;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/body.h"
+#include "engine/dynamics/coordinates.h"
 #include "engine/result.h"
 #include "engine/state.h"
 #include "engine/time_table.h"
@@ -73,6 +74,7 @@ class BodySet {
     return definitions_[static_cast<std::size_t>(index)];
   }
   [[nodiscard]] const std::string& name(int index) const;
+  [[nodiscard]] const Coordinates& coordinates() const { return coordinates_; }
   [[nodiscard]] const Vector3& gravity() const { return gravity_; }
   /// Length [m] that "large" and "small" are measured by: the diagonal of the box round all bodies
   /// at time 0, at least the largest body; 1 m if all that is a single point.
@@ -94,6 +96,7 @@ class BodySet {
  private:
   std::vector<BodyDef> definitions_;
   std::vector<BodyProperties> properties_;  // one more than definitions_: the world
+  Coordinates coordinates_;
   Vector3 gravity_ = Vector3::Zero();
   double scale_ = 1.0;
 };

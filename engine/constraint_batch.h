@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/row.h"
+#include "engine/row_list.h"
 #include "engine/state.h"
 
 namespace sheave {
@@ -44,7 +44,7 @@ class ConstraintBatch {
   /// Returns the largest correction, as an error of a row [m or rad].
   virtual double sweep(Substep& substep) = 0;
   /// Appends all rows at the current positions without moving anything; their multipliers are those of multipliers().
-  virtual void linearise(Substep& substep, std::vector<Row>& rows) = 0;
+  virtual void linearise(Substep& substep, RowList& rows) = 0;
   /// The accumulated multipliers, which a row refers to by its index; a solver changes them with the positions.
   [[nodiscard]] virtual std::span<double> multipliers() = 0;
   /// Called when a solver of all rows at once has found multipliers: chooses anew between the states that rows do not

@@ -16,6 +16,17 @@ constexpr double runaway_sizes = 1e9;
 /// What is wrong with one body's new state; null if nothing is.
 const char* fault_of(const BodyState& body, double size, double h) {
   const double farthest = runaway_sizes * size;
+  // Nearly always nothing is, and squares tell that with few comparisons, none of which a NaN passes.
+  const double far_squared = farthest * farthest;
+  const double turn = dot(body.angular_velocity, body.angular_velocity);
+  if (dot(body.position, body.position) <= far_squared &&
+      h * h * dot(body.velocity, body.velocity) <= far_squared &&
+      h * h * turn <= runaway_sizes * runaway_sizes &&
+      std::abs(body.orientation.w()) + std::abs(body.orientation.x()) +
+              std::abs(body.orientation.y()) + std::abs(body.orientation.z()) <=
+          4.0) {
+    return nullptr;
+  }
   // allFinite() first: a maximum may or may not see a NaN.
   const auto beyond = [](const Vector3& v, double limit) {
     return !v.allFinite() || v.cwiseAbs().maxCoeff() > limit;

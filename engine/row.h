@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cassert>
+#include <cstdint>
 #include <limits>
 #include <span>
 
@@ -32,6 +33,13 @@ struct MovingBody {
   /// Rotation since the start of the substep [rad], as the sum of all rotation vectors applied. It
   /// is not wrapped: a wheel may turn several times in one substep.
   Vector3 turn = Vector3::Zero();
+  /// What it turns about, if that is one axis alone: the normal of a planar body, the axle of a rotor (of a mounted one as it
+  /// was when its inverse inertia was taken). Unit vector, world frame.
+  Vector3 axis = Vector3::Zero();
+  /// What its inverse mass and inertia are along each of its degrees of freedom [1/kg], [1/(kg m2)]. Of a free body with
+  /// unequal moments of inertia only `inverse_inertia` tells.
+  double linear_yield = 0.0;
+  double angular_yield = 0.0;
   Matrix3 inverse_mass = Matrix3::Zero();     ///< [1/kg], world frame
   Matrix3 inverse_inertia = Matrix3::Zero();  ///< [1/(kg m2)], world frame
   bool translates = false;                    ///< inverse_mass is not zero
@@ -86,10 +94,15 @@ struct Row {
   bool tied = false;
   double weight = 1.0;        ///< > 0
   double start_weight = 1.0;  ///< the same at the start of the substep; `rattle` needs it
+  /// Null, or what this is a copy of (engine/row_list.h): the same bodies, gradient and weights as any other copy of the same
+  /// edition, and these bodies have the same inverse masses.
+  const Row* source = nullptr;
+  std::uint32_t edition = 0;
 
   /// Makes the row empty: no terms, rigid, bilateral, value 0.
   void clear() {
     index = 0;
+    source = nullptr;
     active = tied = false;
     weight = start_weight = 1.0;
     softness = 0.0;

@@ -32,6 +32,7 @@ void set_undamped(const BodyProperties& properties, MovingBody& body) {
     case Mobility::free: {
       const Matrix3 rotation = body.orientation.toRotationMatrix();
       body.inverse_mass = Matrix3::Identity() / properties.mass;
+      body.linear_yield = 1.0 / properties.mass;
       body.inverse_inertia =
           properties.isotropic
               ? properties.inverse_inertia
@@ -41,14 +42,21 @@ void set_undamped(const BodyProperties& properties, MovingBody& body) {
     case Mobility::planar:
       body.inverse_mass = (Matrix3::Identity() - along) / properties.mass;
       body.inverse_inertia = along / properties.axis_inertia;
+      body.axis = axis;
+      body.linear_yield = 1.0 / properties.mass;
+      body.angular_yield = 1.0 / properties.axis_inertia;
       break;
     case Mobility::slider:
       body.inverse_mass = along / properties.mass;
+      body.linear_yield = 1.0 / properties.mass;
       break;
     case Mobility::rotor:
       // A massless wheel is turned by its cable when the substep is complete, not by forces.
-      if (properties.axis_inertia > 0.0 && !properties.prescribed())
+      body.axis = axis;
+      if (properties.axis_inertia > 0.0 && !properties.prescribed()) {
         body.inverse_inertia = along / properties.axis_inertia;
+        body.angular_yield = 1.0 / properties.axis_inertia;
+      }
       break;
   }
 }
@@ -60,16 +68,28 @@ void set_inverse_masses(const BodySet& bodies, int i, double time, MovingBody& b
   set_undamped(properties, body);
   const BodyDef& definition = bodies.definition(i);
   if (definition.damping > 0.0) {
-    body.inverse_mass *= left_by_drag(definition.damping / properties.mass, time);
+    const double left = left_by_drag(definition.damping / properties.mass, time);
+    body.inverse_mass *= left;
+    body.linear_yield *= left;
   }
   if (definition.angular_damping == 0.0) return;
   if (properties.mobility != Mobility::free) {
-    body.inverse_inertia *=
-        left_by_drag(definition.angular_damping / properties.axis_inertia, time);
+    const double left = left_by_drag(definition.angular_damping / properties.axis_inertia, time);
+    body.inverse_inertia *= left;
+    body.angular_yield *= left;
   } else if (properties.isotropic) {
     body.inverse_inertia *=
         left_by_drag(definition.angular_damping * properties.inverse_inertia(0, 0), time);
   }
+}
+
+/// Those of a rotor on a carrier, about its axle as it stands there.
+void set_mounted_inverse_inertia(const BodyProperties& rotor, const Vector3& axle,
+                                 MovingBody& body) {
+  body.axis = axle;
+  if (!(rotor.axis_inertia > 0.0)) return;
+  body.inverse_inertia = axle * axle.transpose() / rotor.axis_inertia;
+  body.angular_yield = 1.0 / rotor.axis_inertia;
 }
 
 /// Whether they differ from substep to substep.
@@ -115,9 +135,10 @@ void Substep::restart() {
     body.free_turn.setZero();
     const BodyProperties& properties = bodies[i];
     if (inverse_masses_change(bodies, i)) set_inverse_masses(bodies, i, load_share * h, body);
-    if (properties.mount >= 0 && properties.axis_inertia > 0.0) {
-      const Vector3 axis = rotated(start.bodies[at(properties.mount)].orientation, properties.axis);
-      body.inverse_inertia = axis * axis.transpose() / properties.axis_inertia;
+    if (properties.mount >= 0) {
+      set_mounted_inverse_inertia(
+          properties, rotated(start.bodies[at(properties.mount)].orientation, properties.axis),
+          body);
     }
     predicted_turn[at(i)].setZero();
   }
@@ -128,9 +149,9 @@ void Substep::update_inertias() {
     const BodyProperties& properties = bodies[i];
     MovingBody& body = moving[at(i)];
     if (inverse_masses_change(bodies, i)) set_inverse_masses(bodies, i, load_share * h, body);
-    if (properties.mount >= 0 && properties.axis_inertia > 0.0) {
-      const Vector3 axis = moving[at(properties.mount)].orientation * properties.axis;
-      body.inverse_inertia = axis * axis.transpose() / properties.axis_inertia;
+    if (properties.mount >= 0) {
+      set_mounted_inverse_inertia(properties,
+                                  moving[at(properties.mount)].orientation * properties.axis, body);
     }
   }
 }

@@ -92,7 +92,7 @@ class ContactBatch final : public ConstraintBatch {
     return correction;
   }
 
-  void linearise(Substep& substep, std::vector<Row>& rows) override {
+  void linearise(Substep& substep, RowList& rows) override {
     for (std::size_t i = 0; i < contacts_.size(); ++i) {
       const Contact& contact = contacts_[i];
       for (int k = 0; k < contact.rows; ++k) {

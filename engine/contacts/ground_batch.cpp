@@ -71,7 +71,7 @@ class GroundBatch final : public ConstraintBatch {
     return correction;
   }
 
-  void linearise(Substep& substep, std::vector<Row>& rows) override {
+  void linearise(Substep& substep, RowList& rows) override {
     for (Owner& owner : owners_) {
       // A row that appears in the middle of a substep has no start there, and rattle leaves that substep to xpbd.
       owner.near = owner.near || height(substep.position(owner.body)) <= owner.reach;

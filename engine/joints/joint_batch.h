@@ -104,7 +104,7 @@ class JointBatch final : public JointFeature {
     return correction;
   }
 
-  void linearise(Substep& substep, std::vector<Row>& rows) override {
+  void linearise(Substep& substep, RowList& rows) override {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       if (intact_[j] == 0) continue;
       const Joint& joint = joints_[j];

@@ -28,16 +28,15 @@ void RowSystem::remember_start(Substep& substep, Features features) {
   begin_rounds();
   collect_rows(substep, features);
   std::swap(start_rows_, rows_);  // which are collected anew in each round
-  start_responses_.resize(start_rows_.size());
+  const Coordinates& coordinates = substep.bodies.coordinates();
+  start_slots_.find_pattern(coordinates, start_rows_);
+  start_slots_.fill(coordinates, start_rows_, substep.moving);
   start_places_.resize(features.size());
   for (std::size_t f = 0; f < features.size(); ++f) {
     start_places_[f].assign(features[f]->multipliers().size(), -1);
     for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
       start_places_[f][at(start_rows_[at(i)].index)] = i;
     }
-  }
-  for (std::size_t i = 0; i < start_rows_.size(); ++i) {
-    respond(start_rows_[i], substep.moving, start_responses_[i]);
   }
 }
 
@@ -49,6 +48,10 @@ bool RowSystem::match_start() {
       const int place = start_places_[f][at(row.index)];
       if (place < 0) return false;
       const Row& start = start_rows_[at(place)];
+      if (slots_.is_copy_as_in(i, start_slots_, place)) {
+        start_values_[at(i)] = start.value;
+        continue;
+      }
       if (start.term_count != row.term_count) return false;
       for (std::size_t t = 0; t < at(row.term_count); ++t) {
         if (start.terms[t].body != row.terms[t].body) return false;
@@ -58,7 +61,7 @@ bool RowSystem::match_start() {
       if (row.compliance != start.compliance && start.compliance > 0.0) {
         start_values_[at(i)] *= row.compliance / start.compliance;
       }
-      responses_[at(i)] = start_responses_[at(place)];
+      slots_.act_along(i, start_slots_, place);
       std::swap(rows_[at(i)].weight, rows_[at(i)].start_weight);
     }
   }
@@ -68,17 +71,16 @@ bool RowSystem::match_start() {
 bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool from_here) {
   collect_rows(substep, features);
   problem_.rounding = value_rounding * substep.bodies.scale();
-  responses_.resize(rows_.size());
   symmetric_rows_ = rule == Rule::backward;
   bound_share_ = rule == Rule::backward ? 1.0 : 0.5;
-  if (rule == Rule::midpoint) {
-    if (!match_start()) return false;
-  } else {
-    for (std::size_t i = 0; i < rows_.size(); ++i) respond(rows_[i], substep.moving, responses_[i]);
-  }
+  fill_slots(substep);
+  if (rule == Rule::midpoint && !match_start()) return false;
+  slots_.join(rows_);
   make_groups();
   for (std::size_t g = 0; g < groups_.size(); ++g) {
-    if (rule == Rule::backward) {
+    if (groups_[g].row_count == 1 && !groups_[g].elastic) {
+      set_rigid(g);
+    } else if (rule == Rule::backward) {
       set_backward(substep, g);
     } else {
       set_midpoint(substep, g);
@@ -94,25 +96,36 @@ bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool f
   return true;
 }
 
+void RowSystem::fill_slots(const Substep& substep) {
+  const Coordinates& coordinates = substep.bodies.coordinates();
+  if (slots_.find_pattern(coordinates, rows_)) {
+    active_set_.analyse(slots_.unknown_count(), slots_.entries());
+  }
+  slots_.fill(coordinates, rows_, substep.moving);
+}
+
 void RowSystem::make_groups() {
-  groups_.clear();
-  group_of_.resize(rows_.size());
+  const std::size_t rows = rows_.size();
+  groups_.resize(rows);
+  group_of_.resize(rows);
   problem_.symmetric = symmetric_rows_;
   double heaviest = 0.0;  // of the group's rows so far
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (!rows_[i].tied) groups_.push_back({static_cast<int>(i), 0, 0.0, 1.0, false});
-    Group& group = groups_.back();
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const Row& row = rows_[i];
+    if (!row.tied) groups_[n++] = {static_cast<int>(i), 0, 0.0, 1.0, false};
+    Group& group = groups_[n - 1];
     ++group.row_count;
-    group.elastic = group.elastic || rows_[i].compliance > 0.0;
-    group_of_[i] = static_cast<int>(groups_.size()) - 1;
+    group.elastic = group.elastic || row.compliance > 0.0;
+    group_of_[i] = static_cast<int>(n) - 1;
     // The heaviest row tells the unknown best.
-    if (group.row_count == 1 || rows_[i].weight > heaviest) {
-      heaviest = rows_[i].weight;
-      group.multiplier = previous_[i] / heaviest;
+    if (group.row_count == 1 || row.weight > heaviest) {
+      heaviest = row.weight;
+      group.multiplier = heaviest == 1.0 ? previous_[i] : previous_[i] / heaviest;
     }
-    problem_.symmetric = problem_.symmetric && rows_[i].weight == 1.0;
+    problem_.symmetric = problem_.symmetric && row.weight == 1.0;
   }
-  const std::size_t n = groups_.size();
+  groups_.resize(n);
   problem_.size = static_cast<int>(n);
   problem_.constant.assign(n, 0.0);
   problem_.diagonal.assign(n, 0.0);
@@ -135,6 +148,14 @@ void RowSystem::set_bounds(std::size_t g, bool pushed, bool active) {
   // A multiplier that is given (a force) is never to be found.
   const bool given = first.lower == first.upper;
   problem_.free[g] = !given && (bilateral || active || pushed || group.multiplier != 0.0) ? 1 : 0;
+}
+
+void RowSystem::set_rigid(std::size_t g) {
+  const Group& group = groups_[g];
+  const Row& row = rows_[at(group.first_row)];
+  problem_.diagonal[g] = row.softness;
+  problem_.constant[g] = row.value + row.softness * group.multiplier;
+  set_bounds(g, is_pushed(row, row.value), row.active);
 }
 
 double RowSystem::damping_share(const Group& group) const {
@@ -199,15 +220,6 @@ void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
   set_bounds(g, is_pushed(first, value), active);
 }
 
-void RowSystem::add_motion(const Substep& substep, std::size_t row, double change) {
-  for (std::size_t t = 0; t < at(rows_[row].term_count); ++t) {
-    const MovingBody& body = substep.moving[at(rows_[row].terms[t].body)];
-    RowTerm& motion = motion_[at(rows_[row].terms[t].body)];
-    if (body.translates) motion.linear += change * responses_[row].linear[t];
-    if (body.rotates) motion.angular += change * responses_[row].angular[t];
-  }
-}
-
 void RowSystem::remember_origin(const Substep& substep) {
   origin_.resize(substep.moving.size());
   for (std::size_t b = 0; b < origin_.size(); ++b) {
@@ -262,33 +274,35 @@ void RowSystem::remember_places(const Substep& substep) {
 
 void RowSystem::settle(const Substep& substep) {
   // From where the bodies are to where the multipliers of now put them along the gradients of now.
-  motion_.assign(substep.moving.size(), RowTerm{});
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const double multiplier = rows_[i].weight * groups_[at(group_of_[i])].multiplier;
-    if (multiplier != 0.0) add_motion(substep, i, multiplier);
+  const Coordinates& coordinates = substep.bodies.coordinates();
+  motion_.assign(at(coordinates.count()), 0.0);
+  for (const BodyFreedom& freedom : coordinates.movable()) {
+    const MovingBody& body = substep.moving[at(freedom.body)];
+    const Pose& from = origin_[at(freedom.body)];
+    project(freedom, body, from.position - body.position, from.turn - body.turn,
+            &motion_[at(freedom.first)]);
   }
-  for (std::size_t b = 0; b < motion_.size(); ++b) {
-    const MovingBody& body = substep.moving[b];
-    if (body.translates) motion_[b].linear += origin_[b].position - body.position;
-    if (body.rotates) motion_[b].angular += origin_[b].turn - body.turn;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const double multiplier = groups_[g].multiplier;
+    if (multiplier != 0.0) slots_.add_unknown(static_cast<int>(g), multiplier, motion_.data());
   }
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    for (const RowTerm& term : rows_[i].active_terms()) {
-      const RowTerm& motion = motion_[at(term.body)];
-      problem_.constant[at(group_of_[i])] +=
-          dot(term.linear, motion.linear) + dot(term.angular, motion.angular);
-    }
+  count_motion();
+}
+
+void RowSystem::count_motion() {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    problem_.constant[g] += slots_.along(static_cast<int>(g), motion_.data());
   }
 }
 
 void RowSystem::follow_gradients(Substep& substep) const {
   constexpr double negligible_turn = 1e-12;  // a hundredth of what rounds leave
-  for (std::size_t b = 0; b < motion_.size(); ++b) {
-    MovingBody& body = substep.moving[b];
-    if (body.translates) body.position += motion_[b].linear;
-    if (body.rotates && motion_[b].angular.cwiseAbs().maxCoeff() > negligible_turn) {
-      body.rotate(motion_[b].angular);
-    }
+  for (const BodyFreedom& freedom : substep.bodies.coordinates().movable()) {
+    MovingBody& body = substep.moving[at(freedom.body)];
+    const double* motion = &motion_[at(freedom.first)];
+    body.position += linear_motion(freedom, motion);
+    const Vector3 turn = angular_motion(freedom, body, motion);
+    if (turn.cwiseAbs().maxCoeff() > negligible_turn) body.rotate(turn);
   }
 }
 
@@ -312,14 +326,13 @@ double RowSystem::yield(std::size_t g) const {
   const Group& group = groups_[g];
   double sum = problem_.diagonal[g];
   for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
-    sum += rows_[at(i)].weight * responses_[at(i)].inverse_mass;
+    sum += rows_[at(i)].weight * slots_.yield(i);
   }
   return sum;
 }
 
 bool RowSystem::solve(Substep& substep, bool compromise) {
-  find_pattern(substep);
-  assemble(substep);
+  assemble();
   const bool solved = active_set_.solve(problem_, compromise);
   StepStatistics& statistics = substep.statistics;
   ++statistics.rounds;
@@ -331,8 +344,7 @@ bool RowSystem::solve(Substep& substep, bool compromise) {
 }
 
 void RowSystem::relax(Substep& substep, int sweeps) {
-  find_pattern(substep);
-  assemble(substep);
+  assemble();
   active_set_.relax(problem_, sweeps);
   ++substep.statistics.rounds;
   substep.statistics.row_solves += static_cast<std::int64_t>(rows_.size()) * sweeps;
@@ -361,7 +373,8 @@ void RowSystem::recall_sides() {
 
 void RowSystem::apply(Substep& substep, Features features) {
   remember_sides(features);
-  motion_.assign(substep.moving.size(), RowTerm{});
+  const Coordinates& coordinates = substep.bodies.coordinates();
+  motion_.assign(at(coordinates.count()), 0.0);
   const std::span<const double> change = active_set_.solution();
   for (std::size_t f = 0; f < features.size(); ++f) {
     const std::span<double> multipliers = features[f]->multipliers();
@@ -374,16 +387,27 @@ void RowSystem::apply(Substep& substep, Features features) {
       const double multiplier = rows_[i].weight * unknown;
       multipliers[at(rows_[i].index)] = multiplier;
       const double gain = from_here_ ? multiplier - previous_[i] : multiplier;
-      if (gain != 0.0) add_motion(substep, i, gain);
+      if (gain != 0.0) slots_.add_row(r, gain, motion_.data());
     }
   }
-  for (std::size_t b = 0; b < motion_.size(); ++b) {
-    MovingBody& body = substep.moving[b];
-    const Pose& from = origin_[b];
-    if (body.translates) body.position = from.position + motion_[b].linear;
-    if (!body.rotates) continue;
-    body.rotate(from.turn + motion_[b].angular - body.turn);
+  for (const BodyFreedom& freedom : coordinates.movable()) {
+    MovingBody& body = substep.moving[at(freedom.body)];
+    const Pose& from = origin_[at(freedom.body)];
+    const double* motion = &motion_[at(freedom.first)];
+    if (body.translates) body.position = from.position + linear_motion(freedom, motion);
+    if (body.rotates) {
+      body.rotate(from.turn + angular_motion(freedom, body, motion) - body.turn);
+    }
   }
+}
+
+void RowSystem::assemble() {
+  // The factor 1 + g that damping gives a row's gradient is that of its group's S, so A has neither.
+  slots_.assemble(problem_.symmetric);
+  const std::span<const double> diagonal = slots_.diagonal();
+  for (std::size_t g = 0; g < diagonal.size(); ++g) problem_.diagonal[g] += diagonal[g];
+  problem_.values = slots_.above();
+  if (!problem_.symmetric) problem_.lower_values = slots_.below();
 }
 
 }  // namespace sheave

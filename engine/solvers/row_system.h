@@ -38,6 +38,7 @@
 
 #include "engine/constraint_batch.h"
 #include "engine/solvers/active_set.h"
+#include "engine/solvers/row_slots.h"
 #include "engine/substep.h"
 
 namespace sheave {
@@ -122,26 +123,18 @@ class RowSystem {
     Vector3 position = Vector3::Zero();  ///< [m]
     Vector3 turn = Vector3::Zero();      ///< since the start of the substep [rad]
   };
-  /// A term of a row that touches a body which can move.
-  struct Touch {
-    int row = 0;
-    int term = 0;
-  };
-  /// What two touches of one body add to A.
-  struct Coupling {
-    int entry = 0;  ///< off the diagonal; < 0: on it, of the group -1 - entry
-    Touch first;    ///< of the group with the lower number
-    Touch second;
-  };
-
   void collect_rows(Substep& substep, Features features);
   /// Gives the rows the gradients and weights of the start to act along; false if they touch other bodies than there.
   bool match_start();
+  /// Gradients of the rows and the bodies' responses along them.
+  void fill_slots(const Substep& substep);
   void make_groups();
   /// a b of the group: with the shares a_i k_i that rows of the weights k_i have of its value, sum of a_i b_i a_i k_i over
   /// that of a_i k_i. (What moves between its rows, cable that runs over a wheel, deflects no spring and moves no damper, so
   /// only the change of their sum counts.)
   [[nodiscard]] double damping_share(const Group& group) const;
+  /// Of one row without compliance: by either rule the same.
+  void set_rigid(std::size_t group);
   void set_backward(const Substep& substep, std::size_t group);
   void set_midpoint(const Substep& substep, std::size_t group);
   /// Whether a row that was not active is likely to act: a first guess, which the active set corrects.
@@ -154,23 +147,21 @@ class RowSystem {
   [[nodiscard]] double yield(std::size_t group) const;
   void remember_origin(const Substep& substep);
   void settle(const Substep& substep);
-  void find_pattern(const Substep& substep);
-  void assemble(const Substep& substep);
-  [[nodiscard]] double coupling(const Substep& substep, Touch gradient, Touch motion) const;
-  /// Adds the motion that `change` of row i's multiplier causes.
-  void add_motion(const Substep& substep, std::size_t row, double change);
+  void assemble();
+  /// Adds what `motion_` changes of the groups' values to the constants of the problem.
+  void count_motion();
   void act_springs(Substep& substep);
   /// Counts the impulses in the groups' multipliers as given: the unknowns are what is added to them.
-  void start_from_impulses(const Substep& substep);
+  void start_from_impulses();
   void move_velocities(Substep& substep);
   [[nodiscard]] double rate_of(const Substep& substep, const Row& row) const;
 
-  std::vector<Row> rows_;
-  std::vector<RowResponse> responses_;  ///< of K
-  std::vector<int> feature_rows_;       ///< first row of each feature, and their number
-  std::vector<double> previous_;        ///< per row its multiplier
-  std::vector<Row> start_rows_;
-  std::vector<RowResponse> start_responses_;
+  RowList rows_;
+  RowSlots slots_;
+  std::vector<int> feature_rows_;  ///< first row of each feature, and their number
+  std::vector<double> previous_;   ///< per row its multiplier
+  RowList start_rows_;
+  RowSlots start_slots_;
   /// Per feature and index of multiplier: the row at the start, -1 if there was none.
   std::vector<std::vector<int>> start_places_;
   std::vector<double> start_values_;  ///< per row
@@ -182,16 +173,9 @@ class RowSystem {
   std::vector<Pose> prediction_;  ///< per body, where corrections are added up
   std::vector<Pose> placed_;      ///< per body: where the last round among others has left it
   bool from_here_ = true;
-  /// Per body: displacement and turn, or their rates; `body` is not used.
-  std::vector<RowTerm> motion_;
-  /// Of the pattern: per row its bodies and whether it is tied.
-  std::vector<int> signature_;
-  std::vector<int> new_signature_;
-  std::vector<std::pair<int, int>> entries_;
-  std::vector<Coupling> couplings_;
-  std::vector<double> own_yield_;  ///< per group: w of its rows, one by one
-  bool symmetric_rows_ = true;     ///< K = J but for weights
-  double bound_share_ = 1.0;       ///< of the rows' bounds, in the rule at work
+  std::vector<double> motion_;  ///< per degree of freedom: displacement or turn, or their rates
+  bool symmetric_rows_ = true;  ///< K = J but for weights
+  double bound_share_ = 1.0;    ///< of the rows' bounds, in the rule at work
   ComplementarityProblem problem_;
   ActiveSetSolver active_set_;
 };

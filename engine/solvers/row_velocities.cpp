@@ -32,9 +32,9 @@ void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
   feature_rows_ = positions.feature_rows_;
   previous_ = positions.previous_;
   problem_.rounding = value_rounding * substep.bodies.scale() / substep.h;
-  responses_.resize(rows_.size());
   symmetric_rows_ = true;
-  for (std::size_t i = 0; i < rows_.size(); ++i) respond(rows_[i], substep.moving, responses_[i]);
+  fill_slots(substep);
+  slots_.join(rows_);
   make_groups();
   act_springs(substep);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
@@ -62,50 +62,44 @@ void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
     problem_.lower[g] = lower - group.multiplier;
     problem_.upper[g] = upper - group.multiplier;
   }
-  if (redundant) start_from_impulses(substep);
+  if (redundant) start_from_impulses();
 }
 
-void RowSystem::start_from_impulses(const Substep& substep) {
-  motion_.assign(substep.moving.size(), RowTerm{});
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const double impulse = rows_[i].weight * groups_[at(group_of_[i])].multiplier;
-    if (impulse != 0.0) add_motion(substep, i, impulse);
+void RowSystem::start_from_impulses() {
+  std::fill(motion_.begin(), motion_.end(), 0.0);
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (groups_[g].multiplier == 0.0) continue;
+    slots_.add_unknown(static_cast<int>(g), groups_[g].multiplier, motion_.data());
   }
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    double& constant = problem_.constant[at(group_of_[i])];
-    for (const RowTerm& term : rows_[i].active_terms()) {
-      const RowTerm& motion = motion_[at(term.body)];
-      constant += dot(term.linear, motion.linear) + dot(term.angular, motion.angular);
-    }
-  }
+  count_motion();
 }
 
 void RowSystem::act_springs(Substep& substep) {
   // Their force at the middle of the substep, F = 2 l / h^2, acts for the second half along the gradient of the end.
-  motion_.assign(substep.moving.size(), RowTerm{});
+  motion_.assign(at(substep.bodies.coordinates().count()), 0.0);
   bool any = false;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!groups_[at(group_of_[i])].elastic || previous_[i] == 0.0) continue;
-    add_motion(substep, i, previous_[i] / substep.h);
+    slots_.add_row(static_cast<int>(i), previous_[i] / substep.h, motion_.data());
     any = true;
   }
   if (any) move_velocities(substep);
 }
 
 void RowSystem::move_velocities(Substep& substep) {
-  const BodySet& bodies = substep.bodies;
-  for (int i = 0; i < bodies.count(); ++i) {
-    const MovingBody& moving = substep.moving[at(i)];
-    BodyState& next = substep.next.bodies[at(i)];
-    if (moving.translates) next.velocity += motion_[at(i)].linear;
+  for (const BodyFreedom& freedom : substep.bodies.coordinates().movable()) {
+    const MovingBody& body = substep.moving[at(freedom.body)];
+    BodyState& next = substep.next.bodies[at(freedom.body)];
+    const double* motion = &motion_[at(freedom.first)];
+    next.velocity += linear_motion(freedom, motion);
     // A mounted rotor's own part is its spin; follow_carriers() gives it the rest.
-    if (moving.rotates) next.angular_velocity += motion_[at(i)].angular;
+    next.angular_velocity += angular_motion(freedom, body, motion);
   }
   follow_carriers(substep);
 }
 
 void RowSystem::apply_impulses(Substep& substep, Features features) {
-  motion_.assign(substep.moving.size(), RowTerm{});
+  motion_.assign(at(substep.bodies.coordinates().count()), 0.0);
   const std::span<const double> impulses = active_set_.solution();
   substep.late_forces.resize(features.size());
   for (std::size_t f = 0; f < features.size(); ++f) {
@@ -120,7 +114,7 @@ void RowSystem::apply_impulses(Substep& substep, Features features) {
                         : rows_[i].weight * (group.multiplier + impulses[at(group_of_[i])]);
       multipliers[at(rows_[i].index)] = previous_[i] + substep.h * impulse;
       late[at(rows_[i].index)] = impulse / substep.h;
-      if (!group.elastic) add_motion(substep, i, impulse);
+      if (!group.elastic) slots_.add_row(r, impulse, motion_.data());
     }
   }
   move_velocities(substep);

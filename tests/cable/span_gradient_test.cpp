@@ -54,7 +54,7 @@ class TensionRows final : public ConstraintBatch {
     batch_.begin(substep, state);
   }
   double sweep(Substep& substep) override { return batch_.sweep(substep); }
-  void linearise(Substep& substep, std::vector<Row>& rows) override {
+  void linearise(Substep& substep, RowList& rows) override {
     batch_.linearise(substep, rows);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (i >= compliances_.size()) compliances_.push_back(rows[i].compliance);

@@ -65,9 +65,9 @@ struct Cam {
     Substep substep(s.world.bodies(), s.world.state(), 0.01, 1);
     ConstraintBatch& batch = *s.world.features().back();
     batch.begin(substep, s.world.state().features.back());
-    std::vector<Row> rows;
+    RowList rows;
     batch.linearise(substep, rows);
-    return rows.at(0).terms[0].angular.z();
+    return rows[0].terms[0].angular.z();
   }
 
   /// The lever arm of the tangent from (0, height) to the disc about (e cos, e sin), by elementary geometry: the line

@@ -64,7 +64,7 @@ std::vector<Motion> allowed_motions(const Substep& substep) {
 }
 
 std::vector<double> values(Substep& substep, ConstraintBatch& batch) {
-  std::vector<Row> rows;
+  RowList rows;
   batch.linearise(substep, rows);
   std::vector<double> result;
   for (const Row& row : rows) result.push_back(row.value);
@@ -114,7 +114,7 @@ GradientCheck check_gradients(Substep& substep, ConstraintBatch& batch, bool kin
   // Truncation h^4/30 f''''' and rounding eps/h balance near h = 1e-3 for machines of about 1 m.
   constexpr double step = 1e-3;
   GradientCheck check;
-  std::vector<Row> rows;
+  RowList rows;
   batch.linearise(substep, rows);
   const std::vector<Motion> motions = allowed_motions(substep);
   const std::vector<MovingBody> saved = substep.moving;

@@ -1,0 +1,167 @@
+#pragma once
+// Degrees of freedom: by what numbers the bodies of a machine can move.
+//
+// A wheel on a fixed axle has one number, a body in a plane three, a free one six. Solvers of all rows at once count motion in
+// these: a gradient has a number per degree of freedom, and for all but free bodies with unequal moments of inertia the inverse
+// mass matrix is diagonal. Number 0 belongs to what no row can move.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/row.h"
+#include "engine/vector.h"
+
+namespace sheave {
+
+struct BodyProperties;
+
+/// How a body can be moved by rows.
+enum class Freedom : std::uint8_t {
+  none,   ///< not at all: fixed, prescribed, or without inertia
+  line,   ///< along `along`
+  angle,  ///< about the axle, MovingBody::axis
+  plane,  ///< along `along` and `across`, about MovingBody::axis
+  space,  ///< along and about the axes of the world
+};
+
+/// Number of degrees of freedom.
+[[nodiscard, gnu::always_inline]] constexpr int size_of(Freedom freedom) {
+  switch (freedom) {
+    case Freedom::none:
+      return 0;
+    case Freedom::line:
+    case Freedom::angle:
+      return 1;
+    case Freedom::plane:
+      return 3;
+    case Freedom::space:
+      return 6;
+  }
+  return 0;
+}
+
+/// A body's degrees of freedom: `first`, `first` + 1, ...
+struct BodyFreedom {
+  Freedom kind = Freedom::none;
+  int body = 0;
+  int first = 0;
+  Vector3 along = Vector3::Zero();  ///< unit vectors, world frame
+  Vector3 across = Vector3::Zero();
+};
+
+/// The parts of a gradient (or of any pair of vectors that is linear in them) along the body's degrees of freedom.
+[[gnu::always_inline]] inline void project(const BodyFreedom& freedom, const MovingBody& body,
+                                           const Vector3& linear, const Vector3& angular,
+                                           double* parts) {
+  switch (freedom.kind) {
+    case Freedom::none:
+      break;
+    case Freedom::line:
+      parts[0] = dot(freedom.along, linear);
+      break;
+    case Freedom::angle:
+      parts[0] = dot(body.axis, angular);
+      break;
+    case Freedom::plane:
+      parts[0] = dot(freedom.along, linear);
+      parts[1] = dot(freedom.across, linear);
+      parts[2] = dot(body.axis, angular);
+      break;
+    case Freedom::space:
+      for (int i = 0; i < 3; ++i) {
+        parts[i] = linear[i];
+        parts[3 + i] = angular[i];
+      }
+      break;
+  }
+}
+
+/// The motion that the parts of a gradient cause: the inverse masses times them.
+[[gnu::always_inline]] inline void weigh(Freedom kind, const MovingBody& body, const double* parts,
+                                         double* motion) {
+  switch (kind) {
+    case Freedom::none:
+      break;
+    case Freedom::line:
+      motion[0] = body.linear_yield * parts[0];
+      break;
+    case Freedom::angle:
+      motion[0] = body.angular_yield * parts[0];
+      break;
+    case Freedom::plane:
+      motion[0] = body.linear_yield * parts[0];
+      motion[1] = body.linear_yield * parts[1];
+      motion[2] = body.angular_yield * parts[2];
+      break;
+    case Freedom::space: {
+      for (int i = 0; i < 3; ++i) motion[i] = body.linear_yield * parts[i];
+      if (parts[3] == 0.0 && parts[4] == 0.0 && parts[5] == 0.0) {
+        motion[3] = motion[4] = motion[5] = 0.0;
+        break;
+      }
+      const Vector3 turn = times(body.inverse_inertia, Vector3(parts[3], parts[4], parts[5]));
+      for (int i = 0; i < 3; ++i) motion[3 + i] = turn[i];
+      break;
+    }
+  }
+}
+
+/// The displacement, or the velocity, that numbers along the degrees of freedom stand for.
+[[nodiscard, gnu::always_inline]] inline Vector3 linear_motion(const BodyFreedom& freedom,
+                                                               const double* motion) {
+  switch (freedom.kind) {
+    case Freedom::none:
+    case Freedom::angle:
+      break;
+    case Freedom::line:
+      return motion[0] * freedom.along;
+    case Freedom::plane:
+      return sum(motion[0] * freedom.along, motion[1], freedom.across);
+    case Freedom::space:
+      return {motion[0], motion[1], motion[2]};
+  }
+  return Vector3::Zero();
+}
+
+/// Likewise the rotation.
+[[nodiscard, gnu::always_inline]] inline Vector3 angular_motion(const BodyFreedom& freedom,
+                                                                const MovingBody& body,
+                                                                const double* motion) {
+  switch (freedom.kind) {
+    case Freedom::none:
+    case Freedom::line:
+      break;
+    case Freedom::angle:
+      return motion[0] * body.axis;
+    case Freedom::plane:
+      return motion[2] * body.axis;
+    case Freedom::space:
+      return {motion[3], motion[4], motion[5]};
+  }
+  return Vector3::Zero();
+}
+
+/// The degrees of freedom of all bodies. Follow from their mobilities alone, once and for all.
+class Coordinates {
+ public:
+  Coordinates() = default;
+  /// Of bodies and the world, which comes last.
+  explicit Coordinates(std::span<const BodyProperties> bodies);
+
+  /// Number of degrees of freedom, that of what does not move among them.
+  [[nodiscard]] int count() const { return count_; }
+  /// Those of a body, or of the world.
+  [[nodiscard]] const BodyFreedom& operator[](int body) const {
+    return freedoms_[static_cast<std::size_t>(body)];
+  }
+  /// Those of all bodies that have any.
+  [[nodiscard]] std::span<const BodyFreedom> movable() const { return movable_; }
+
+ private:
+  int count_ = 1;
+  std::vector<BodyFreedom> freedoms_;
+  std::vector<BodyFreedom> movable_;
+};
+
+}  // namespace sheave
