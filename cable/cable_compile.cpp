@@ -59,6 +59,7 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
   s.strains_.resize(spans);
   s.multipliers_.resize(spans);
   s.was_taut_.resize(spans);
+  s.is_affine_.resize(spans);
   s.ends_.resize(spans);
   s.start_spans_.resize(spans);
   s.start_exponents_.resize(links);

@@ -110,6 +110,7 @@ void CableCompiler::set_course(CompiledCable& cable) {
     const bool end = !cable.closed && (i == 0 || i + 1 == cable.listed_links);
     link.lifts = !end && link.wraps();
     cable.course_changes = cable.course_changes || link.lifts;
+    cable.has_outlines = cable.has_outlines || link.outline;
     const bool stays = !link.starts_lifted && (cable.closed || i + 1 < cable.listed_links);
     next_links_.push_back(stays ? next_touched(i) : -1);
     if (end || !link.passes()) continue;

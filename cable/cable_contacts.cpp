@@ -51,12 +51,26 @@ void CableSystem::leave_and_touch(const Substep& substep, FeatureState& next) {
   changed_links_.assign(links_.size(), 0);
   for (int c = 0; c < static_cast<int>(cables_.size()); ++c) {
     if (!cables_[at(c)].course_changes || next.integers[cut_index(c)] != 0) continue;
+    if (keeps_course(cables_[at(c)], next)) continue;
     left_bodies_.clear();
     leave_all(substep, cables_[at(c)], next);
     touch_all(substep, c, next);
     // A touch can take the cable off a neighbour.
     leave_all(substep, cables_[at(c)], next);
   }
+}
+
+bool CableSystem::keeps_course(const CompiledCable& cable, const FeatureState& next) const {
+  // What leaves an outline is told by angles, and what lies on a wheel of a material by its strain.
+  if (!cable.candidates.empty() || cable.has_outlines || cable.inverse_stiffness > 0.0) {
+    return false;
+  }
+  for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
+    if (next.reals[stored_length_index(i)] < 0.0 || next.integers[mode_index(i)] >= lifted_mode) {
+      return false;
+    }
+  }
+  return true;
 }
 
 void CableSystem::leave_all(const Substep& substep, const CompiledCable& cable,

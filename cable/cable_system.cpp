@@ -18,6 +18,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   } else if (!changing_links_.empty()) {
     refresh_ends(state, links_, spans_);
   }
+  begin_affine_spans(substep);
   knows_start_ = false;
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
   std::fill(sweeps_.begin(), sweeps_.end(), 0);
@@ -43,6 +44,11 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     const int span_index = static_cast<int>(k);
     const double below_quantum =
         state.reals[remainder_index(span_index, 0)] + state.reals[remainder_index(span_index, 1)];
+    is_affine_[k] = affine_[k].possible && affine_[k].lasts(substep) ? 1 : 0;
+    if (is_affine_[k] != 0) {
+      references_[k].rest_length = state.reals[k] + below_quantum;
+      continue;
+    }
     references_[k] = span_reference(substep, setup, first, second, state.reals[k] + below_quantum);
     const CompiledCable& cable = cables_[at(setup.cable)];
     if (cable.inverse_stiffness > 0.0) {
@@ -104,7 +110,16 @@ double CableSystem::sweep(Substep& substep) {
   return correction;
 }
 
+double CableSystem::solve_affine(Substep& substep, int span) {
+  AffineSpan& affine = affine_[at(span)];
+  double& multiplier = multipliers_[at(span)];
+  affine.row.value = affine.value(substep, references_[at(span)].rest_length);
+  if (affine.row.value >= 0.0 && multiplier == 0.0) return 0.0;  // slack
+  return solve_row(affine.row, substep.h, multiplier, substep.moving);
+}
+
 double CableSystem::solve_span(Substep& substep, int span) {
+  if (is_affine_[at(span)] != 0) return solve_affine(substep, span);
   Row& row = row_;
   row.clear();
   const SpanGeometry geometry = evaluate(substep, span, row);
@@ -124,14 +139,42 @@ double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
   return correction;
 }
 
-void CableSystem::linearise(Substep& substep, std::vector<Row>& rows) {
+void CableSystem::linearise(Substep& substep, RowList& rows) {
   // Only `rattle` asks before anything has moved.
   const bool at_start = substep.time == substep.start.time;
   for (const CompiledCable& cable : cables_) {
+    if (!cable.shares) {
+      linearise_spans(substep, cable, rows);
+      continue;
+    }
     for_each_run(cable, [&](Run run) { linearise_run(substep, cable, run, rows); });
     if (at_start && cable.has_friction) remember_friction(substep, cable);
   }
   knows_start_ = knows_start_ || at_start;
+}
+
+void CableSystem::linearise_spans(Substep& substep, const CompiledCable& cable, RowList& rows) {
+  for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+    if (!spans_[at(k)].active) continue;
+    if (is_affine_[at(k)] == 0) {
+      linearise_run(substep, cable, {k, 1}, rows);
+      continue;
+    }
+    const AffineSpan& affine = affine_[at(k)];
+    Row& row = rows.append_copy(affine.row);
+    row.value = affine.value(substep, references_[at(k)].rest_length);
+    row.active = was_taut_[at(k)] != 0;
+  }
+}
+
+void CableSystem::finish_affine(const Substep& substep, int span, FeatureState& next) {
+  const AffineSpan& affine = affine_[at(span)];
+  const SpanTransport transport{AffineSpan::given(substep, affine.first),
+                                AffineSpan::given(substep, affine.second)};
+  if (affine.first.wheel >= 0 || affine.second.wheel >= 0) wind(span, transport, next);
+  double& tension = next.reals[tension_index(span)];
+  ends_[at(span)] = {tension, affine.length_now(substep)};
+  tension = multipliers_[at(span)] / (substep.h * substep.h);
 }
 
 void CableSystem::finish(Substep& substep, FeatureState& next) {
@@ -143,6 +186,10 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
   for (int k = 0; k < row_count(); ++k) {
     const SpanSetup& setup = spans_[at(k)];
     if (!setup.active) continue;
+    if (is_affine_[at(k)] != 0) {
+      finish_affine(substep, k, next);
+      continue;
+    }
     const LinkGeometry& first = links_[at(setup.first)];
     const LinkGeometry& second = links_[at(setup.second)];
     const CompiledCable& cable = cables_[at(setup.cable)];

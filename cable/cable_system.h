@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cable/affine_span.h"
 #include "cable/cable.h"
 #include "cable/cable_parts.h"
 #include "cable/cable_report.h"
@@ -71,7 +72,7 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] bool limits_drives() const override { return driven_; }
   void limit_drives(Substep& substep) override;
   double sweep(Substep& substep) override;
-  void linearise(Substep& substep, std::vector<Row>& rows) override;
+  void linearise(Substep& substep, RowList& rows) override;
   [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
   bool revise(Substep& substep) override;
   void finish(Substep& substep, FeatureState& next) override;
@@ -136,6 +137,10 @@ class CableSystem final : public ConstraintBatch {
   SpanGeometry evaluate(const Substep& substep, int span, Row& row) const;
   [[nodiscard]] SpanGeometry geometry_of(const Substep& substep, int span) const;
 
+  // Spans of which nothing turns: cable/cable_affine.cpp.
+  void begin_affine_spans(const Substep& substep);
+  void find_affine_spans(const BodySet& bodies);
+  [[nodiscard]] AffineSpan affine_span(const Substep& start, const SpanSetup& setup) const;
   // Cable that passes between spans: cable/cable_runs.cpp.
   using Run = cable_parts::Run;
   [[nodiscard]] int next_span(const CompiledCable& cable, int span) const;
@@ -147,9 +152,12 @@ class CableSystem final : public ConstraintBatch {
   /// One step of XPBD for one span; returns what solve_row() does.
   double solve_span(Substep& substep, int span);
   double sweep_spans(Substep& substep, const CompiledCable& cable);
+  double solve_affine(Substep& substep, int span);
+  void finish_affine(const Substep& substep, int span, FeatureState& next);
+  void linearise_spans(Substep& substep, const CompiledCable& cable, RowList& rows);
   double sweep_runs(Substep& substep, int cable_index);
   using RunWeights = cable_parts::RunWeights;
-  void linearise_run(Substep& substep, const CompiledCable& cable, Run run, std::vector<Row>& rows);
+  void linearise_run(Substep& substep, const CompiledCable& cable, Run run, RowList& rows);
   using RunValue = cable_parts::RunValue;
   /// Evaluates the spans of a run; sums their gradients body by body and their values, and collects the logarithms of the
   /// weights k_i. Returns the largest of these.
@@ -264,6 +272,8 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] bool follows(const FeatureState& own) const;
   // Bodies that the cable leaves and touches: cable/cable_contacts.cpp.
   void leave_and_touch(const Substep& substep, FeatureState& next);
+  /// Whether it is plain that the cable leaves nothing, and that there is nothing to touch.
+  [[nodiscard]] bool keeps_course(const CompiledCable& cable, const FeatureState& next) const;
   void leave_all(const Substep& substep, const CompiledCable& cable, FeatureState& next);
   void touch_all(const Substep& substep, int cable, FeatureState& next);
   /// Lets the span touch the first body that it cuts; false if there is none.
@@ -366,7 +376,12 @@ class CableSystem final : public ConstraintBatch {
   std::vector<int> strain_places_;  ///< per link its place among those with stored strain, or -1
   int plane_count_ = 0;
   FeatureState initial_;
+  std::vector<AffineSpan> affine_;  ///< per span, of spans_; empty: not known yet
   // Scratch of a substep, filled by begin().
+  std::vector<char> is_affine_;  ///< per span, in this substep
+  std::uint32_t edition_ = 0;    ///< of the rows of affine spans
+  /// Length of the substep, and the share of loads, that their bodies' inverse masses are for.
+  std::array<double, 2> edition_is_for_{};
   std::vector<SpanReference> references_;
   std::vector<double> strains_;  ///< per span, of a material, at the start
   std::vector<double> multipliers_;

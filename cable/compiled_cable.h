@@ -39,6 +39,7 @@ struct CompiledCable {
   /// Of its listed links those whose body a drive turns, and those that feed.
   std::vector<int> driven_links;
   bool may_lock = false;      ///< rigid, and drives alone may decide how long some of its spans are
+  bool has_outlines = false;  ///< one of its links is no circle or point
   bool shares = false;        ///< cable can pass at one of its links other than by rolling
   bool has_friction = false;  ///< and at one of them with friction
   TangentUpdate tangent_update = TangentUpdate::iteration;
@@ -52,7 +53,11 @@ struct CompiledCable {
   [[nodiscard]] int last_listed_link() const { return first_link + listed_links - 1; }
   /// The multiple of the quantum nearest to `length` [m].
   [[nodiscard]] double quantised(double length) const {
-    return std::round(length / quantum) * quantum;
+    const double multiple = length * (1.0 / quantum);  // exact, as is its inverse
+    // Numbers of this size have no fractions: adding one rounds.
+    constexpr double whole = 6755399441055744.0;  // 1.5 x 2^52
+    if (std::abs(multiple) < 0.25 * whole) return ((multiple + whole) - whole) * quantum;
+    return std::round(multiple) * quantum;
   }
 };
 

@@ -1,0 +1,117 @@
+// Which spans are affine: cable/affine_span.h.
+
+#include <cmath>
+
+#include "cable/cable_system.h"
+#include "engine/index.h"
+
+namespace sheave {
+namespace {
+
+/// What rounding leaves of a direction, and, relative to the size of the machine, of a length.
+constexpr double rounding = 1e-13;
+
+struct Place {
+  bool suits = false;
+  AffineSpan::End end;
+};
+
+/// How the end of a span with this direction at a link moves, if that is one of the ways that keep it affine.
+Place place_of(const Substep& start, const LinkGeometry& link, double signed_radius,
+               const Vector3& direction) {
+  Place place;
+  const BodySet& bodies = start.bodies;
+  if (link.outline || link.changes() || link.passes() || link.feed_speed != 0.0) return place;
+  if (link.carrier < bodies.count()) {
+    const BodyProperties& carrier = bodies[link.carrier];
+    if (carrier.mobility == Mobility::slider) {
+      if (carrier.axis.cross(direction).norm() > rounding) return place;
+      place.end.slider = link.carrier;
+    } else if (carrier.mobility != Mobility::fixed) {
+      return place;
+    }
+  }
+  if (link.wraps() && link.body < bodies.count()) {
+    const BodyProperties& body = bodies[link.body];
+    const Vector3 normal = start.orientation(link.carrier) * link.normal;
+    if (body.mobility == Mobility::rotor) {
+      const Vector3 axle =
+          body.mount >= 0 ? Vector3(start.orientation(body.mount) * body.axis) : body.axis;
+      if (axle.cross(normal).norm() > rounding) return place;
+      place.end.wheel = link.body;
+      place.end.turn = signed_radius * normal;
+    } else if (link.body != link.carrier) {
+      return place;
+    }
+  }
+  place.suits = true;
+  return place;
+}
+
+}  // namespace
+
+bool AffineSpan::lasts(const Substep& substep) const {
+  if (first.slider < 0 && second.slider < 0) return true;
+  double speed = 0.0;
+  for (const End* end : {&first, &second}) {
+    if (end->slider < 0) continue;
+    speed += std::abs(dot(direction, substep.start.bodies[at(end->slider)].velocity));
+  }
+  constexpr double margin = 4.0;
+  constexpr double shortest = 1e-6;
+  return length_now(substep) > margin * substep.h * speed + shortest * substep.bodies.scale();
+}
+
+void CableSystem::begin_affine_spans(const Substep& substep) {
+  const bool unknown = affine_.empty();
+  if (unknown) find_affine_spans(substep.bodies);
+  // What drag leaves of a motion depends on the time it has.
+  const std::array now{substep.h, substep.load_share};
+  if (!unknown && now == edition_is_for_) return;
+  edition_is_for_ = now;
+  ++edition_;
+  for (AffineSpan& affine : affine_) affine.row.edition = edition_;
+}
+
+void CableSystem::find_affine_spans(const BodySet& bodies) {
+  affine_.assign(spans_.size(), AffineSpan{});
+  const State initial = bodies.initial_state();
+  const Substep start(bodies, initial, 1.0, 1);
+  for (std::size_t k = 0; k < spans_.size(); ++k) {
+    const SpanSetup& setup = spans_[k];
+    const CompiledCable& cable = cables_[at(setup.cable)];
+    // Cable that passes its links asks for where the spans are, and a material for how long they are.
+    if (!setup.active || cable.shares || cable.inverse_stiffness > 0.0 ||
+        cable.tangent_update != TangentUpdate::iteration) {
+      continue;
+    }
+    affine_[k] = affine_span(start, setup);
+    affine_[k].row.lower = 0.0;
+    affine_[k].row.damping = cable.damping;
+    affine_[k].row.compliance = cable.compliance;
+    affine_[k].row.index = static_cast<int>(k);
+  }
+}
+
+AffineSpan CableSystem::affine_span(const Substep& start, const SpanSetup& setup) const {
+  const LinkGeometry& first = links_[at(setup.first)];
+  const LinkGeometry& second = links_[at(setup.second)];
+  AffineSpan affine;
+  const SpanReference reference = span_reference(start, setup, first, second, 0.0);
+  SpanTransport transport;
+  const SpanGeometry span =
+      evaluate_span(start, setup, first, second, reference, affine.row, transport);
+  if (!span.has_tangent || !(span.length > 0.0)) return affine;
+  const Place at_first = place_of(start, first, first.signed_radius, span.direction);
+  const Place at_second = place_of(start, second, -second.signed_radius, span.direction);
+  if (!at_first.suits || !at_second.suits) return affine;
+  affine.first = at_first.end;
+  affine.second = at_second.end;
+  affine.direction = span.direction;
+  affine.length = span.length;
+  affine.possible = true;
+  affine.length = 2.0 * span.length - affine.length_now(start);
+  return affine;
+}
+
+}  // namespace sheave
