@@ -28,6 +28,7 @@ namespace sheave {
 
 void CableSystem::record(const Substep& substep, const CompiledCable& cable, int link,
                          CableEvent::Kind kind) {
+  knows_lengths_ = false;
   const int listed = link - cable.first_link;
   CableEvent event{substep.next.time, cable.name, listed < cable.listed_links ? listed : -1, kind};
   const int body = links_[at(link)].body;

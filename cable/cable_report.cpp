@@ -233,6 +233,18 @@ std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State&
   return reports;
 }
 
+CableGauge CableReport::gauge() const {
+  CableGauge gauge{total_length, length_error, max_stretch, 0.0};
+  // Only rigid cables report a stretch.
+  if (!(max_stretch > 0.0) || cut) return gauge;
+  const auto add = [&](const SpanReport& span) {
+    gauge.excess += std::max(0.0, span.length - span.rest_length);
+  };
+  for (const SpanReport& span : spans) add(span);
+  for (const WrapReport& wrap : wraps) add(wrap.span);
+  return gauge;
+}
+
 CableReport CableReport::with_wraps_in_place(std::vector<int>* places) const {
   CableReport whole = *this;
   whole.links.clear();

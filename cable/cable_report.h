@@ -78,6 +78,15 @@ struct WrapReport {
   SpanReport span;  ///< from here on
 };
 
+/// What is measured of one cable, without where it runs: a small part of its report.
+struct CableGauge {
+  double total_length = 0.0;  ///< as CableReport::total_length [m]
+  double length_error = 0.0;  ///< as CableReport::length_error
+  double max_stretch = 0.0;   ///< as CableReport::max_stretch
+  /// How much longer than allowed the spans of a rigid cable are, all together [m]. What is left of one that is cut hangs free.
+  double excess = 0.0;
+};
+
 /// One cable.
 struct CableReport {
   std::string_view name;
@@ -98,6 +107,8 @@ struct CableReport {
   /// Largest (length - rest length) / rest length of a rigid span; of one shorter than 1e-6 of the cable over that.
   double max_stretch = 0.0;
 
+  /// The part of it that a gauge has.
+  [[nodiscard]] CableGauge gauge() const;
   /// The same with the wraps among links and spans, each at its place, for those that follow the cable's whole way;
   /// `places` gets the place that each link has in this report, -1 for wraps.
   [[nodiscard]] CableReport with_wraps_in_place(std::vector<int>* places = nullptr) const;

@@ -178,6 +178,7 @@ void CableSystem::finish_affine(const Substep& substep, int span, FeatureState& 
 }
 
 void CableSystem::finish(Substep& substep, FeatureState& next) {
+  knows_lengths_ = true;
   const double inverse_square = 1.0 / (substep.h * substep.h);
   for (const CompiledCable& cable : cables_) {
     if (cable.has_friction) hold_tensions(substep, cable, next);

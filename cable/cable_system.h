@@ -46,6 +46,10 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] std::vector<CableReport> report(const BodySet& bodies, const State& state,
                                                 const FeatureState& own) const;
 
+  /// Measures of each cable at the end of the last substep, whose part of the state is `own`; false if it does not know,
+  /// because the course of one has changed there.
+  bool gauge(const FeatureState& own, std::vector<CableGauge>& gauges) const;
+
   using TangentWarning = cable_parts::TangentWarning;
   [[nodiscard]] std::vector<TangentWarning> tangent_warnings() const;
   using WrapWarning = cable_parts::WrapWarning;
@@ -394,6 +398,7 @@ class CableSystem final : public ConstraintBatch {
   std::vector<int> revised_;
   /// Per span, for finish(): the tension at the start [N], and the length at the end of the substep [m].
   std::vector<std::array<double, 2>> ends_;
+  bool knows_lengths_ = false;            ///< the latter are still those of the spans
   std::vector<int> sweeps_;               ///< per cable, in this substep
   std::vector<int> flips_;                ///< per link: how often that has changed in this substep
   std::vector<double> stored_arcs_;       ///< per link: stored cable as it lies, at the start [m]

@@ -35,4 +35,12 @@ std::vector<CableReport> Simulation::cable_reports() const {
   return cables->report(world.bodies(), world.state(), world.state().features.back());
 }
 
+void Simulation::gauge_cables(std::vector<CableGauge>& gauges) const {
+  gauges.clear();
+  if (cables == nullptr) return;
+  if (world.last_substep() && cables->gauge(world.state().features.back(), gauges)) return;
+  gauges.clear();
+  for (const CableReport& report : cable_reports()) gauges.push_back(report.gauge());
+}
+
 }  // namespace sheave

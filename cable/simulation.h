@@ -30,6 +30,8 @@ struct Simulation {
   static Errors check(const Model& model, const std::vector<CableDef>& cables);
   /// One report per cable, for the world's current state.
   [[nodiscard]] std::vector<CableReport> cable_reports() const;
+  /// Measures of each cable, for the world's current state; in the course of a run much cheaper than reports.
+  void gauge_cables(std::vector<CableGauge>& gauges) const;
   /// What a check of the last substep finds (cable/certificate.h). Nothing at time 0 and after World::restore(), until the
   /// next step.
   [[nodiscard]] std::optional<Certificate> certificate() const;

@@ -6,23 +6,6 @@
 #include "engine/joint_report.h"
 
 namespace sheave::tools {
-namespace {
-
-/// How much longer than allowed the spans of a rigid cable are, all together [m].
-double excess_of(const CableReport& cable) {
-  // Only rigid cables report a stretch. What is left of one that is cut hangs free.
-  if (!(cable.max_stretch > 0.0) || cable.cut) return 0.0;
-  double excess = 0.0;
-  for (const SpanReport& span : cable.spans) {
-    excess += std::max(0.0, span.length - span.rest_length);
-  }
-  for (const WrapReport& wrap : cable.wraps) {
-    excess += std::max(0.0, wrap.span.length - wrap.span.rest_length);
-  }
-  return excess;
-}
-
-}  // namespace
 
 RunMonitor::RunMonitor(std::int64_t steps)
     : stride_(std::max<std::int64_t>(1, steps / 2000)),
@@ -85,32 +68,37 @@ void RunMonitor::observe_joints(const Simulation& simulation) {
 }
 
 void RunMonitor::observe_cables(const Simulation& simulation) {
-  const std::vector<CableReport> reports = simulation.cable_reports();
-  cables_.resize(reports.size());
-  for (std::size_t i = 0; i < reports.size(); ++i) {
+  if (simulation.cables == nullptr) return;
+  if (links_.empty()) {
+    for (const CableReport& report : simulation.cable_reports()) {
+      std::vector<Touched>& links = links_.emplace_back();
+      for (const LinkReport& link : report.links) links.push_back({link.body, link.radius});
+    }
+    cables_.resize(links_.size());
+  }
+  simulation.gauge_cables(gauges_);
+  for (std::size_t i = 0; i < gauges_.size(); ++i) {
+    const CableGauge& gauge = gauges_[i];
     CableCourse& course = cables_[i];
     // Written so that NaN counts as large.
-    if (!(std::abs(reports[i].length_error) <= std::abs(course.length_error))) {
-      course.length_error = reports[i].length_error;
+    if (!(std::abs(gauge.length_error) <= std::abs(course.length_error))) {
+      course.length_error = gauge.length_error;
     }
-    course.max_stretch = std::max(course.max_stretch, reports[i].max_stretch);
-    course.length = reports[i].total_length;
-    const double excess = excess_of(reports[i]);
+    course.max_stretch = std::max(course.max_stretch, gauge.max_stretch);
+    course.length = gauge.total_length;
     if (observed_ > 0) {
       const std::size_t half = observed_ > half_ ? 1 : 0;
       double way = 0.0;
-      for (const LinkReport& link : reports[i].links) {
-        way = std::max(way, way_of(simulation.world, link));
-      }
+      for (const Touched& link : links_[i]) way = std::max(way, way_of(simulation.world, link));
       course.way[half] += way;
-      course.stretching[half] += std::abs(excess - course.excess);
+      course.stretching[half] += std::abs(gauge.excess - course.excess);
     }
-    course.excess = excess;
+    course.excess = gauge.excess;
   }
   last_seen_ = simulation.world.state().bodies;
 }
 
-double RunMonitor::way_of(const World& world, const LinkReport& link) const {
+double RunMonitor::way_of(const World& world, const Touched& link) const {
   if (link.body.is_world() || last_seen_.empty()) return 0.0;
   const auto body = static_cast<std::size_t>(link.body.index);
   const BodyState& now = world.state().bodies[body];

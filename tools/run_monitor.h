@@ -36,9 +36,8 @@ struct JointCourse {
   double drive_asked = 0.0;
 };
 
-/// Follows a simulation: energy in every step; cables, whose reports cost as much as a solver
-/// iteration, in every step of short runs and at about 2000 moments of long ones; joints at about
-/// 200 moments.
+/// Follows a simulation: energy in every step; cables in every step of short runs and at about 2000 moments of
+/// long ones; joints at about 200 moments.
 class RunMonitor {
  public:
   /// For a run of so many steps.
@@ -71,8 +70,13 @@ class RunMonitor {
  private:
   void observe_cables(const Simulation& simulation);
   void observe_joints(const Simulation& simulation);
+  /// A link of a cable: the body, and the radius that the cable has there at the start [m].
+  struct Touched {
+    BodyId body;
+    double radius = 0.0;
+  };
   /// What the link has moved since the last look [m].
-  [[nodiscard]] double way_of(const World& world, const LinkReport& link) const;
+  [[nodiscard]] double way_of(const World& world, const Touched& link) const;
 
   std::int64_t stride_;        // steps between looks at the cables
   std::int64_t half_;          // of the steps
@@ -90,6 +94,8 @@ class RunMonitor {
   std::int64_t joint_stride_;  // steps between looks at the joints
   std::vector<CableCourse> cables_;
   std::vector<JointCourse> joints_;
+  std::vector<std::vector<Touched>> links_;  // of each cable
+  std::vector<CableGauge> gauges_;
   std::vector<BodyState> last_seen_;  // at the last look at the cables
 };
 

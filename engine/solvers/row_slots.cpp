@@ -11,8 +11,14 @@ namespace sheave {
 bool RowSlots::same_pattern(const RowList& rows) const {
   std::size_t next = 0;
   const std::size_t size = signature_.size();
-  for (const Row& row : rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
     const auto terms = at(row.term_count);
+    if (row.source != nullptr && i < copies_.size() && copies_[i].first == row.source &&
+        copies_[i].second == row.edition) {
+      next += terms + 1;
+      continue;
+    }
     if (next + terms + 1 > size || signature_[next++] != (row.tied ? -2 : -1)) return false;
     for (std::size_t t = 0; t < terms; ++t) {
       if (signature_[next++] != row.terms[t].body) return false;

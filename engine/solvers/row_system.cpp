@@ -142,6 +142,12 @@ bool RowSystem::is_pushed(const Row& row, double value) const {
 void RowSystem::set_bounds(std::size_t g, bool pushed, bool active) {
   const Group& group = groups_[g];
   const Row& first = rows_[at(group.first_row)];
+  if (first.lower == 0.0 && first.upper == Row::unbounded) {  // as of most cables
+    problem_.lower[g] = -group.multiplier;
+    problem_.upper[g] = Row::unbounded;
+    problem_.free[g] = active || pushed || group.multiplier != 0.0 ? 1 : 0;
+    return;
+  }
   problem_.lower[g] = bound_share_ * first.lower - group.multiplier;
   problem_.upper[g] = bound_share_ * first.upper - group.multiplier;
   const bool bilateral = !std::isfinite(first.lower) && !std::isfinite(first.upper);

@@ -1,0 +1,39 @@
+// Cables measured at the end of a substep, from the lengths that it has found anyway.
+
+#include <algorithm>
+
+#include "cable/cable_system.h"
+#include "engine/index.h"
+
+namespace sheave {
+
+bool CableSystem::gauge(const FeatureState& own, std::vector<CableGauge>& gauges) const {
+  if (!knows_lengths_) return false;
+  gauges.resize(cables_.size());
+  for (std::size_t c = 0; c < cables_.size(); ++c) {
+    const CompiledCable& cable = cables_[c];
+    const bool rigid = cable.compliance == 0.0 && cable.inverse_stiffness == 0.0;
+    const bool cut = own.integers[cut_index(static_cast<int>(c))] != 0;
+    // Of a span that is all but used up there is no stretch worth the name; it counts against this share of the cable.
+    const double shortest = 1e-6 * cable.start_length;
+    CableGauge gauge;
+    double fed = 0.0;
+    for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+      const double rest_length = own.reals[rest_length_index(k)];
+      gauge.total_length += rest_length;
+      if (!rigid || cut || !spans_[at(k)].active) continue;
+      const double stretch = ends_[at(k)][1] - rest_length;
+      gauge.excess += std::max(stretch, 0.0);
+      gauge.max_stretch = std::max(gauge.max_stretch, stretch / std::max(rest_length, shortest));
+    }
+    for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
+      gauge.total_length += own.reals[stored_length_index(i)];
+      if (definitions_[at(i)].feed_speed != 0.0) fed += own.reals[slip_index(i)];
+    }
+    gauge.length_error = (gauge.total_length - cable.start_length - fed) / cable.start_length;
+    gauges[c] = gauge;
+  }
+  return true;
+}
+
+}  // namespace sheave
