@@ -106,6 +106,9 @@ struct StretchedSpan {
   double spring_length = 0.0;      ///< A: compliance x EA [m]
   double on = 0.0;                 ///< arc that comes onto its links [m, >= 0]
   std::array<double, 2> gained{};  ///< unstretched length that comes off its links [m, >= 0]
+  double before = 0.0;             ///< rest length at the start, and what was gained [m]
+  double start_strain = 0.0;       ///< >= 0
+  double length = 0.0;             ///< [m]
 };
 
 /// What a drive does to the rest lengths of a chain if it does its whole share.
