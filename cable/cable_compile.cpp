@@ -57,6 +57,7 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
                                   [](const CompiledCable& cable) { return cable.course_changes; });
   s.references_.resize(spans);
   s.strains_.resize(spans);
+  s.end_strains_.assign(spans, -1.0);
   s.multipliers_.resize(spans);
   s.was_taut_.resize(spans);
   s.is_affine_.resize(spans);

@@ -19,6 +19,14 @@
 // B^2 / (B + y), B = L0 + G, the same to second order and positive however much is wound on. For on = 0 it is L0 + G, the
 // value L0 + G - l1. A slack span has e = 0; then the value is L0 + G - on - l1, as of a rigid cable.
 //
+// Spans of a run share one strain e, times the weights k_i that friction gives their tensions, so they share one equation, too:
+// what is left of the run when it has run on and off its links is what its spans have in the end,
+//   F(e) = sum (L0_i + G_i - on_i / (1 + (e0_i + k_i e) / 2) - l_i / (1 + k_i e)) = 0.
+// Their rows then have the lengths of the end, A_i = L1_i = l_i / (1 + k_i e), and the values -A_i k_i e, and finish() gives
+// the spans just these. (With the A of each span by itself, and cable passed on afterwards, the sum of A_i e_i is not that of
+// L1_i e_i: what has passed makes a difference of the strain times the slip, which is 1 % of the stretch and more where that
+// is small.) Where F(0) > 0 the run is slack.
+//
 // The residual value + compliance T, whose zero solvers seek, changes by -(dl + d(on) - d(off)) for T = EA e0 and w = e0,
 // and by a share e1 - e0 or w - e0 of the arcs besides. So Newton's method with the row's gradient is exact but for changes
 // of strain, which also vanish for stiff cables.
@@ -82,10 +90,92 @@ CableSystem::StretchedSpan CableSystem::stretched(int span, const SpanTransport&
   result.gained[0] = gain(arcs.from_first, setup.first, End::outgoing);
   result.gained[1] = gain(arcs.from_second, setup.second, End::incoming);
   const double before = reference.rest_length + result.gained[0] + result.gained[1];
+  result.before = before;
+  result.start_strain = strain;
+  result.length = length;
   const double half = 0.5 * result.on / (1.0 + strain);
   result.spring_length = before > 0.0 && half > 0.0 ? before * (before / (before + half)) : before;
   result.value = before + strain * (before - result.spring_length) - result.on - length;
   return result;
+}
+
+double CableSystem::rest_length_at(const StretchedSpan& span, double strain) {
+  return span.before - span.on / (1.0 + 0.5 * (span.start_strain + strain));
+}
+
+std::optional<double> CableSystem::run_strain(std::span<const StretchedSpan> spans,
+                                              std::span<const double> weights) {
+  // F is concave and rises: Newton's method comes to its zero from below.
+  constexpr double rounding = 1e-15;
+  constexpr int most_rounds = 50;
+  double strain = 0.0;
+  for (int round = 0; round < most_rounds; ++round) {
+    double missing = 0.0;
+    double slope = 0.0;
+    double whole = 0.0;
+    for (std::size_t i = 0; i < spans.size(); ++i) {
+      const StretchedSpan& span = spans[i];
+      const double own = weights[i] * strain;
+      const double rest_length = span.length / (1.0 + own);
+      const double onto = span.on / (1.0 + 0.5 * (span.start_strain + own));
+      missing += rest_length - (span.before - onto);
+      whole += rest_length;
+      slope += weights[i] *
+               (rest_length / (1.0 + own) + 0.5 * onto / (1.0 + 0.5 * (span.start_strain + own)));
+    }
+    if (!(missing > rounding * whole)) return strain;
+    if (!(slope > 0.0)) return std::nullopt;
+    strain += missing / slope;
+    if (!std::isfinite(strain)) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+void CableSystem::strain_rows(const CompiledCable& cable, std::span<const StretchedSpan> spans,
+                              std::span<const double> weights, std::span<Row> rows) {
+  const std::optional<double> strain = run_strain(spans, weights);
+  if (!strain) return;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double own = weights[i] * *strain;
+    const double spring_length = spans[i].length / (1.0 + own);
+    rows[i].value =
+        *strain > 0.0 ? -own * spring_length : rest_length_at(spans[i], 0.0) - spans[i].length;
+    rows[i].compliance = compliance_of(cable, spring_length);
+  }
+}
+
+std::optional<double> CableSystem::end_strain(const Substep& substep, const CompiledCable& cable,
+                                              Run run) {
+  run_stretched_.resize(at(run.count));
+  run_weights_.resize(std::max(run_weights_.size(), at(run.count)));
+  double heaviest = 0.0;
+  Row row;
+  for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+    row.clear();
+    evaluate(substep, k, row, &run_stretched_[at(i)]);
+    run_weights_[at(i)] = multipliers_[at(k)];
+    heaviest = std::max(heaviest, multipliers_[at(k)]);
+  }
+  const std::span weights = std::span(run_weights_).first(at(run.count));
+  for (double& weight : weights) weight = heaviest > 0.0 ? weight / heaviest : 1.0;
+  const std::optional<double> strain = run_strain(run_stretched_, weights);
+  // What is stretched without a pull (a damper has all of it) keeps its own strains.
+  return heaviest > 0.0 || strain == 0.0 ? strain : std::nullopt;
+}
+
+void CableSystem::keep_end_strains(const Substep& substep) {
+  for (const CompiledCable& cable : cables_) {
+    if (!cable.shares || !strains_runs(cable)) continue;
+    std::fill_n(end_strains_.begin() + cable.first_span, cable.span_count, -1.0);
+    for_each_run(cable, [&](Run run) {
+      if (run.count == 1) return;
+      const std::optional<double> strain = end_strain(substep, cable, run);
+      if (!strain) return;
+      for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+        end_strains_[at(k)] = run_weights_[at(i)] * *strain;
+      }
+    });
+  }
 }
 
 double CableSystem::rest_length_of(const CompiledCable& cable, const Row& row, double length) {
@@ -103,18 +193,20 @@ SpanTransport CableSystem::material_transport(const CompiledCable& cable, int sp
                                               const SpanTransport& arcs, double length,
                                               FeatureState& next) {
   const SpanSetup& setup = spans_[at(span)];
-  const SpanReference& reference = references_[at(span)];
   const StretchedSpan result = stretched(span, arcs, length);
-  const double before = reference.rest_length + result.gained[0] + result.gained[1];
+  const double shared = end_strains_[at(span)];
   SpanTransport moved{result.gained[0], result.gained[1]};
   double onto = 0.0;  // unstretched length of `on`
   if (result.on > 0.0) {
-    onto = before - rest_length_under(result.value, result.spring_length, length);
+    onto = result.before - (shared < 0.0
+                                ? rest_length_under(result.value, result.spring_length, length)
+                                : rest_length_at(result, shared));
     if (arcs.from_first < 0.0) moved.from_first = onto * (arcs.from_first / result.on);
     if (arcs.from_second < 0.0) moved.from_second = onto * (arcs.from_second / result.on);
   }
-  const double end_strain =
+  double end_strain =
       result.spring_length > 0.0 ? std::max(-result.value, 0.0) / result.spring_length : 0.0;
+  if (shared >= 0.0) end_strain = shared;
   const double mean = 0.5 * (strains_[at(span)] + end_strain);
   const double on_strain = onto > 0.0 ? std::max(result.on / onto - 1.0, 0.0) : 0.0;
   const auto wind = [&](int link, End end, double gained) {

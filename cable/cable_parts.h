@@ -43,6 +43,17 @@ struct LinkWarning {
   double first_time = 0.0;  ///< [s]
 };
 
+/// How often something has been observed, and when first.
+struct Fallback {
+  long substeps = 0;
+  double first_time = 0.0;  ///< [s]
+};
+
+struct Stall {
+  bool now = false;  ///< in the last substep
+  Fallback observed;
+};
+
 /// Spans first, first + 1, ... of a cable (cyclic if it is closed) that share one multiplier.
 struct Run {
   int first = 0;
@@ -106,6 +117,9 @@ struct StretchedSpan {
   double spring_length = 0.0;      ///< A: compliance x EA [m]
   double on = 0.0;                 ///< arc that comes onto its links [m, >= 0]
   std::array<double, 2> gained{};  ///< unstretched length that comes off its links [m, >= 0]
+  double before = 0.0;             ///< rest length at the start, and what was gained [m]
+  double start_strain = 0.0;       ///< >= 0
+  double length = 0.0;             ///< [m]
 };
 
 /// What a drive does to the rest lengths of a chain if it does its whole share.

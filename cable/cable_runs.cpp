@@ -136,7 +136,7 @@ double CableSystem::evaluate_run(const Substep& substep, const CompiledCable& ca
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     Row& row = run_rows_[at(i)];
     row.clear();
-    run_spans_[at(i)] = evaluate(substep, k, row);
+    run_spans_[at(i)] = evaluate(substep, k, row, &run_stretched_[at(i)]);
     value.error += row.value;
     if (row.damping > 0.0) value.change += substep_change(row, substep.moving);
     for (const RowTerm& term : row.active_terms()) {
@@ -159,11 +159,19 @@ double CableSystem::evaluate_run(const Substep& substep, const CompiledCable& ca
 }
 
 double CableSystem::weigh_run(const CompiledCable& cable, std::size_t count, double heaviest,
-                              double h) {
+                              double h, RunValue& value) {
   double deflection = 0.0;
   double damped = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     run_weights_[i] = std::exp(run_weights_[i] - heaviest);
+  }
+  if (strains_runs(cable)) {
+    const std::span rows = std::span(run_rows_).first(count);
+    strain_rows(cable, run_stretched_, run_weights_, rows);
+    value.error = 0.0;
+    for (const Row& row : rows) value.error += row.value;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
     const double share = run_weights_[i] * run_rows_[i].compliance;
     deflection += share;
     damped += share * run_rows_[i].compliance * cable.damping;
@@ -175,6 +183,7 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   const auto count = at(run.count);
   run_rows_.resize(std::max(run_rows_.size(), count));
   run_spans_.resize(std::max(run_spans_.size(), count));
+  run_stretched_.resize(count);
   run_weights_.resize(std::max(run_weights_.size(), count));
   run_gradient_.resize(substep.moving.size());
   const double inverse_square = 1.0 / (substep.h * substep.h);
@@ -182,7 +191,7 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   RunValue value;
   const double heaviest = evaluate_run(substep, cable, run, value);
 
-  const double gamma = weigh_run(cable, count, heaviest, substep.h);
+  const double gamma = weigh_run(cable, count, heaviest, substep.h, value);
   double numerator = -(value.error + gamma * value.change);
   double denominator = 0.0;
   double parts = 0.0;  // the same without what cancels between the spans
@@ -237,9 +246,12 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
   SpanGeometry last;
   // Where nothing can yield a multiplier does nothing: the links around decide what the spans carry.
   const bool open = cable.has_friction && is_open(substep, cable, run);
+  // What spans were strained by at the start of the substep they need not have shared.
+  const bool strains = run.count > 1 && strains_runs(cable) && substep.time != substep.start.time;
+  if (strains) run_stretched_.resize(at(run.count));
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     Row& row = rows.emplace_back();
-    const SpanGeometry span = evaluate(substep, k, row);
+    const SpanGeometry span = evaluate(substep, k, row, strains ? &run_stretched_[at(i)] : nullptr);
     row.index = k;
     if (open) row.upper = 0.0;
     row.active = was_taut_[at(k)] != 0;
@@ -263,6 +275,43 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     rows[i].weight = relative(rows[i].weight, heaviest.now);
     rows[i].start_weight = relative(rows[i].start_weight, heaviest.start);
   }
+  if (!strains) return;
+  run_weights_.clear();
+  for (std::size_t i = start; i < rows.size(); ++i) {
+    run_weights_.push_back(rows[i].start_weight);
+  }
+  strain_rows(cable, run_stretched_, run_weights_, std::span(rows).subspan(start));
+}
+
+bool CableSystem::shorten_run(const Substep& substep, const CompiledCable& cable, Run run) {
+  run_tensions_.clear();
+  const double inverse_square = 1.0 / (substep.h * substep.h);
+  bool taut = false;
+  Row row;
+  for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+    row.clear();
+    const SpanGeometry span = evaluate(substep, k, row);
+    run_tensions_.push_back(multipliers_[at(k)] * inverse_square);
+    taut = taut || run_tensions_.back() > 0.0;
+    run_spare_.push_back(rest_length_of(cable, row, span.length));
+    run_lengths_.push_back(span.length);
+  }
+  if (taut) shorten_by_strain(cable, run_spare_, run_tensions_, run_lengths_);
+  return taut;
+}
+
+bool CableSystem::stretch_run(const Substep& substep, const CompiledCable& cable, Run run) {
+  const std::optional<double> strain = end_strain(substep, cable, run);
+  bool taut = false;
+  for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+    taut = taut || multipliers_[at(k)] > 0.0;
+    const StretchedSpan& span = run_stretched_[at(i)];
+    const double own = run_weights_[at(i)] * strain.value_or(0.0);
+    run_lengths_.push_back(span.length / (1.0 + own));
+    run_spare_.push_back(strain ? rest_length_at(span, own)
+                                : rest_length_under(span.value, span.spring_length, span.length));
+  }
+  return taut;
 }
 
 const std::vector<double>& CableSystem::run_spare(const Substep& substep,
@@ -271,21 +320,10 @@ const std::vector<double>& CableSystem::run_spare(const Substep& substep,
   std::vector<double>& lengths = run_lengths_;
   spare.clear();
   lengths.clear();
-  run_tensions_.clear();
-  const double inverse_square = 1.0 / (substep.h * substep.h);
-  bool taut = false;
+  const bool taut =
+      strains_runs(cable) ? stretch_run(substep, cable, run) : shorten_run(substep, cable, run);
   double total = 0.0;
   double length = 0.0;
-  Row row;
-  for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
-    row.clear();
-    const SpanGeometry span = evaluate(substep, k, row);
-    run_tensions_.push_back(multipliers_[at(k)] * inverse_square);
-    taut = taut || run_tensions_.back() > 0.0;
-    spare.push_back(rest_length_of(cable, row, span.length));
-    lengths.push_back(span.length);
-  }
-  if (taut) shorten_by_strain(cable, spare, run_tensions_, lengths);
   for (std::size_t i = 0; i < spare.size(); ++i) {
     spare[i] -= lengths[i];
     total += spare[i];

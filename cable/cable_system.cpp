@@ -74,7 +74,8 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   }
 }
 
-SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row) const {
+SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row,
+                                   StretchedSpan* kept) const {
   const SpanSetup& setup = spans_[at(span)];
   const CompiledCable& cable = cables_[at(setup.cable)];
   const LinkGeometry& first = links_[at(setup.first)];
@@ -94,6 +95,7 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row) c
     const StretchedSpan stretch = stretched(span, transport, geometry.length);
     row.value = stretch.value;
     row.compliance = compliance_of(cable, stretch.spring_length);
+    if (kept != nullptr) *kept = stretch;
   } else {
     row.compliance = compliance_of(cable, row.value + geometry.length);
   }
@@ -184,6 +186,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     if (cable.has_friction) hold_tensions(substep, cable, next);
   }
   if (!stored_.empty()) stored_end_ = stored_;
+  keep_end_strains(substep);
   for (int k = 0; k < row_count(); ++k) {
     const SpanSetup& setup = spans_[at(k)];
     if (!setup.active) continue;

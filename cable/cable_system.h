@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -138,7 +140,10 @@ class CableSystem final : public ConstraintBatch {
  private:
   friend class CableCompiler;
   CableSystem() = default;
-  SpanGeometry evaluate(const Substep& substep, int span, Row& row) const;
+  using StretchedSpan = cable_parts::StretchedSpan;
+  /// The row of a span; of a material what it was made of, too, if `stretch` is not null.
+  SpanGeometry evaluate(const Substep& substep, int span, Row& row,
+                        StretchedSpan* stretch = nullptr) const;
   [[nodiscard]] SpanGeometry geometry_of(const Substep& substep, int span) const;
 
   // Spans of which nothing turns: cable/cable_affine.cpp.
@@ -167,9 +172,15 @@ class CableSystem final : public ConstraintBatch {
   /// weights k_i. Returns the largest of these.
   double evaluate_run(const Substep& substep, const CompiledCable& cable, Run run, RunValue& value);
   /// Makes the weights of a run of `count` spans relative to the heaviest, so that no number of turns overflows, and returns
-  /// the share g of its damping.
-  double weigh_run(const CompiledCable& cable, std::size_t count, double heaviest, double h);
+  /// the share g of its damping. Of a material it finds the run's strain and makes the value that of the rows then.
+  double weigh_run(const CompiledCable& cable, std::size_t count, double heaviest, double h,
+                   RunValue& value);
   double solve_run(Substep& substep, const CompiledCable& cable, Run run);
+  /// Puts the rest lengths that spans of the run have before anything passes their links into run_spare_, and those that go
+  /// with their tensions into run_lengths_ [m]. Whether any of them has one.
+  bool shorten_run(const Substep& substep, const CompiledCable& cable, Run run);
+  /// The same of a material.
+  bool stretch_run(const Substep& substep, const CompiledCable& cable, Run run);
   /// Per span of the run: rest length that has to leave it [m], so that all have their tensions.
   const std::vector<double>& run_spare(const Substep& substep, const CompiledCable& cable, Run run);
   void share_lengths(Substep& substep, const CompiledCable& cable, FeatureState& next);
@@ -214,7 +225,6 @@ class CableSystem final : public ConstraintBatch {
   SpanGeometry evaluate_layered(const Substep& substep, int span, Row& row,
                                 SpanTransport& transport) const;
   // Cable of a material on wheels: cable/cable_material.cpp.
-  using StretchedSpan = cable_parts::StretchedSpan;
   [[nodiscard]] StretchedSpan stretched(int span, const SpanTransport& arcs, double length) const;
   /// Strain of a span, 0 if it is slack or its cable not of a material.
   [[nodiscard]] static double strain_of(const CompiledCable& cable, double length,
@@ -228,6 +238,23 @@ class CableSystem final : public ConstraintBatch {
                                    double length, FeatureState& next);
   [[nodiscard]] StoredStrain stored_strain(const FeatureState& own, int link) const;
   void save_strain(const StoredStrain& stored, int link, FeatureState& own) const;
+  /// Whether the spans of a run have one strain (times their weights), which its rows and finish() find together.
+  [[nodiscard]] static bool strains_runs(const CompiledCable& cable) {
+    return cable.inverse_stiffness > 0.0 && cable.tangent_update != TangentUpdate::substep;
+  }
+  /// Rest length of a span of a material at the end of the substep [m], before anything passes its links, if it has `strain`
+  /// then.
+  [[nodiscard]] static double rest_length_at(const StretchedSpan& span, double strain);
+  /// The strain e of a run whose spans end with weight x e each; 0 if it is slack, none if it is used up.
+  [[nodiscard]] static std::optional<double> run_strain(std::span<const StretchedSpan> spans,
+                                                        std::span<const double> weights);
+  /// Gives the rows of a run that strain.
+  void strain_rows(const CompiledCable& cable, std::span<const StretchedSpan> spans,
+                   std::span<const double> weights, std::span<Row> rows);
+  /// The strain with which a run ends, with the ratios of its tensions as weights; leaves these and the spans in run_weights_
+  /// and run_stretched_. None if its spans keep strains of their own.
+  std::optional<double> end_strain(const Substep& substep, const CompiledCable& cable, Run run);
+  void keep_end_strains(const Substep& substep);
   /// Lets the link's strain follow a stored length that has changed at `end`; what is new has `strain`.
   void fit_strain(int link, StoredStrain::End end, double strain, FeatureState& own) const;
   void keep_strains(FeatureState& next);
@@ -337,7 +364,7 @@ class CableSystem final : public ConstraintBatch {
   /// Moves cable between a span and its links as the transport says, but no more than there is.
   void wind(int span, const SpanTransport& transport, FeatureState& next);
   void slide_over_ends(int span, std::array<double, 2>& moved, FeatureState& next);
-  struct Stall;
+  using Stall = cable_parts::Stall;
   [[nodiscard]] std::vector<LinkWarning> link_warnings(const std::vector<Stall>& of_links) const;
   // Cutting: cable/cable_cut.cpp.
   void cut(const Substep& substep, FeatureState& next);
@@ -387,7 +414,8 @@ class CableSystem final : public ConstraintBatch {
   /// Length of the substep, and the share of loads, that their bodies' inverse masses are for.
   std::array<double, 2> edition_is_for_{};
   std::vector<SpanReference> references_;
-  std::vector<double> strains_;  ///< per span, of a material, at the start
+  std::vector<double> strains_;      ///< per span, of a material, at the start
+  std::vector<double> end_strains_;  ///< and at the end where it shares that of a run; < 0: its own
   std::vector<double> multipliers_;
   std::vector<char> was_taut_;  ///< per span, in the last substep
   std::vector<std::array<double, 2>>
@@ -419,6 +447,7 @@ class CableSystem final : public ConstraintBatch {
   std::vector<Row> run_rows_;
   std::vector<SpanGeometry> run_spans_;
   std::vector<double> run_weights_;
+  std::vector<StretchedSpan> run_stretched_;
   std::vector<RowTerm> run_gradient_;  ///< per body; `body` is not used
   std::vector<double> run_spare_;
   std::vector<double> run_lengths_;
@@ -433,15 +462,8 @@ class CableSystem final : public ConstraintBatch {
   std::vector<char> changed_links_;
   std::vector<int> left_bodies_;
   // Diagnostics, no part of the simulation.
-  struct Fallback {
-    long substeps = 0;
-    double first_time = 0.0;
-  };
+  using Fallback = cable_parts::Fallback;
   std::vector<Fallback> fallbacks_;
-  struct Stall {
-    bool now = false;  ///< in the last substep
-    Fallback observed;
-  };
   std::vector<Stall> stalls_;      ///< per link
   std::vector<Stall> slides_at_;   ///< per link: over which cable slid that ought not to
   bool slides_ = false;            ///< whether it does over any link, or did in the last substep

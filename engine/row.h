@@ -87,6 +87,9 @@ struct Row {
   /// A row that closes faster than this at the end of a substep of `rattle` rebounds in the next one [m/s]: its velocity is
   /// not stopped.
   double rebound_speed = unbounded;
+  /// Of a row of friction, whose bounds are +- this times the multiplier of the row `pressed_by` places before it [1].
+  double friction = 0.0;
+  int pressed_by = 0;
   int index = 0;        ///< of its multiplier among those of its feature
   bool active = false;  ///< whether its multiplier was off its bounds in the last substep
   /// Whether it shares one unknown with the row before it, which may do the same: their values are added, and the
@@ -101,8 +104,9 @@ struct Row {
 
   /// Makes the row empty: no terms, rigid, bilateral, value 0.
   void clear() {
-    index = 0;
+    index = pressed_by = 0;
     source = nullptr;
+    friction = 0.0;
     active = tied = false;
     weight = start_weight = 1.0;
     softness = 0.0;

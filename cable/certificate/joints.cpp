@@ -257,8 +257,12 @@ class JointCheck {
            1e-9 * limit);
     }
     // What has all the force it can have is stalled, not wrong.
-    const bool stalled = std::abs(force) >= (1.0 - 1e-6) * limit;
-    if (stalled) return;
+    const double enough = (1.0 - 1e-6) * limit;
+    if (std::abs(force) >= enough) return;
+    // The first half of `rattle` has to make all of the way and may not have more than half of the limit; what it has not
+    // reached the second half may, with less.
+    const double early = joint_.acting[first_end].coordinates[k].drive_force;
+    if (e_.rattle && std::abs(early) >= 0.5 * enough) return;
     const double slop = rounding * (scale_of(k) + std::abs(now.value)) +
                         1e-10 * (now.angle ? 1.0 : e_.bodies.scale());
     if (settings.drive == CoordinateDrive::speed) {

@@ -16,19 +16,26 @@ SpanPushes pushes_of(const SpanEvidence& span, End when, bool guided) {
   const Vector3& a2 = span.to.point[at(when)];
   add(span.from.body, a1, u);
   add(span.to.body, a2, -u);
-  if (!guided || span.from.outlined || span.to.outlined) return result;
+  if (!guided) return result;
 
   // y of the head of the declaration; a point has no angle.
   struct Rim {
     double r;
     Vector3 e = Vector3::Zero();
     Vector3 t = Vector3::Zero();
+    Vector3 center = Vector3::Zero();
     double k = 0.0;
   };
   const auto rim = [&](const SpanSide& side, double sense) {
     Rim own{side.radius};
     if (!(side.radius > 0.0)) return own;
-    own.e = (side.point[at(when)] - side.center[at(when)]) / side.radius;
+    own.center = side.center[at(when)];
+    own.e = (side.point[at(when)] - own.center) / side.radius;
+    if (side.outlined) {
+      // Round a corner, whose centre follows from where the span touches it; a sharp one is a point.
+      own.e = side.winding * u.cross(side.normal[at(when)]).normalized();
+      own.center = side.point[at(when)] - side.radius * own.e;
+    }
     own.t = side.normal[at(when)].cross(own.e);
     own.k = sense * side.radius * (side.winding - u.dot(own.t));
     return own;
@@ -37,8 +44,8 @@ SpanPushes pushes_of(const SpanEvidence& span, End when, bool guided) {
   const Rim second = rim(span.to, 1.0);
   const double negligible = 1e-13 * (first.r + second.r);
   if (std::abs(first.k) <= negligible && std::abs(second.k) <= negligible) return result;
-  const double m11 = first.r > 0.0 ? first.t.dot(a2 - span.from.center[at(when)]) : 1.0;
-  const double m22 = second.r > 0.0 ? second.t.dot(a1 - span.to.center[at(when)]) : 1.0;
+  const double m11 = first.r > 0.0 ? first.t.dot(a2 - first.center) : 1.0;
+  const double m22 = second.r > 0.0 ? second.t.dot(a1 - second.center) : 1.0;
   const double m12 = second.r * first.e.dot(second.t);
   const double m21 = first.r * second.e.dot(first.t);
   const double determinant = m11 * m22 - m12 * m21;

@@ -22,11 +22,17 @@ bool is_rigid(const CableDef& cable) {
   return !cable.axial_stiffness && !(cable.compliance.value_or(0.0) > 0.0);
 }
 
-/// Change of the stretch as damping sees it: along the direction of the end.
-double linear_stretch(const Evidence& evidence, const SpanEvidence& span) {
-  const Vector3 from = evidence.displacement(span.from.body, span.from.point[last_end], last_end);
-  const Vector3 to = evidence.displacement(span.to.body, span.to.point[last_end], last_end);
-  return span.direction[last_end].dot(to - from);
+/// Change of the stretch as damping sees it: what a unit of tension works at the end, backwards. Where a wheel's plane is not
+/// that of the span, that is more than the way of its ends along it.
+double linear_stretch(const Evidence& evidence, SpanEvidence span, bool guided) {
+  span.force[last_end] = 1.0;
+  const SpanPushes pushes = pushes_of(span, last_end, guided);
+  double work = 0.0;
+  for (int i = 0; i < pushes.count; ++i) {
+    const SpanPush& push = pushes.all[at(i)];
+    work += push.force.dot(evidence.displacement(push.body, push.point, last_end));
+  }
+  return -work;
 }
 
 class SpanCheck {
@@ -82,7 +88,8 @@ class SpanCheck {
     const double tension = span.tension();
     for (const double part : span.force) {
       if (part < 0.0 && tension < 0.0) {
-        note(CertificateItem::Kind::complementarity, "N", -tension, e_.largest_force, 0.0, span);
+        note(CertificateItem::Kind::complementarity, "N", -tension, e_.largest_force,
+             e_.force_rounding, span);
       }
     }
     const double stretch0 = span.length[first_end] - span.rest_length[first_end];
@@ -97,7 +104,7 @@ class SpanCheck {
     // A slack of the whole size lets all of the tension count, one that trust cannot see none.
     const double share = std::min(1.0, slack / size_);
     note(CertificateItem::Kind::complementarity, "N", tension * share, std::max(largest_, tension),
-         tension * rounding * 100.0, span);
+         std::max(tension * rounding * 100.0, e_.force_rounding), span);
   }
 
   void check_rigid(const SpanEvidence& span) {
@@ -164,7 +171,9 @@ class SpanCheck {
       deflection += a * span.tension();
       damping += a * a * span.tension() * cable.damping;
       softest = std::max(softest, a);
-      if (cable.damping > 0.0 && !e_.rattle) moved += linear_stretch(e_, span);
+      if (cable.damping > 0.0 && !e_.rattle) {
+        moved += linear_stretch(e_, span, cable.tangent_update == TangentUpdate::iteration);
+      }
     }
     const double gamma = (deflection > 0.0 ? damping / deflection : softest * cable.damping) / e_.h;
     double given = now + gamma * moved;

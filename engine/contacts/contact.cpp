@@ -169,6 +169,8 @@ void Contact::evaluate(const Substep& substep, int index, Row& row) const {
   }
   const Vector3& tangent = tangents[at(index - 1)];
   row.value = dot(tangent, slip(substep));
+  row.friction = friction;
+  row.pressed_by = index;
   row.upper = friction * pressed;
   row.lower = -row.upper;
   substep.add_force(row, body_a, surface_a, tangent);

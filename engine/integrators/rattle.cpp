@@ -112,10 +112,10 @@ void RattleSolver::solve_velocities(Substep& substep, Features features) {
   substep.update_inertias();
   velocities_.linearise_velocities(substep, positions_);
   const bool direct = solver_ == SolverKind::direct;
-  if (!direct || !velocities_.solve(substep, true)) {
-    substep.failed = direct && substep.resort != Resort::anything;
+  if (!velocities_.solve_velocities(substep, direct, substep.iterations)) {
+    substep.failed = substep.resort != Resort::anything;
     if (substep.failed) return;
-    if (direct) ++substep.statistics.solver_fallbacks;
+    ++substep.statistics.solver_fallbacks;
     velocities_.relax(substep, substep.iterations);
   }
   // Sweeps leave velocities off the constraints, which do work of their own.

@@ -78,6 +78,10 @@ class RowSystem {
   /// whose last linearise() must have been at the current positions; it takes them from there.
   void linearise_velocities(Substep& substep, RowSystem& positions);
 
+  /// Finds the impulses, by sweeps unless `direct`. Friction is bounded by the impulses of its normals, not by their forces in
+  /// the first half (an impact may be over then), so there are rounds until these agree. False if no active set was found.
+  bool solve_velocities(Substep& substep, bool direct, int sweeps);
+
   /// The largest violation [m or rad] of what the problem asks for, before it is solved, as far as bounds let unknowns make up
   /// for it.
   [[nodiscard]] double violation() const;
@@ -124,6 +128,8 @@ class RowSystem {
     Vector3 turn = Vector3::Zero();      ///< since the start of the substep [rad]
   };
   void collect_rows(Substep& substep, Features features);
+  /// Bounds what is friction by the impulses that were just found. Whether that makes a difference.
+  [[nodiscard]] bool bound_friction();
   /// Gives the rows the gradients and weights of the start to act along; false if they touch other bodies than there.
   bool match_start();
   /// Gradients of the rows and the bodies' responses along them.

@@ -65,6 +65,49 @@ void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
   if (redundant) start_from_impulses();
 }
 
+bool RowSystem::bound_friction() {
+  constexpr double settled_share = 1e-7;  // as between the rounds of the positions
+  const std::span<const double> change = active_set_.solution();
+  const auto impulse = [&](std::size_t g) { return groups_[g].multiplier + change[g]; };
+  bool changed = false;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (!(rows_[i].friction > 0.0)) continue;
+    const std::size_t g = at(group_of_[i]);
+    const std::size_t normal = at(group_of_[i - at(rows_[i].pressed_by)]);
+    if (groups_[normal].elastic) continue;  // whose force is that of the first half
+    const double bound = rows_[i].friction * std::max(impulse(normal), 0.0);
+    const double before = problem_.upper[g] + groups_[g].multiplier;
+    // Where friction does not use what it has, having more or less changes nothing.
+    const double used = std::abs(impulse(g));
+    const bool matters = used > bound || used >= (1.0 - 1e-9) * before;
+    if (matters && std::abs(bound - before) > settled_share * std::max(bound, before)) {
+      changed = true;
+    }
+    problem_.lower[g] = -bound - groups_[g].multiplier;
+    problem_.upper[g] = bound - groups_[g].multiplier;
+  }
+  return changed;
+}
+
+bool RowSystem::solve_velocities(Substep& substep, bool direct, int sweeps) {
+  for (int round = 0; round < std::max(sweeps, 1); ++round) {
+    if (round > 0) {
+      // The matrix is that of the first round.
+      if (!direct) {
+        active_set_.relax(problem_, sweeps);
+      } else if (!active_set_.solve(problem_, true)) {
+        return false;
+      }
+    } else if (!direct) {
+      relax(substep, sweeps);
+    } else if (!solve(substep, true)) {
+      return false;
+    }
+    if (!bound_friction()) break;
+  }
+  return true;
+}
+
 void RowSystem::start_from_impulses() {
   std::fill(motion_.begin(), motion_.end(), 0.0);
   for (std::size_t g = 0; g < groups_.size(); ++g) {

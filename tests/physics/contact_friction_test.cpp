@@ -66,6 +66,29 @@ TEST(ContactFriction, ABoxSlidesJustBeyondTheFrictionAngle) {
   }
 }
 
+TEST(ContactFriction, AnImpactTakesFrictionTimesWhatItGives) {
+  // A box hits the floor while it slides. As long as it does, friction is mu times the normal force at every moment, those of
+  // the impact among them, so v_x falls by mu times what the floor adds to v_y, whatever the box does and however its time is
+  // cut into steps: of a substep of `rattle` both halves have their own.
+  const double friction = 0.3;
+  for (const test::Method& method : test::methods) {
+    SCOPED_TRACE(test::name_of(method));
+    Heap heap(method.solver, method.integrator);
+    heap.surface.friction = friction;
+    sweep_enough(method, heap);
+    heap.floor();
+    const BodyId box = heap.put(test::box({1.0, 0.2, 0.6}), {0.0, 0.103, 0.0}, 2.0);
+    heap.last().velocity = {3.0, -1.0, 0.0};
+    World world = heap.start();
+    for (int i = 0; i < 6; ++i) {
+      ASSERT_TRUE(world.step().ok());
+      const double given = world.velocity(box).y() + 1.0 + g * world.state().time;
+      EXPECT_NEAR(world.velocity(box).x(), 3.0 - friction * given, 1e-6);
+    }
+    EXPECT_NEAR(world.velocity(box).y(), 0.0, 0.5);
+  }
+}
+
 TEST(ContactFriction, ABallRolls) {
   for (const test::Method& method : test::methods) {
     SCOPED_TRACE(test::name_of(method));

@@ -4,6 +4,7 @@
 // A weight of 100 kg with dry friction of 50 N in its guide hangs on a drum whose drive lifts it, slows down and stops.
 
 #include <cmath>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@
 #include "engine/joints/hinge.h"
 #include "engine/joints/slider.h"
 #include "tests/support/builders.h"
+#include "tests/support/friction_links.h"
 
 namespace sheave {
 namespace {
@@ -73,6 +75,44 @@ TEST_P(RedundantFriction, FindsASetOfRowsMovingAndAtRest) {
   // Half a radian at 1 rad/s at most; then it stands. xpbd and rattle both follow the drive's integral.
   EXPECT_NEAR(s.world.position({0}).y(), -2.0 + 0.5 * drum_radius, 1e-10);
   EXPECT_NEAR(s.world.velocity({0}).y(), 0.0, 1e-10);
+}
+
+// A rope from the world through a hole near the rim of a wheel and back to where it comes from, so both spans say the same. A
+// torque M pulls the hole away: with the arm p, (T1 + T2) p = M. The rope is bent there by half a turn, so neither pull may be
+// more than e^(m pi) times the other, in either half of a substep of `rattle`.
+TEST_P(RedundantFriction, PullsThatSayTheSameStayWithinTheConeInBothHalves) {
+  constexpr double torque = 3.0;
+  constexpr double friction = 0.01;
+  test::Machine machine;
+  machine.model.step = test::settings(1.0 / 100.0, 1, 20);
+  machine.model.step.solver = SolverKind::direct;
+  machine.model.step.integrator = GetParam();
+  BodyDef wheel = test::wheel("wheel", Vector3::Zero(), 0.3, 0.05);
+  wheel.torque = {0.0, 0.0, torque};
+  const BodyId held = machine.model.add(wheel);
+  const Vector3 hole{0.0, 0.2, 0.0};
+  const Vector3 anchor{1.0, 0.5, 0.0};
+  machine.cables.push_back(test::cable(
+      "rope", {test::attach(BodyId::world(), anchor), test::eyelet(held, hole, friction),
+               test::attach(BodyId::world(), anchor)}));
+  Simulation s = test::start(machine);
+  const double arm = std::abs(hole.cross(anchor - hole).z()) / (anchor - hole).norm();
+  const double bound = std::exp(friction * pi) * (1.0 + 1e-6);
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(s.world.step().ok());
+    const std::vector<double> pulls = test::tensions(s.cable_reports()[0]);
+    std::vector<double> late{0.0, 0.0};
+    if (GetParam() == IntegratorKind::rattle) {
+      late = s.world.last_substep()->late_forces.back();
+      ASSERT_GE(late.size(), 2U);
+      EXPECT_LE(late[0], bound * late[1]);
+      EXPECT_LE(late[1], bound * late[0]);
+    }
+    EXPECT_NEAR((pulls[0] + pulls[1]) * arm, torque, 1e-6 * torque);
+    EXPECT_LE(pulls[0] - late[0], bound * (pulls[1] - late[1]));
+    EXPECT_LE(pulls[1] - late[1], bound * (pulls[0] - late[0]));
+  }
+  EXPECT_NEAR(s.world.angular_velocity(held).z(), 0.0, 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, RedundantFriction,
