@@ -68,6 +68,7 @@ class Mutator:
             numbers = [p for p in all_places if is_number(at(document, p))]
             chosen = numbers if numbers and self.random.random() < 0.7 else all_places
             told.append(self.change(document, self.random.choice(chosen), all_places))
+        self.document = document
         text = json.dumps(document)
         if self.random.random() < 0.05:
             text, how = self.change_text(text)
@@ -117,11 +118,22 @@ class Mutator:
         return text[:i] + self.random.choice(["{", "}", "\0", "\xff", "1e999", "\\ud800", ","]) + text[i:], "text"
 
 
-def command(path, mutator):
-    """Half a second of simulated time, or eight steps, whichever is less: that is asked for by the step's length."""
+def bounded(step):
+    """Options against runs that last because so many steps, substeps or rounds were asked for."""
+    options = []
+    if not isinstance(step, dict):
+        return options
+    for key, low, high, limit in (("dt", 0, 1e-3, "0.001"), ("substeps", 20, 100_000, "20"), ("iterations", 100, 1_000_000, "100")):
+        if is_number(step.get(key)) and low < step[key] < high:
+            options += ["--" + key, limit]
+    return options
+
+
+def command(path, document, mutator):
+    """A tenth of a second of the scene, at most."""
     if mutator.random.random() < 0.1:
         return [str(COMMAND), "validate", "--json", path]
-    arguments = [str(COMMAND), "run", path, "--duration", mutator.random.choice(("0.02", "0.1"))]
+    arguments = [str(COMMAND), "run", path, "--duration", mutator.random.choice(("0.02", "0.1")), *bounded(document.get("step"))]
     if mutator.random.random() < 0.5:
         arguments += ["--solver", mutator.random.choice(("direct", "gauss-seidel"))]
     if mutator.random.random() < 0.5:
@@ -146,7 +158,7 @@ def one(seed, documents, keep):
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "mutant.json")
         file.write_bytes(text.encode("utf-8", "surrogateescape"))
-        arguments = command(str(file), mutator)
+        arguments = command(str(file), mutator.document, mutator)
         with open(pathlib.Path(folder, "out"), "w+b") as out_file, open(pathlib.Path(folder, "err"), "w+b") as err_file:
             process = subprocess.Popen(arguments, stdout=out_file, stderr=err_file, cwd=folder, preexec_fn=limit_time)
             _, status, usage = os.wait4(process.pid, 0)
@@ -179,7 +191,10 @@ def run(count, first, jobs):
     codes, faults, slow, longest = {}, 0, 0, 0.0
     start = time.monotonic()
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for code, seconds, fault, line, err in pool.map(lambda s: one(s, documents, keep), range(first, first + count)):
+        results = pool.map(lambda s: one(s, documents, keep), range(first, first + count))
+        for done, (code, seconds, fault, line, err) in enumerate(results, 1):
+            if done % 1000 == 0:
+                print(f"{done} mutants, {time.monotonic() - start:.0f} s", flush=True)
             codes[code] = codes.get(code, 0) + 1
             longest = max(longest, seconds)
             if fault:
