@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "cable/simulation.h"
 #include "fuzz/target.h"
 #include "scenes/scene.h"
 #include "tests/scenes/scene_compare.h"
