@@ -1,7 +1,10 @@
 #pragma once
-// What every subcommand provides. Adding one: a file here and a line in tools/main.cpp.
+// What every subcommand provides. Adding one: a file here and a line in tools/command_registry.cpp.
 
 #include <functional>
+#include <memory>
+#include <span>
+#include <vector>
 
 #include "tools/failure.h"
 
@@ -19,6 +22,20 @@ struct Command {
   const char* name;
   const char* meaning;               ///< one line of help
   Action (*declare)(CLI::App& app);  ///< adds options and examples to `app`
+};
+
+/// All subcommands, in the order of the help.
+[[nodiscard]] std::span<const Command> commands();
+
+/// All that the command line may say.
+struct CommandLine {
+  std::unique_ptr<CLI::App> app;
+  std::vector<Action> actions;  ///< of commands(), in their order; they need `app`
+
+  CommandLine();
+  ~CommandLine();
+  CommandLine(const CommandLine&) = delete;
+  CommandLine& operator=(const CommandLine&) = delete;
 };
 
 Action declare_run(CLI::App& app);

@@ -1,13 +1,9 @@
-// The `sheave` command: its subcommands, and how it ends.
+// The `sheave` command, and how it ends.
 
-#include <array>
 #include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
-#include <vector>
-
-#include <sheave_version.h>
 
 #include <CLI/CLI.hpp>
 
@@ -18,35 +14,11 @@
 namespace sheave::tools {
 namespace {
 
-constexpr std::array<Command, 9> commands{{
-    {"run", "Simulate a scene; write tables, print a summary", declare_run},
-    {"render", "Simulate a scene; write a video or pictures", declare_render},
-    {"bench", "Measure the paper's scenes: time per frame, with the error", declare_bench},
-    {"trade", "Measure speed against accuracy of a scene; choose a setting", declare_trade},
-    {"stress", "Map where extreme numbers break machines, or a scene", declare_stress},
-    {"validate", "Check scenes without running them", declare_validate},
-    {"generate", "Write a scene of a given kind and size", declare_generate},
-    {"schema", "Print the JSON Schema of scenes", declare_schema},
-    {"reference", "Print the reference of the scene format (Markdown)", declare_reference},
-}};
-
 ExitCode dispatch(int argc, char** argv) {
-  CLI::App app{"Rigid bodies and cables that run over wheels.", "sheave"};
-  use_wrapped_help(app);
-  app.set_help_flag("-h,--help", "print this help");
-  app.set_version_flag("--version", std::string("sheave ") + version_string, "print the version");
-  app.require_subcommand(1);
-  app.footer(R"(Example:
-  sheave run scenes/paper/simple.json
-
-See sheave SUBCOMMAND --help for options and examples.)");
-  std::vector<Action> actions;
-  for (const Command& command : commands) {
-    actions.push_back(command.declare(*app.add_subcommand(command.name, command.meaning)));
-  }
-  if (!parse_command_line(app, argc, argv)) return ExitCode::done;
-  for (std::size_t i = 0; i < commands.size(); ++i) {
-    if (app.got_subcommand(commands[i].name)) return actions[i]();
+  const CommandLine line;
+  if (!parse_command_line(*line.app, argc, argv)) return ExitCode::done;
+  for (std::size_t i = 0; i < commands().size(); ++i) {
+    if (line.app->got_subcommand(commands()[i].name)) return line.actions[i]();
   }
   return ExitCode::internal;
 }

@@ -24,7 +24,7 @@
 namespace sheave::tools {
 namespace {
 
-using nlohmann::json;
+using JournalJson = nlohmann::json;
 
 /// FNV-1a, 64 bits.
 class Hash {
@@ -50,32 +50,32 @@ double now_seconds() {
 }
 
 /// JSON has neither infinity nor NaN.
-json number(double value) {
+JournalJson number(double value) {
   if (std::isfinite(value)) return value;
   return fmt::format("{}", value);
 }
-double number_of(const json& value) {
+double number_of(const JournalJson& value) {
   return value.is_string() ? std::strtod(value.get<std::string>().c_str(), nullptr)
                            : value.get<double>();
 }
 
-json error_of(const measure::RunError& error) {
+JournalJson error_of(const measure::RunError& error) {
   return {number(error.position), number(error.position_end), number(error.tension),
           number(error.energy)};
 }
-measure::RunError error_from(const json& list) {
+measure::RunError error_from(const JournalJson& list) {
   return {number_of(list.at(0)), number_of(list.at(1)), number_of(list.at(2)),
           number_of(list.at(3))};
 }
 
-json spread_json(const measure::Spread& spread) {
+JournalJson spread_json(const measure::Spread& spread) {
   return {spread.median, spread.lower, spread.upper, spread.minimum, spread.count};
 }
-measure::Spread spread_from(const json& list) {
+measure::Spread spread_from(const JournalJson& list) {
   return {list.at(0), list.at(1), list.at(2), list.at(3), list.at(4)};
 }
 
-json ladder_row_json(const LadderRow& row) {
+JournalJson ladder_row_json(const LadderRow& row) {
   return {{"name", row.name},
           {"things", row.things},
           {"change", row.change},
@@ -85,8 +85,8 @@ json ladder_row_json(const LadderRow& row) {
           {"seconds", spread_json(row.seconds)},
           {"row_solves", row.row_solves}};
 }
-LadderRow ladder_row_from(const json& own) {
-  const json& difference = own.at("difference");
+LadderRow ladder_row_from(const JournalJson& own) {
+  const JournalJson& difference = own.at("difference");
   return {own.at("name"),
           own.at("things"),
           own.at("change"),
@@ -118,23 +118,23 @@ std::string trade_key(const Scene& scene, const TradeOptions& options) {
 }
 
 TradeJournal::TradeJournal(std::string path, const std::string& key)
-    : path_(std::move(path)), data_(std::make_unique<json>(json::object())) {
-  json& data = *data_;
+    : path_(std::move(path)), data_(std::make_unique<JournalJson>(JournalJson::object())) {
+  JournalJson& data = *data_;
   if (!path_.empty() && std::filesystem::exists(path_)) {
     const std::string text = read_input(path_, most_bytes);
     check_trade_journal(text, path_);
-    json found = json::parse(text, nullptr, false, true);
+    JournalJson found = JournalJson::parse(text, nullptr, false, true);
     if (found.at("key") == key) {
       data = std::move(found);
       print_note(fmt::format("{}: {} settings are known", path_,
-                             data.value("rows", json::object()).size()));
+                             data.value("rows", JournalJson::object()).size()));
       return;
     }
     print_note(path_ + ": of another scene, setting, machine or build; begun anew");
   }
   data["format"] = trade_journal_format;
   data["key"] = key;
-  data["rows"] = json::object();
+  data["rows"] = JournalJson::object();
 }
 
 TradeJournal::~TradeJournal() {
@@ -146,7 +146,7 @@ TradeJournal::~TradeJournal() {
 }
 
 void TradeJournal::keep(const measure::Reference& reference, double motion) {
-  json differences = json::array();
+  JournalJson differences = JournalJson::array();
   for (const double difference : reference.differences) differences.push_back(number(difference));
   (*data_)["reference"] = {{"substeps", reference.substeps},
                            {"integrator", static_cast<int>(reference.integrator)},
@@ -161,21 +161,21 @@ void TradeJournal::keep(const measure::Reference& reference, double motion) {
 
 std::optional<std::pair<measure::Reference, double>> TradeJournal::reference() const {
   if (!data_->contains("reference")) return {};
-  const json& own = data_->at("reference");
+  const JournalJson& own = data_->at("reference");
   measure::Reference reference;
   reference.substeps = own.at("substeps");
   reference.integrator = static_cast<IntegratorKind>(own.at("integrator").get<int>());
   reference.order = number_of(own.at("order"));
   reference.good = own.at("good");
   reference.estimate = error_from(own.at("estimate"));
-  for (const json& difference : own.at("differences")) {
+  for (const JournalJson& difference : own.at("differences")) {
     reference.differences.push_back(number_of(difference));
   }
   return std::pair(std::move(reference), number_of(own.at("motion")));
 }
 
 void TradeJournal::keep(const TradeRow& row) {
-  json own{{"fault", row.fault}};
+  JournalJson own{{"fault", row.fault}};
   if (row.measured()) {
     own["error"] = error_of(row.error);
     own["stretch"] = number(row.stretch);
@@ -189,7 +189,7 @@ void TradeJournal::keep(const TradeRow& row) {
 }
 
 bool TradeJournal::restore(TradeRow& row) const {
-  const json& rows = data_->at("rows");
+  const JournalJson& rows = data_->at("rows");
   const auto found = rows.find(row.setting.name());
   if (found == rows.end()) return false;
   row.fault = found->at("fault");
@@ -204,7 +204,7 @@ bool TradeJournal::restore(TradeRow& row) const {
 }
 
 void TradeJournal::keep_times(const std::vector<TradeRow>& rows) {
-  json times = json::object();
+  JournalJson times = JournalJson::object();
   for (const TradeRow& row : rows) {
     if (row.skipped.empty()) {
       times[row.setting.name()] = {spread_json(row.seconds), row.timed_alone, row.fault};
@@ -217,13 +217,13 @@ void TradeJournal::keep_times(const std::vector<TradeRow>& rows) {
 
 bool TradeJournal::restore_times(std::vector<TradeRow>& rows) const {
   if (!data_->contains("times")) return false;
-  const json& times = data_->at("times");
+  const JournalJson& times = data_->at("times");
   for (const TradeRow& row : rows) {
     if (row.measured() && !times.contains(row.setting.name())) return false;
   }
   for (TradeRow& row : rows) {
     if (!row.measured()) continue;
-    const json& own = times.at(row.setting.name());
+    const JournalJson& own = times.at(row.setting.name());
     row.seconds = spread_from(own.at(0));
     row.timed_alone = own.at(1);
     row.fault = own.at(2);
@@ -232,7 +232,7 @@ bool TradeJournal::restore_times(std::vector<TradeRow>& rows) const {
 }
 
 void TradeJournal::keep(const TradeLadder& ladder) {
-  json rows = json::array();
+  JournalJson rows = JournalJson::array();
   for (const LadderRow& row : ladder.rows) rows.push_back(ladder_row_json(row));
   (*data_)["ladder"] = {{"setting", ladder_key(ladder.setting)},
                         {"seconds", spread_json(ladder.seconds)},
@@ -245,11 +245,11 @@ void TradeJournal::keep(const TradeLadder& ladder) {
 
 std::optional<TradeLadder> TradeJournal::ladder(const TradeSetting& setting) const {
   if (!data_->contains("ladder")) return {};
-  const json& own = data_->at("ladder");
+  const JournalJson& own = data_->at("ladder");
   if (own.at("setting") != ladder_key(setting)) return {};
   TradeLadder ladder{setting, 0.0, spread_from(own.at("seconds")), own.at("row_solves"), {},
                      {},      {}};
-  for (const json& row : own.at("rows")) ladder.rows.push_back(ladder_row_from(row));
+  for (const JournalJson& row : own.at("rows")) ladder.rows.push_back(ladder_row_from(row));
   ladder.absent = own.at("absent").get<std::vector<std::string>>();
   return ladder;
 }

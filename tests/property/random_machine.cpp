@@ -96,8 +96,7 @@ void choose_method(std::uint64_t seed, StepSettings& step) {
   step.integrator = random.chance(0.5) ? IntegratorKind::rattle : IntegratorKind::xpbd;
 }
 
-RandomMachine random_machine(std::uint64_t seed, const Traits& traits) {
-  Random random(seed);
+RandomMachine random_machine(Random& random, const Traits& traits) {
   RandomMachine result;
   constexpr int most_draws = 100;
   while (result.refused < most_draws) {
@@ -108,14 +107,17 @@ RandomMachine random_machine(std::uint64_t seed, const Traits& traits) {
       change_rest_lengths(random, *simulation, result.machine.cables.front());
       simulation = Simulation::create(result.machine.model, result.machine.cables);
     }
-    if (simulation) {
-      choose_method(seed, result.machine.model.step);
-      return result;
-    }
+    if (simulation) return result;
     if (result.refused++ == 0) result.first_refusal = text(simulation.errors());
   }
-  throw std::runtime_error("no machine of seed " + std::to_string(seed) +
-                           " is accepted: " + result.first_refusal);
+  throw std::runtime_error("no machine is accepted: " + result.first_refusal);
+}
+
+RandomMachine random_machine(std::uint64_t seed, const Traits& traits) {
+  Random random(seed);
+  RandomMachine result = random_machine(random, traits);
+  choose_method(seed, result.machine.model.step);
+  return result;
 }
 
 std::string describe(const Machine& machine) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/support/builders.h"
+#include "tests/support/random.h"
 
 namespace sheave::test {
 
@@ -36,6 +37,8 @@ struct RandomMachine {
 };
 
 [[nodiscard]] RandomMachine random_machine(std::uint64_t seed, const Traits& traits = {});
+/// The same of any numbers; solver and integrator are left as they are by default.
+[[nodiscard]] RandomMachine random_machine(Random& random, const Traits& traits = {});
 
 /// Chooses solver and integrator: any of the four pairs, equally often. Its draw is its own, so a seed's machine is the
 /// same whatever there is to choose from.

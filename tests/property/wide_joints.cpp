@@ -70,6 +70,7 @@ class JointMaker {
   }
   /// A body that moves and carries joints; the world if there is none.
   BodyId mover() {
+    if (model_.bodies.empty()) return BodyId::world();
     for (int tries = 0; tries < 8; ++tries) {
       const int i = random_.below(static_cast<int>(model_.bodies.size()));
       const BodyDef& body = model_.bodies[static_cast<std::size_t>(i)];

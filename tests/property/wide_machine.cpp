@@ -129,7 +129,7 @@ class Widener {
     const int count = 2 + random_.below(3);
     for (int i = 0; i < count; ++i) {
       const bool world = random_.chance(0.4);
-      const BodyId body = world ? BodyId::world() : BodyId{random_.below(bodies)};
+      const BodyId body = world || bodies == 0 ? BodyId::world() : BodyId{random_.below(bodies)};
       if (i == 0 || i + 1 == count) {
         cable.links.push_back(attach(body, point_of(body)));
         continue;
@@ -247,6 +247,13 @@ Machine wide_machine(std::uint64_t seed) {
   Random random(seed ^ 0x51f0a3c2d4e59b77U);
   const Traits traits = wide_traits(random);
   Machine base = random_machine(seed, traits).machine;
+  base.cables[0].name = "rope";
+  return Widener(random, std::move(base), !traits.skew).widen();
+}
+
+Machine wide_machine(Random& random) {
+  const Traits traits = wide_traits(random);
+  Machine base = random_machine(random, traits).machine;
   base.cables[0].name = "rope";
   return Widener(random, std::move(base), !traits.skew).widen();
 }

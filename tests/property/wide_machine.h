@@ -9,5 +9,7 @@ namespace sheave::test {
 /// A machine that Simulation::create accepts: a random machine with cables, to which features were added one by one, those
 /// that it refused left out. Step settings but for solver and integrator.
 [[nodiscard]] Machine wide_machine(std::uint64_t seed);
+/// The same of any numbers.
+[[nodiscard]] Machine wide_machine(Random& random);
 
 }  // namespace sheave::test

@@ -1,0 +1,92 @@
+// Prints a dictionary for libFuzzer: the words of scenes, from the field tables, or with the argument "command_line" those of
+// the command line, from its options.
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include <CLI/CLI.hpp>
+
+#include "scenes/format.h"
+#include "tools/command.h"
+
+namespace sheave::fuzz {
+namespace {
+
+using Words = std::set<std::string>;
+
+void add_table(const TableFormat& table, Words& words) {
+  for (const Field& field : table.fields) {
+    words.insert("\"" + std::string(field.name) + "\": ");
+    for (const std::string_view choice : field.choices) {
+      words.insert("\"" + std::string(choice) + "\"");
+    }
+  }
+}
+
+void add_format(const ObjectFormat& format, std::set<const ObjectFormat*>& seen, Words& words) {
+  if (!seen.insert(&format).second) return;
+  for (const TableFormat& table : format.tables) add_table(table, words);
+  for (const Variant& variant : format.variants) {
+    words.insert("\"type\": \"" + std::string(variant.name) + "\"");
+    add_table(variant.table, words);
+  }
+  for (const Member& member : format.members) {
+    words.insert("\"" + std::string(member.name) + (member.list ? "\": [" : "\": {"));
+    add_format(*member.format, seen, words);
+  }
+}
+
+Words scene_words() {
+  Words words{"null", "true", "false", "\"world\"", "1e308", "-1", "[0, 0, 1]", "//", "/*", "*/"};
+  std::set<const ObjectFormat*> seen;
+  add_format(scene_format(), seen, words);
+  return words;
+}
+
+void add_app(const CLI::App& app, Words& words) {
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) words.insert("--" + name + "\n");
+    for (const std::string& name : option->get_snames()) words.insert("-" + name + "\n");
+  }
+  for (const CLI::App* child : app.get_subcommands([](const CLI::App*) { return true; })) {
+    words.insert(child->get_name() + "\n");
+    add_app(*child, words);
+  }
+}
+
+Words command_line_words() {
+  Words words{"nan", "inf", "-1", "1e999", "--set\n/bodies/0/mass=", "/step/dt=", "=", "\n--\n"};
+  const tools::CommandLine line;
+  add_app(*line.app, words);
+  return words;
+}
+
+void print(const Words& words) {
+  std::string text;
+  for (const std::string& word : words) {
+    text += '"';
+    for (const char c : word) {
+      if (c == '\n') {
+        text += "\\x0A";
+      } else {
+        if (c == '"' || c == '\\') text += '\\';
+        text += c;
+      }
+    }
+    text += "\"\n";
+  }
+  std::fputs(text.c_str(), stdout);
+}
+
+}  // namespace
+}  // namespace sheave::fuzz
+
+int main(int argc, char** argv) {
+  const bool command_line = argc > 1 && std::string_view(argv[1]) == "command_line";
+  sheave::fuzz::print(command_line ? sheave::fuzz::command_line_words()
+                                   : sheave::fuzz::scene_words());
+  return 0;
+}

@@ -1,0 +1,68 @@
+#include <string>
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+
+#include "fuzz/target.h"
+#include "tools/bench_table.h"
+#include "tools/failure.h"
+#include "tools/trade_journal.h"
+#include "tools/trade_journal_check.h"
+
+namespace sheave::fuzz {
+namespace {
+
+/// A file of these bytes without a place on any disk.
+class MemoryFile {
+ public:
+  explicit MemoryFile(const std::string& text) : file_(memfd_create("fuzzed", 0)) {
+    require(
+        file_ >= 0 && write(file_, text.data(), text.size()) == static_cast<ssize_t>(text.size()),
+        "no file in memory");
+  }
+  ~MemoryFile() { close(file_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  [[nodiscard]] std::string path() const { return "/proc/self/fd/" + std::to_string(file_); }
+
+ private:
+  int file_;
+};
+
+/// Whether `read` takes the file; a refusal must be one of its contents.
+template <class Read>
+bool is_taken(const Read& read) {
+  try {
+    read();
+    return true;
+  } catch (const tools::Failure& failure) {
+    require(failure.code() == tools::ExitCode::bad_scene, "refused with another code than 65");
+    require(*failure.what() != '\0', "refused without a message");
+    return false;
+  }
+}
+
+/// Everything that is asked of a journal which was taken.
+void use(const std::string& text) {
+  const nlohmann::json data = nlohmann::json::parse(text, nullptr, false, true);
+  const MemoryFile file(text);
+  tools::TradeJournal journal(file.path(), data.at("key").get<std::string>());
+  static_cast<void>(journal.reference());
+  std::vector<tools::TradeRow> rows(2);
+  for (tools::TradeRow& row : rows) static_cast<void>(journal.restore(row));
+  static_cast<void>(journal.restore_times(rows));
+  static_cast<void>(journal.ladder(rows.front().setting));
+}
+
+}  // namespace
+
+void try_journal(Bytes bytes) {
+  const std::string text(bytes.begin(), bytes.end());
+  if (is_taken([&] { tools::check_trade_journal(text, "journal"); })) use(text);
+  const MemoryFile file(text);
+  is_taken([&] { static_cast<void>(tools::compare_with_baseline({}, file.path(), 1.1)); });
+}
+
+}  // namespace sheave::fuzz

@@ -1,0 +1,281 @@
+#include "fuzz/machine_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/links/attachment.h"
+#include "engine/joint_report.h"
+#include "fuzz/target.h"
+#include "tests/support/builders.h"
+#include "tests/support/rounding.h"
+
+namespace sheave::fuzz {
+namespace {
+
+/// Certificate::clean() and what two ways to measure the same may differ by.
+constexpr double trust = 0.011;
+
+bool drives(const JointDef& joint) {
+  for (const auto& entry : joint_types()) {
+    if (entry.name != joint.type()) continue;
+    for (const Field& field : entry.fields()) {
+      const FieldSlot slot = field.slot(const_cast<void*>(joint.settings()));
+      const auto* choice = std::get_if<ChoiceSlot>(&slot);
+      if (choice == nullptr || field.choices.front() != "none") continue;
+      if (choice->get(choice->object) != 0) return true;
+    }
+  }
+  return false;
+}
+
+bool feeds(const LinkDef& link) {
+  const auto* point = dynamic_cast<const AttachmentLink*>(&link);
+  return point != nullptr && point->feed_speed != 0.0;
+}
+
+/// Whether anything may do work that World::energy() knows nothing of.
+bool is_driven(const Model& model, const std::vector<CableDef>& cables) {
+  const bool by_body = std::any_of(model.bodies.begin(), model.bodies.end(), [](const BodyDef& b) {
+    return b.drive != DriveKind::none || b.mobility == Mobility::kinematic || !b.torque.isZero() ||
+           (b.mobility == Mobility::rotor && !b.force.isZero());
+  });
+  const bool by_joint = std::any_of(model.joints.begin(), model.joints.end(),
+                                    [](const auto& joint) { return drives(*joint); });
+  const bool by_cable = std::any_of(cables.begin(), cables.end(), [](const CableDef& cable) {
+    return std::any_of(cable.links.begin(), cable.links.end(),
+                       [](const auto& link) { return feeds(*link); });
+  });
+  // Bodies that overlap when they come to touch have the energy of a spring at once.
+  const bool by_contact = std::any_of(model.colliders.begin(), model.colliders.end(),
+                                      [](const auto& c) { return c.compliance > 0.0; });
+  return by_body || by_joint || by_cable || by_contact;
+}
+
+bool is_finite(const BodyState& body) {
+  return body.position.allFinite() && body.orientation.coeffs().allFinite() &&
+         body.velocity.allFinite() && body.angular_velocity.allFinite() &&
+         std::isfinite(body.angle);
+}
+
+/// The longest of all lengths of a cable [m], and the shortest.
+struct Lengths {
+  double longest = 0.0;
+  double shortest = 0.0;
+
+  void add(double length) {
+    longest = std::max(longest, std::abs(length));
+    shortest = std::min(shortest, length);
+  }
+  explicit Lengths(const CableReport& cable) {
+    for (const SpanReport& span : cable.spans) add(span.rest_length);
+    for (const LinkReport& link : cable.links) add(link.stored_length);
+    for (const WrapReport& wrap : cable.wraps) {
+      add(wrap.span.rest_length);
+      add(wrap.link.stored_length);
+    }
+  }
+};
+
+/// At most how far a point of a body goes in a substep [m].
+double motion(const World& world) {
+  double fastest = 0.0;
+  for (const BodyState& body : world.state().bodies) {
+    fastest = std::max(
+        fastest, body.velocity.norm() + world.bodies().scale() * body.angular_velocity.norm());
+  }
+  return fastest * world.model().step.dt / world.model().step.substeps;
+}
+
+bool is_rigid(const CableDef& cable) {
+  return !cable.axial_stiffness && cable.compliance.value_or(0.0) == 0.0 &&
+         cable.tangent_update == TangentUpdate::iteration;
+}
+
+/// Everything that reports say, so that every one of them is made.
+void read_reports(const Simulation& simulation) {
+  const World& world = simulation.world;
+  for (int i = -1; i < world.bodies().count(); ++i) {
+    const BodyId body{i};
+    require(world.position(body).allFinite() && world.velocity(body).allFinite() &&
+                world.orientation(body).coeffs().allFinite() &&
+                world.angular_velocity(body).allFinite(),
+            "a pose that is not finite is reported");
+  }
+  for (const CableReport& cable : simulation.cable_reports()) {
+    std::vector<int> places;
+    const CableReport whole = cable.with_wraps_in_place(&places);
+    require(whole.links.size() == cable.links.size() + cable.wraps.size() &&
+                places.size() == whole.links.size(),
+            "a link without a place");
+  }
+  if (simulation.cables != nullptr) {
+    static_cast<void>(simulation.cables->tangent_warnings());
+    static_cast<void>(simulation.cables->wrap_warnings());
+    static_cast<void>(simulation.cables->stall_warnings());
+    static_cast<void>(simulation.cables->slide_warnings());
+  }
+}
+
+/// The sum of all forces that reports tell [N]; torques count at the size of the scene.
+double reported_forces(const Simulation& simulation) {
+  const double size = simulation.world.bodies().scale();
+  double forces = 0.0;
+  for (const JointReport& joint : joint_reports(simulation.world)) {
+    forces += joint.force.norm() + joint.torque.norm() / size;
+  }
+  for (const CableReport& cable : simulation.cable_reports()) {
+    for (const SpanReport& span : cable.spans) forces += span.tension;
+    for (const WrapReport& wrap : cable.wraps) forces += wrap.span.tension;
+  }
+  for (const ContactReport& contact : simulation.world.contacts()) {
+    forces += contact.normal_force + contact.friction_force.norm();
+  }
+  return forces;
+}
+
+bool is_clean(const std::optional<Certificate>& certificate) {
+  if (!certificate) return false;
+  const bool clean = certificate->clean();
+  for (const CertificateItem& item : certificate->items) {
+    require(!clean || std::isfinite(item.relative), "a certificate with no number is clean");
+    require(!item.sentence().empty(), "a certificate without words");
+  }
+  return clean;
+}
+
+}  // namespace
+
+StepCheck::StepCheck(const Simulation& simulation, bool ordinary)
+    : ordinary_(ordinary),
+      driven_(is_driven(simulation.world.model(), simulation.cable_definitions
+                                                      ? *simulation.cable_definitions
+                                                      : std::vector<CableDef>())),
+      before_(test::start({simulation.world.model(), simulation.cable_definitions
+                                                         ? *simulation.cable_definitions
+                                                         : std::vector<CableDef>()})),
+      rounding_(simulation.cable_reports().size(), 0.0) {}
+
+void StepCheck::check(const Simulation& simulation) {
+  for (const BodyState& body : simulation.world.state().bodies) {
+    require(is_finite(body), "a state that is not finite, and no divergence");
+  }
+  if (ordinary_) {
+    require(std::isfinite(simulation.world.energy().total()),
+            "an energy that is not finite, and no divergence");
+  }
+  read_reports(simulation);
+  const std::optional<Certificate> certificate = simulation.certificate();
+  require(certificate.has_value(), "a step without a certificate");
+  const bool clean = is_clean(certificate);
+  check_cables(simulation, clean);
+  if (!clean || !ordinary_) return;
+  check_joints(simulation);
+  check_contacts(simulation);
+  check_energy(simulation);
+}
+
+// Lengths are multiples of a power of two of about 1e-15 of the cable (cable/cable_system.h), so their sum is exact as long as
+// none of them is beyond some times the cable; each of the some 16 sums of a substep then rounds by eps of the longest.
+void StepCheck::check_cables(const Simulation& simulation, bool clean) {
+  const std::vector<CableReport> cables = simulation.cable_reports();
+  const std::size_t events = simulation.cables == nullptr ? 0 : simulation.cables->events().size();
+  quiet_ = events == events_ ? quiet_ + 1 : 0;
+  events_ = events;
+  const StepSettings& step = simulation.world.model().step;
+  const double moved = motion(simulation.world);
+  for (std::size_t c = 0; c < cables.size(); ++c) {
+    const CableReport& cable = cables[c];
+    const CableDef& definition = (*simulation.cable_definitions)[c];
+    const Lengths lengths(cable);
+    const double whole = std::max(cable.total_length, lengths.longest + moved);
+    if (lengths.longest + moved > 4.0 * cable.total_length || driven_) {
+      rounding_[c] += 16.0 * test::eps * step.substeps * whole / cable.total_length;
+    }
+    if (ordinary_ && !cable.cut) {
+      require(std::abs(cable.length_error) <= rounding_[c],
+              "cable " + std::string(cable.name) + " has come from nowhere, relative " +
+                  std::to_string(cable.length_error * 1e12) + "e-12");
+    }
+    if (!clean || cable.cut) continue;
+    require(-lengths.shortest <= trust * whole, "a length below 0, and a clean certificate");
+    if (!ordinary_ || quiet_ == 0 || !is_rigid(definition)) continue;
+    const double size = std::max(whole, simulation.world.bodies().scale());
+    for (const SpanReport& span : cable.spans) {
+      require(!span.has_tangent || span.length - span.rest_length <= trust * size,
+              "a rigid span is stretched, and the certificate is clean");
+    }
+  }
+}
+
+void StepCheck::check_joints(const Simulation& simulation) const {
+  const double size = simulation.world.bodies().scale();
+  for (const JointReport& joint : joint_reports(simulation.world)) {
+    require(joint.error <= trust * size && joint.angle_error <= trust,
+            joint.name + " is open, and the certificate is clean");
+  }
+}
+
+void StepCheck::check_contacts(const Simulation& simulation) const {
+  const double size = simulation.world.bodies().scale();
+  for (const ContactReport& contact : simulation.world.contacts()) {
+    require(contact.normal_force >= 0.0, "a contact pulls");
+    const auto gives = [&](BodyId body) {
+      for (const ColliderDef& collider : simulation.world.model().colliders) {
+        if (collider.body == body && collider.compliance > 0.0) return true;
+      }
+      return false;
+    };
+    if (gives(contact.body_a) || gives(contact.body_b)) continue;
+    require(contact.gap >= -trust * size, "bodies overlap, and the certificate is clean");
+  }
+}
+
+// A certificate is clean if at no place more work than a hundredth of what flows there is done by nothing. What flows in all is
+// at most every force times the fastest point. What it does not see is the error of the time step, which is of second order: of an
+// impulse P that changes a velocity by dv the energy depends, by P dv, on the way between both ends, and so it does of a turning
+// body, of which a velocity changes by h w^2 without any force.
+void StepCheck::check_energy(const Simulation& simulation) {
+  const std::optional<LastSubstep> last = simulation.world.last_substep();
+  // What a body has cut into when a cable comes to touch it is taken in by the substep after.
+  if (driven_ || quiet_ < 2 || !last || !before_.world.restore(last->start).empty()) return;
+  const World& world = simulation.world;
+  const double size = world.bodies().scale();
+  double fastest = 0.0;
+  double forces = reported_forces(simulation);
+  double second_order = 0.0;
+  double level = 0.0;
+  for (std::size_t i = 0; i < world.state().bodies.size(); ++i) {
+    const BodyProperties& body = world.bodies()[static_cast<int>(i)];
+    const BodyState& start = last->start.bodies[i];
+    const BodyState& end = world.state().bodies[i];
+    for (const BodyState* state : {&start, &end}) {
+      fastest = std::max(fastest, state->velocity.norm() + size * state->angular_velocity.norm());
+    }
+    const double load =
+        body.mass * world.model().gravity.norm() + world.model().bodies[i].force.norm();
+    forces += load;
+    level += load * size;
+    const double inertia = std::max(body.inertia.norm(), body.axis_inertia);
+    const double change = (end.velocity - start.velocity).norm();
+    const double turn = (end.angular_velocity - start.angular_velocity).norm() +
+                        last->h * std::max(start.angular_velocity.squaredNorm(),
+                                           end.angular_velocity.squaredNorm());
+    second_order += body.mass * change * change + inertia * turn * turn;
+    forces += (body.mass * change + inertia * turn / size) / last->h;
+  }
+  const Energy before = before_.world.energy();
+  const Energy after = world.energy();
+  level += std::max(before.kinetic, after.kinetic) + std::abs(before.potential) +
+           std::abs(after.potential) + before.elastic + after.elastic;
+  const double flow = forces * fastest * last->h;
+  double gain = after.total() - before.total();
+  // Sweeps leave a stiff spring of a joint longer than its force asks for: little beside the joint, which is what is checked.
+  if (world.model().step.solver == SolverKind::gauss_seidel) {
+    gain -= std::max(after.elastic - before.elastic, 0.0);
+  }
+  require(gain <= trust * flow + second_order + 1e-9 * level,
+          "energy has come from nowhere, and the certificate is clean: " + std::to_string(gain) +
+              " J where at most " + std::to_string(flow) + " J flow");
+}
+
+}  // namespace sheave::fuzz

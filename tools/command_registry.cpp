@@ -1,0 +1,47 @@
+// The subcommands of `sheave`.
+
+#include <array>
+#include <string>
+
+#include <sheave_version.h>
+
+#include <CLI/CLI.hpp>
+
+#include "tools/command.h"
+#include "tools/command_line.h"
+
+namespace sheave::tools {
+
+std::span<const Command> commands() {
+  static constexpr std::array<Command, 9> table{{
+      {"run", "Simulate a scene; write tables, print a summary", declare_run},
+      {"render", "Simulate a scene; write a video or pictures", declare_render},
+      {"bench", "Measure the paper's scenes: time per frame, with the error", declare_bench},
+      {"trade", "Measure speed against accuracy of a scene; choose a setting", declare_trade},
+      {"stress", "Map where extreme numbers break machines, or a scene", declare_stress},
+      {"validate", "Check scenes without running them", declare_validate},
+      {"generate", "Write a scene of a given kind and size", declare_generate},
+      {"schema", "Print the JSON Schema of scenes", declare_schema},
+      {"reference", "Print the reference of the scene format (Markdown)", declare_reference},
+  }};
+  return table;
+}
+
+CommandLine::CommandLine()
+    : app(std::make_unique<CLI::App>("Rigid bodies and cables that run over wheels.", "sheave")) {
+  use_wrapped_help(*app);
+  app->set_help_flag("-h,--help", "print this help");
+  app->set_version_flag("--version", std::string("sheave ") + version_string, "print the version");
+  app->require_subcommand(1);
+  app->footer(R"(Example:
+  sheave run scenes/paper/simple.json
+
+See sheave SUBCOMMAND --help for options and examples.)");
+  for (const Command& command : commands()) {
+    actions.push_back(command.declare(*app->add_subcommand(command.name, command.meaning)));
+  }
+}
+
+CommandLine::~CommandLine() = default;
+
+}  // namespace sheave::tools
