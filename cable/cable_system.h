@@ -449,9 +449,7 @@ class CableSystem final : public ConstraintBatch {
   std::vector<double> run_weights_;
   std::vector<StretchedSpan> run_stretched_;
   std::vector<RowTerm> run_gradient_;  ///< per body; `body` is not used
-  std::vector<double> run_spare_;
-  std::vector<double> run_lengths_;
-  std::vector<double> run_tensions_;
+  std::vector<double> run_spare_, run_lengths_, run_tensions_;
   std::vector<Piece> pieces_;  ///< of one cable
   // Of `rattle`, whose multipliers act as at the start of the substep.
   bool knows_start_ = false;
