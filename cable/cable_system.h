@@ -75,6 +75,8 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
   bool revise(Substep& substep) override;
   void finish(Substep& substep, FeatureState& next) override;
+  void mark_notes(NoteMark mark) override;
+  void return_to(NoteMark mark) override;
   [[nodiscard]] double elastic_energy(const BodySet& bodies, const State& state,
                                       const FeatureState& own) const override;
 
@@ -427,6 +429,14 @@ class CableSystem final : public ConstraintBatch {
   bool slides_ = false;            ///< whether it does over any link, or did in the last substep
   std::vector<Fallback> crowded_;  ///< per cable: wraps that found no place
   std::vector<CableEvent> events_;
+  /// These as they were; of the events, which only become more, their number.
+  struct Notes {
+    std::vector<Fallback> fallbacks, crowded;
+    std::vector<Stall> stalls, slides_at;
+    bool slides = false;
+    std::size_t events = 0;
+  };
+  std::array<Notes, 2> marked_notes_;  ///< per NoteMark
   std::vector<WindingWarning> winding_warnings_;
 };
 
