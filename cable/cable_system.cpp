@@ -281,6 +281,26 @@ double CableSystem::numerical_damping(const CompiledCable& cable, std::array<dou
   return change * change / compliance;
 }
 
+void CableSystem::mark_notes(NoteMark mark) {
+  Notes& notes = marked_notes_[static_cast<std::size_t>(mark)];
+  notes.fallbacks = fallbacks_;
+  notes.crowded = crowded_;
+  notes.stalls = stalls_;
+  notes.slides_at = slides_at_;
+  notes.slides = slides_;
+  notes.events = events_.size();
+}
+
+void CableSystem::return_to(NoteMark mark) {
+  const Notes& notes = marked_notes_[static_cast<std::size_t>(mark)];
+  fallbacks_ = notes.fallbacks;
+  crowded_ = notes.crowded;
+  stalls_ = notes.stalls;
+  slides_at_ = notes.slides_at;
+  slides_ = notes.slides;
+  events_.resize(notes.events);
+}
+
 SpanGeometry CableSystem::geometry_of(const Substep& substep, int span) const {
   const SpanSetup& setup = spans_[at(span)];
   return span_geometry(substep, setup, links_[at(setup.first)], links_[at(setup.second)]);

@@ -14,6 +14,7 @@
 #include "cable/cable.h"
 #include "cable/cable_parts.h"
 #include "cable/cable_report.h"
+#include "cable/cable_state_layout.h"
 #include "cable/compiled_cable.h"
 #include "cable/span_row.h"
 #include "cable/stored_strain.h"
@@ -22,21 +23,8 @@
 
 namespace sheave {
 
-/// The feature "cables" of a world. Layout of its state, with the spans and links of all cables in order:
-///
-/// reals: rest length per span [m], stored length per link [m], tension per span [N], transport below the quantum per
-/// span end (first, second) [m], which rows count as rest length, slip per link [m]: cable that has slid over it towards the
-/// next span, of an attachment cable that was fed, angle of a hybrid end's attachment per link [rad], plane per place for a
-/// wrap: centre [m] and normal, own frame of the body. Then per link on which cable of a material can lie what
-/// StoredStrain saves, and what has been lost there by creep since time 0 [J].
-///
-/// integers: per link with friction which way the cable slides: +1 towards the next span, -1 towards the last, 0 not at
-/// all; per link its mode: 0 as defined, 1 wound the other way round, 2 attached (hybrid ends), 3 left by the cable,
-/// 4 left and passed to the other side; per link the next one along the cable, counted within it, -1 at its end and where
-/// the cable does not touch; per place for a wrap +-(candidate + 1), the sign being its winding, 0 unused; per cable 0, or
-/// 1 + the span where it is cut; if a cable has driven links, per link which way its drive has stalled because all cable was
-/// drawn: the sign of the drive's turn about its axis, 0 it has not.
-class CableSystem final : public ConstraintBatch {
+/// The feature "cables" of a world; its state is laid out as cable/cable_state_layout.h says.
+class CableSystem final : public ConstraintBatch, public CableStateLayout {
  public:
   /// Checks and compiles the cables. Errors have paths "/cables/i/...".
   static Result<std::unique_ptr<CableSystem>> create(const std::vector<CableDef>& cables,
@@ -82,60 +70,10 @@ class CableSystem final : public ConstraintBatch {
   [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
   bool revise(Substep& substep) override;
   void finish(Substep& substep, FeatureState& next) override;
+  void mark_notes(NoteMark mark) override;
+  void return_to(NoteMark mark) override;
   [[nodiscard]] double elastic_energy(const BodySet& bodies, const State& state,
                                       const FeatureState& own) const override;
-
-  // Where the parts of the state begin in FeatureState::reals.
-  [[nodiscard]] std::size_t rest_length_index(int span) const {
-    return static_cast<std::size_t>(span);
-  }
-  [[nodiscard]] std::size_t stored_length_index(int link) const {
-    return spans_.size() + static_cast<std::size_t>(link);
-  }
-  [[nodiscard]] std::size_t tension_index(int span) const {
-    return spans_.size() + links_.size() + static_cast<std::size_t>(span);
-  }
-  [[nodiscard]] std::size_t remainder_index(int span, int end) const {
-    return 2 * spans_.size() + links_.size() + 2 * static_cast<std::size_t>(span) +
-           static_cast<std::size_t>(end);
-  }
-  [[nodiscard]] std::size_t slip_index(int link) const {
-    return 4 * spans_.size() + links_.size() + static_cast<std::size_t>(link);
-  }
-  [[nodiscard]] std::size_t angle_index(int link) const {
-    return 4 * spans_.size() + 2 * links_.size() + static_cast<std::size_t>(link);
-  }
-  /// Six numbers, of the place `plane` for a wrap, counted over all cables.
-  [[nodiscard]] std::size_t plane_index(int plane) const {
-    return 4 * spans_.size() + 3 * links_.size() + 6 * static_cast<std::size_t>(plane);
-  }
-  /// StoredStrain::real_count numbers, of the strain place `place` (see strain_places_).
-  [[nodiscard]] std::size_t strain_index(int place) const {
-    return plane_index(plane_count_) +
-           (StoredStrain::real_count + 1) * static_cast<std::size_t>(place);
-  }
-  [[nodiscard]] std::size_t creep_index(int place) const {
-    return strain_index(place) + StoredStrain::real_count;
-  }
-  // And in FeatureState::integers.
-  [[nodiscard]] static std::size_t slip_state_index(int link) {
-    return static_cast<std::size_t>(link);
-  }
-  [[nodiscard]] std::size_t mode_index(int link) const {
-    return links_.size() + static_cast<std::size_t>(link);
-  }
-  [[nodiscard]] std::size_t next_index(int link) const {
-    return 2 * links_.size() + static_cast<std::size_t>(link);
-  }
-  [[nodiscard]] std::size_t wrap_index(int link) const {
-    return 3 * links_.size() + static_cast<std::size_t>(link);
-  }
-  [[nodiscard]] std::size_t cut_index(int cable) const {
-    return 4 * links_.size() + static_cast<std::size_t>(cable);
-  }
-  [[nodiscard]] std::size_t stall_index(int link) const {
-    return cut_index(static_cast<int>(cables_.size())) + static_cast<std::size_t>(link);
-  }
 
  private:
   friend class CableCompiler;
@@ -405,7 +343,6 @@ class CableSystem final : public ConstraintBatch {
   std::vector<std::int64_t> connected_for_;  ///< integers of the state that spans_ stand for
   std::vector<double> planes_;               ///< its planes of wraps
   std::vector<int> strain_places_;  ///< per link its place among those with stored strain, or -1
-  int plane_count_ = 0;
   FeatureState initial_;
   std::vector<AffineSpan> affine_;  ///< per span, of spans_; empty: not known yet
   // Scratch of a substep, filled by begin().
@@ -467,6 +404,14 @@ class CableSystem final : public ConstraintBatch {
   bool slides_ = false;            ///< whether it does over any link, or did in the last substep
   std::vector<Fallback> crowded_;  ///< per cable: wraps that found no place
   std::vector<CableEvent> events_;
+  /// These as they were; of the events, which only become more, their number.
+  struct Notes {
+    std::vector<Fallback> fallbacks, crowded;
+    std::vector<Stall> stalls, slides_at;
+    bool slides = false;
+    std::size_t events = 0;
+  };
+  std::array<Notes, 2> marked_notes_;  ///< per NoteMark
   std::vector<WindingWarning> winding_warnings_;
 };
 

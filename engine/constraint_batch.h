@@ -13,9 +13,12 @@ namespace sheave {
 class BodySet;
 struct Substep;
 
+/// Where a feature's notes can return to: ConstraintBatch::mark_notes().
+enum class NoteMark { step, substep };
+
 /// A feature of a world that constrains bodies. Its settings are fixed; what it carries from
 /// substep to substep is a FeatureState; members beyond those are scratch that begin() fills anew
-/// in every substep.
+/// in every substep, or notes: what it keeps for reports alone (events, warnings), and nothing that moves depends on.
 class ConstraintBatch {
  public:
   virtual ~ConstraintBatch() = default;
@@ -61,6 +64,10 @@ class ConstraintBatch {
   virtual void correct_velocities(Substep& /*substep*/) {}
   /// Called when positions are final: writes the feature's state at the end of the substep.
   virtual void finish(Substep& substep, FeatureState& next) = 0;
+  /// Keeps where its notes are, for return_to(); one place per mark.
+  virtual void mark_notes(NoteMark /*mark*/) {}
+  /// Forgets what it has noted since, when the motion that this belongs to is discarded.
+  virtual void return_to(NoteMark /*mark*/) {}
   /// Elastic energy stored in the feature [J], between substeps.
   [[nodiscard]] virtual double elastic_energy(const BodySet& bodies, const State& state,
                                               const FeatureState& own) const = 0;

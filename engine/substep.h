@@ -8,6 +8,7 @@
 #include "engine/body_set.h"
 #include "engine/row.h"
 #include "engine/state.h"
+#include "engine/work_limit.h"
 
 namespace sheave {
 
@@ -26,6 +27,8 @@ struct StepStatistics {
   std::int64_t rounds = 0;
   /// Rows that began or ceased to act while the active set was sought.
   std::int64_t set_changes = 0;
+  /// Factorisations made for that, one at least per round.
+  std::int64_t factorisations = 0;
   /// Substeps left to Gauss-Seidel because no active set was found, for positions or for velocities.
   std::int64_t solver_fallbacks = 0;
   int redundant_rows = 0;  ///< the most in one round
@@ -40,6 +43,9 @@ struct StepStatistics {
   std::int64_t substep_parts = 0;  ///< in how many, all together
   /// Substeps, or parts, whose constraints are not met at their end, and no parts of them are.
   std::int64_t unconverged = 0;
+  /// Substeps that took all the rounds or factorisations they may, did not get to their end part by part, and were done as a
+  /// whole.
+  std::int64_t exhausted = 0;
   /// Energy that `xpbd` took from the vibration of elastic cables [J], which is none of their damping's.
   double numerical_damping = 0.0;
 };
@@ -81,6 +87,7 @@ struct Substep {
   /// Set by a solver that gives up: what it found is no solution, and the stages end here.
   bool failed = false;
   Resort resort = Resort::anything;
+  WorkLimit work;
 
   /// A substep of `bodies` from `state_at_start`; both must outlive it. Bodies are placed at the
   /// start, with their inverse mass and inertia there; nothing is predicted yet.

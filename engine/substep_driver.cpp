@@ -1,6 +1,7 @@
 #include "engine/substep_driver.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace sheave {
 
@@ -12,37 +13,69 @@ SubstepDriver::SubstepDriver(const StepSettings& settings,
 std::optional<Divergence> SubstepDriver::run(int index) {
   divergence_.reset();
   rounds_before_ = substep_.statistics.rounds;
+  allow_work(most_factorisations);
   const Part whole{index, settings_.substeps};
   if (attempt(whole, Resort::none)) {
     keep();
-  } else if (!divergence_) {
+  } else if (!over()) {
     cut(whole);
   }
   if (divergence_) forget();
   return std::move(divergence_);
 }
 
+void SubstepDriver::allow_work(std::int64_t factorisations) {
+  substep_.work.allow(factorisations + settings_.iterations);
+}
+
+bool SubstepDriver::out_of_work() const {
+  return substep_.work.exhausted() || substep_.statistics.rounds - rounds_before_ >= most_rounds;
+}
+
 void SubstepDriver::cut(Part whole) {
   left_to_others_ = 0;
   parts_ = 0;
   start_ = state_;
-  const std::int64_t fallbacks = substep_.statistics.integrator_fallbacks;
+  for (const auto& feature : features_) feature->mark_notes(NoteMark::substep);
+  const StepStatistics before = substep_.statistics;
   if (advance_in_halves(whole)) {
     ++substep_.statistics.cut_substeps;
     substep_.statistics.substep_parts += parts_;
     return;
   }
-  if (divergence_) return;
-  // Only what is kept counts as left to the other integrator.
-  substep_.statistics.integrator_fallbacks = fallbacks;
+  if (over()) return;
+  if (out_of_work()) ++substep_.statistics.exhausted;
+  go_back(before);
+  make_do(whole);
+}
+
+void SubstepDriver::go_back(const StepStatistics& before) {
   // What a short part leaves of its constraints would be a large velocity.
   state_.bodies = start_.bodies;
   state_.features = start_.features;
   state_.time = start_.time;
   substep_.next = state_;
+  for (const auto& feature : features_) feature->return_to(NoteMark::substep);
+  // Of what is discarded only the work counts.
+  const StepStatistics done = std::exchange(substep_.statistics, before);
+  StepStatistics& statistics = substep_.statistics;
+  statistics.row_solves = done.row_solves;
+  statistics.rounds = done.rounds;
+  statistics.set_changes = done.set_changes;
+  statistics.factorisations = done.factorisations;
+  statistics.compromises = done.compromises;
+  statistics.redundant_rows = done.redundant_rows;
+  statistics.exhausted = done.exhausted;
+}
+
+void SubstepDriver::make_do(Part whole) {
+  allow_work(last_factorisations);
   if (others() && attempt(whole, Resort::other_integrator)) {
     keep();
-  } else if (!divergence_ && attempt(whole, Resort::anything)) {
+    return;
+  }
+  allow_work(last_factorisations);
+  if (!over() && attempt(whole, Resort::anything)) {
     keep();
     ++substep_.statistics.unconverged;
   }
@@ -60,6 +93,7 @@ bool SubstepDriver::attempt(Part part, Resort resort) {
                             : std::min(settings_.iterations, rounds_of_part);
   substep_.resort = resort;
   substep_.failed = false;
+  if (substep_.work.stops()) return false;
   substep_.restart();
   for (std::vector<double>& late : substep_.late_forces) late.clear();
   substep_.next.time =
@@ -67,10 +101,11 @@ bool SubstepDriver::attempt(Part part, Resort resort) {
       settings_.dt;
   for (const Stage& stage : stages_) {
     stage.run(substep_);
-    if (substep_.failed) break;
+    if (substep_.failed || substep_.work.stopped()) break;
   }
-  if (!substep_.failed) divergence_ = find_divergence(substep_, features_);
-  if (!substep_.failed && !divergence_) return true;
+  const bool done = !substep_.failed && !substep_.work.stopped();
+  if (done) divergence_ = find_divergence(substep_, features_);
+  if (done && !divergence_) return true;
   substep_.statistics.integrator_fallbacks = fallbacks;
   substep_.next = state_;  // stages build on what `next` held at the start
   return false;
@@ -81,11 +116,11 @@ bool SubstepDriver::advance_in_halves(Part part) {
 }
 
 bool SubstepDriver::advance_half(Part part) {
-  if (substep_.statistics.rounds - rounds_before_ >= most_rounds) return false;
+  if (out_of_work()) return false;
   const bool smallest = part.count >= most_parts * settings_.substeps;
   const bool tired = left_to_others_ >= patience;
   bool done = attempt(part, Resort::none);
-  if (!done && !divergence_ && others() && (smallest || tired)) {
+  if (!done && !over() && others() && (smallest || tired)) {
     done = attempt(part, Resort::other_integrator);
     if (done) ++left_to_others_;
   }
@@ -94,7 +129,7 @@ bool SubstepDriver::advance_half(Part part) {
     ++parts_;
     return true;
   }
-  return !divergence_ && !smallest && advance_in_halves(part);
+  return !over() && !smallest && advance_in_halves(part);
 }
 
 void SubstepDriver::keep() {

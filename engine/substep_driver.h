@@ -29,6 +29,10 @@ class SubstepDriver {
   /// When so many rounds have been spent on a substep and its parts it is given up. The hardest of
   /// tests/physics/light_cart_test.cpp takes less than 300.
   static constexpr std::int64_t most_rounds = 512;
+  /// Likewise factorisations, of which a round takes one for each set of rows that it tries, besides one per iteration that the
+  /// settings allow, and those for each of the two last attempts at the whole.
+  static constexpr std::int64_t most_factorisations = 1024;
+  static constexpr std::int64_t last_factorisations = 256;
   /// So many of the smallest parts may be left to another integrator before larger ones are, too: it is no matter of time
   /// then.
   static constexpr int patience = 4;
@@ -55,14 +59,22 @@ class SubstepDriver {
     [[nodiscard]] Part first_half() const { return {2 * index, 2 * count}; }
     [[nodiscard]] Part second_half() const { return {2 * index + 1, 2 * count}; }
   };
-  /// All stages; false if a solver gave up or the result is no state, and then nothing has changed.
+  /// All stages; false if a solver gave up, the result is no state, or the caller wants no more of it, and then nothing has
+  /// changed.
   bool attempt(Part part, Resort resort);
   /// A substep that does not converge as a whole.
   void cut(Part whole);
+  /// What is left where parts do not converge, either.
+  void make_do(Part whole);
+  void go_back(const StepStatistics& before);
+  void allow_work(std::int64_t factorisations);
+  [[nodiscard]] bool out_of_work() const;
   /// A part half by half; false where it does not converge, and then what has been done of it is void.
   bool advance_in_halves(Part part);
   bool advance_half(Part part);
   void keep();
+  /// Whether there is nothing more to be tried.
+  [[nodiscard]] bool over() const { return divergence_ || substep_.work.stopped(); }
   /// Whether another integrator can stand in.
   [[nodiscard]] bool others() const;
 

@@ -97,6 +97,7 @@ struct World::Content {
   Substep substep;
   std::vector<Stage> stages;
   SubstepDriver driver;
+  State step_start;          // of a step that may be stopped
   std::size_t contacts = 0;  // which feature; means something if the model has colliders
 
   Content(Model m, std::shared_ptr<const BodySet> b,
@@ -109,6 +110,17 @@ struct World::Content {
         stages(substep_stages(model, features)),
         driver(model.step, features, stages, substep, state) {
     substep.next = state;
+  }
+
+  void remember_start() {
+    step_start = state;
+    for (const auto& feature : features) feature->mark_notes(NoteMark::step);
+  }
+  void undo_step() {
+    state = step_start;
+    substep.next = state;
+    driver.forget();
+    for (const auto& feature : features) feature->return_to(NoteMark::step);
   }
 };
 
@@ -149,13 +161,18 @@ Errors World::check(const Model& model) {
   return bodies ? check_model(model, *bodies) : bodies.errors();
 }
 
-StepReport World::step() {
+StepReport World::step(const StopRequest& stop) {
   Content& c = *content_;
   StepReport report;
   c.substep.statistics = {};
+  if (stop) c.remember_start();
+  c.substep.work.begin_step(stop ? &stop : nullptr);
   for (int i = 0; i < c.model.step.substeps && report.ok(); ++i) {
     report.divergence = c.driver.run(i);
+    report.stopped = c.substep.work.stopped();
   }
+  c.substep.work.begin_step(nullptr);
+  if (report.stopped) c.undo_step();
   if (report.ok()) ++c.state.steps;
   report.statistics = c.substep.statistics;
   return report;

@@ -5,6 +5,13 @@
 //   auto world = sheave::World::create(model);    // or with features: cables
 //   if (!world) report(world.errors());
 //   while (world->state().time < 2.0) world->step();
+//
+// A step takes as long as its scene is hard. A program that cannot wait sets it a limit; what it says ends the step, which then
+// has not been:
+//
+//   const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(5);
+//   const auto report = world->step([&] { return std::chrono::steady_clock::now() > deadline; });
+//   if (report.stopped) show_the_last_state_again();
 
 #include <memory>
 #include <optional>
@@ -15,6 +22,7 @@
 #include "engine/divergence.h"
 #include "engine/model.h"
 #include "engine/step.h"
+#include "engine/work_limit.h"
 
 namespace sheave {
 
@@ -22,7 +30,10 @@ namespace sheave {
 struct StepReport {
   StepStatistics statistics;
   std::optional<Divergence> divergence;  ///< if set, the state is the last good one
-  [[nodiscard]] bool ok() const { return !divergence.has_value(); }
+  /// The stop request has ended the step: the state is, bit for bit, that before it, and the statistics are of work in vain.
+  bool stopped = false;
+  /// Whether the step is complete.
+  [[nodiscard]] bool ok() const { return !divergence.has_value() && !stopped; }
 };
 
 /// How the state of a world came about: its last substep. Views of the world, valid until it steps or is restored.
@@ -62,7 +73,12 @@ class World {
   World& operator=(World&&) noexcept;
 
   /// Advances by dt. After a divergence the state stays at the last good substep.
-  StepReport step();
+  ///
+  /// `stop`, if there is one, is asked at the start of each substep, or part of one, and before each factorisation or sweep over
+  /// the constraints: mostly some ten times per step, more often where a step is hard. Once it says true the step ends, as
+  /// soon as nothing but that one piece of work is done, and the world is as if the step had not been begun, but for
+  /// last_substep(), of which there is nothing. Another step() then comes to the same end as one that was never stopped.
+  StepReport step(const StopRequest& stop = {});
 
   [[nodiscard]] const Model& model() const;
   [[nodiscard]] const BodySet& bodies() const;
@@ -78,7 +94,7 @@ class World {
   /// Goes back (or ahead) to a state of this world; an error if its shape does not fit.
   [[nodiscard]] Errors restore(const State& state);
 
-  /// Nothing at time 0 and after restore(), until the next step.
+  /// Nothing at time 0, after restore() and after a step that was stopped, until the next step.
   [[nodiscard]] std::optional<LastSubstep> last_substep() const;
 
   [[nodiscard]] Energy energy() const;

@@ -81,11 +81,12 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, std::vector<Simulation> finer
   first_events_ = events_of(finer_.front());
 }
 
-void ErrorEstimator::observe(const Simulation& run) {
-  if (divergence_) return;
+void ErrorEstimator::observe(const Simulation& run, const StopRequest& stop) {
+  if (divergence_ || stopped_) return;
   for (Simulation& finer : finer_) {
-    StepReport report = finer.world.step();
+    StepReport report = finer.world.step(stop);
     if (report.ok()) continue;
+    stopped_ = report.stopped;
     divergence_ = std::move(report.divergence);
     return;
   }

@@ -90,8 +90,9 @@ class ErrorEstimator {
   /// than a step can have ("/step/substeps").
   static Result<ErrorEstimator> create(const Scene& scene, const State& start);
 
-  /// To be called after every step of the run; takes the finer runs as far.
-  void observe(const Simulation& run);
+  /// To be called after every step of the run; takes the finer runs as far. Once `stop` has ended one of their steps the
+  /// comparison is over: the estimate is of what came before.
+  void observe(const Simulation& run, const StopRequest& stop = {});
   [[nodiscard]] ErrorEstimate estimate() const;
 
  private:
@@ -125,6 +126,7 @@ class ErrorEstimator {
   std::vector<std::array<double, 3>> square_tensions_;  // sums over frames, of each run
   std::vector<double> course_{0.0};  // relative differences of positions, that of the start first
   std::optional<Divergence> divergence_;
+  bool stopped_ = false;
 };
 
 }  // namespace sheave::measure

@@ -21,7 +21,7 @@ Result<Reference> reference_run(Scene scene, const ReferenceOptions& options) {
   step.iterations = options.rounds;
   step.substeps = options.first_substeps;
   const double start = options.clock.cpu();
-  Result<Trajectory> first = record(scene, options.observe);
+  Result<Trajectory> first = record(scene, options.observe, options.stop);
   if (!first) return first.errors();
   constexpr double unknown = std::numeric_limits<double>::infinity();
   Reference reference{std::move(first).value(),
@@ -36,7 +36,7 @@ Result<Reference> reference_run(Scene scene, const ReferenceOptions& options) {
     if (!first_difference && last - start + 2.0 * duration > options.most_seconds) break;
     first_difference = false;
     step.substeps *= 2;
-    Result<Trajectory> finer = record(scene, options.observe);
+    Result<Trajectory> finer = record(scene, options.observe, options.stop);
     // What there was before still holds if the observer ends a finer run.
     if (!finer && !reference.differences.empty()) break;
     if (!finer) return finer.errors();

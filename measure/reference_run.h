@@ -42,6 +42,7 @@ struct ReferenceOptions {
   std::function<bool(const Reference&)> good_enough;
   /// Of every run. If it ends one, the runs before are the reference; of fewer than two there is none.
   FrameObserver observe;
+  StopRequest stop;  ///< likewise, within steps
   Clock clock;
 };
 

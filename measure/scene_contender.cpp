@@ -8,15 +8,17 @@
 
 namespace sheave::measure {
 
-Result<Contender> scene_contender(std::string name, const Scene& scene) {
+Result<Contender> scene_contender(std::string name, const Scene& scene, StopRequest stop) {
   Result<Simulation> created = Simulation::create(scene.model, scene.cables);
   if (!created) return created.errors();
   // Shared, because std::function copies what it keeps.
   const auto simulation = std::make_shared<Simulation>(std::move(created).value());
   const auto start = std::make_shared<const State>(simulation->world.state());
-  return Contender{std::move(name),
-                   [simulation, start] { static_cast<void>(simulation->world.restore(*start)); },
-                   [simulation] { return simulation->world.step().ok(); }, frame_count(scene)};
+  return Contender{
+      std::move(name),
+      [simulation, start] { static_cast<void>(simulation->world.restore(*start)); },
+      [simulation, stop = std::move(stop)] { return simulation->world.step(stop).ok(); },
+      frame_count(scene)};
 }
 
 }  // namespace sheave::measure

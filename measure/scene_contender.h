@@ -7,6 +7,7 @@
 namespace sheave::measure {
 
 /// A scene with its own settings, ready to be timed from time 0 to its duration. It owns what it runs.
-[[nodiscard]] Result<Contender> scene_contender(std::string name, const Scene& scene);
+[[nodiscard]] Result<Contender> scene_contender(std::string name, const Scene& scene,
+                                                StopRequest stop = {});
 
 }  // namespace sheave::measure

@@ -20,10 +20,10 @@ void rescale(Trajectory& run, double length_factor, double force_factor) {
 }  // namespace
 
 Result<double> similarity_error(const Scene& scene, const Scene& original, double length_factor,
-                                double mass_factor) {
-  Result<Trajectory> run = record(scene);
+                                double mass_factor, const StopRequest& stop) {
+  Result<Trajectory> run = record(scene, {}, stop);
   if (!run) return run.errors();
-  Result<Trajectory> reference = record(original);
+  Result<Trajectory> reference = record(original, {}, stop);
   if (!reference) return reference.errors();
   rescale(*run, length_factor, length_factor * mass_factor);
   const RunError error = error_of(*run, *reference);

@@ -112,7 +112,8 @@ std::int64_t frame_count(const Scene& scene) {
   return std::max<std::int64_t>(1, std::llround(scene.duration / scene.model.step.dt));
 }
 
-Result<Trajectory> record(const Scene& scene, const FrameObserver& observe) {
+Result<Trajectory> record(const Scene& scene, const FrameObserver& observe,
+                          const StopRequest& stop) {
   Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
   if (!simulation) return simulation.errors();
   Trajectory trajectory;
@@ -121,7 +122,8 @@ Result<Trajectory> record(const Scene& scene, const FrameObserver& observe) {
   add_frame(scene, *simulation, trajectory);
   const std::int64_t count = frame_count(scene);
   for (std::int64_t i = 1; i <= count; ++i) {
-    StepReport report = simulation->world.step();
+    StepReport report = simulation->world.step(stop);
+    if (report.stopped) return Error{"", "interrupted"};
     trajectory.row_solves += report.statistics.row_solves;
     trajectory.rounds += report.statistics.rounds;
     trajectory.fallbacks += report.statistics.solver_fallbacks +

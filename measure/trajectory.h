@@ -78,8 +78,9 @@ using FrameObserver = std::function<bool(std::int64_t done, std::int64_t of)>;
 /// Frames in the duration of a scene, rounded to the nearest, at least 1.
 [[nodiscard]] std::int64_t frame_count(const Scene& scene);
 
-/// Runs the scene with its own settings to its duration. An error if it does not build, or if the observer ended it
-/// (then with an empty path and the message "interrupted"). A run that diverges is no error.
-[[nodiscard]] Result<Trajectory> record(const Scene& scene, const FrameObserver& observe = {});
+/// Runs the scene with its own settings to its duration. An error if it does not build, or if the observer or, within a step,
+/// `stop` ended it (then with an empty path and the message "interrupted"). A run that diverges is no error.
+[[nodiscard]] Result<Trajectory> record(const Scene& scene, const FrameObserver& observe = {},
+                                        const StopRequest& stop = {});
 
 }  // namespace sheave::measure

@@ -100,12 +100,16 @@ class Watch {
 constexpr int longest_poll_ms = 100;
 constexpr int first_poll_ms = 1;
 
+constexpr const char* hung = "hangs: it has done nothing for a while, and was ended";
+constexpr const char* abandoned = "was ended before it was done, as was asked for";
+
 }  // namespace
 
 ChildProcess::ChildProcess(std::string name, int process, int input, int messages,
-                           double stall_seconds)
+                           double stall_seconds, StopRequest abandon)
     : name_(std::move(name)),
       stall_seconds_(stall_seconds),
+      abandon_(std::move(abandon)),
       process_(process),
       input_(input),
       messages_(messages) {}
@@ -113,6 +117,7 @@ ChildProcess::ChildProcess(std::string name, int process, int input, int message
 ChildProcess::ChildProcess(ChildProcess&& other) noexcept
     : name_(std::move(other.name_)),
       stall_seconds_(other.stall_seconds_),
+      abandon_(std::move(other.abandon_)),
       process_(std::exchange(other.process_, -1)),
       input_(std::exchange(other.input_, -1)),
       messages_(std::exchange(other.messages_, -1)) {}
@@ -123,6 +128,7 @@ ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
     close_if_open(messages_);
     name_ = std::move(other.name_);
     stall_seconds_ = other.stall_seconds_;
+    abandon_ = std::move(other.abandon_);
     process_ = std::exchange(other.process_, -1);
     input_ = std::exchange(other.input_, -1);
     messages_ = std::exchange(other.messages_, -1);
@@ -136,7 +142,7 @@ ChildProcess::~ChildProcess() {
 }
 
 Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments,
-                                         double stall_seconds) {
+                                         double stall_seconds, StopRequest abandon) {
   const std::string& name = arguments.front();
   // A socket rather than a pipe: MSG_NOSIGNAL turns a broken connection into an error without
   // touching the program's handling of SIGPIPE.
@@ -170,7 +176,7 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
     close_if_open(messages);
     return Error{"", "cannot start the program '" + name + "': " + std::strerror(status)};
   }
-  return ChildProcess(name, process, ends[0], messages, stall_seconds);
+  return ChildProcess(name, process, ends[0], messages, stall_seconds, std::move(abandon));
 }
 
 Errors ChildProcess::write(std::span<const std::uint8_t> bytes) {
@@ -185,7 +191,8 @@ Errors ChildProcess::write(std::span<const std::uint8_t> bytes) {
     if (errno == EINTR) continue;
     if (errno == EAGAIN || errno == EWOULDBLOCK) {
       pollfd ready{input_, POLLOUT, 0};
-      if (::poll(&ready, 1, longest_poll_ms) == 0 && watch.hangs()) return give_up();
+      if (is_abandoned()) return give_up(abandoned);
+      if (::poll(&ready, 1, longest_poll_ms) == 0 && watch.hangs()) return give_up(hung);
       continue;
     }
     const std::string reason = std::strerror(errno);
@@ -208,7 +215,8 @@ Errors ChildProcess::finish() {
       process_ = -1;
       return {Error{"", "'" + name_ + "' is lost: " + std::strerror(errno)}};
     }
-    if (watch.hangs()) return give_up();
+    if (is_abandoned()) return give_up(abandoned);
+    if (watch.hangs()) return give_up(hung);
     // Short at first, for most end at once.
     ::poll(nullptr, 0, wait_ms);
     wait_ms = std::min(2 * wait_ms, longest_poll_ms);
@@ -221,9 +229,9 @@ Errors ChildProcess::finish() {
   return {Error{"", "'" + name_ + "' " + how}};
 }
 
-Errors ChildProcess::give_up() {
+Errors ChildProcess::give_up(const std::string& why) {
   kill();
-  return {Error{"", "'" + name_ + "' hangs: it has done nothing for a while, and was ended"}};
+  return {Error{"", "'" + name_ + "' " + why}};
 }
 
 void ChildProcess::kill() {

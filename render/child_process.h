@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/result.h"
+#include "engine/work_limit.h"
 
 namespace sheave::render {
 
@@ -18,10 +19,11 @@ class ChildProcess {
   /// in a terminal reaches only the caller, who may still want to finish the output.
   ///
   /// `stall_seconds`: a child that for so long neither takes input nor ends nor uses any processor time hangs; it is
-  /// ended, and that is an error.
+  /// ended, and that is an error. `abandon`, if there is one, is asked while we wait for the child; true ends it likewise.
   static constexpr double usual_stall_seconds = 60.0;
   static Result<ChildProcess> start(const std::vector<std::string>& arguments,
-                                    double stall_seconds = usual_stall_seconds);
+                                    double stall_seconds = usual_stall_seconds,
+                                    StopRequest abandon = {});
   ~ChildProcess();
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&& other) noexcept;
@@ -40,13 +42,16 @@ class ChildProcess {
   [[nodiscard]] std::string last_words() const;
 
  private:
-  ChildProcess(std::string name, int process, int input, int messages, double stall_seconds);
+  ChildProcess(std::string name, int process, int input, int messages, double stall_seconds,
+               StopRequest abandon);
   void close_input();
-  /// Ends a child that hangs.
-  Errors give_up();
+  /// Ends a child that is no longer waited for.
+  Errors give_up(const std::string& why);
+  [[nodiscard]] bool is_abandoned() const { return abandon_ && abandon_(); }
 
   std::string name_;
   double stall_seconds_;
+  StopRequest abandon_;
   int process_ = -1;   ///< -1: ended and waited for
   int input_ = -1;     ///< our end of its standard input
   int messages_ = -1;  ///< file that holds its standard error

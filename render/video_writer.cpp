@@ -123,7 +123,7 @@ Result<VideoWriter> VideoWriter::create(const std::string& path, int width, int 
   Result<ChildProcess> encoder =
       ChildProcess::start(command_line(*container_of(path), file->temporary_path(),
                                        width + width % 2, height + height % 2, options),
-                          options.stall_seconds);
+                          options.stall_seconds, options.abandon);
   if (!encoder) {
     Errors errors = encoder.errors();
     errors.front().message += "; videos need ffmpeg (Debian: apt install ffmpeg)";

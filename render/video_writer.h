@@ -22,6 +22,7 @@ struct VideoOptions {
   /// Name or path of the encoder, looked up in PATH.
   std::string program = "ffmpeg";
   double stall_seconds = ChildProcess::usual_stall_seconds;  ///< see ChildProcess::start
+  StopRequest abandon{};                                     ///< likewise
 };
 
 /// Writes H.264 in 4:2:0 that every player and browser shows. Frames with an odd width or height

@@ -146,7 +146,8 @@ class Measurement {
   std::optional<measure::Trajectory> recorded(const Scene& scene, BenchRow& row) {
     Progress progress(row.name(), 0.0, static_cast<double>(measure::frame_count(scene)), false);
     Result<measure::Trajectory> run =
-        measure::record(scene_with(scene, row.settings), observer(progress));
+        measure::record(scene_with(scene, row.settings), observer(progress), interrupted);
+    if (interrupted()) stop_by_signal();
     if (!run) {
       row.fault = run.errors().front().message;
       return {};
@@ -184,7 +185,9 @@ class Measurement {
     Progress progress(rows.front().scene + " reference", 0.0,
                       static_cast<double>(measure::frame_count(truth)), false);
     options.observe = observer(progress);
+    options.stop = interrupted;
     const Result<measure::Reference> reference = measure::best_reference(truth, options);
+    if (interrupted()) stop_by_signal();
     if (!reference) return reference.errors().front().message;
     references_.push_back({rows.front().scene, reference->substeps, reference->integrator,
                            reference->order, reference->estimate, reference->good});
@@ -206,8 +209,8 @@ class Measurement {
   }
 
   static void start(const Scene& scene, Entry& entry) {
-    Result<measure::Contender> contender =
-        measure::scene_contender(entry.row.name(), scene_with(scene, entry.row.settings));
+    Result<measure::Contender> contender = measure::scene_contender(
+        entry.row.name(), scene_with(scene, entry.row.settings), interrupted);
     if (contender) {
       entry.contender = std::move(contender).value();
     } else {
@@ -229,7 +232,7 @@ class Measurement {
       return !interrupted();
     };
     const std::vector<measure::Timing> timings = measure::time_interleaved(contenders, timing);
-    if (timings.size() != contenders.size()) stop_by_signal();
+    if (timings.size() != contenders.size() || interrupted()) stop_by_signal();
     auto next = timings.begin();
     for (Entry& entry : entries_) {
       if (!entry.contender) continue;

@@ -21,6 +21,7 @@ enum class ExitCode {
   io = 74,            ///< an input cannot be read or an output cannot be written
   diverged = 75,      ///< the simulation stopped at a state that means nothing
   doubtful = 76,      ///< a run's own numbers contradict each other, and --strict was asked for
+  time_limit = 124,   ///< --time-limit, as of timeout(1)
   interrupted = 130,  ///< by a signal
 };
 

@@ -8,13 +8,14 @@
 namespace sheave::tools {
 namespace {
 
-std::atomic<bool>& flag() {
-  static std::atomic<bool> raised{false};
-  return raised;
+/// Signals that counted.
+std::atomic<int>& signals() {
+  static std::atomic<int> count{0};
+  return count;
 }
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler must not wait");
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler must not wait");
 
-std::atomic<std::int64_t>& first_time() {
+std::atomic<std::int64_t>& last_time() {
   static std::atomic<std::int64_t> nanoseconds{0};
   return nanoseconds;
 }
@@ -26,12 +27,10 @@ std::int64_t now() {
 }
 
 void raise_flag(int signal) {
-  if (!flag().exchange(true)) {
-    first_time() = now();
-    return;
-  }
   // `timeout` and some shells send a signal to the process and again to its group.
-  if (now() - first_time() < 500'000'000) return;
+  if (signals() > 0 && now() - last_time() < 500'000'000) return;
+  last_time() = now();
+  if (++signals() <= 2) return;
   struct sigaction usual {};
   usual.sa_handler = SIG_DFL;
   ::sigaction(signal, &usual, nullptr);
@@ -57,6 +56,7 @@ void catch_interrupts() {
   if (hangup.sa_handler != SIG_IGN) catch_signal(SIGHUP);
 }
 
-bool interrupted() { return flag(); }
+bool interrupted() { return signals() > 0; }
+bool hurried() { return signals() > 1; }
 
 }  // namespace sheave::tools

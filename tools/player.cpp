@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "tools/failure.h"
+#include "tools/interrupt.h"
 #include "tools/scene_options.h"
 
 namespace sheave::tools {
@@ -97,7 +98,7 @@ std::vector<CableReport> reports_to_show(const Scene& scene, const Simulation& s
   std::vector<CableReport> reports = simulation.cable_reports();
   if (reports.empty() || simulation.world.state().time > 0.0) return reports;
   Simulation ahead = make_simulation(scene);
-  if (!ahead.world.step().ok()) return reports;
+  if (!ahead.world.step(interrupted).ok()) return reports;
   const std::vector<CableReport> later = ahead.cable_reports();
   for (std::size_t c = 0; c < reports.size(); ++c) {
     for (std::size_t k = 0; k < reports[c].spans.size(); ++k) {

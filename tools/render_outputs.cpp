@@ -11,6 +11,7 @@
 #include "render/output_file.h"
 #include "render/png_writer.h"
 #include "tools/failure.h"
+#include "tools/interrupt.h"
 #include "tools/terminal.h"
 
 namespace sheave::tools {
@@ -49,9 +50,10 @@ PictureOutputs::PictureOutputs(const PictureOptions& options) : options_(options
   }
   if (!options.still.empty()) check_writable(options.still);
   if (!options.video.empty()) {
-    video_ = value_or_fail(render::VideoWriter::create(options.video, options.width, options.height,
-                                                       {.frames_per_second = options.fps}),
-                           ExitCode::io);
+    video_ = value_or_fail(
+        render::VideoWriter::create(options.video, options.width, options.height,
+                                    {.frames_per_second = options.fps, .abandon = hurried}),
+        ExitCode::io);
   }
   if (options.has_frames()) {
     frame_renderer_ =

@@ -1,8 +1,10 @@
 // sheave run: simulate a scene, write tables, print a summary.
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -13,6 +15,7 @@
 #include "measure/error_estimate.h"
 #include "measure/stress_judge.h"
 #include "tools/command.h"
+#include "tools/command_line.h"
 #include "tools/interrupt.h"
 #include "tools/output_paths.h"
 #include "tools/player.h"
@@ -29,6 +32,7 @@ struct RunOptions {
   SceneOptions scene;
   RecordOptions record;
   std::optional<std::int64_t> steps;
+  std::optional<double> time_limit;  // [s]
   std::string save_state, load_state;
   bool json = false;
   bool check = false;
@@ -65,6 +69,8 @@ ExitCode exit_code(const RunSummary& summary, bool strict) {
       return ExitCode::diverged;
     case RunStatus::interrupted:
       return ExitCode::interrupted;
+    case RunStatus::time_limit:
+      return ExitCode::time_limit;
     case RunStatus::done:
       break;
   }
@@ -75,10 +81,10 @@ ExitCode exit_code(const RunSummary& summary, bool strict) {
 /// Says on standard error why a run ended early, and what is left of its output.
 void explain_early_end(const RunOptions& options, const RunSummary& summary) {
   if (summary.outcome.status == RunStatus::done) return;
-  std::string text =
-      summary.outcome.divergence
-          ? "diverged: " + summary.outcome.divergence->message
-          : fmt::format("interrupted at {} s", number_text(summary.simulation.world.state().time));
+  std::string text = summary.outcome.divergence
+                         ? "diverged: " + summary.outcome.divergence->message
+                         : fmt::format("{} at {} s", name_of(summary.outcome.status),
+                                       number_text(summary.simulation.world.state().time));
   for (const OutputSummary& table : summary.outputs) {
     if (table.kind != OutputSummary::Kind::table || !table.fault.empty()) continue;
     text += fmt::format("\n{}: partial, {} rows",
@@ -146,6 +152,15 @@ std::optional<measure::ErrorEstimator> make_estimator(const RunOptions& options,
   return std::move(estimator).value();
 }
 
+/// Whether the time since now is over; empty without a limit.
+StopRequest limit_of(const RunOptions& options) {
+  if (!options.time_limit) return {};
+  using Clock = std::chrono::steady_clock;
+  return [start = Clock::now(), limit = *options.time_limit] {
+    return std::chrono::duration<double>(Clock::now() - start).count() >= limit;
+  };
+}
+
 /// Positions and speeds may be finite where their products are not.
 void tell_infinite_energy(const Simulation& simulation, RunOutcome& outcome) {
   const double time = simulation.world.state().time;
@@ -168,6 +183,7 @@ void check_run_paths(const RunOptions& options) {
 ExitCode run(const RunOptions& options) {
   check_run_paths(options);
   const double trust = options.trust.empty() ? default_trust : trusted_share(options.trust);
+  const StopRequest time_is_over = limit_of(options);
   const Scene scene = load(options.scene);
   Simulation simulation = make_simulation(scene);
   if (!options.load_state.empty()) load_state(simulation.world, options.load_state);
@@ -192,11 +208,12 @@ ExitCode run(const RunOptions& options) {
     const bool wanted = files.observe(simulation, progress);
     if (checks) checks->record(simulation);
     const bool stepped = simulation.world.state().steps > first_step;
-    if (estimator && stepped) estimator->observe(simulation);
+    const auto ends = [&] { return interrupted() || (time_is_over && time_is_over()); };
+    if (estimator && stepped) estimator->observe(simulation, ends);
     return wanted;
   };
-  RunOutcome outcome =
-      files.keep_on_throw([&] { return simulate(simulation, last_step, progress, observe); });
+  RunOutcome outcome = files.keep_on_throw(
+      [&] { return simulate(simulation, last_step, progress, observe, time_is_over); });
   progress.clear();
   if (!monitor.is_finite()) tell_infinite_energy(simulation, outcome);
   monitor.finish(simulation, measure::is_conservative(scene));
@@ -261,6 +278,11 @@ void add_state_options(CLI::App& app, RunOptions& options) {
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53))
       ->option_text("N")
       ->excludes(app.get_option("--duration"));
+  app.add_option("--time-limit", options.time_limit,
+                 "stop after so many seconds of wall time, within a step if need be, and keep what "
+                 "was computed; exit code 124")
+      ->check(number_between(0.0, std::numeric_limits<double>::max()))
+      ->option_text("SECONDS");
   app.add_option("--save-state", options.save_state, "write the final state to a file")
       ->option_text("FILE");
   app.add_option("--load-state", options.load_state, "start from a saved state")
@@ -298,8 +320,9 @@ Tensions at time 0 are not known yet and left empty.
 
 Exit codes: 0 done, 1 a check failed, 2 wrong usage, 65 bad scene, 66 no such file, 70 internal
 error, 74 input or output failed (whatever else happened), 75 diverged, 76 doubtful
-(with --strict), 130 interrupted. After 74, 75 and 130 the output so far
-is kept, whole rows only, and outputs that did not fail are whole.)");
+(with --strict), 124 time limit, 130 interrupted. After 74, 75, 124 and 130 the output so far
+is kept, whole rows only, and outputs that did not fail are whole. A signal (Ctrl-C) ends the run
+within the step; a third one ends the command at once.)");
   return [options] {
     if (options->json && writes_to_stdout(*options)) {
       throw Failure(ExitCode::usage, "--json and --out - would both write to standard output");

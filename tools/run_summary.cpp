@@ -290,6 +290,14 @@ void append_solver_warnings(const RunStatistics& statistics, std::vector<Warning
         statistics.cut_substeps == 1 ? "was" : "were", statistics.substep_parts);
     warnings.push_back({"cut_substeps", "", std::move(message)});
   }
+  if (statistics.exhausted > 0) {
+    std::string message = fmt::format(
+        "{} {} took all the rounds or factorisations that a substep may and {} done as a whole: "
+        "what moves there is hard to solve; more substeps may avoid that",
+        statistics.exhausted, statistics.exhausted == 1 ? "substep" : "substeps",
+        statistics.exhausted == 1 ? "was" : "were");
+    warnings.push_back({"exhausted", "", std::move(message)});
+  }
   if (statistics.unconverged > 0) {
     std::string message = fmt::format(
         "{} {} did not converge, in however small parts: constraints that contradict each other? "

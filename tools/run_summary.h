@@ -66,7 +66,7 @@ struct RunSummary {
   [[nodiscard]] bool checks_passed() const;
   /// Whether the run was done and its own numbers contradict each other.
   [[nodiscard]] bool doubtful() const;
-  /// "done", "doubtful", "diverged", "interrupted".
+  /// "done", "doubtful", "diverged", "interrupted", "time limit".
   [[nodiscard]] std::string_view status() const;
 };
 

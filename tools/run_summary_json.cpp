@@ -38,6 +38,7 @@ RunJson statistics(const RunStatistics& statistics) {
           {"geometry_fallbacks", statistics.geometry_fallbacks},
           {"rounds", statistics.rounds},
           {"set_changes", statistics.set_changes},
+          {"factorisations", statistics.factorisations},
           {"solver_fallbacks", statistics.solver_fallbacks},
           {"redundant_rows", statistics.redundant_rows},
           {"compromises", statistics.compromises},
@@ -45,6 +46,7 @@ RunJson statistics(const RunStatistics& statistics) {
           {"cut_substeps", statistics.cut_substeps},
           {"substep_parts", statistics.substep_parts},
           {"unconverged", statistics.unconverged},
+          {"exhausted", statistics.exhausted},
           {"contacts", statistics.contacts},
           {"deepest_overlap", statistics.deepest_overlap},
           {"numerical_damping", statistics.numerical_damping}};

@@ -24,6 +24,7 @@ void accumulate(const StepStatistics& step, RunStatistics& total) {
   total.row_solves += step.row_solves;
   total.rounds += step.rounds;
   total.set_changes += step.set_changes;
+  total.factorisations += step.factorisations;
   total.solver_fallbacks += step.solver_fallbacks;
   total.compromises += step.compromises;
   total.redundant_rows = std::max(total.redundant_rows, step.redundant_rows);
@@ -31,6 +32,7 @@ void accumulate(const StepStatistics& step, RunStatistics& total) {
   total.cut_substeps += step.cut_substeps;
   total.substep_parts += step.substep_parts;
   total.unconverged += step.unconverged;
+  total.exhausted += step.exhausted;
   total.contacts = std::max(total.contacts, step.contacts);
   total.numerical_damping += step.numerical_damping;
   total.deepest_overlap = std::max(total.deepest_overlap, step.deepest_overlap);
@@ -39,24 +41,30 @@ void accumulate(const StepStatistics& step, RunStatistics& total) {
 }  // namespace
 
 std::string_view name_of(RunStatus status) {
-  constexpr std::array<std::string_view, 3> names{"done", "diverged", "interrupted"};
+  constexpr std::array<std::string_view, 4> names{"done", "diverged", "interrupted", "time limit"};
   return names[static_cast<std::size_t>(status)];
 }
 
 RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& progress,
-                    const std::function<bool(const RunStatistics&)>& observe) {
+                    const std::function<bool(const RunStatistics&)>& observe,
+                    const StopRequest& time_is_over) {
   RunOutcome outcome;
   World& world = simulation.world;
   const Clock::time_point start = Clock::now();
   RunChecker checker(simulation, last_step);
-  bool wanted = observe(outcome.statistics);
-  while (wanted && world.state().steps < last_step) {
+  const StopRequest stop = [&] {
     if (interrupted()) {
       outcome.status = RunStatus::interrupted;
-      break;
+    } else if (time_is_over && time_is_over()) {
+      outcome.status = RunStatus::time_limit;
     }
+    return outcome.status != RunStatus::done;
+  };
+  bool wanted = observe(outcome.statistics);
+  while (wanted && world.state().steps < last_step) {
     const Clock::time_point step_start = Clock::now();
-    StepReport report = world.step();
+    StepReport report = world.step(stop);
+    if (report.stopped) break;
     outcome.step_time += seconds_since(step_start);
     accumulate(report.statistics, outcome.statistics);
     if (!report.ok()) {

@@ -13,8 +13,8 @@
 namespace sheave::tools {
 
 /// How a simulation ended.
-enum class RunStatus { done, diverged, interrupted };
-/// "done", "diverged", "interrupted".
+enum class RunStatus { done, diverged, interrupted, time_limit };
+/// "done", "diverged", "interrupted", "time limit".
 [[nodiscard]] std::string_view name_of(RunStatus status);
 
 /// StepStatistics of a whole run.
@@ -26,6 +26,7 @@ struct RunStatistics {
   // Of the direct solver and of `rattle`.
   std::int64_t rounds = 0;
   std::int64_t set_changes = 0;
+  std::int64_t factorisations = 0;
   std::int64_t solver_fallbacks = 0;      ///< substeps left to Gauss-Seidel
   int redundant_rows = 0;                 ///< the most in one round
   std::int64_t compromises = 0;           ///< rounds in which rows contradicted each other
@@ -33,6 +34,7 @@ struct RunStatistics {
   std::int64_t cut_substeps = 0;          ///< done in smaller parts
   std::int64_t substep_parts = 0;         ///< in how many, all together
   std::int64_t unconverged = 0;           ///< substeps or parts whose constraints are not met
+  std::int64_t exhausted = 0;             ///< substeps whose parts took all the work they may
   int contacts = 0;                       ///< the most points in one substep
   double deepest_overlap = 0.0;           ///< of bodies that touch [m]
   double numerical_damping = 0.0;         ///< of elastic cables' vibration, by `xpbd`, in all [J]
@@ -49,10 +51,12 @@ struct RunOutcome {
   Certificate certificate;  ///< of the steps that were checked
 };
 
-/// Steps until `last_step` steps are complete, the state diverges or a signal comes. Calls
+/// Steps until `last_step` steps are complete, the state diverges, a signal comes or `time_is_over` says so, which both are
+/// looked at within steps, too: the state is then that of the last complete step. Calls
 /// `observe` with what the steps did so far, at the start and after every step; it may return false to stop early, which
 /// counts as done.
 RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& progress,
-                    const std::function<bool(const RunStatistics&)>& observe);
+                    const std::function<bool(const RunStatistics&)>& observe,
+                    const StopRequest& time_is_over = {});
 
 }  // namespace sheave::tools

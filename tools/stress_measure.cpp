@@ -8,6 +8,7 @@
 #include "measure/similarity.h"
 #include "scenes/suggestion.h"
 #include "tools/failure.h"
+#include "tools/interrupt.h"
 #include "tools/run_summary.h"
 #include "tools/scene_options.h"
 #include "tools/stress_table.h"
@@ -23,8 +24,8 @@ void compare(const measure::StressCell& cell, const StressSettings& settings, co
              StressVerdict& verdict) {
   const SceneResult original = cell.original(settings.solver, settings.integrator);
   if (!original) return;
-  const Result<double> error =
-      measure::similarity_error(scene, *original, cell.length_factor, cell.mass_factor);
+  const Result<double> error = measure::similarity_error(scene, *original, cell.length_factor,
+                                                         cell.mass_factor, interrupted);
   if (!error) return;
   verdict.error = *error;
   verdict.detail = "differs from the run of the original scene";
@@ -56,6 +57,7 @@ StressOutcome run_cell(const measure::StressCell& cell, const StressSettings& se
   if (run.status == RunStatus::interrupted) throw Failure(ExitCode::interrupted, "interrupted");
   StressOutcome outcome{judge.verdict(*simulation, run.divergence), {}, {}};
   if (!cell.similar_to.empty() && !run.divergence) compare(cell, settings, *scene, outcome.verdict);
+  if (interrupted()) throw Failure(ExitCode::interrupted, "interrupted");
   for (const Warning& warning : collect_warnings(*scene, *simulation, run.statistics, monitor)) {
     outcome.warnings.push_back(warning.kind);
   }

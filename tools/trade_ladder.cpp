@@ -98,12 +98,15 @@ class Ladder {
 
   void run_one(Variant& variant, std::atomic<std::int64_t>& done) const {
     bool late = false;
-    Result<measure::Trajectory> own =
-        measure::record(variant.scene, [&](std::int64_t, std::int64_t) {
-          ++done;
-          late = run_.limit.left() < 0.0;
-          return !late && !interrupted();
-        });
+    const StopRequest stop = [&] {
+      late = late || run_.limit.left() < 0.0;
+      return late || interrupted();
+    };
+    const auto observe = [&](std::int64_t, std::int64_t) {
+      ++done;
+      return !stop();
+    };
+    Result<measure::Trajectory> own = measure::record(variant.scene, observe, stop);
     if (late) {
       variant.row.fault = "no time left";
     } else if (!own) {
@@ -121,7 +124,7 @@ class Ladder {
     std::vector<measure::Contender> contenders;
     for (const Variant* variant : valid_) {
       Result<measure::Contender> contender =
-          measure::scene_contender(variant->row.name, variant->scene);
+          measure::scene_contender(variant->row.name, variant->scene, interrupted);
       // It has been run: so it can be made.
       if (!contender) throw Failure(ExitCode::internal, to_text(contender.errors()));
       contenders.push_back(std::move(contender).value());
@@ -143,7 +146,7 @@ class Ladder {
       return !interrupted();
     };
     const std::vector<measure::Timing> timings = measure::time_interleaved(contenders, timing);
-    if (timings.size() != contenders.size()) stop_interrupted();
+    if (timings.size() != contenders.size() || interrupted()) stop_interrupted();
     const double dt = run_.table.dt;
     for (std::size_t i = 0; i < timings.size(); ++i) {
       const measure::Spread& frame = timings[i].seconds;

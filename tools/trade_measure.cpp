@@ -121,12 +121,16 @@ class ErrorStage {
     const auto frames = static_cast<double>(measure::frame_count(run_.scene));
     bool late = false;
     const double start = run_.options.clock.cpu();
+    const StopRequest stop = [&] {
+      late = late || limit_.left() < 0.0;
+      return late || interrupted();
+    };
+    const auto observe = [&](std::int64_t, std::int64_t) {
+      done_ += row.expected_seconds / frames;
+      return !stop();
+    };
     const Result<measure::Trajectory> own =
-        measure::record(row.setting.applied(run_.scene), [&](std::int64_t, std::int64_t) {
-          done_ += row.expected_seconds / frames;
-          late = limit_.left() < 0.0;
-          return !late && !interrupted();
-        });
+        measure::record(row.setting.applied(run_.scene), observe, stop);
     row.run_seconds = run_.options.clock.cpu() - start;
     if (interrupted()) return;
     if (late) {
@@ -234,8 +238,8 @@ class TimeStage {
 
   void create_contenders() {
     for (Sampled& own : sampled_) {
-      Result<measure::Contender> contender =
-          measure::scene_contender(own.row->setting.name(), own.row->setting.applied(run_.scene));
+      Result<measure::Contender> contender = measure::scene_contender(
+          own.row->setting.name(), own.row->setting.applied(run_.scene), interrupted);
       if (contender) {
         own.contender = std::move(contender).value();
       } else {
@@ -266,7 +270,7 @@ class TimeStage {
       if (own.wanted <= round) continue;
       progress.update(done_, own.row->setting.name());
       const auto timings = measure::time_interleaved({own.contender}, timing);
-      if (timings.empty()) stop_interrupted();
+      if (timings.empty() || interrupted()) stop_interrupted();
       if (timings.front().failed) own.row->fault = "diverged while it was timed";
       own.seconds.push_back(timings.front().seconds.median);
       done_ += cost(*own.row);

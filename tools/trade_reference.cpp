@@ -40,7 +40,8 @@ constexpr int coarser = 4;
 /// CPU time of a whole run [s], from its first frames; 0 if it cannot be run.
 double pilot_seconds(const TradeSetting& setting, const Scene& scene, double enough,
                      const measure::Clock& clock) {
-  const Result<measure::Contender> contender = measure::scene_contender("", setting.applied(scene));
+  const Result<measure::Contender> contender =
+      measure::scene_contender("", setting.applied(scene), interrupted);
   if (!contender) return 0.0;
   const double start = clock.cpu();
   std::int64_t frames = 0;
@@ -136,9 +137,8 @@ std::optional<measure::Reference> both_references(TradeRun& run) {
     options.good_enough = [](const measure::Reference& reference) {
       return reference.estimate.position <= reference_goal;
     };
-    options.observe = [&, i](std::int64_t, std::int64_t) {
-      return !interrupted() && !(i == 1 && good) && end.left() > 0.0;
-    };
+    options.stop = [&, i] { return interrupted() || (i == 1 && good) || !(end.left() > 0.0); };
+    options.observe = [&](std::int64_t, std::int64_t) { return !options.stop(); };
     if (i == 1 && good) return;
     results[i] = measure::reference_run(run.scene, options);
     if (i == 0 && results[i] && results[i]->good) good = true;
@@ -186,11 +186,13 @@ void repeat_reference(TradeRun& run) {
                   SolverKind::direct, known.integrator};
   const auto frames = static_cast<double>(measure::frame_count(run.scene));
   Progress progress("reference, again", 0.0, frames, run.options.quiet);
-  Result<measure::Trajectory> again =
-      measure::record(setting.applied(run.scene), [&](std::int64_t done, std::int64_t) {
+  Result<measure::Trajectory> again = measure::record(
+      setting.applied(run.scene),
+      [&](std::int64_t done, std::int64_t) {
         progress.update(static_cast<double>(done), "");
         return !interrupted();
-      });
+      },
+      interrupted);
   if (interrupted()) stop_interrupted();
   if (!again || !again->complete()) {
     throw Failure(ExitCode::bad_scene,

@@ -39,13 +39,18 @@ std::span<const std::pair<int, int>> BroadPhase::find(std::span<const Bounds> bo
     const double b = boxes[at(j)].low[axis];
     return a != b ? a < b : i < j;
   };
-  for (std::size_t k = 1; k < order_.size(); ++k) {
+  // What little has moved since the last time is soonest sorted in by hand, but not another axis' order.
+  std::size_t moves = 16 * order_.size();
+  for (std::size_t k = 1; k < order_.size() && moves > 0; ++k) {
     const int moved = order_[k];
     std::size_t place = k;
-    for (; place > 0 && before(moved, order_[place - 1]); --place)
+    for (; place > 0 && before(moved, order_[place - 1]); --place) {
       order_[place] = order_[place - 1];
+    }
     order_[place] = moved;
+    moves -= std::min(moves, k - place);
   }
+  if (moves == 0) std::sort(order_.begin(), order_.end(), before);
   pairs_.clear();
   for (std::size_t k = 0; k < order_.size(); ++k) {
     const Bounds& box = boxes[at(order_[k])];

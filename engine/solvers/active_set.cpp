@@ -11,6 +11,8 @@ namespace sheave {
 
 namespace {
 
+constexpr int patience = 3;  // block changes without progress
+
 /// Which bound an unknown that is not free is at.
 bool is_at_lower(const ComplementarityProblem& problem, std::size_t i) {
   return std::isfinite(problem.lower[i]) && problem.free[i] != ComplementarityProblem::at_upper;
@@ -36,13 +38,14 @@ void ActiveSetSolver::analyse(int size, std::span<const std::pair<int, int>> ent
   }
 }
 
-void ActiveSetSolver::relax(const ComplementarityProblem& problem, int sweeps) {
+void ActiveSetSolver::relax(const ComplementarityProblem& problem, int sweeps, WorkLimit* work) {
   changes_ = dropped_ = 0;
   solution_.assign(at(problem.size), 0.0);
   for (std::size_t i = 0; i < solution_.size(); ++i) {
     solution_[i] = std::clamp(0.0, problem.lower[i], problem.upper[i]);
   }
   for (int sweep = 0; sweep < sweeps; ++sweep) {
+    if (work != nullptr && work->stops()) return;
     for (std::size_t i = 0; i < solution_.size(); ++i) {
       if (!(problem.diagonal[i] > 0.0)) continue;
       double residual = problem.constant[i] + problem.diagonal[i] * solution_[i];
@@ -58,56 +61,72 @@ void ActiveSetSolver::relax(const ComplementarityProblem& problem, int sweeps) {
   }
 }
 
-bool ActiveSetSolver::solve(ComplementarityProblem& problem, bool compromise) {
-  constexpr int patience = 3;  // block changes without progress
-  changes_ = dropped_ = 0;
+bool ActiveSetSolver::solve(ComplementarityProblem& problem, bool compromise, WorkLimit* work) {
+  changes_ = dropped_ = factorisations_ = 0;
   contradicts_ = false;
-  bool yields = false;
-  int fewest = problem.size + 1;
-  int left = patience;
+  Course course{problem.size + 1, patience, false};
   const int most_tries = 50 + 2 * problem.size;
   for (int tries = 0; tries < most_tries; ++tries) {
-    solve_free(problem);
-    if (yields) find_compromise(problem);
-    mark_violations(problem);
-    // Also where violations go round: one that comes from a redundant row without its share tells the wrong bound.
-    if (!yields && (violated_.empty() || left < 0)) {
-      contradicts_ = false;
-      const int blocking = blocking_unknown(problem);
-      if (blocking >= 0) {
-        problem.free[at(blocking)] = blocked_above_ ? ComplementarityProblem::at_upper : 0;
-        ++changes_;
-        fewest = problem.size + 1;
-        continue;
-      }
-      if (violated_.empty() && (!compromise || !contradicts_)) return true;
-      if (compromise && contradicts_) {
-        yields = true;
-        fewest = problem.size + 1;
-        left = patience;
-        continue;
-      }
-    }
-    if (violated_.empty()) return true;
-    const auto count = static_cast<int>(violated_.size());
-    if (count < fewest) {
-      fewest = count;
-      left = patience;
-    } else {
-      --left;
-    }
-    if (left < 0) violated_ = {violated_.back()};
-    for (const int i : violated_) {
-      char& side = problem.free[at(i)];
-      if (side != 1) {
-        side = 1;
-      } else {
-        side = solution_[at(i)] < problem.lower[at(i)] ? 0 : ComplementarityProblem::at_upper;
-      }
-    }
-    changes_ += static_cast<int>(violated_.size());
+    if (repeats(problem, tries, course)) return false;
+    if (work != nullptr && !work->take_factorisation()) return false;
+    ++factorisations_;
+    if (attempt(problem, compromise, course)) return true;
   }
   return false;
+}
+
+bool ActiveSetSolver::repeats(const ComplementarityProblem& problem, int tries, const Course& now) {
+  // Brent's: tries 1, 2, 4, 8 ... are kept, and later ones compared with the last of these.
+  if (tries == 0) return false;
+  if ((tries & (tries - 1)) != 0) return now == kept_course_ && problem.free == kept_set_;
+  kept_set_ = problem.free;
+  kept_course_ = now;
+  return false;
+}
+
+bool ActiveSetSolver::attempt(ComplementarityProblem& problem, bool compromise, Course& course) {
+  solve_free(problem);
+  if (course.yields) find_compromise(problem);
+  mark_violations(problem);
+  // Also where violations go round: one that comes from a redundant row without its share tells the wrong bound.
+  if (!course.yields && (violated_.empty() || course.left < 0)) {
+    contradicts_ = false;
+    const int blocking = blocking_unknown(problem);
+    if (blocking >= 0) {
+      problem.free[at(blocking)] = blocked_above_ ? ComplementarityProblem::at_upper : 0;
+      ++changes_;
+      course.fewest = problem.size + 1;
+      return false;
+    }
+    if (violated_.empty() && (!compromise || !contradicts_)) return true;
+    if (compromise && contradicts_) {
+      course = {problem.size + 1, patience, true};
+      return false;
+    }
+  }
+  if (violated_.empty()) return true;
+  change_sides(problem, course);
+  return false;
+}
+
+void ActiveSetSolver::change_sides(ComplementarityProblem& problem, Course& course) {
+  const auto count = static_cast<int>(violated_.size());
+  if (count < course.fewest) {
+    course.fewest = count;
+    course.left = patience;
+  } else {
+    course.left = std::max(course.left - 1, -1);
+  }
+  if (course.left < 0) violated_ = {violated_.back()};
+  for (const int i : violated_) {
+    char& side = problem.free[at(i)];
+    if (side != 1) {
+      side = 1;
+    } else {
+      side = solution_[at(i)] < problem.lower[at(i)] ? 0 : ComplementarityProblem::at_upper;
+    }
+  }
+  changes_ += static_cast<int>(violated_.size());
 }
 
 void ActiveSetSolver::solve_free(const ComplementarityProblem& problem) {

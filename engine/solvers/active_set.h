@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "engine/solvers/sparse_factor.h"
+#include "engine/work_limit.h"
 
 namespace sheave {
 
@@ -44,20 +45,35 @@ class ActiveSetSolver {
  public:
   /// Where A has entries off its diagonal.
   void analyse(int size, std::span<const std::pair<int, int>> entries);
-  /// Returns false if no set was found in a number of tries that grows with the size. `compromise`: rows that contradict each
-  /// other all give way; otherwise some of them are left out.
-  bool solve(ComplementarityProblem& problem, bool compromise = false);
+  /// Returns false if there is none: where the tries go round in a circle, and where they take more factorisations than `work`
+  /// allows, or a number that grows with the size. `compromise`: rows that contradict each other all give way; otherwise
+  /// some of them are left out. `work` may be null: no limit.
+  bool solve(ComplementarityProblem& problem, bool compromise = false, WorkLimit* work = nullptr);
 
-  /// Projected Gauss-Seidel from dl = 0 instead: sweeps over the unknowns in their order.
-  void relax(const ComplementarityProblem& problem, int sweeps);
+  /// Projected Gauss-Seidel from dl = 0 instead: sweeps over the unknowns in their order, as many unless `work` stops them.
+  void relax(const ComplementarityProblem& problem, int sweeps, WorkLimit* work = nullptr);
 
   [[nodiscard]] std::span<const double> solution() const { return solution_; }
   [[nodiscard]] int changes() const { return changes_; }  ///< of sides in the last solve()
+  [[nodiscard]] int factorisations() const { return factorisations_; }  ///< in the last solve()
   [[nodiscard]] int dropped() const { return dropped_; }  ///< redundant rows in the last solve()
   /// Whether in the last solve() some free rows contradicted each other.
   [[nodiscard]] bool contradicts() const { return contradicts_; }
 
  private:
+  /// What decides how the tries go on, with the set that is tried.
+  struct Course {
+    int fewest = 0;       ///< violations of any set since the last change of the rules
+    int left = 0;         ///< block changes without progress that may still be; -1: single ones
+    bool yields = false;  ///< rows that contradict each other give way
+    [[nodiscard]] bool operator==(const Course&) const = default;
+  };
+  /// One try; whether it has found the solution.
+  bool attempt(ComplementarityProblem& problem, bool compromise, Course& course);
+  /// Lets those that break their conditions change sides.
+  void change_sides(ComplementarityProblem& problem, Course& course);
+  /// Whether the tries go round in a circle, which is seen after at most three rounds of it.
+  [[nodiscard]] bool repeats(const ComplementarityProblem& problem, int tries, const Course& now);
   void solve_free(const ComplementarityProblem& problem);
   /// The residuals of the solution.
   void find_residuals(const ComplementarityProblem& problem);
@@ -91,7 +107,10 @@ class ActiveSetSolver {
   std::vector<double> null_vector_;
   bool blocked_above_ = false;  ///< by which of its bounds
   std::vector<double> softened_;
+  std::vector<char> kept_set_;
+  Course kept_course_;
   int changes_ = 0;
+  int factorisations_ = 0;
   int dropped_ = 0;
   bool contradicts_ = false;
 };

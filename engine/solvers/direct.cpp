@@ -1,6 +1,7 @@
 #include "engine/solvers/direct.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sheave {
 
@@ -26,10 +27,13 @@ void DirectSolver::solve(Substep& substep, Features features) {
     if (round > 2 && settled && !revised && violated > stagnation * before) break;
     if (round == 0) first = violated;
     const bool lost = !(violated <= growth * first);
+    const bool finite = std::isfinite(violated);
+    // Once, corrections that are added up from the prediction may come right.
+    if (!finite && (round == 0 || adding_up)) break;
     // In the first rounds what bends may look like a contradiction.
     compromise = compromise || (round > 1 && system_.contradicts());
     const bool stuck = !compromise && !revised && violated > slow * before;
-    if (round > 1 && !adding_up && (lost || stuck)) {
+    if ((round > 1 || !finite) && !adding_up && (lost || stuck)) {
       adding_up = true;
       system_.begin_adding_up();
       // What has run away is no start for Newton's method.
@@ -37,7 +41,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
       system_.linearise(substep, features, RowSystem::Rule::backward, true);
     }
     if (!system_.solve(substep, compromise)) {
-      if (substep.resort != Resort::anything) {
+      if (substep.resort != Resort::anything || substep.work.stopped()) {
         substep.failed = true;
         return;
       }
@@ -56,7 +60,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
   // Two rounds do not tell whether more of them would converge: so few were asked for.
   const bool tried = adding_up || substep.iterations > 2;
   const bool near = violated <= std::max(enough, nearly * first) || violated <= slow * before;
-  const bool lost = (tried && !near) ||
+  const bool lost = (tried && !near) || !std::isfinite(violated) ||
                     (adding_up && violated <= enough && system_.energy_gain(substep) > unresolved);
   substep.failed = lost && substep.resort != Resort::anything;
   if (substep.failed) return;

@@ -5,6 +5,15 @@
 #include "engine/solvers/direct.h"
 
 namespace sheave {
+namespace {
+
+bool is_finite(const Substep& substep) {
+  return std::all_of(substep.moving.begin(), substep.moving.end(), [](const MovingBody& body) {
+    return body.position.allFinite() && body.turn.allFinite();
+  });
+}
+
+}  // namespace
 
 double GaussSeidelSolver::visit(Substep& substep, Features feature, Block& block, bool first) {
   RowSystem& system = block.system;
@@ -27,7 +36,11 @@ void GaussSeidelSolver::solve(Substep& substep, Features features) {
   for (const auto& feature : features) rows += feature->row_count();
   blocks_.resize(features.size());
   double correction = 0.0;
+  constexpr int look = 16;  // sweeps from one look to the next
   for (int iteration = 0; iteration < substep.iterations; ++iteration) {
+    if (substep.work.stops()) break;
+    // What no sweep mends is told by who looks at the whole substep.
+    if (iteration % look == look - 1 && !is_finite(substep)) break;
     correction = 0.0;
     for (std::size_t i = 0; i < features.size(); ++i) {
       const bool stiff = features[i]->is_stiff() && features[i]->row_count() > 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/index.h"
 
@@ -316,6 +317,8 @@ double RowSystem::violation() const {
   double worst = 0.0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const double r = problem_.constant[g];
+    // Seen whatever bounds there are: no round mends it.
+    if (!std::isfinite(r)) return std::numeric_limits<double>::infinity();
     // An unknown can make up for what its bounds leave room for: friction that slips and a force that has just ended are
     // none of a violation, though bounds that follow other forces have moved on a little.
     const double room = r > 0.0 ? -problem_.lower[g] : problem_.upper[g];
@@ -339,11 +342,12 @@ double RowSystem::yield(std::size_t g) const {
 
 bool RowSystem::solve(Substep& substep, bool compromise) {
   assemble();
-  const bool solved = active_set_.solve(problem_, compromise);
+  const bool solved = active_set_.solve(problem_, compromise, &substep.work);
   StepStatistics& statistics = substep.statistics;
   ++statistics.rounds;
   statistics.row_solves += static_cast<std::int64_t>(rows_.size());
   statistics.set_changes += active_set_.changes();
+  statistics.factorisations += active_set_.factorisations();
   if (compromise && active_set_.contradicts()) ++statistics.compromises;
   statistics.redundant_rows = std::max(statistics.redundant_rows, active_set_.dropped());
   return solved;
@@ -351,7 +355,7 @@ bool RowSystem::solve(Substep& substep, bool compromise) {
 
 void RowSystem::relax(Substep& substep, int sweeps) {
   assemble();
-  active_set_.relax(problem_, sweeps);
+  active_set_.relax(problem_, sweeps, &substep.work);
   ++substep.statistics.rounds;
   substep.statistics.row_solves += static_cast<std::int64_t>(rows_.size()) * sweeps;
 }

@@ -83,13 +83,13 @@ class RowSystem {
   bool solve_velocities(Substep& substep, bool direct, int sweeps);
 
   /// The largest violation [m or rad] of what the problem asks for, before it is solved, as far as bounds let unknowns make up
-  /// for it.
+  /// for it; infinite if a row's value is not finite.
   [[nodiscard]] double violation() const;
   /// Moves the bodies to where the multipliers put them along the gradients of the last linearise(), which was not from here:
   /// the next round would, if its multipliers did not change. violation() is that of this place; it does not see how far
   /// across the rows it is from where bodies are.
   void follow_gradients(Substep& substep) const;
-  /// Finds the unknowns; false if no active set was found. Counts into the substep's statistics.
+  /// Finds the unknowns; false if no active set was found, or Substep::work allows no more. Counts into the substep's statistics.
   bool solve(Substep& substep, bool compromise = false);
   /// Whether in the last solve() some rows contradicted each other, so that nothing satisfies them all. `compromise` makes
   /// all of them give way, where otherwise some are left out.

@@ -94,8 +94,8 @@ bool RowSystem::solve_velocities(Substep& substep, bool direct, int sweeps) {
     if (round > 0) {
       // The matrix is that of the first round.
       if (!direct) {
-        active_set_.relax(problem_, sweeps);
-      } else if (!active_set_.solve(problem_, true)) {
+        active_set_.relax(problem_, sweeps, &substep.work);
+      } else if (!active_set_.solve(problem_, true, &substep.work)) {
         return false;
       }
     } else if (!direct) {
