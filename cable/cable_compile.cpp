@@ -32,10 +32,10 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
   const std::size_t links = s.links_.size();
   s.initial_.reals = rest_lengths_;
   s.initial_.reals.insert(s.initial_.reals.end(), stored_lengths_.begin(), stored_lengths_.end());
-  s.spans_in_state_ = spans;
-  s.links_in_state_ = links;
-  s.cables_in_state_ = static_cast<int>(s.cables_.size());
-  s.planes_in_state_ = planes_;
+  s.spans_in_state = spans;
+  s.links_in_state = links;
+  s.cables_in_state = static_cast<int>(s.cables_.size());
+  s.planes_in_state = planes_;
   s.initial_.reals.resize(s.plane_index(planes_), 0.0);
   for (std::size_t k = 0; k < remainders_.size(); ++k) {
     s.initial_.reals[s.remainder_index(static_cast<int>(k), 0)] = remainders_[k];

@@ -112,7 +112,7 @@ void CableSystem::follow_course(const BodySet& bodies, const FeatureState& own) 
   affine_.clear();
   connected_for_ = own.integers;
   planes_.assign(own.reals.begin() + static_cast<std::ptrdiff_t>(plane_index(0)),
-                 own.reals.begin() + static_cast<std::ptrdiff_t>(plane_index(planes_in_state_)));
+                 own.reals.begin() + static_cast<std::ptrdiff_t>(plane_index(planes_in_state)));
 }
 
 bool CableSystem::accepts(const FeatureState& state) const {

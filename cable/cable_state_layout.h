@@ -27,28 +27,28 @@ class CableStateLayout {
     return static_cast<std::size_t>(span);
   }
   [[nodiscard]] std::size_t stored_length_index(int link) const {
-    return spans_in_state_ + static_cast<std::size_t>(link);
+    return spans_in_state + static_cast<std::size_t>(link);
   }
   [[nodiscard]] std::size_t tension_index(int span) const {
-    return spans_in_state_ + links_in_state_ + static_cast<std::size_t>(span);
+    return spans_in_state + links_in_state + static_cast<std::size_t>(span);
   }
   [[nodiscard]] std::size_t remainder_index(int span, int end) const {
-    return 2 * spans_in_state_ + links_in_state_ + 2 * static_cast<std::size_t>(span) +
+    return 2 * spans_in_state + links_in_state + 2 * static_cast<std::size_t>(span) +
            static_cast<std::size_t>(end);
   }
   [[nodiscard]] std::size_t slip_index(int link) const {
-    return 4 * spans_in_state_ + links_in_state_ + static_cast<std::size_t>(link);
+    return 4 * spans_in_state + links_in_state + static_cast<std::size_t>(link);
   }
   [[nodiscard]] std::size_t angle_index(int link) const {
-    return 4 * spans_in_state_ + 2 * links_in_state_ + static_cast<std::size_t>(link);
+    return 4 * spans_in_state + 2 * links_in_state + static_cast<std::size_t>(link);
   }
   /// Six numbers, of the place `plane` for a wrap, counted over all cables.
   [[nodiscard]] std::size_t plane_index(int plane) const {
-    return 4 * spans_in_state_ + 3 * links_in_state_ + 6 * static_cast<std::size_t>(plane);
+    return 4 * spans_in_state + 3 * links_in_state + 6 * static_cast<std::size_t>(plane);
   }
   /// StoredStrain::real_count numbers, of the strain place `place` (see strain_places_).
   [[nodiscard]] std::size_t strain_index(int place) const {
-    return plane_index(planes_in_state_) +
+    return plane_index(planes_in_state) +
            (StoredStrain::real_count + 1) * static_cast<std::size_t>(place);
   }
   [[nodiscard]] std::size_t creep_index(int place) const {
@@ -59,28 +59,28 @@ class CableStateLayout {
     return static_cast<std::size_t>(link);
   }
   [[nodiscard]] std::size_t mode_index(int link) const {
-    return links_in_state_ + static_cast<std::size_t>(link);
+    return links_in_state + static_cast<std::size_t>(link);
   }
   [[nodiscard]] std::size_t next_index(int link) const {
-    return 2 * links_in_state_ + static_cast<std::size_t>(link);
+    return 2 * links_in_state + static_cast<std::size_t>(link);
   }
   [[nodiscard]] std::size_t wrap_index(int link) const {
-    return 3 * links_in_state_ + static_cast<std::size_t>(link);
+    return 3 * links_in_state + static_cast<std::size_t>(link);
   }
   [[nodiscard]] std::size_t cut_index(int cable) const {
-    return 4 * links_in_state_ + static_cast<std::size_t>(cable);
+    return 4 * links_in_state + static_cast<std::size_t>(cable);
   }
   [[nodiscard]] std::size_t stall_index(int link) const {
-    return cut_index(cables_in_state_) + static_cast<std::size_t>(link);
+    return cut_index(cables_in_state) + static_cast<std::size_t>(link);
   }
 
  protected:
   CableStateLayout() = default;
 
-  std::size_t spans_in_state_ = 0;
-  std::size_t links_in_state_ = 0;
-  int planes_in_state_ = 0;
-  int cables_in_state_ = 0;
+  std::size_t spans_in_state = 0;
+  std::size_t links_in_state = 0;
+  int planes_in_state = 0;
+  int cables_in_state = 0;
 };
 
 }  // namespace sheave

@@ -179,55 +179,57 @@ void CableSystem::finish_affine(const Substep& substep, int span, FeatureState& 
   tension = multipliers_[at(span)] / (substep.h * substep.h);
 }
 
+void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
+  const SpanSetup& setup = spans_[at(k)];
+  const LinkGeometry& first = links_[at(setup.first)];
+  const LinkGeometry& second = links_[at(setup.second)];
+  const CompiledCable& cable = cables_[at(setup.cable)];
+  const bool grows = has_layers_ && layered(k);
+  if (grows) layered_ = layered_span(substep, k);
+  const SpanGeometry span =
+      grows ? layered_.geometry
+            : span_geometry(substep, setup, first, second, &references_[at(k)].ends);
+  SpanTransport transport =
+      grows ? layered_.transport
+            : span_transport(substep, setup, first, second, references_[at(k)], span);
+  if (!span.has_tangent) {
+    if (fallbacks_[at(k)].substeps++ == 0) fallbacks_[at(k)].first_time = substep.next.time;
+    ++substep.statistics.geometry_fallbacks;
+  }
+  if (cable.inverse_stiffness > 0.0) {
+    transport = material_transport(cable, k, transport, span.length, next);
+  }
+  double& rest_length = next.reals[rest_length_index(k)];
+  if (first.wraps() || second.wraps()) wind(k, transport, next);
+  const auto feed_in = [&](int link, int end) {
+    double& remainder = next.reals[remainder_index(k, end)];
+    const double amount = fed_[at(k)][at(end)];
+    const double moved = std::max(cable.quantised(amount + remainder), std::min(-rest_length, 0.0));
+    remainder += amount - moved;
+    rest_length += moved;
+    next.reals[slip_index(link)] += moved;
+  };
+  if (first.feed_speed != 0.0) feed_in(setup.first, 0);
+  if (second.feed_speed != 0.0) feed_in(setup.second, 1);
+  double& tension = next.reals[tension_index(k)];
+  ends_[at(k)] = {tension, span.length};
+  tension = multipliers_[at(k)] / (substep.h * substep.h);
+}
+
 void CableSystem::finish(Substep& substep, FeatureState& next) {
   knows_lengths_ = true;
-  const double inverse_square = 1.0 / (substep.h * substep.h);
   for (const CompiledCable& cable : cables_) {
     if (cable.has_friction) hold_tensions(substep, cable, next);
   }
   if (!stored_.empty()) stored_end_ = stored_;
   keep_end_strains(substep);
   for (int k = 0; k < row_count(); ++k) {
-    const SpanSetup& setup = spans_[at(k)];
-    if (!setup.active) continue;
+    if (!spans_[at(k)].active) continue;
     if (is_affine_[at(k)] != 0) {
       finish_affine(substep, k, next);
-      continue;
+    } else {
+      finish_span(substep, k, next);
     }
-    const LinkGeometry& first = links_[at(setup.first)];
-    const LinkGeometry& second = links_[at(setup.second)];
-    const CompiledCable& cable = cables_[at(setup.cable)];
-    const bool grows = has_layers_ && layered(k);
-    if (grows) layered_ = layered_span(substep, k);
-    const SpanGeometry span =
-        grows ? layered_.geometry
-              : span_geometry(substep, setup, first, second, &references_[at(k)].ends);
-    SpanTransport transport =
-        grows ? layered_.transport
-              : span_transport(substep, setup, first, second, references_[at(k)], span);
-    if (!span.has_tangent) {
-      if (fallbacks_[at(k)].substeps++ == 0) fallbacks_[at(k)].first_time = substep.next.time;
-      ++substep.statistics.geometry_fallbacks;
-    }
-    if (cable.inverse_stiffness > 0.0) {
-      transport = material_transport(cable, k, transport, span.length, next);
-    }
-    double& rest_length = next.reals[rest_length_index(k)];
-    if (first.wraps() || second.wraps()) wind(k, transport, next);
-    const auto feed_in = [&](int link, int end) {
-      double& remainder = next.reals[remainder_index(k, end)];
-      const double amount = fed_[at(k)][at(end)];
-      const double moved =
-          std::max(cable.quantised(amount + remainder), std::min(-rest_length, 0.0));
-      remainder += amount - moved;
-      rest_length += moved;
-      next.reals[slip_index(link)] += moved;
-    };
-    if (first.feed_speed != 0.0) feed_in(setup.first, 0);
-    if (second.feed_speed != 0.0) feed_in(setup.second, 1);
-    double& tension = next.reals[tension_index(k)];
-    ends_[at(k)] = {tension, span.length};
-    tension = multipliers_[at(k)] * inverse_square;
   }
   if (!stored_end_.empty()) keep_strains(next);
   if (driven_ || slides_) record_stalls(substep, next);

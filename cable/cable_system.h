@@ -79,9 +79,9 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   friend class CableCompiler;
   CableSystem() = default;
   using StretchedSpan = cable_parts::StretchedSpan;
-  /// The row of a span; of a material what it was made of, too, if `stretch` is not null.
+  /// The row of a span; of a material what it was made of, too, if `kept` is not null.
   SpanGeometry evaluate(const Substep& substep, int span, Row& row,
-                        StretchedSpan* stretch = nullptr) const;
+                        StretchedSpan* kept = nullptr) const;
   [[nodiscard]] SpanGeometry geometry_of(const Substep& substep, int span) const;
 
   // Spans of which nothing turns: cable/cable_affine.cpp.
@@ -101,6 +101,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   double sweep_spans(Substep& substep, const CompiledCable& cable);
   double solve_affine(Substep& substep, int span);
   void finish_affine(const Substep& substep, int span, FeatureState& next);
+  void finish_span(Substep& substep, int k, FeatureState& next);
   void linearise_spans(Substep& substep, const CompiledCable& cable, RowList& rows);
   double sweep_runs(Substep& substep, int cable_index);
   using RunWeights = cable_parts::RunWeights;

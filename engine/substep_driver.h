@@ -31,8 +31,8 @@ class SubstepDriver {
   static constexpr std::int64_t most_rounds = 512;
   /// Likewise factorisations, of which a round takes one for each set of rows that it tries, besides one per iteration that the
   /// settings allow, and those for each of the two last attempts at the whole.
-  static constexpr std::int64_t most_factorisations = 1024;
-  static constexpr std::int64_t last_factorisations = 256;
+  static constexpr std::int64_t most_factorisations = 4096;
+  static constexpr std::int64_t last_factorisations = 512;
   /// So many of the smallest parts may be left to another integrator before larger ones are, too: it is no matter of time
   /// then.
   static constexpr int patience = 4;

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <string>
+
 #include "engine/result.h"
+#include "engine/work_limit.h"
 #include "measure/timing.h"
 #include "scenes/scene.h"
 

@@ -84,8 +84,10 @@ class Search {
   void climb() {
     const double size = a_.solid->radius + b_.solid->radius + (a_.first() - b_.first()).norm();
     for (double step = 0.1; step > 1e-7; step *= 0.5) {
+      constexpr int most_moves =
+          1000;  // few are needed, for what is 2 steps away has been tried before
       bool higher = true;
-      while (higher) {
+      for (int move = 0; higher && move < most_moves; ++move) {
         const double before = best_.gap;
         const Vector3 from = best_.normal;
         const Vector3 x = any_perpendicular(from);

@@ -5,6 +5,17 @@
 
 namespace sheave {
 
+void DirectSolver::give_up(Substep& substep, Features features, bool at_once) {
+  if (substep.resort != Resort::anything || substep.work.stopped()) {
+    substep.failed = true;
+    return;
+  }
+  substep.statistics.rows = system_.row_count();
+  ++substep.statistics.solver_fallbacks;
+  if (at_once) system_.start_again(substep, features);
+  sweeps_.solve(substep, features);
+}
+
 void DirectSolver::solve(Substep& substep, Features features) {
   const double enough = tolerance * substep.bodies.scale();
   double violated = 0.0;
@@ -40,17 +51,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
       if (lost) system_.start_again(substep, features);
       system_.linearise(substep, features, RowSystem::Rule::backward, true);
     }
-    if (!system_.solve(substep, compromise)) {
-      if (substep.resort != Resort::anything || substep.work.stopped()) {
-        substep.failed = true;
-        return;
-      }
-      substep.statistics.rows = system_.row_count();
-      ++substep.statistics.solver_fallbacks;
-      if (round == 0) system_.start_again(substep, features);
-      sweeps_.solve(substep, features);
-      return;
-    }
+    if (!system_.solve(substep, compromise)) return give_up(substep, features, round == 0);
     system_.apply(substep, features);
     revised = false;
     // What the last round finds would have no round to act in; the features decide it for the next substep.

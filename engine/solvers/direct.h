@@ -38,6 +38,9 @@ class DirectSolver {
   void solve(Substep& substep, Features features);
 
  private:
+  /// No active set was found: leaves the substep to Gauss-Seidel, if it has to make do. `at_once`: in the first round.
+  void give_up(Substep& substep, Features features, bool at_once);
+
   RowSystem system_;
   GaussSeidelSolver sweeps_;
 };

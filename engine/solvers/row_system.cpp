@@ -98,6 +98,7 @@ bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool f
 }
 
 void RowSystem::fill_slots(const Substep& substep) {
+  assembled_ = false;
   const Coordinates& coordinates = substep.bodies.coordinates();
   if (slots_.find_pattern(coordinates, rows_)) {
     active_set_.analyse(slots_.unknown_count(), slots_.entries());
@@ -413,6 +414,9 @@ void RowSystem::apply(Substep& substep, Features features) {
 
 void RowSystem::assemble() {
   // The factor 1 + g that damping gives a row's gradient is that of its group's S, so A has neither.
+  // Sweeps that replace a solution take the matrix as it is.
+  if (assembled_) return;
+  assembled_ = true;
   slots_.assemble(problem_.symmetric);
   const std::span<const double> diagonal = slots_.diagonal();
   for (std::size_t g = 0; g < diagonal.size(); ++g) problem_.diagonal[g] += diagonal[g];

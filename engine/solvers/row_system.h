@@ -180,6 +180,7 @@ class RowSystem {
   std::vector<Pose> placed_;      ///< per body: where the last round among others has left it
   bool from_here_ = true;
   std::vector<double> motion_;  ///< per degree of freedom: displacement or turn, or their rates
+  bool assembled_ = false;      ///< the matrix is that of the last linearise()
   bool symmetric_rows_ = true;  ///< K = J but for weights
   double bound_share_ = 1.0;    ///< of the rows' bounds, in the rule at work
   ComplementarityProblem problem_;

@@ -249,7 +249,7 @@ TEST(WorkLimit, BoundsTheFactorisationsOfAStep) {
     const StepReport report = world.step();
     ASSERT_TRUE(report.ok());
     // Whole and parts, and the two last attempts.
-    constexpr std::int64_t most = 1024 + 2 * 256 + 3 * 50;
+    constexpr std::int64_t most = 4096 + 2 * 512 + 3 * 50;
     EXPECT_LE(report.statistics.factorisations, most * heap.model.step.substeps);
   }
 }
