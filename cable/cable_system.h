@@ -136,9 +136,9 @@ class CableSystem final : public ConstraintBatch {
   friend class CableCompiler;
   CableSystem() = default;
   using StretchedSpan = cable_parts::StretchedSpan;
-  /// The row of a span; of a material what it was made of, too, if `stretch` is not null.
+  /// The row of a span; of a material what it was made of, too, if `kept` is not null.
   SpanGeometry evaluate(const Substep& substep, int span, Row& row,
-                        StretchedSpan* stretch = nullptr) const;
+                        StretchedSpan* kept = nullptr) const;
   [[nodiscard]] SpanGeometry geometry_of(const Substep& substep, int span) const;
 
   // Cable that passes between spans: cable/cable_runs.cpp.
