@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "cable/simulation.h"
+#include "scenes/control/scene_supervisor.h"
 #include "scenes/generators.h"
 #include "scenes/scene.h"
 
@@ -58,7 +59,7 @@ double thread_time() {
 double timed_steps(Simulation& simulation, int steps, std::optional<std::string>& fault) {
   bool ok = true;
   const double start = thread_time();
-  for (int i = 0; i < steps; ++i) ok = simulation.world.step().ok() && ok;
+  for (int i = 0; i < steps; ++i) ok = simulation.step().ok() && ok;
   const double seconds = thread_time() - start;
   if (!ok) fault = "diverged";
   return seconds;
@@ -67,7 +68,7 @@ double timed_steps(Simulation& simulation, int steps, std::optional<std::string>
 /// One sample per iteration of the benchmark. Reports no time at all unless every sample passes the
 /// physics check.
 void measure(benchmark::State& state, const Scene& scene) {
-  Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
+  Result<Simulation> simulation = create_simulation(scene);
   if (!simulation) {
     state.SkipWithError(simulation.errors().front().message.c_str());
     return;

@@ -10,6 +10,8 @@
 //
 // It holds while the length is above 0. What can slide so far within a substep that it might end is left to the general row.
 
+#include <array>
+
 #include "engine/row.h"
 #include "engine/substep.h"
 
@@ -33,28 +35,57 @@ struct AffineSpan {
   double length = 0.0;                  ///< l0 [m]
 
   /// l [m]
-  [[nodiscard]] double length_now(const Substep& substep) const {
+  [[nodiscard, gnu::always_inline]] double length_now(const Substep& substep) const {
     double sum = length;
     if (second.slider >= 0) sum += dot(direction, position(substep, second));
     if (first.slider >= 0) sum -= dot(direction, position(substep, first));
     return sum;
   }
   /// What the wheel gives the span since the start of the substep [m].
-  [[nodiscard]] static double given(const Substep& substep, const End& end) {
+  [[nodiscard, gnu::always_inline]] static double given(const Substep& substep, const End& end) {
     if (end.wheel < 0) return 0.0;
     return dot(end.turn, substep.moving[static_cast<std::size_t>(end.wheel)].turn);
   }
   /// C [m] with the rest length at the start.
-  [[nodiscard]] double value(const Substep& substep, double rest_length) const {
+  [[nodiscard, gnu::always_inline]] double value(const Substep& substep, double rest_length) const {
     return rest_length + given(substep, first) + given(substep, second) - length_now(substep);
   }
   /// Whether the span is too long to end within the substep, whose start is where bodies are now.
   [[nodiscard]] bool lasts(const Substep& substep) const;
+  // It is longer than `margin` times what its ends could slide, and than `shortest` of the scene.
+  static constexpr double margin = 4.0;
+  static constexpr double shortest = 1e-6;
 
  private:
   static const Vector3& position(const Substep& substep, const End& end) {
     return substep.moving[static_cast<std::size_t>(end.slider)].position;
   }
+};
+
+/// The same where all that moves is counted in single numbers (engine/dynamics/affine_bodies.h).
+struct MovingSpan {
+  struct End {
+    int wheel = 0;       ///< number of the wheel; 0: none
+    double given = 0.0;  ///< cable that it gives the span per radian [m]
+    int slider = 0;      ///< number of what slides
+    double along = 0.0;  ///< u along its direction
+    int link = 0;
+    bool wraps = false;
+    bool runs_out = false;  ///< the cable ends there, and nothing holds it
+    bool bounded = false;   ///< without stored cable it is left, or ends in another way
+  };
+  std::array<End, 2> ends;
+  double length = 0.0;    ///< with all places at 0 [m]
+  double shortest = 0.0;  ///< [m]
+  bool slides = false;
+  bool driven = false;  ///< one of the wheels is
+  bool elastic = false;
+  int cable = 0;
+  // Of the cable.
+  double breaking_tension = 0.0;  ///< [N]
+  double cut_time = 0.0;          ///< [s]
+  double quantum = 0.0;           ///< [m]
+  double inverse_quantum = 0.0;   ///< [1/m]
 };
 
 }  // namespace sheave

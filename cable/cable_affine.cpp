@@ -18,16 +18,23 @@ struct Place {
 
 /// How the end of a span with this direction at a link moves, if that is one of the ways that keep it affine.
 Place place_of(const Substep& start, const LinkGeometry& link, double signed_radius,
-               const Vector3& direction) {
+               const Vector3& direction, bool ends_stay) {
   Place place;
   const BodySet& bodies = start.bodies;
-  if (link.outline || link.changes() || link.passes() || link.feed_speed != 0.0) return place;
-  if (link.carrier < bodies.count()) {
-    const BodyProperties& carrier = bodies[link.carrier];
-    if (carrier.mobility == Mobility::slider) {
-      if (carrier.axis.cross(direction).norm() > rounding) return place;
-      place.end.slider = link.carrier;
-    } else if (carrier.mobility != Mobility::fixed) {
+  const bool changes = link.layer_pitch > 0.0 || (link.hybrid && !ends_stay);
+  if (link.outline || changes || link.passes() || link.feeds) return place;
+  // What turns about the link's centre does not move it.
+  const bool about_centre = link.carrier == link.body && link.centered &&
+                            link.carrier < bodies.count() &&
+                            bodies[link.carrier].mobility == Mobility::rotor;
+  const int mount = about_centre ? bodies[link.carrier].mount : link.carrier;
+  const int carrier = mount >= 0 ? mount : bodies.count();
+  if (carrier < bodies.count()) {
+    const BodyProperties& properties = bodies[carrier];
+    if (properties.mobility == Mobility::slider) {
+      if (properties.axis.cross(direction).norm() > rounding) return place;
+      place.end.slider = carrier;
+    } else if (properties.mobility != Mobility::fixed) {
       return place;
     }
   }
@@ -57,14 +64,12 @@ bool AffineSpan::lasts(const Substep& substep) const {
     if (end->slider < 0) continue;
     speed += std::abs(dot(direction, substep.start.bodies[at(end->slider)].velocity));
   }
-  constexpr double margin = 4.0;
-  constexpr double shortest = 1e-6;
   return length_now(substep) > margin * substep.h * speed + shortest * substep.bodies.scale();
 }
 
 void CableSystem::begin_affine_spans(const Substep& substep) {
   const bool unknown = affine_.empty();
-  if (unknown) find_affine_spans(substep.bodies);
+  if (unknown) affine_ = affine_spans(substep.bodies, false);
   // What drag leaves of a motion depends on the time it has.
   const std::array now{substep.h, substep.load_share};
   if (!unknown && now == edition_is_for_) return;
@@ -73,8 +78,8 @@ void CableSystem::begin_affine_spans(const Substep& substep) {
   for (AffineSpan& affine : affine_) affine.row.edition = edition_;
 }
 
-void CableSystem::find_affine_spans(const BodySet& bodies) {
-  affine_.assign(spans_.size(), AffineSpan{});
+std::vector<AffineSpan> CableSystem::affine_spans(const BodySet& bodies, bool ends_stay) const {
+  std::vector<AffineSpan> spans(spans_.size());
   const State initial = bodies.initial_state();
   const Substep start(bodies, initial, 1.0, 1);
   for (std::size_t k = 0; k < spans_.size(); ++k) {
@@ -85,15 +90,17 @@ void CableSystem::find_affine_spans(const BodySet& bodies) {
         cable.tangent_update != TangentUpdate::iteration) {
       continue;
     }
-    affine_[k] = affine_span(start, setup);
-    affine_[k].row.lower = 0.0;
-    affine_[k].row.damping = cable.damping;
-    affine_[k].row.compliance = cable.compliance;
-    affine_[k].row.index = static_cast<int>(k);
+    spans[k] = affine_span(start, setup, ends_stay);
+    spans[k].row.lower = 0.0;
+    spans[k].row.damping = cable.damping;
+    spans[k].row.compliance = cable.compliance;
+    spans[k].row.index = static_cast<int>(k);
   }
+  return spans;
 }
 
-AffineSpan CableSystem::affine_span(const Substep& start, const SpanSetup& setup) const {
+AffineSpan CableSystem::affine_span(const Substep& start, const SpanSetup& setup,
+                                    bool ends_stay) const {
   const LinkGeometry& first = links_[at(setup.first)];
   const LinkGeometry& second = links_[at(setup.second)];
   AffineSpan affine;
@@ -102,8 +109,8 @@ AffineSpan CableSystem::affine_span(const Substep& start, const SpanSetup& setup
   const SpanGeometry span =
       evaluate_span(start, setup, first, second, reference, affine.row, transport);
   if (!span.has_tangent || !(span.length > 0.0)) return affine;
-  const Place at_first = place_of(start, first, first.signed_radius, span.direction);
-  const Place at_second = place_of(start, second, -second.signed_radius, span.direction);
+  const Place at_first = place_of(start, first, first.signed_radius, span.direction, ends_stay);
+  const Place at_second = place_of(start, second, -second.signed_radius, span.direction, ends_stay);
   if (!at_first.suits || !at_second.suits) return affine;
   affine.first = at_first.end;
   affine.second = at_second.end;

@@ -56,8 +56,20 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
   s.definitions_ = s.links_;
   for (const auto& [link, radius] : bare_radii_) s.definitions_[at(link)].signed_radius = radius;
   s.span_definitions_ = s.spans_;
+  for (const CompiledCable& cable : s.cables_) {
+    s.defined_.push_back({cable.compliance, cable.breaking_tension, cable.wrap_friction, 0.0});
+  }
   s.course_changes_ = std::any_of(s.cables_.begin(), s.cables_.end(),
                                   [](const CompiledCable& cable) { return cable.course_changes; });
+  make_room();
+  store_strains();
+  return std::move(system_);
+}
+
+void CableCompiler::make_room() {
+  CableSystem& s = *system_;
+  const std::size_t spans = s.spans_.size();
+  const std::size_t links = s.links_.size();
   s.references_.resize(spans);
   s.strains_.resize(spans);
   s.end_strains_.assign(spans, -1.0);
@@ -83,8 +95,6 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
   s.sweeps_.assign(s.cables_.size(), 0);
   s.crowded_.resize(s.cables_.size());
   s.stored_arcs_.resize(links);
-  store_strains();
-  return std::move(system_);
 }
 
 void CableCompiler::store_strains() {

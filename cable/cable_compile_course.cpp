@@ -130,7 +130,7 @@ void CableCompiler::set_drives(CompiledCable& cable) const {
   for (int i = 0; i < cable.listed_links; ++i) {
     const LinkGeometry& link = links_[at(i)];
     const bool end = !cable.closed && (i == 0 || i + 1 == cable.listed_links);
-    if (link.feed_speed != 0.0 || bodies_[link.body].prescribed()) {
+    if (link.feeds || bodies_[link.body].prescribed()) {
       cable.driven_links.push_back(cable.first_link + i);
     }
     if ((end || CableSystem::ends_chain(bodies_, link)) && !CableSystem::can_move(bodies_, link)) {

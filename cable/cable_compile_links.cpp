@@ -58,7 +58,7 @@ void CableCompiler::check_passage(const LinkGeometry& link, bool end, const std:
   if (!end && link.ends_here) {
     fail(field, "this link is for an end of an open cable; between its ends use \"rolling\"");
   }
-  if (!end && link.feed_speed != 0.0) {
+  if (!end && link.feeds) {
     fail(field + "/feed_speed", "cable can be fed only at an end of an open cable");
   }
   check_massless(link, end, field);

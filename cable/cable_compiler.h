@@ -65,6 +65,8 @@ class CableCompiler {
   void append_places(CompiledCable& cable);
   void store(const CableDef& def);
   /// Gives links of cables of a material their places for strain, after the planes of wraps.
+  /// For what a substep keeps per span and link.
+  void make_room();
   void store_strains();
 
   const BodySet& bodies_;

@@ -250,6 +250,7 @@ bool CableSystem::touch_wrappable(const Substep& substep, int cable_index, int s
   while (place < end && next.integers[wrap_index(place)] != 0) ++place;
   if (place == end) {
     Fallback& crowded = crowded_[at(cable_index)];
+    ++notes_edition_;
     if (crowded.substeps++ == 0) crowded.first_time = substep.next.time;
     return false;
   }

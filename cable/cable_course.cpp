@@ -35,8 +35,8 @@ void CableSystem::connect_spans(const FeatureState& own, const std::vector<LinkG
                                 std::vector<SpanSetup>& spans) const {
   for (std::size_t c = 0; c < cables_.size(); ++c) {
     const CompiledCable& cable = cables_[c];
-    if (!cable.course_changes) continue;
     const bool whole = own.integers[cut_index(static_cast<int>(c))] == 0;
+    if (!cable.course_changes && whole) continue;
     for (int i = 0; i < cable.span_count; ++i) {
       SpanSetup& setup = spans[at(cable.first_span + i)];
       const auto next = static_cast<int>(own.integers[next_index(cable.first_link + i)]);

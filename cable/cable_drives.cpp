@@ -25,6 +25,7 @@
 
 #include "cable/cable_system.h"
 #include "cable/link_contact.h"
+#include "engine/body_drive.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -33,13 +34,10 @@ namespace {
 /// What rounding leaves of lengths that are drawn and fed alike, relative to both together; the next substep finds it again.
 constexpr double overlooked = 1e-9;
 
-/// The spin at the end of the substep [rad/s].
-double driven_speed(const BodyProperties& body, const Substep& substep, double turn) {
-  return body.drive == DriveKind::speed ? body.drive_table.at(substep.next.time) : turn / substep.h;
-}
-
-double driven_turn(const BodyProperties& body, const Substep& substep) {
-  return body.driven_turn(substep.start.time, substep.next.time);
+/// By how much its drive turns body `index` in the substep if it does its whole share [rad].
+double driven_turn(const Substep& substep, int index) {
+  return BodyDrive(substep.bodies[index], substep.start.controls, index)
+      .turn(substep.start.time, substep.next.time);
 }
 
 /// The largest lever that a cable has on the link's body [m].
@@ -61,7 +59,7 @@ void CableSystem::begin_drives(const FeatureState& state) {
 int CableSystem::driven_way(const Substep& substep, int link) const {
   const BodyProperties& body = substep.bodies[links_[at(link)].body];
   if (!body.prescribed()) return 0;
-  const double turn = driven_turn(body, substep);
+  const double turn = driven_turn(substep, links_[at(link)].body);
   return turn > 0.0 ? 1 : turn < 0.0 ? -1 : 0;
 }
 
@@ -87,7 +85,8 @@ bool CableSystem::may_fall_short(const Substep& substep, const CompiledCable& ca
     const LinkGeometry& geometry = links_[at(link)];
     const BodyProperties& body = substep.bodies[geometry.body];
     double most = std::abs(geometry.feed_speed) * substep.h;
-    if (body.prescribed()) most += reach_of(geometry) * std::abs(driven_turn(body, substep));
+    if (body.prescribed())
+      most += reach_of(geometry) * std::abs(driven_turn(substep, geometry.body));
     for (const bool after : {true, false}) {
       const int span = after ? link - cable.first_link : link - cable.first_link - 1;
       if (span < 0 || span >= cable.span_count) {
@@ -245,16 +244,16 @@ void CableSystem::add_to_chain(const Substep& substep, int span, ChainLengths& l
   for (const int end : {0, 1}) {
     const int index = end == 0 ? setup.first : setup.second;
     const LinkGeometry& link = links_[at(index)];
-    if (link.feed_speed != 0.0) {
+    if (link.feeds) {
       const double fed = fed_[at(span)][at(end)];
       // What is fed is in the rest length already.
       lengths.rest_length -= fed;
-      add_pull({index, span, end, fed, link.feed_speed, std::abs(fed), 0.0, 0.0});
+      add_pull({index, span, end, fed, link.feed_end_speed, std::abs(fed), 0.0, 0.0});
     }
     const BodyProperties& body = substep.bodies[link.body];
     if (!body.prescribed()) continue;
-    const double turn = driven_turn(body, substep);
-    const double speed = driven_speed(body, substep, turn);
+    const double turn = driven_turn(substep, link.body);
+    const double speed = substep.driven_speed(link.body);
     // As in the gradient of the span's row.
     const Vector3& point = end == 0 ? geometry.start : geometry.end;
     const Vector3 arm = cross(point - substep.position(link.body), geometry.direction);
@@ -277,15 +276,15 @@ void CableSystem::add_stored_cable(const Substep& substep, const CompiledCable& 
     const Vector3& point = first ? geometry.start : geometry.end;
     const Vector3 arm = cross(point - substep.position(links_[at(link)].body), geometry.direction);
     const double lever = (first ? -1.0 : 1.0) * dot(body.axis, arm);
-    const double turn = driven_turn(body, substep);
+    const double turn = driven_turn(substep, links_[at(link)].body);
+    const double speed = substep.driven_speed(links_[at(link)].body);
     const double way = lever * turn;
     Chain chain;
     chain.first_pull = static_cast<int>(pulls_.size());
     chain.pull_count = 1;
     chain.available = stored_arcs_[at(link)];
     chains_.push_back(chain);
-    pulls_.push_back(
-        {link, -1, 0, way, lever * driven_speed(body, substep, turn), std::abs(way), 0.0, 0.0});
+    pulls_.push_back({link, -1, 0, way, lever * speed, std::abs(way), 0.0, 0.0});
   }
 }
 
@@ -329,6 +328,7 @@ void CableSystem::wind(int span, const SpanTransport& transport, FeatureState& n
       moved[end] = stored;
       slid_[at(ends[end])] = 1;
       slides_ = true;
+      ++notes_edition_;
     }
     rest_length += moved[end];
     stored -= moved[end];
@@ -347,12 +347,14 @@ void CableSystem::slide_over_ends(int span, std::array<double, 2>& moved, Featur
     next.reals[slip_index(link)] += end == 0 ? kept : -kept;
     slid_[at(link)] = 1;
     slides_ = true;
+    ++notes_edition_;
   }
 }
 
 void CableSystem::record_stalls(const Substep& substep, FeatureState& next) {
   const auto observe = [&](const CompiledCable& cable, int link, bool happens, Stall& stall,
                            CableEvent::Kind kind) {
+    if (happens || stall.now) ++notes_edition_;
     if (happens && !stall.now) record(substep, cable, link, kind);
     stall.now = happens;
     if (happens && stall.observed.substeps++ == 0) stall.observed.first_time = substep.next.time;

@@ -193,7 +193,7 @@ void CableSystem::feed(const FeatureState& state, double h, int span) {
     if (fed_[at(span)][end] > wanted[end]) {
       stalled_[at(link)] = 1;
     } else {
-      feed_rates_[at(span)] += links_[at(link)].feed_speed;
+      feed_rates_[at(span)] += links_[at(link)].feed_end_speed;
     }
   }
 }

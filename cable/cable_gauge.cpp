@@ -17,7 +17,7 @@ bool CableSystem::gauge(const FeatureState& own, std::vector<CableGauge>& gauges
     // Of a span that is all but used up there is no stretch worth the name; it counts against this share of the cable.
     const double shortest = 1e-6 * cable.start_length;
     CableGauge gauge;
-    double fed = 0.0;
+    double fed = cable.added_length;
     for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
       const double rest_length = own.reals[rest_length_index(k)];
       gauge.total_length += rest_length;
@@ -28,7 +28,7 @@ bool CableSystem::gauge(const FeatureState& own, std::vector<CableGauge>& gauges
     }
     for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
       gauge.total_length += own.reals[stored_length_index(i)];
-      if (definitions_[at(i)].feed_speed != 0.0) fed += own.reals[slip_index(i)];
+      if (definitions_[at(i)].feeds) fed += own.reals[slip_index(i)];
     }
     gauge.length_error = (gauge.total_length - cable.start_length - fed) / cable.start_length;
     gauges[c] = gauge;

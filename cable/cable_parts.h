@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "cable/cable.h"
 #include "cable/span_row.h"
@@ -52,6 +54,15 @@ struct Fallback {
 struct Stall {
   bool now = false;  ///< in the last substep
   Fallback observed;
+};
+
+/// What a system of cables has noted for its reports; of the events, which only become more, their number.
+struct Notes {
+  std::vector<Fallback> fallbacks, crowded;
+  std::vector<Stall> stalls, slides_at;
+  bool slides = false;
+  std::size_t events = 0;
+  std::uint64_t edition = 0;
 };
 
 /// Spans first, first + 1, ... of a cable (cyclic if it is closed) that share one multiplier.

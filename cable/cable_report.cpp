@@ -58,6 +58,14 @@ SpanReport span_report(const SpanGeometry& geometry, double rest_length, double 
 
 }  // namespace
 
+/// A state as it is reported: the geometry that belongs to it, and where its spans are.
+struct CableSystem::CableView {
+  const Substep& now;
+  const FeatureState& own;
+  const Geometry& current;
+  const std::vector<SpanGeometry>& ends;
+};
+
 LinkReport CableSystem::link_report(const CableView& view, int index, int incoming,
                                     int outgoing) const {
   const Substep& now = view.now;
@@ -77,7 +85,7 @@ LinkReport CableSystem::link_report(const CableView& view, int index, int incomi
   if (link.wraps()) report.wrap_angle = wound_angle(definition, link, arc);
   const double passed = own.reals[slip_index(index)];
   report.stalled = stalls_[at(index)].now;
-  (definitions_[at(index)].feed_speed != 0.0 ? report.fed : report.slip) = passed;
+  (definitions_[at(index)].feeds ? report.fed : report.slip) = passed;
   const bool lifted = own.integers[mode_index(index)] >= lifted_mode;
   if (lifted || (incoming < 0 && outgoing < 0)) {
     report.touched = !lifted && !link.wraps();
@@ -141,7 +149,9 @@ void CableSystem::measure(const CableView& view, const CompiledCable& cable, int
       report.max_stretch = std::max(report.max_stretch, (span.length - span.rest_length) / from);
     }
   };
-  double fed = 0.0;
+  const auto index = static_cast<int>(&cable - cables_.data());
+  const CableControl* set = view.now.start.controls.cables.find(index);
+  double fed = set != nullptr ? set->added_length : 0.0;
   for (const SpanReport& span : report.spans) add_span(span);
   for (const LinkReport& link : report.links) {
     report.total_length += link.stored_length;

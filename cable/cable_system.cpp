@@ -13,11 +13,7 @@ double CableSystem::compliance_of(const CompiledCable& cable, double rest_length
 }
 
 void CableSystem::begin(const Substep& substep, const FeatureState& state) {
-  if (course_changes_ && !follows(state)) {
-    follow_course(substep.bodies, state);
-  } else if (!changing_links_.empty()) {
-    refresh_ends(state, links_, spans_);
-  }
+  follow_state(substep, state);
   begin_affine_spans(substep);
   knows_start_ = false;
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
@@ -55,7 +51,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
       strains_[k] = strain_of(cable, span_geometry(substep, setup, first, second).length,
                               references_[k].rest_length);
     }
-    if (first.feed_speed != 0.0 || second.feed_speed != 0.0) {
+    if (first.feeds || second.feeds) {
       feed(state, substep.h, span_index);
       references_[k].rest_length += fed_[k][0] + fed_[k][1];
     }
@@ -82,7 +78,7 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row,
   const LinkGeometry& second = links_[at(setup.second)];
   const SpanReference& reference = references_[at(span)];
   row.lower = 0.0;  // a cable pulls and never pushes
-  row.rate = first.feed_speed != 0.0 || second.feed_speed != 0.0 ? feed_rates_[at(span)] : 0.0;
+  row.rate = first.feeds || second.feeds ? feed_rates_[at(span)] : 0.0;
   const bool frozen = cable.tangent_update == TangentUpdate::substep;
   SpanTransport transport;
   // A conditional, so that the span is made where it is kept.
@@ -193,6 +189,7 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
       grows ? layered_.transport
             : span_transport(substep, setup, first, second, references_[at(k)], span);
   if (!span.has_tangent) {
+    ++notes_edition_;
     if (fallbacks_[at(k)].substeps++ == 0) fallbacks_[at(k)].first_time = substep.next.time;
     ++substep.statistics.geometry_fallbacks;
   }
@@ -209,8 +206,8 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
     rest_length += moved;
     next.reals[slip_index(link)] += moved;
   };
-  if (first.feed_speed != 0.0) feed_in(setup.first, 0);
-  if (second.feed_speed != 0.0) feed_in(setup.second, 1);
+  if (first.feeds) feed_in(setup.first, 0);
+  if (second.feeds) feed_in(setup.second, 1);
   double& tension = next.reals[tension_index(k)];
   ends_[at(k)] = {tension, span.length};
   tension = multipliers_[at(k)] / (substep.h * substep.h);
@@ -285,22 +282,26 @@ double CableSystem::numerical_damping(const CompiledCable& cable, std::array<dou
 
 void CableSystem::mark_notes(NoteMark mark) {
   Notes& notes = marked_notes_[static_cast<std::size_t>(mark)];
+  notes.events = events_.size();
+  if (notes.edition == notes_edition_) return;
+  notes.edition = notes_edition_;
   notes.fallbacks = fallbacks_;
   notes.crowded = crowded_;
   notes.stalls = stalls_;
   notes.slides_at = slides_at_;
   notes.slides = slides_;
-  notes.events = events_.size();
 }
 
 void CableSystem::return_to(NoteMark mark) {
-  const Notes& notes = marked_notes_[static_cast<std::size_t>(mark)];
+  Notes& notes = marked_notes_[static_cast<std::size_t>(mark)];
   fallbacks_ = notes.fallbacks;
   crowded_ = notes.crowded;
   stalls_ = notes.stalls;
   slides_at_ = notes.slides_at;
   slides_ = notes.slides;
   events_.resize(notes.events);
+  // Editions do not come back: another mark may hold what has just been forgotten.
+  notes.edition = ++notes_edition_;
 }
 
 SpanGeometry CableSystem::geometry_of(const Substep& substep, int span) const {
@@ -311,7 +312,7 @@ SpanGeometry CableSystem::geometry_of(const Substep& substep, int span) const {
 CableSystem::Geometry CableSystem::geometry_for(const BodySet& bodies,
                                                 const FeatureState& own) const {
   Geometry geometry{links_, spans_};
-  if (course_changes_ || !changing_links_.empty()) {
+  if (course_changes_ || !changing_links_.empty() || has_cut(own)) {
     refresh(bodies, own, geometry.links, geometry.spans);
   }
   return geometry;
@@ -330,7 +331,7 @@ double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
     const SpanSetup& setup = current.spans[at(k)];
     if (!setup.active) continue;
     const double rest_length = own.reals[rest_length_index(k)];
-    const double compliance = compliance_of(cables_[at(setup.cable)], rest_length);
+    const double compliance = compliance_under(state.controls, setup.cable, rest_length);
     const double stretch =
         span_geometry(now, setup, current.links[at(setup.first)], current.links[at(setup.second)])
             .length -

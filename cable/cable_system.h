@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cable/affine_span.h"
@@ -36,6 +37,17 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] std::vector<CableReport> report(const BodySet& bodies, const State& state,
                                                 const FeatureState& own) const;
 
+  /// What becomes of the cables when bodies are put elsewhere, at once (cable/cable_placement.cpp).
+  struct Placed {
+    FeatureState own;           ///< the system's part of the state afterwards
+    std::vector<double> added;  ///< per cable: length that has been put in [m]
+    std::string fault;          ///< why they cannot be put there; empty: they can
+  };
+  /// Bodies go from where `start` has them to where `end` has them, and nothing else happens. `keeps_tension`: what the spans
+  /// need for that comes in or goes out; else lengths stay.
+  [[nodiscard]] Placed place(const BodySet& bodies, const State& start, const State& end,
+                             const FeatureState& own, bool keeps_tension);
+
   /// Measures of each cable at the end of the last substep, whose part of the state is `own`; false if it does not know,
   /// because the course of one has changed there.
   bool gauge(const FeatureState& own, std::vector<CableGauge>& gauges) const;
@@ -57,10 +69,27 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   }
   /// What happened since the system was created, in order.
   [[nodiscard]] const std::vector<CableEvent>& events() const { return events_; }
+  /// The same, and forgets them; between steps.
+  [[nodiscard]] std::vector<CableEvent> take_events() { return std::exchange(events_, {}); }
+
+  // What is wrong with setting something of a cable, or of one of its listed links (cable/cable_controls.cpp); empty if
+  // nothing is. They name what they are about.
+  [[nodiscard]] std::string compliance_fault(int cable, double compliance) const;
+  [[nodiscard]] std::string breaking_fault(int cable, double tension) const;
+  [[nodiscard]] std::string wrap_friction_fault(int cable, double friction) const;
+  [[nodiscard]] std::string friction_fault(int cable, int link, double friction) const;
+  [[nodiscard]] std::string feed_fault(int cable, int link) const;
+  /// The feed speed of a link as it is defined [m/s].
+  [[nodiscard]] double defined_feed(int cable, int link) const {
+    return definitions_[at(cables_[at(cable)].first_link + link)].feed_speed;
+  }
+  [[nodiscard]] int link_count() const { return static_cast<int>(definitions_.size()); }
 
   [[nodiscard]] std::string_view name() const override { return "cables"; }
   [[nodiscard]] FeatureState initial_state() const override { return initial_; }
   [[nodiscard]] bool accepts(const FeatureState& state) const override;
+  [[nodiscard]] bool accepts_controls(const Controls& controls) const override;
+  [[nodiscard]] bool takes_cables() const override { return true; }
   [[nodiscard]] int row_count() const override { return static_cast<int>(spans_.size()); }
   void begin(const Substep& substep, const FeatureState& state) override;
   [[nodiscard]] bool limits_drives() const override { return driven_; }
@@ -72,6 +101,10 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   void finish(Substep& substep, FeatureState& next) override;
   void mark_notes(NoteMark mark) override;
   void return_to(NoteMark mark) override;
+  [[nodiscard]] bool append_affine(const AffineBodies& bodies, AffineRows& rows) override;
+  [[nodiscard]] bool begin_affine(const AffineSubstep& substep, const FeatureState& state,
+                                  std::span<double> values, std::span<char> active) override;
+  [[nodiscard]] bool finish_affine(const AffineSubstep& substep, FeatureState& next) override;
   [[nodiscard]] double elastic_energy(const BodySet& bodies, const State& state,
                                       const FeatureState& own) const override;
 
@@ -84,10 +117,36 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
                         StretchedSpan* kept = nullptr) const;
   [[nodiscard]] SpanGeometry geometry_of(const Substep& substep, int span) const;
 
-  // Spans of which nothing turns: cable/cable_affine.cpp.
+  // What has been set: cable/cable_controls.cpp.
+  /// Makes cables_, links_ and spans_ those of the state at the start of the substep.
+  void follow_state(const Substep& substep, const FeatureState& state);
+  /// Makes cables_ what these controls say, before the course is followed.
+  void follow_controls(const Controls& controls);
+  /// The same of links_, afterwards.
+  void control_links(const Substep& substep, const FeatureState& state);
+  /// Whether one is cut in this state.
+  [[nodiscard]] bool has_cut(const FeatureState& own) const;
+  /// Cables that nothing but a control could cut.
+  void expect_cuts();
+  [[nodiscard]] double compliance_under(const Controls& controls, int cable,
+                                        double rest_length) const;
+  [[nodiscard]] std::string link_fault(int cable, int link) const;
+  // Placements: cable/cable_placement.cpp.
+  [[nodiscard]] std::string placement_fault(const Substep& substep, const CompiledCable& cable,
+                                            const FeatureState& next) const;
+  // Spans of which nothing turns: cable/cable_affine.cpp, and where all are such, cable/cable_affine_motion.cpp.
   void begin_affine_spans(const Substep& substep);
-  void find_affine_spans(const BodySet& bodies);
-  [[nodiscard]] AffineSpan affine_span(const Substep& start, const SpanSetup& setup) const;
+  /// Of spans_, with bodies as at time 0. `ends_stay`: hybrid ends are what they are in links_.
+  [[nodiscard]] std::vector<AffineSpan> affine_spans(const BodySet& bodies, bool ends_stay) const;
+  [[nodiscard]] AffineSpan affine_span(const Substep& start, const SpanSetup& setup,
+                                       bool ends_stay) const;
+  /// Whether the span, and what its cable has stored at the ends, is far from being drawn whole by
+  /// the wheels' free motion.
+  [[nodiscard]] bool feeds(const MovingSpan& span, const FeatureState& state,
+                           std::span<const double> motion, double rest_length) const;
+  void end_slides_and_stalls();
+  [[nodiscard]] MovingSpan moving_span(const AffineBodies& bodies, const State& initial,
+                                       const AffineSpan& affine, int index) const;
   // Cable that passes between spans: cable/cable_runs.cpp.
   using Run = cable_parts::Run;
   [[nodiscard]] int next_span(const CompiledCable& cable, int span) const;
@@ -315,13 +374,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
                                          double stretch, double rest_length, double h) const;
   [[nodiscard]] double compliance_of(const CompiledCable& cable, double rest_length) const;
   // Reports: cable/cable_report.cpp.
-  /// A state as it is reported: the geometry that belongs to it, and where its spans are.
-  struct CableView {
-    const Substep& now;
-    const FeatureState& own;
-    const Geometry& current;
-    const std::vector<SpanGeometry>& ends;
-  };
+  struct CableView;
   /// The link `index` with the spans before and after it; -1: none.
   [[nodiscard]] LinkReport link_report(const CableView& view, int index, int incoming,
                                        int outgoing) const;
@@ -341,11 +394,17 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   bool has_layers_ = false;                  ///< at least one link is a drum with layers
   bool course_changes_ = false;              ///< spans depend on the state
   bool driven_ = false;                      ///< a cable has driven links
+  std::vector<CableControl> defined_;        ///< per cable, as compiled
+  bool controlled_ = false;                  ///< cables_ are not as compiled
+  bool controls_links_ = false;              ///< nor links_
   std::vector<std::int64_t> connected_for_;  ///< integers of the state that spans_ stand for
   std::vector<double> planes_;               ///< its planes of wraps
   std::vector<int> strain_places_;  ///< per link its place among those with stored strain, or -1
   FeatureState initial_;
-  std::vector<AffineSpan> affine_;  ///< per span, of spans_; empty: not known yet
+  std::vector<AffineSpan> affine_;        ///< per span, of spans_; empty: not known yet
+  std::vector<MovingSpan> moving_spans_;  ///< per span, where all cables are affine
+  std::vector<int> bounded_links_;        ///< where stored cable can come to an end
+  const BodySet* affine_bodies_ = nullptr;
   // Scratch of a substep, filled by begin().
   std::vector<char> is_affine_;  ///< per span, in this substep
   std::uint32_t edition_ = 0;    ///< of the rows of affine spans
@@ -355,9 +414,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<double> strains_;      ///< per span, of a material, at the start
   std::vector<double> end_strains_;  ///< and at the end where it shares that of a run; < 0: its own
   std::vector<double> multipliers_;
-  std::vector<char> was_taut_;  ///< per span, in the last substep
-  std::vector<std::array<double, 2>>
-      fed_;                ///< per span at its first and second link, in this substep [m]
+  std::vector<char> was_taut_;              ///< per span, in the last substep
+  std::vector<std::array<double, 2>> fed_;  ///< per span, of its ends, in this substep [m]
   std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
   std::vector<int> pending_slip_;
   std::vector<char> held_;  ///< per link: whether it passes nothing although it has no friction
@@ -378,9 +436,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<std::array<DriveShare, 2>> feed_shares_;  ///< per span, of its ends
   std::vector<double> feed_rates_;                      ///< per span that is fed [m/s]
   std::vector<char> stalled_;                           ///< per link, in this substep
-  std::vector<int>
-      locked_;  ///< per link: which way its drive has stalled (see the integers of the state)
-  std::vector<char> slid_;  ///< per link, in this substep
+  std::vector<int> locked_;  ///< per link: which way its drive has stalled, as in the state
+  std::vector<char> slid_;   ///< per link, in this substep
   // Scratch of solve_run().
   std::vector<Row> run_rows_;
   std::vector<SpanGeometry> run_spans_;
@@ -405,13 +462,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   bool slides_ = false;            ///< whether it does over any link, or did in the last substep
   std::vector<Fallback> crowded_;  ///< per cable: wraps that found no place
   std::vector<CableEvent> events_;
-  /// These as they were; of the events, which only become more, their number.
-  struct Notes {
-    std::vector<Fallback> fallbacks, crowded;
-    std::vector<Stall> stalls, slides_at;
-    bool slides = false;
-    std::size_t events = 0;
-  };
+  using Notes = cable_parts::Notes;
+  std::uint64_t notes_edition_ = 1;    ///< changes with them, but for the events
   std::array<Notes, 2> marked_notes_;  ///< per NoteMark
   std::vector<WindingWarning> winding_warnings_;
 };

@@ -30,6 +30,7 @@ struct CompiledCable {
   double breaking_tension = std::numeric_limits<double>::infinity();  ///< [N]
   double cut_time = std::numeric_limits<double>::infinity();          ///< [s]
   double wrap_friction = 0.0;             ///< capstan coefficient on wrappable bodies
+  double added_length = 0.0;              ///< that placements have put in [m]
   std::vector<WrapCandidate> candidates;  ///< bodies it can come to touch
   int first_plane = 0;                    ///< of its places for wraps within those of all cables
   bool course_changes = false;            ///< it leaves or touches bodies, or can be cut
@@ -53,7 +54,10 @@ struct CompiledCable {
   [[nodiscard]] int last_listed_link() const { return first_link + listed_links - 1; }
   /// The multiple of the quantum nearest to `length` [m].
   [[nodiscard]] double quantised(double length) const {
-    const double multiple = length * (1.0 / quantum);  // exact, as is its inverse
+    return quantised(length, quantum, 1.0 / quantum);  // exact, as is its inverse
+  }
+  [[nodiscard]] static double quantised(double length, double quantum, double inverse_quantum) {
+    const double multiple = length * inverse_quantum;
     // Numbers of this size have no fractions: adding one rounds.
     constexpr double whole = 6755399441055744.0;  // 1.5 x 2^52
     if (std::abs(multiple) < 0.25 * whole) return ((multiple + whole) - whole) * quantum;

@@ -57,8 +57,10 @@ struct LinkGeometry {
   Vector3 rim_center = Vector3::Zero();
   Vector3 rim_normal = Vector3::UnitZ();
   double layer_pitch = 0.0;  ///< growth of the radius with every turn wound on [m]
-  double feed_speed = 0.0;   ///< of an attachment: cable that enters the scene there [m/s]
-  int extra_turns = 0;       ///< whole turns beyond the arc between the tangents
+  bool feeds = false;        ///< an attachment out of which cable comes, if at any speed but 0
+  double feed_speed = 0.0;  ///< cable that enters the scene there [m/s]: the mean of a substep, ...
+  double feed_end_speed = 0.0;  ///< ... and at its end
+  int extra_turns = 0;          ///< whole turns beyond the arc between the tangents
 
   /// Makes the link hybrid; its centre and normal are in the own frame of `body`.
   void hold_end() {

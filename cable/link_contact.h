@@ -33,7 +33,15 @@ namespace sheave {
   }
   const MovingBody& body = substep.moving[at(link.body)];
   if (!body.translates && !body.rotates && !body.prescribed) return;
-  row.add(link.body, direction, cross(point - body.position, direction));
+  const Vector3 arm = point - body.position;
+  row.add(link.body, direction, cross(arm, direction), dot(arm, direction));
+}
+
+/// Tells the row how the span's direction turns with its ends.
+[[gnu::always_inline]] inline void tell_turning(const SpanGeometry& span, Row& row) {
+  if (!span.has_tangent || !(span.length > 0.0)) return;
+  row.curved = true;
+  row.turning = 1.0 / span.length;
 }
 
 /// Unit vector from the centre of `circle` to `point` on it.

@@ -20,14 +20,19 @@ Result<Simulation> Simulation::create(const Model& model, const std::vector<Cabl
   Result<World> world = World::create(model, bodies, std::move(features));
   if (!world) errors.insert(errors.end(), world.errors().begin(), world.errors().end());
   if (!errors.empty()) return errors;
-  return Simulation{std::move(*world), system,
-                    std::make_shared<const std::vector<CableDef>>(cables)};
+  return Simulation(std::move(*world), system,
+                    std::make_shared<const std::vector<CableDef>>(cables));
 }
 
 Errors Simulation::check(const Model& model, const std::vector<CableDef>& cables) {
   if (cables.empty()) return World::check(model);
   const Result<Simulation> simulation = create(model, cables);
   return simulation ? Errors{} : simulation.errors();
+}
+
+StepReport Simulation::step(const StopRequest& stop) {
+  if (supervisor == nullptr) return world.step(stop);
+  return world.step(stop, [this] { supervisor->supervise(*this); });
 }
 
 std::vector<CableReport> Simulation::cable_reports() const {

@@ -8,6 +8,8 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "cable/cable_system.h"
@@ -16,13 +18,41 @@
 
 namespace sheave {
 
+struct Simulation;
+
+/// Sets controls in the course of a simulation: controllers and triggers. It has no state of its own: what it remembers is
+/// State::memory.
+class Supervisor {
+ public:
+  Supervisor() = default;
+  virtual ~Supervisor() = default;
+  Supervisor(const Supervisor&) = delete;
+  Supervisor& operator=(const Supervisor&) = delete;
+
+  /// State::memory at time 0.
+  [[nodiscard]] virtual std::vector<double> initial_memory() const = 0;
+  /// Called before each substep.
+  virtual void supervise(Simulation& simulation) const = 0;
+  /// Whether the run shall end with this state.
+  [[nodiscard]] virtual bool has_stopped(const State& state) const = 0;
+};
+
 /// A world and, if it has any, its cables.
 struct Simulation {
+  Simulation(World made, const CableSystem* system,
+             std::shared_ptr<const std::vector<CableDef>> definitions)
+      : world(std::move(made)), cables(system), cable_definitions(std::move(definitions)) {}
+
   World world;
   /// Owned by the world; null if there are no cables.
   const CableSystem* cables = nullptr;
   /// What the cables were made of.
   std::shared_ptr<const std::vector<CableDef>> cable_definitions;
+  /// Acts in step(); null if there is none. World::memory() must be its own.
+  std::shared_ptr<const Supervisor> supervisor = nullptr;
+
+  /// World::step(), with the supervisor if there is one.
+  StepReport step(const StopRequest& stop = {});
 
   /// All faults of bodies, joints and cables are reported together.
   static Result<Simulation> create(const Model& model, const std::vector<CableDef>& cables);
@@ -35,6 +65,33 @@ struct Simulation {
   /// What a check of the last substep finds (cable/certificate.h). Nothing at time 0 and after World::restore(), until the
   /// next step.
   [[nodiscard]] std::optional<Certificate> certificate() const;
+
+  // Controls of cables, by their indices in the list of definitions, and of listed links by theirs in their cable. As those of
+  // World they hold until they are set anew or cleared, are part of the state, and where one cannot be met nothing changes.
+
+  /// [m/N], > 0, of each span; of a cable that has a compliance.
+  [[nodiscard]] Errors set_compliance(int cable, double compliance);
+  [[nodiscard]] Errors clear_compliance(int cable);
+  /// Mean tension over a substep at which the cable breaks [N], > 0.
+  [[nodiscard]] Errors set_breaking_tension(int cable, double tension);
+  [[nodiscard]] Errors clear_breaking_tension(int cable);
+  /// Capstan coefficient on wrappable bodies, > 0; of a cable that has one above 0.
+  [[nodiscard]] Errors set_wrap_friction(int cable, double friction);
+  [[nodiscard]] Errors clear_wrap_friction(int cable);
+  /// Capstan coefficient, > 0; of a link that has one above 0.
+  [[nodiscard]] Errors set_friction(int cable, int link, double friction);
+  [[nodiscard]] Errors clear_friction(int cable, int link);
+  /// [m/s]; of an attachment with a feed speed, which may be 0. It gets there as a drive to a speed does.
+  [[nodiscard]] Errors set_feed_speed(int cable, int link, const DriveTarget& target);
+  [[nodiscard]] Errors clear_feed_speed(int cable, int link);
+
+ private:
+  [[nodiscard]] std::string cable_fault(int cable) const;
+  [[nodiscard]] Errors set_cable(int cable, const char* key, const std::string& fault,
+                                 double CableControl::*member, double value);
+  [[nodiscard]] Errors set_link(int cable, int link, const char* key, const std::string& fault,
+                                const LinkControl& control);
+  [[nodiscard]] LinkControl link_control(int cable, int link) const;
 };
 
 }  // namespace sheave

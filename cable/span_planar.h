@@ -79,6 +79,7 @@ inline SpanGeometry evaluate_planar_span(const Substep& substep, const SpanSetup
   add_planar_force(substep, setup, first, setup.first_radius, span.start, span.direction, row);
   add_planar_force(substep, setup, second, -setup.second_radius, span.end, -span.direction, row);
   if (!span.has_tangent) add_turning_terms(substep, setup, first, second, span, row);
+  tell_turning(span, row);
   return span;
 }
 

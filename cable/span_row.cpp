@@ -270,10 +270,12 @@ SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
   if (setup.kind == SpanKind::spatial) {
     add_skew_span(substep, first, second, circle_of(substep, first, span.first_corner),
                   circle_of(substep, second, span.second_corner), span, row);
+    tell_turning(span, row);
     return span;
   }
   add_link_force(substep, row, first, span.start, span.direction);
   add_link_force(substep, row, second, span.end, -span.direction);
+  tell_turning(span, row);
   return span;
 }
 
@@ -286,6 +288,7 @@ SpanGeometry evaluate_span_frozen(const Substep& substep, const LinkGeometry& fi
   if (on_one_body(first, second)) return span;
   add_link_force(substep, row, first, span.start, span.direction);
   add_link_force(substep, row, second, span.end, -span.direction);
+  tell_turning(span, row);
   return span;
 }
 

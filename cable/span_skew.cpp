@@ -51,7 +51,8 @@ void add_forces(const Substep& substep, const LinkGeometry& link, const Vector3&
   const MovingBody& body = substep.moving[at(link.body)];
   if (!body.translates && !body.rotates && !body.prescribed) return;
   row.add(link.body, at_near + at_far,
-          cross(near - body.position, at_near) + cross(far - body.position, at_far));
+          cross(near - body.position, at_near) + cross(far - body.position, at_far),
+          dot(near - body.position, at_near) + dot(far - body.position, at_far));
 }
 
 double gain_of(const Substep& substep, const LinkGeometry& link, const LinkFrame& frame,
@@ -130,6 +131,7 @@ SpanGeometry evaluate_skew_span(const Substep& substep, const LinkGeometry& firs
   row.value = reference.rest_length + transport.from_first + transport.from_second - span.length;
   if (!on_one_body(first, second)) {
     add_skew_span(substep, first, second, first_frame.circle, second_frame.circle, span, row);
+    tell_turning(span, row);
   }
   return span;
 }

@@ -18,6 +18,10 @@ endforeach()
 
 if(installed)
   install(
+    DIRECTORY "${PROJECT_SOURCE_DIR}/sheave"
+    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/sheave"
+    COMPONENT development)
+  install(
     TARGETS ${installed}
     EXPORT sheave-targets
     ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT development)

@@ -7,9 +7,11 @@ std::span<const Field> BodyDef::field_table() {
       field<&BodyDef::name>("name", "", {}, required, "unique name, not \"world\""),
       choice_field<&BodyDef::mobility>("mobility", mobility_names, optional,
                                        "which motions the body has"),
-      field<&BodyDef::axis>("axis", "", any_number(), optional,
-                            "planar: normal (default z); slider: direction (required); rotor: axle "
-                            "(default the body's own z axis)"),
+      field<&BodyDef::axis>(
+          "axis", "", any_number(), optional,
+          "planar: normal (default z); slider: direction (required); rotor: axle "
+          "(default the body's own z axis); kinematic: normal of the plane that it "
+          "keeps, if it does"),
       field<&BodyDef::mount>("mount", "", {}, optional, "rotor: the body that carries the axle"),
       field<&BodyDef::position>("position", "m", any_number(), optional,
                                 "origin of the body frame"),
@@ -30,13 +32,15 @@ std::span<const Field> BodyDef::field_table() {
                                     "the shapes; 0: a massless wheel"),
       choice_field<&BodyDef::drive>(
           "drive", drive_names, optional,
-          "rotor on a fixed axle: what drive_values prescribe about the axis"),
+          "rotor: what drive_values prescribe about the axis; on a mount against the carrier, "
+          "which bears the opposite torque"),
       field<&BodyDef::drive_times>(
           "drive_times", "s", any_number(), optional,
-          "increasing times of the drive's values, linear in between; none "
-          "for one constant value"),
+          "increasing times of the drive's values; none for one constant value"),
       field<&BodyDef::drive_values>("drive_values", "rad/s, rad or N m", any_number(), optional,
                                     "values of the drive, one per time"),
+      choice_field<&BodyDef::drive_interpolation>("drive_interpolation", interpolation_names,
+                                                  optional, interpolation_meaning),
       field<&BodyDef::wrappable>("wrappable", "", {}, optional,
                                  "whether cables that come against the body are wrapped round it"),
       field<&BodyDef::force>("force", "N", any_number(), optional,

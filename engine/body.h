@@ -8,6 +8,7 @@
 
 #include "engine/body_id.h"
 #include "engine/shape.h"
+#include "engine/time_table.h"
 
 namespace sheave {
 
@@ -37,7 +38,8 @@ struct BodyDef {
   std::string name;  ///< unique in the model, not "world"
   Mobility mobility = Mobility::free;
   /// planar: normal of the plane (default z). slider: direction (required). rotor: axle (default
-  /// the body's own z axis). Any length but 0; not allowed for other mobilities.
+  /// the body's own z axis). kinematic: normal of the plane in which it stays; default: one with a motion of its own keeps to
+  /// that, one without goes wherever it is told to (World::set_motion()). Any length but 0; not for other mobilities.
   std::optional<Vector3> axis;
   /// rotor only: the body that carries the axle. The rotor's mass and its inertia across the axle
   /// are then part of that body, which may be free, planar, slider, static or kinematic.
@@ -54,11 +56,13 @@ struct BodyDef {
   /// rotor only: moment of inertia about the axle [kg m2], >= 0; replaces that of `inertia` and the shapes. 0 is a
   /// massless wheel, which turns as its cable moves it and passes the tension on unchanged.
   std::optional<double> spin_inertia;
-  /// rotor on a fixed axle only: speed, angle or torque about the axis as a function of time, linear between the given
-  /// points and constant outside; a single value without times is constant.
+  /// rotor only: speed, angle or torque about the axis as a function of time through the given points, constant outside; a
+  /// single value without times is constant. Of a mounted rotor all of them are against its carrier, which bears the
+  /// opposite torque, and the angle is that since time 0, with what the table has there as 0.
   DriveKind drive = DriveKind::none;
   std::vector<double> drive_times;   ///< [s], increasing; as many as values, or none
   std::vector<double> drive_values;  ///< [rad/s, rad or N m]
+  Interpolation drive_interpolation = Interpolation::linear;  ///< between the points
   Vector3 force = Vector3::Zero();   ///< constant, at the centre of mass [N]
   Vector3 torque = Vector3::Zero();  ///< constant [N m]
   /// Drag at the centre of mass, -damping times its velocity [N s/m], >= 0; free, planar and slider bodies.
@@ -76,6 +80,9 @@ struct BodyDef {
   bool wrappable = false;
   std::vector<PlacedShape> shapes;  ///< may be empty if mass and inertia are given
 
+  [[nodiscard]] TimeTable drive_table() const {
+    return TimeTable::of(drive_times, drive_values, drive_interpolation);
+  }
   /// Every member but the shapes.
   static std::span<const Field> field_table();
 };

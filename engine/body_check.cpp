@@ -78,10 +78,11 @@ class BodyCheck {
   }
 
   void check_axis() {
-    const bool uses_axis = is(Mobility::planar) || is(Mobility::slider) || is(Mobility::rotor);
+    const bool uses_axis = is(Mobility::planar) || is(Mobility::slider) || is(Mobility::rotor) ||
+                           is(Mobility::kinematic);
     if (body_.axis && !uses_axis) {
-      fail("/axis",
-           "mobility " + mobility_name() + " has no axis; only planar, slider and rotor have one");
+      fail("/axis", "mobility " + mobility_name() +
+                        " has no axis; only planar, slider, rotor and kinematic have one");
     }
     if (!body_.axis && is(Mobility::slider)) {
       fail("", "mobility slider needs \"axis\", the direction in which the body slides");
@@ -158,12 +159,25 @@ class BodyCheck {
                        (is(Mobility::slider) && across_v) || (is(Mobility::planar) && along_v);
     const bool bad_w = ((is(Mobility::fixed) || is(Mobility::slider)) && w.norm() > 0.0) ||
                        ((is(Mobility::planar) || is(Mobility::rotor)) && across_w);
+    if (is(Mobility::kinematic) && body_.axis) check_plane(axis);
     if (bad_v) fail_motion("/velocity", "velocity", v, allowed_velocities(axis));
     if (bad_w) fail_motion("/angular_velocity", "angular velocity", w, allowed_spins(axis));
     if (!is(Mobility::kinematic) &&
         (body_.oscillation.norm() > 0.0 || body_.oscillation_frequency > 0.0)) {
       fail("/oscillation",
            "only a kinematic body follows an oscillation; mobility is " + mobility_name());
+    }
+  }
+
+  /// Of a kinematic body with an axis.
+  void check_plane(const Vector3& axis) {
+    const auto leaves = [&](const Vector3& v) { return std::abs(v.dot(axis)) > 1e-9 * v.norm(); };
+    const std::string plane = "it stays in the plane across its axis " + vector_text(axis);
+    if (leaves(body_.velocity)) fail("/velocity", plane + ", so its velocity must, too");
+    if (leaves(body_.oscillation)) fail("/oscillation", plane + ", so its oscillation must, too");
+    const Vector3& w = body_.angular_velocity;
+    if (w.cross(axis).norm() > 1e-9 * w.norm()) {
+      fail("/angular_velocity", "it turns about its axis " + vector_text(axis) + " alone");
     }
   }
 
@@ -201,14 +215,16 @@ class BodyCheck {
 
   void check_drive() {
     if (body_.drive == DriveKind::none) {
-      if (!body_.drive_values.empty() || !body_.drive_times.empty()) {
-        fail("/drive", "drive_times and drive_values need a drive: speed, angle or torque");
+      if (!body_.drive_values.empty() || !body_.drive_times.empty() ||
+          body_.drive_interpolation != Interpolation::linear) {
+        fail("/drive",
+             "drive_times, drive_values and drive_interpolation need a drive: speed, angle or "
+             "torque");
       }
       return;
     }
-    if (!is(Mobility::rotor) || body_.mount) {
-      fail("/drive", "only a rotor on a fixed axle can be driven; mobility is " + mobility_name() +
-                         (body_.mount ? ", on a mount" : ""));
+    if (!is(Mobility::rotor)) {
+      fail("/drive", "only a rotor can be driven; mobility is " + mobility_name());
     }
     const std::size_t values = body_.drive_values.size();
     const std::size_t times = body_.drive_times.size();
@@ -222,8 +238,11 @@ class BodyCheck {
       fail("/drive_times/" + std::to_string(i), "times must increase");
       break;
     }
-    if (body_.drive == DriveKind::torque && body_.spin_inertia == 0.0) {
+    if (body_.spin_inertia != 0.0) return;
+    if (body_.drive == DriveKind::torque) {
       fail("/drive", "a massless wheel cannot take up a torque; its spin inertia is 0");
+    } else if (body_.mount) {
+      fail("/drive", "a massless wheel on a mount cannot be driven; give it a spin inertia");
     }
   }
 

@@ -45,7 +45,7 @@ BodyProperties compile_body(const BodyDef& body) {
   if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) return result;
   const MassProperties own = defined_mass_properties(body);
   result.drive = body.drive;
-  result.drive_table = {body.drive_times, body.drive_values};
+  result.drive_table = body.drive_table();
   result.mass = own.mass;
   result.inertia = own.inertia;
   result.axis = world_axis(body);
@@ -67,6 +67,11 @@ void lump_mounted_rotor(std::vector<BodyProperties>& bodies, const std::vector<B
   const Vector3 spin_axis = def.orientation.normalized().conjugate() * rotor.axis;
   const double spin_inertia = spin_axis.dot(rotor.inertia * spin_axis);
   rotor.mount = mount;
+  std::swap(rotor.drive, rotor.mounted_drive);
+  if (rotor.mounted_drive == DriveKind::angle) {
+    const double start = rotor.drive_table.at(0.0);
+    for (double& value : rotor.drive_table.values) value -= start;
+  }
   rotor.axis_inertia = def.spin_inertia.value_or(spin_inertia);
   rotor.axis = carrier_inverse * rotor.axis;
   rotor.start_orientation = carrier_inverse * def.orientation.normalized();
@@ -109,6 +114,11 @@ void finish_body(BodyProperties& body, const BodyDef& def) {
   if (body.mobility == Mobility::planar || (body.mobility == Mobility::rotor && body.mount < 0)) {
     body.axis_inertia = def.spin_inertia.value_or(own_axis.dot(body.inertia * own_axis));
   }
+}
+
+/// Whether the definition of a kinematic body gives it a motion.
+bool moves_by_itself(const BodyDef& body) {
+  return !is_zero(body.velocity) || !is_zero(body.angular_velocity) || !is_zero(body.oscillation);
 }
 
 /// Diagonal of the box round all bodies.
@@ -225,6 +235,9 @@ bool BodySet::stays_in_plane(int index, const Vector3& normal) const {
       return parallel(body.axis);
     case Mobility::kinematic: {
       const BodyDef& def = definition(index);
+      if (def.axis) return parallel(def.axis->normalized());
+      // One that is to be moved can go anywhere.
+      if (!moves_by_itself(def)) return false;
       return def.velocity.dot(normal) == 0.0 && def.oscillation.dot(normal) == 0.0 &&
              def.angular_velocity.cross(normal).norm() == 0.0;
     }

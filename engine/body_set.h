@@ -36,16 +36,15 @@ struct BodyProperties {
   double axis_inertia = 0.0;  ///< about the axis [kg m2]; planar bodies and rotors, 0: massless
   Vector3 mount_position = Vector3::Zero();  ///< centre of a mounted rotor, carrier's own frame [m]
   Quaternion start_orientation = Quaternion::Identity();  ///< at angle 0; relative to the carrier
-  DriveKind drive = DriveKind::none;
+  DriveKind drive = DriveKind::none;                      ///< of rotors on fixed axles
+  /// Of mounted rotors, against the carrier; one to an angle has 0 at time 0. Rows drive them (engine/dynamics/mounted_drive.h).
+  DriveKind mounted_drive = DriveKind::none;
   TimeTable drive_table;
+  /// Either of them.
+  [[nodiscard]] DriveKind driven_by() const { return mount >= 0 ? mounted_drive : drive; }
   /// Its rotation is prescribed, so constraints cannot turn it.
   [[nodiscard]] bool prescribed() const {
     return drive == DriveKind::speed || drive == DriveKind::angle;
-  }
-  /// By how much its drive turns it from one time to another [rad]; prescribed() only.
-  [[nodiscard]] double driven_turn(double from, double to) const {
-    return drive == DriveKind::speed ? drive_table.integral(from, to)
-                                     : drive_table.at(to) - drive_table.at(from);
   }
   /// A wheel that only its cable turns, without any resistance. (A driven one resists, whatever its inertia.)
   [[nodiscard]] bool massless() const {

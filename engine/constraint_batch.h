@@ -10,6 +10,9 @@
 
 namespace sheave {
 
+class AffineBodies;
+class AffineRows;
+struct AffineSubstep;
 class BodySet;
 struct Substep;
 
@@ -31,6 +34,11 @@ class ConstraintBatch {
   [[nodiscard]] virtual FeatureState initial_state() const = 0;
   /// Whether `state`, of the right sizes, can be one of this feature: what begin() relies on.
   [[nodiscard]] virtual bool accepts(const FeatureState& /*state*/) const { return true; }
+  /// Whether `controls`, of a state that accepts() has passed, can be those of this feature; Controls::cables and links are its
+  /// alone if it takes_cables().
+  [[nodiscard]] virtual bool accepts_controls(const Controls& /*controls*/) const { return true; }
+  /// Whether it is the one whose cables and links controls are for.
+  [[nodiscard]] virtual bool takes_cables() const { return false; }
   /// Whether states always have the sizes of initial_state(); otherwise accepts() checks them.
   [[nodiscard]] virtual bool has_fixed_size() const { return true; }
   /// Number of rows that linearise() appends.
@@ -68,6 +76,29 @@ class ConstraintBatch {
   virtual void mark_notes(NoteMark /*mark*/) {}
   /// Forgets what it has noted since, when the motion that this belongs to is discarded.
   virtual void return_to(NoteMark /*mark*/) {}
+
+  // Machines in which nothing turns a row's gradient: engine/solvers/affine_motion.h.
+
+  /// Appends all its rows if each is affine in what `bodies` count, for good, and has the multiplier of its place among them;
+  /// otherwise none, and false.
+  [[nodiscard]] virtual bool append_affine(const AffineBodies& /*bodies*/, AffineRows& /*rows*/) {
+    return false;
+  }
+  /// Instead of begin() and limit_drives(): the rows' values at the start of a substep, and which of them have a force in `state`. False if in
+  /// this substep they may not be affine.
+  [[nodiscard]] virtual bool begin_affine(const AffineSubstep& /*substep*/,
+                                          const FeatureState& /*state*/,
+                                          std::span<double> /*values*/,
+                                          std::span<char> /*active*/) {
+    return false;
+  }
+  /// Instead of finish(): the state at the end, over that at the start, which `next` holds. False if it has to be found in
+  /// another way; nothing has changed then but `next`.
+  [[nodiscard]] virtual bool finish_affine(const AffineSubstep& /*substep*/,
+                                           FeatureState& /*next*/) {
+    return false;
+  }
+
   /// Elastic energy stored in the feature [J], between substeps.
   [[nodiscard]] virtual double elastic_energy(const BodySet& bodies, const State& state,
                                               const FeatureState& own) const = 0;

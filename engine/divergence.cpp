@@ -40,6 +40,11 @@ const char* fault_of(const BodyState& body, double size, double h) {
 
 }  // namespace
 
+Runaway runaway_limits(double size, double h) {
+  const double farthest = runaway_sizes * size;
+  return {farthest, farthest / h, runaway_sizes / h};
+}
+
 std::optional<Divergence> find_divergence(
     const Substep& substep, std::span<const std::unique_ptr<ConstraintBatch>> features) {
   const BodySet& bodies = substep.bodies;

@@ -20,6 +20,15 @@ struct Divergence {
   std::string feature{};  ///< name of the first bad feature, e.g. "cables"; empty if it is a body
 };
 
+/// Beyond these a body's state at the end of a substep means nothing any more.
+struct Runaway {
+  double distance = 0.0;  ///< from the world's origin [m]
+  double speed = 0.0;     ///< [m/s]
+  double spin = 0.0;      ///< [rad/s]
+};
+/// Of a scene of this size [m], in a substep of `h` [s].
+[[nodiscard]] Runaway runaway_limits(double size, double h);
+
 /// What is wrong with the state at the end of a complete substep, if anything: its first body that is not finite or has
 /// run away, or else its first feature.
 [[nodiscard]] std::optional<Divergence> find_divergence(

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "engine/constraint_batch.h"
+#include "engine/wrench.h"
 
 namespace sheave {
 
 class World;
+struct JointEffect;
 
 /// A free coordinate of a joint.
 struct JointCoordinateReport {
@@ -19,7 +21,9 @@ struct JointCoordinateReport {
   bool angle = false;     ///< its units have rad for m
   double value =
       0.0;  ///< since time 0 [m], angles with all turns; the swing of a ball joint: against the other axis
-  double rate = 0.0;         ///< [m/s]
+  double rate = 0.0;  ///< [m/s]
+  double friction_force =
+      0.0;                   ///< of its dry friction in the last substep, along the coordinate [N]
   double drive_force = 0.0;  ///< of its drive in the last substep, along the coordinate [N]
   double drive_target =
       0.0;  ///< what that asks for now: a position [m], a speed [m/s], a force [N]
@@ -51,6 +55,17 @@ class JointFeature : public ConstraintBatch {
   /// What its joint at `index` did, for a substep that begins `now` and with the feature's state `own`.
   [[nodiscard]] virtual JointReport report(int index, const Substep& now,
                                            const FeatureState& own) const = 0;
+  /// The force and the torque of that report alone, without allocation; of `now` it needs the poses of the joint's bodies.
+  [[nodiscard]] virtual Wrench wrench_of(int index, const Substep& now,
+                                         const FeatureState& own) const = 0;
+  /// Whether it has broken.
+  [[nodiscard]] virtual bool is_broken(int index, const FeatureState& own) const = 0;
+  /// Makes it one that broke at `time`, if it has not broken before.
+  virtual void release(int index, double time, FeatureState& own) const = 0;
+  /// What drives a coordinate of its joint at `index`; null if nothing does.
+  [[nodiscard]] virtual const JointEffect* drive(int index, int coordinate) const = 0;
+  /// Tells where the coordinates of its joints begin among those of all joints of the model, for Controls::joint_drives.
+  virtual void number_coordinates(std::span<const int> first) = 0;
 };
 
 /// Reads single joints of one state of a world, which must outlive it and not step meanwhile.

@@ -65,6 +65,8 @@ struct RowTerm {
   int body = 0;                       ///< index into the bodies of the substep
   Vector3 linear = Vector3::Zero();   ///< dC / d position
   Vector3 angular = Vector3::Zero();  ///< dC / d rotation vector, world frame
+  /// Of a force n at the arm r from the body's centre: r . n, which the gradient does not tell [m]. Only of curved rows.
+  double reach = 0.0;
 };
 
 /// One scalar constraint, linearised at the current positions.
@@ -95,6 +97,11 @@ struct Row {
   /// Whether it shares one unknown with the row before it, which may do the same: their values are added, and the
   /// multiplier of each is its `weight` times the unknown. Bounds are those of the first.
   bool tied = false;
+  /// Whether its gradient turns with its bodies as engine/solvers/curvature.h says. If it does so and does not tell, rounds
+  /// are more.
+  bool curved = false;
+  /// Of a curved row between two points: 1 / their distance, by which its direction turns [1/m]; 0 if it never does.
+  double turning = 0.0;
   double weight = 1.0;        ///< > 0
   double start_weight = 1.0;  ///< the same at the start of the substep; `rattle` needs it
   /// Null, or what this is a copy of (engine/row_list.h): the same bodies, gradient and weights as any other copy of the same
@@ -107,7 +114,8 @@ struct Row {
     index = pressed_by = 0;
     source = nullptr;
     friction = 0.0;
-    active = tied = false;
+    active = tied = curved = false;
+    turning = 0.0;
     weight = start_weight = 1.0;
     softness = 0.0;
     rebound_speed = unbounded;
@@ -118,16 +126,18 @@ struct Row {
   }
   /// Adds to the gradient of `body`. Contributions to the same body are summed, because w needs
   /// the body's whole gradient (a cable that touches one body twice).
-  [[gnu::always_inline]] void add(int body, const Vector3& linear, const Vector3& angular) {
+  [[gnu::always_inline]] void add(int body, const Vector3& linear, const Vector3& angular,
+                                  double reach = 0.0) {
     for (int i = 0; i < term_count; ++i) {
       RowTerm& term = terms[static_cast<std::size_t>(i)];
       if (term.body != body) continue;
       term.linear += linear;
       term.angular += angular;
+      term.reach += reach;
       return;
     }
     assert(term_count < max_terms);
-    terms[static_cast<std::size_t>(term_count++)] = {body, linear, angular};
+    terms[static_cast<std::size_t>(term_count++)] = {body, linear, angular, reach};
   }
   [[nodiscard]] std::span<const RowTerm> active_terms() const {
     return {terms.data(), static_cast<std::size_t>(term_count)};

@@ -2,13 +2,74 @@
 
 #include <bit>
 #include <cstring>
+#include <utility>
+
+#include "engine/control_members.h"
 
 namespace sheave {
 namespace {
 
-constexpr std::uint64_t format_tag = 0x31'45'54'41'54'53'48'53;  // "SHSTATE1"
+constexpr std::uint64_t format_tag = 0x32'45'54'41'54'53'48'53;            // "SHSTATE2"
+constexpr std::uint64_t tag_without_controls = 0x31'45'54'41'54'53'48'53;  // "SHSTATE1"
 
-/// Calls visit(word) for every number of a state in a fixed order; shared by hash and to_bytes, so
+/// Calls visit(word) for every word of a member of a control.
+template <class Visit>
+struct MemberWords {
+  const Visit& visit;
+  void operator()(bool b) const { visit(static_cast<std::uint64_t>(b)); }
+  void operator()(double x) const { visit(std::bit_cast<std::uint64_t>(x)); }
+  void operator()(ForceFrame frame) const { visit(static_cast<std::uint64_t>(frame)); }
+  void operator()(const Vector3& v) const {
+    for (const double x : v) (*this)(x);
+  }
+  void operator()(const Quaternion& q) const {
+    for (const double x : q.coeffs()) (*this)(x);
+  }
+};
+
+template <class Control, class Visit>
+void for_each_word_of(const Control& control, const Visit& visit) {
+  ControlMembers<Control>::visit(control, MemberWords<Visit>{visit});
+}
+
+/// What is set: tables that have had entries, which are cleared, are as those that have not.
+template <class Visit>
+void for_each_word_set(const Controls& controls, const Visit& visit) {
+  if (controls.empty()) return;
+  const MemberWords<Visit> words{visit};
+  words(controls.has_gravity);
+  if (controls.has_gravity) words(controls.gravity);
+  visit_tables(controls, [&]<class Control>(const ControlTable<Control>& table) {
+    std::uint64_t index = 0;
+    std::uint64_t set = 0;
+    for (const Control& control : table.entries()) {
+      if (control.is_set()) {
+        ++set;
+        visit(index);
+        for_each_word_of(control, visit);
+      }
+      ++index;
+    }
+    visit(set);
+  });
+}
+
+/// The tables with their sizes, for a file.
+template <class Visit>
+void for_each_word(const Controls& controls, const Visit& visit) {
+  const MemberWords<Visit> words{visit};
+  words(controls.has_gravity);
+  if (controls.has_gravity) words(controls.gravity);
+  visit_tables(controls, [&]<class Control>(const ControlTable<Control>& table) {
+    visit(static_cast<std::uint64_t>(table.entries().size()));
+    for (const Control& control : table.entries()) {
+      words(control.is_set());
+      if (control.is_set()) for_each_word_of(control, visit);
+    }
+  });
+}
+
+/// Calls visit(word) for every number of a state but its controls in a fixed order; shared by hash and to_bytes, so
 /// that neither can forget a member.
 template <class Visit>
 void for_each_word(const State& state, const Visit& visit) {
@@ -65,6 +126,29 @@ class Reader {
     for (double& x : v) x = real();
     return v;
   }
+  bool flag() {
+    const std::uint64_t b = word();
+    if (b > 1) failed_ = true;
+    return b == 1;
+  }
+  // Members of controls.
+  void read(bool& b) { b = flag(); }
+  void read(double& x) { x = real(); }
+  void read(ForceFrame& frame) { frame = flag() ? ForceFrame::body : ForceFrame::world; }
+  void read(Vector3& v) { v = vector(); }
+  void read(Quaternion& q) {
+    for (double& x : q.coeffs()) x = real();
+  }
+  template <class Control>
+  void read(ControlTable<Control>& table) {
+    std::vector<Control> entries(count(1));
+    for (Control& entry : entries) {
+      if (!flag()) continue;
+      ControlMembers<Control>::visit(entry, [this](auto& member) { this->read(member); });
+      if (!entry.is_set()) failed_ = true;
+    }
+    table.assign(std::move(entries));
+  }
   [[nodiscard]] bool complete() const { return !failed_ && position_ == bytes_.size(); }
 
  private:
@@ -77,12 +161,15 @@ class Reader {
 
 std::uint64_t hash(const State& state) {
   std::uint64_t result = 0xcbf29ce484222325;
-  for_each_word(state, [&](std::uint64_t word) {
+  const auto add = [&](std::uint64_t word) {
     // FNV-1a multiplies after every byte; a whole word at a time needs the high bits folded back,
     // or they would never reach the low ones.
     result = (result ^ word) * 0x100000001b3;
     result ^= result >> 32;
-  });
+  };
+  for_each_word(state, add);
+  for_each_word_set(state.controls, add);
+  for (const double x : state.memory) add(std::bit_cast<std::uint64_t>(x));
   return result;
 }
 
@@ -95,20 +182,24 @@ std::string to_bytes(const State& state) {
   };
   append(format_tag);
   for_each_word(state, append);
+  for_each_word(state.controls, append);
+  append(static_cast<std::uint64_t>(state.memory.size()));
+  for (const double x : state.memory) append(std::bit_cast<std::uint64_t>(x));
   return bytes;
 }
 
 Result<State> state_from_bytes(const std::string& bytes) {
   Reader reader(bytes);
-  if (reader.word() != format_tag) {
+  const std::uint64_t first = reader.word();
+  if (first != format_tag && first != tag_without_controls) {
     constexpr std::size_t tag_size = 8;
     const std::string tag = bytes.substr(0, tag_size);
     const bool version = tag.starts_with("SHSTATE") && tag.back() > ' ' && tag.back() < 0x7f;
     if (version && tag.size() == tag_size) {
       return Error{"", "a saved state of another version: it is " + tag +
-                           "; this program reads and writes SHSTATE1"};
+                           "; this program reads SHSTATE1 and SHSTATE2"};
     }
-    return Error{"", "not a saved state of this program: the first eight bytes must be SHSTATE1"};
+    return Error{"", "not a saved state of this program: the first eight bytes must be SHSTATE2"};
   }
   State state;
   state.steps = reader.integer();
@@ -127,6 +218,13 @@ Result<State> state_from_bytes(const std::string& bytes) {
     for (double& x : feature.reals) x = reader.real();
     feature.integers.resize(reader.count(1));
     for (std::int64_t& i : feature.integers) i = reader.integer();
+  }
+  if (first == format_tag) {
+    state.controls.has_gravity = reader.flag();
+    if (state.controls.has_gravity) reader.read(state.controls.gravity);
+    visit_tables(state.controls, [&](auto& table) { reader.read(table); });
+    state.memory.resize(reader.count(1));
+    for (double& x : state.memory) x = reader.real();
   }
   if (!reader.complete()) {
     return Error{"", "a saved state must be complete: these " + std::to_string(bytes.size()) +

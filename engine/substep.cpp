@@ -10,6 +10,7 @@
 
 #include <cmath>
 
+#include "engine/body_drive.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -125,6 +126,7 @@ Substep::Substep(const BodySet& body_set, const State& state_at_start, double le
 
 void Substep::restart() {
   time = start.time;
+  gravity = start.controls.has_gravity ? start.controls.gravity : bodies.gravity();
   for (int i = 0; i < bodies.count(); ++i) {
     const BodyState& from = start.bodies[at(i)];
     MovingBody& body = moving[at(i)];
@@ -142,6 +144,12 @@ void Substep::restart() {
     }
     predicted_turn[at(i)].setZero();
   }
+}
+
+double Substep::driven_speed(int body) const {
+  const BodyDrive drive(bodies[body], start.controls, body);
+  const bool half_steps = load_share != 1.0;
+  return drive.speed(start.time, next.time, h, half_steps);
 }
 
 void Substep::update_inertias() {
@@ -181,13 +189,14 @@ void Substep::add_force(Row& row, int body, const Vector3& at_point,
   const int mount = bodies[body].mount;
   if (mount < 0) {
     const Vector3 arm = at_point - moving[at(body)].position;
-    row.add(body, direction, cross(arm, direction));
+    row.add(body, direction, cross(arm, direction), dot(arm, direction));
     return;
   }
   const MovingBody& carrier = moving[at(mount)];
   const Vector3 axis = rotated(carrier.orientation, bodies[body].axis);
   const Vector3 spin = axis * dot(axis, cross(at_point - position(body), direction));
-  row.add(mount, direction, cross(at_point - carrier.position, direction) - spin);
+  const Vector3 arm = at_point - carrier.position;
+  row.add(mount, direction, cross(arm, direction) - spin, dot(arm, direction));
   row.add(body, Vector3::Zero(), spin);
 }
 

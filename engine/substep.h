@@ -38,6 +38,7 @@ struct StepStatistics {
   int contacts = 0;  ///< the most points in one substep, those about to touch among them
   double deepest_overlap = 0.0;           ///< [m]
   std::int64_t integrator_fallbacks = 0;  ///< substeps of `rattle` that were left to `xpbd`
+  double external_work = 0.0;  ///< of the forces and torques that have been set on bodies [J]
   // Of substeps that did not converge (engine/substep_driver.h).
   std::int64_t cut_substeps = 0;   ///< done in smaller parts
   std::int64_t substep_parts = 0;  ///< in how many, all together
@@ -71,6 +72,7 @@ struct Substep {
   const State& start;  ///< state at the start of the substep
   double h;            ///< length of the substep, or of the part of it that is being done [s]
   int iterations;
+  Vector3 gravity;  ///< of the model, or what has been set instead [m/s2]
   double time =
       0.0;  ///< of the positions in `moving`: the start's, from the prediction on the end's [s]
   std::vector<MovingBody> moving;    ///< bodies.count() + 1; the world comes last and never moves
@@ -99,6 +101,9 @@ struct Substep {
   [[nodiscard]] double damper_compliance(double damping) const {
     return (load_share == 1.0 ? h : 0.5 * h) / damping;
   }
+  /// The speed at the end of the substep [rad/s] that its drive prescribes to a body, if nothing is short; prescribed() bodies
+  /// only. Of a drive to an angle `xpbd` has the mean over the substep, as of all velocities.
+  [[nodiscard]] double driven_speed(int body) const;
   /// Takes the inverse masses and inertias at the current orientations, with the drag during load_share x h.
   void update_inertias();
 

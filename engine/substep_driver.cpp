@@ -3,15 +3,41 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/integrators/loads.h"
+
 namespace sheave {
 
-SubstepDriver::SubstepDriver(const StepSettings& settings,
+SubstepDriver::SubstepDriver(const Model& model,
                              std::span<const std::unique_ptr<ConstraintBatch>> features,
                              std::span<const Stage> stages, Substep& substep, State& state)
-    : settings_(settings), features_(features), stages_(stages), substep_(substep), state_(state) {}
+    : settings_(model.step),
+      features_(features),
+      stages_(stages),
+      substep_(substep),
+      state_(state),
+      affine_(AffineMotion::create(model, substep.bodies, features)) {}
+
+void SubstepDriver::forget() {
+  has_stepped_ = false;
+  controls_changed_ = true;
+  if (affine_) affine_->forget();
+}
+
+int SubstepDriver::run_affine(int index, int end, State* start) {
+  const int done = affine_ ? affine_->advance(index, end, state_, before_, substep_, start) : 0;
+  if (done == 0 && start != nullptr) *start = state_;
+  if (done == 0) return 0;
+  if (controls_changed_) before_.controls = state_.controls;
+  controls_changed_ = false;
+  has_stepped_ = next_is_old_ = true;
+  return done;
+}
 
 std::optional<Divergence> SubstepDriver::run(int index) {
   divergence_.reset();
+  if (affine_) affine_->forget();
+  if (next_is_old_) substep_.next = state_;
+  next_is_old_ = false;
   rounds_before_ = substep_.statistics.rounds;
   allow_work(most_factorisations);
   const Part whole{index, settings_.substeps};
@@ -133,11 +159,17 @@ bool SubstepDriver::advance_half(Part part) {
 }
 
 void SubstepDriver::keep() {
+  if (state_.controls.forces.any()) {
+    substep_.statistics.external_work += work_of_set_forces(substep_);
+  }
   // Same shape on all sides, so this copies without allocating, and what was is kept without a copy.
   state_.bodies.swap(before_.bodies);
   state_.features.swap(before_.features);
   before_.time = state_.time;
   before_.steps = state_.steps;
+  // What steps through without being changed need not be copied each time.
+  if (controls_changed_) before_.controls = state_.controls;
+  controls_changed_ = false;
   has_stepped_ = true;
   state_.bodies = substep_.next.bodies;
   state_.features = substep_.next.features;

@@ -15,6 +15,8 @@
 #include <span>
 
 #include "engine/divergence.h"
+#include "engine/model.h"
+#include "engine/solvers/affine_motion.h"
 #include "engine/step.h"
 
 namespace sheave {
@@ -39,16 +41,21 @@ class SubstepDriver {
 
   /// `features` and `stages` are those of the model that `substep` is of, and `state` is what it starts from. All must
   /// outlive the driver.
-  SubstepDriver(const StepSettings& settings,
-                std::span<const std::unique_ptr<ConstraintBatch>> features,
+  SubstepDriver(const Model& model, std::span<const std::unique_ptr<ConstraintBatch>> features,
                 std::span<const Stage> stages, Substep& substep, State& state);
 
+  /// Advances the state by the substeps of the step from `index` to before `end` that need none of the stages
+  /// (engine/solvers/affine_motion.h), and returns their number. If these are not all, `start`, unless it is null, becomes the
+  /// state before them.
+  int run_affine(int index, int end, State* start);
   /// Advances the state by substep `index` of the step. If it diverges the state is the last good one.
   std::optional<Divergence> run(int index);
   /// The state at the start of the last substep, or of its last part; null if there is none.
   [[nodiscard]] const State* before() const { return has_stepped_ ? &before_ : nullptr; }
   /// To be called when the state has been changed by somebody else.
-  void forget() { has_stepped_ = false; }
+  void forget();
+  /// To be called when the state's controls have been changed.
+  void note_controls() { controls_changed_ = true; }
 
  private:
   /// One of `count` equal parts of the step; counts are the number of substeps times a power of two, so that the ends of
@@ -84,8 +91,11 @@ class SubstepDriver {
   Substep& substep_;
   State& state_;
   State before_;
-  State start_;  ///< of a substep that is cut
+  std::unique_ptr<AffineMotion> affine_;  ///< null: there are no such substeps
+  bool next_is_old_ = false;              ///< substep_.next is not what a stage builds on
+  State start_;                           ///< of a substep that is cut
   bool has_stepped_ = false;
+  bool controls_changed_ = false;  ///< since before_ has had them
   std::optional<Divergence> divergence_;
   int left_to_others_ = 0;          ///< parts of this substep that another integrator has done
   std::int64_t parts_ = 0;          ///< of this substep that are done

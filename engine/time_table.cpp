@@ -1,8 +1,110 @@
+// Splines by their second derivatives M: with h the length of a piece and s its slope from point to point, continuous first
+// derivatives ask for
+//   h0 M0 + 2 (h0 + h1) M1 + h1 M2 = 6 (s1 - s0)
+// at each inner point, and the ends for
+//   clamped       2 h0 M0 + h0 M1 = 6 s0,            likewise at the other end
+//   not a knot    (M1 - M0) / h0 = (M2 - M1) / h1:   the first two pieces are one polynomial
+// Both leave a tridiagonal system with a dominant diagonal, which needs no pivots.
+
 #include "engine/time_table.h"
 
 #include <algorithm>
 
 namespace sheave {
+namespace {
+
+/// lower[i] x[i - 1] + diagonal[i] x[i] + upper[i] x[i + 1] = right[i].
+struct Tridiagonal {
+  explicit Tridiagonal(std::size_t n) : lower(n), diagonal(n), upper(n), right(n) {}
+  std::vector<double> lower, diagonal, upper, right;
+
+  [[nodiscard]] std::vector<double> solve() {
+    const std::size_t n = right.size();
+    for (std::size_t i = 1; i < n; ++i) {
+      const double factor = lower[i] / diagonal[i - 1];
+      diagonal[i] -= factor * upper[i - 1];
+      right[i] -= factor * right[i - 1];
+    }
+    for (std::size_t i = n; i-- > 0;) {
+      if (i + 1 < n) right[i] -= upper[i] * right[i + 1];
+      right[i] /= diagonal[i];
+    }
+    return right;
+  }
+};
+
+class Spline {
+ public:
+  Spline(const std::vector<double>& times, const std::vector<double>& values) {
+    for (std::size_t i = 1; i < times.size(); ++i) {
+      lengths_.push_back(times[i] - times[i - 1]);
+      slopes_.push_back((values[i] - values[i - 1]) / lengths_.back());
+    }
+  }
+
+  [[nodiscard]] std::vector<double> clamped() const {
+    Tridiagonal system = inner();
+    const std::size_t last = lengths_.size();
+    system.diagonal[0] = 2.0 * lengths_[0];
+    system.upper[0] = lengths_[0];
+    system.right[0] = 6.0 * slopes_[0];
+    system.lower[last] = lengths_[last - 1];
+    system.diagonal[last] = 2.0 * lengths_[last - 1];
+    system.right[last] = -6.0 * slopes_[last - 1];
+    return system.solve();
+  }
+
+  [[nodiscard]] std::vector<double> not_a_knot() const {
+    const std::size_t last = lengths_.size();
+    if (last == 1) return {0.0, 0.0};
+    if (last == 2) {  // one parabola
+      const double bend = 2.0 * (slopes_[1] - slopes_[0]) / (lengths_[0] + lengths_[1]);
+      return {bend, bend, bend};
+    }
+    // The ends' unknowns follow from their neighbours': M0 = ((h0 + h1) M1 - h0 M2) / h1.
+    Tridiagonal system = inner();
+    const double h0 = lengths_[0] / lengths_[1];
+    system.diagonal[1] += system.lower[1] * (1.0 + h0);
+    system.upper[1] -= system.lower[1] * h0;
+    const double hn = lengths_[last - 1] / lengths_[last - 2];
+    system.diagonal[last - 1] += system.upper[last - 1] * (1.0 + hn);
+    system.lower[last - 1] -= system.upper[last - 1] * hn;
+    system.lower[1] = system.upper[last - 1] = 0.0;
+    system.diagonal[0] = system.diagonal[last] = 1.0;
+    std::vector<double> bends = system.solve();
+    bends[0] = (1.0 + h0) * bends[1] - h0 * bends[2];
+    bends[last] = (1.0 + hn) * bends[last - 1] - hn * bends[last - 2];
+    return bends;
+  }
+
+ private:
+  [[nodiscard]] Tridiagonal inner() const {
+    Tridiagonal system(lengths_.size() + 1);
+    for (std::size_t i = 1; i < lengths_.size(); ++i) {
+      system.lower[i] = lengths_[i - 1];
+      system.diagonal[i] = 2.0 * (lengths_[i - 1] + lengths_[i]);
+      system.upper[i] = lengths_[i];
+      system.right[i] = 6.0 * (slopes_[i] - slopes_[i - 1]);
+    }
+    return system;
+  }
+
+  std::vector<double> lengths_;  // of the pieces
+  std::vector<double> slopes_;
+};
+
+}  // namespace
+
+TimeTable TimeTable::of(std::vector<double> times, std::vector<double> values,
+                        Interpolation interpolation) {
+  TimeTable table{std::move(times), std::move(values)};
+  // Points that do not go together are told by whoever checks them.
+  const bool pairs = table.times.size() == table.values.size() && table.times.size() > 1;
+  if (interpolation == Interpolation::linear || !pairs) return table;
+  const Spline spline(table.times, table.values);
+  table.bends = interpolation == Interpolation::clamped ? spline.clamped() : spline.not_a_knot();
+  return table;
+}
 
 double TimeTable::at(double time) const {
   if (values.empty()) return 0.0;
@@ -10,27 +112,45 @@ double TimeTable::at(double time) const {
   if (time >= times.back()) return values.back();
   const auto after = std::upper_bound(times.begin(), times.end(), time);
   const auto i = static_cast<std::size_t>(after - times.begin());
-  const double share = (time - times[i - 1]) / (times[i] - times[i - 1]);
-  return values[i - 1] + share * (values[i] - values[i - 1]);
+  const double length = times[i] - times[i - 1];
+  const double share = (time - times[i - 1]) / length;
+  const double chord = values[i - 1] + share * (values[i] - values[i - 1]);
+  if (bends.empty()) return chord;
+  const double rest = (times[i] - time) / length;
+  return chord +
+         length * length / 6.0 *
+             ((rest * rest - 1.0) * rest * bends[i - 1] + (share * share - 1.0) * share * bends[i]);
 }
 
 double TimeTable::rate(double time) const {
   if (times.empty() || time <= times.front() || time > times.back()) return 0.0;
   const auto after = std::lower_bound(times.begin(), times.end(), time);
   const auto i = static_cast<std::size_t>(after - times.begin());
-  return (values[i] - values[i - 1]) / (times[i] - times[i - 1]);
+  const double length = times[i] - times[i - 1];
+  const double slope = (values[i] - values[i - 1]) / length;
+  if (bends.empty()) return slope;
+  const double share = (time - times[i - 1]) / length;
+  const double rest = (times[i] - time) / length;
+  return slope +
+         length / 6.0 *
+             ((1.0 - 3.0 * rest * rest) * bends[i - 1] + (3.0 * share * share - 1.0) * bends[i]);
 }
 
 double TimeTable::integral(double from, double to) const {
-  // Trapezia between the corners are exact for a function that is linear there.
+  // Between corners trapezia are exact for what is linear, and Simpson's rule for what is cubic.
+  const auto piece = [&](double left, double right) {
+    const double ends = at(left) + at(right);
+    if (bends.empty()) return 0.5 * ends * (right - left);
+    return (ends + 4.0 * at(0.5 * (left + right))) / 6.0 * (right - left);
+  };
   double sum = 0.0;
   double left = from;
-  for (const double corner : times) {
-    if (corner <= from || corner >= to) continue;
-    sum += 0.5 * (at(left) + at(corner)) * (corner - left);
-    left = corner;
+  for (auto corner = std::upper_bound(times.begin(), times.end(), from);
+       corner != times.end() && *corner < to; ++corner) {
+    sum += piece(left, *corner);
+    left = *corner;
   }
-  return sum + 0.5 * (at(left) + at(to)) * (to - left);
+  return sum + piece(left, to);
 }
 
 }  // namespace sheave

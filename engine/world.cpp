@@ -5,9 +5,10 @@
 #include "engine/body_check.h"
 #include "engine/contacts/contact_batch.h"
 #include "engine/contacts/ground_batch.h"
+#include "engine/dynamics/mounted_drive.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
-#include "engine/substep_driver.h"
+#include "engine/world_content.h"
 
 namespace sheave {
 namespace {
@@ -80,6 +81,7 @@ std::vector<std::unique_ptr<ConstraintBatch>> model_features(const Model& model,
     }
     if (!joints.empty()) features.push_back(joints.front()->make_batch(bodies, joints));
   }
+  if (has_mounted_drives(bodies)) features.push_back(make_mounted_drives(bodies));
   if (model.ground) features.push_back(make_ground_batch(*model.ground, bodies));
   // Last, so that World::contacts() knows its place.
   if (!model.colliders.empty())
@@ -88,41 +90,6 @@ std::vector<std::unique_ptr<ConstraintBatch>> model_features(const Model& model,
 }
 
 }  // namespace
-
-struct World::Content {
-  Model model;
-  std::shared_ptr<const BodySet> bodies;
-  std::vector<std::unique_ptr<ConstraintBatch>> features;
-  State state;
-  Substep substep;
-  std::vector<Stage> stages;
-  SubstepDriver driver;
-  State step_start;          // of a step that may be stopped
-  std::size_t contacts = 0;  // which feature; means something if the model has colliders
-
-  Content(Model m, std::shared_ptr<const BodySet> b,
-          std::vector<std::unique_ptr<ConstraintBatch>> f, State s)
-      : model(std::move(m)),
-        bodies(std::move(b)),
-        features(std::move(f)),
-        state(std::move(s)),
-        substep(*bodies, state, model.step.dt / model.step.substeps, model.step.iterations),
-        stages(substep_stages(model, features)),
-        driver(model.step, features, stages, substep, state) {
-    substep.next = state;
-  }
-
-  void remember_start() {
-    step_start = state;
-    for (const auto& feature : features) feature->mark_notes(NoteMark::step);
-  }
-  void undo_step() {
-    state = step_start;
-    substep.next = state;
-    driver.forget();
-    for (const auto& feature : features) feature->return_to(NoteMark::step);
-  }
-};
 
 World::World(std::unique_ptr<Content> content) : content_(std::move(content)) {}
 World::~World() = default;
@@ -161,14 +128,25 @@ Errors World::check(const Model& model) {
   return bodies ? check_model(model, *bodies) : bodies.errors();
 }
 
-StepReport World::step(const StopRequest& stop) {
+StepReport World::step(const StopRequest& stop) { return step(stop, {}); }
+
+StepReport World::step(const StopRequest& stop, const std::function<void()>& before_substep) {
   Content& c = *content_;
   StepReport report;
   c.substep.statistics = {};
-  if (stop) c.remember_start();
+  if (stop) c.mark_notes();
+  if (stop && before_substep) c.step_start = c.state;
   c.substep.work.begin_step(stop ? &stop : nullptr);
-  for (int i = 0; i < c.model.step.substeps && report.ok(); ++i) {
-    report.divergence = c.driver.run(i);
+  const int count = c.model.step.substeps;
+  for (int i = 0; i < count && report.ok();) {
+    if (before_substep) {
+      c.control_interval = c.model.step.dt / c.model.step.substeps;
+      before_substep();
+      c.control_interval = c.model.step.dt;
+    }
+    const int end = before_substep ? i + 1 : count;
+    i += c.driver.run_affine(i, end, stop && !before_substep && i == 0 ? &c.step_start : nullptr);
+    if (i < end && !c.substep.work.stopped()) report.divergence = c.driver.run(i++);
     report.stopped = c.substep.work.stopped();
   }
   c.substep.work.begin_step(nullptr);
@@ -208,8 +186,9 @@ std::optional<LastSubstep> World::last_substep() const {
 
 Errors World::restore(const State& state) {
   const State& own = content_->state;
-  bool fits =
-      state.bodies.size() == own.bodies.size() && state.features.size() == own.features.size();
+  bool fits = state.bodies.size() == own.bodies.size() &&
+              state.features.size() == own.features.size() &&
+              state.memory.size() == own.memory.size();
   for (std::size_t i = 0; fits && i < own.features.size(); ++i) {
     const ConstraintBatch& feature = *content_->features[i];
     fits = (!feature.has_fixed_size() ||
@@ -219,9 +198,12 @@ Errors World::restore(const State& state) {
   }
   if (!fits) {
     return {{"",
-             "the state does not belong to this world: it must have the same bodies, joints "
-             "and cables"}};
+             "the state does not belong to this world: it must have the same bodies, joints, "
+             "cables, controllers and triggers"}};
   }
+  const std::string fault = ControlCheck(content_->model, *content_->bodies, content_->joints)
+                                .fault_of(state.controls, content_->features);
+  if (!fault.empty()) return {{"", "the state does not belong to this world: " + fault}};
   content_->state = state;
   content_->driver.forget();
   content_->substep.next = state;
@@ -231,6 +213,8 @@ Errors World::restore(const State& state) {
 Energy World::energy() const {
   const Content& c = *content_;
   Energy energy;
+  const Controls& controls = c.state.controls;
+  const Vector3& gravity = controls.has_gravity ? controls.gravity : c.model.gravity;
   for (int i = 0; i < c.bodies->count(); ++i) {
     const BodyProperties& body = (*c.bodies)[i];
     const BodyState& state = c.state.bodies[at(i)];
@@ -247,8 +231,7 @@ Energy World::energy() const {
     const Vector3 own_w = state.orientation.conjugate() * w;
     energy.kinetic +=
         0.5 * body.mass * state.velocity.squaredNorm() + 0.5 * own_w.dot(body.inertia * own_w);
-    energy.potential -=
-        state.position.dot(body.mass * c.model.gravity + c.model.bodies[at(i)].force);
+    energy.potential -= state.position.dot(body.mass * gravity + c.model.bodies[at(i)].force);
   }
   for (std::size_t i = 0; i < c.features.size(); ++i) {
     energy.elastic += c.features[i]->elastic_energy(*c.bodies, c.state, c.state.features[i]);

@@ -13,12 +13,14 @@
 //   const auto report = world->step([&] { return std::chrono::steady_clock::now() > deadline; });
 //   if (report.stopped) show_the_last_state_again();
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/contacts/contact_report.h"
+#include "engine/control_requests.h"
 #include "engine/divergence.h"
 #include "engine/model.h"
 #include "engine/step.h"
@@ -52,7 +54,9 @@ struct LastSubstep {
 /// Energy of all bodies and features [J].
 struct Energy {
   double kinetic = 0.0;
-  double potential = 0.0;  ///< of gravity and of constant forces; zero at the world's origin
+  /// Of gravity, as it is now, and of the model's constant forces; zero at the world's origin. What forces do that have been set
+  /// is StepStatistics::external_work.
+  double potential = 0.0;
   double elastic = 0.0;
   [[nodiscard]] double total() const { return kinetic + potential + elastic; }
 };
@@ -75,10 +79,49 @@ class World {
   /// Advances by dt. After a divergence the state stays at the last good substep.
   ///
   /// `stop`, if there is one, is asked at the start of each substep, or part of one, and before each factorisation or sweep over
-  /// the constraints: mostly some ten times per step, more often where a step is hard. Once it says true the step ends, as
+  /// the constraints (once for substeps that need neither, engine/solvers/affine_motion.h): mostly some ten times per step, more often where a step is hard. Once it says true the step ends, as
   /// soon as nothing but that one piece of work is done, and the world is as if the step had not been begun, but for
   /// last_substep(), of which there is nothing. Another step() then comes to the same end as one that was never stopped.
   StepReport step(const StopRequest& stop = {});
+  /// The same with `before_substep`, which is called before each substep of the settings, not before the parts of one that is
+  /// cut. It may set controls.
+  StepReport step(const StopRequest& stop, const std::function<void()>& before_substep);
+
+  // Controls: set between steps or before substeps, in force from the next substep on until they are set anew or cleared, and
+  // part of the state (engine/controls.h). Where a request cannot be met nothing changes, and the error says what is allowed.
+  // None allocates when it repeats one that is set.
+
+  /// Instead of the model's [m/s2].
+  [[nodiscard]] Errors set_gravity(const Vector3& gravity);
+  void clear_gravity();
+  /// On a body that forces can move: not on static, kinematic and driven ones.
+  [[nodiscard]] Errors set_force(BodyId body, const PointForce& force);
+  [[nodiscard]] Errors clear_force(BodyId body);
+  /// Of a rotor with a drive, in place of its table. An angle is the one that the body has turned since time 0
+  /// (BodyState::angle).
+  [[nodiscard]] Errors set_drive(BodyId body, const DriveTarget& target);
+  /// From now on the table drives it again.
+  [[nodiscard]] Errors clear_drive(BodyId body);
+  /// Of a kinematic body, in place of the motion that its definition gives it. One that has such a motion keeps to its
+  /// directions, one with an axis to the plane across it, since cables and joints may have been built for that.
+  [[nodiscard]] Errors set_motion(BodyId body, const MotionTarget& target);
+  /// Leads it back to where its definition has it after `over` seconds, > 0; default: the next step.
+  [[nodiscard]] Errors clear_motion(BodyId body, std::optional<double> over = {});
+  /// Of the drive along a coordinate of a joint, by their indices in Model::joints and JointDef::coordinates(), in place of its
+  /// table and sine.
+  [[nodiscard]] Errors set_joint_drive(int joint, int coordinate, const DriveTarget& target);
+  /// The largest force or torque that it has [N or N m], > 0; not of drives of a force.
+  [[nodiscard]] Errors set_joint_drive_limit(int joint, int coordinate, double limit);
+  /// Target and limit are those of the definition again. (A drive to a position then asks for where its table is, at once.)
+  [[nodiscard]] Errors clear_joint_drive(int joint, int coordinate);
+  /// How long what is set now has until the caller can set it anew [s]: a step, or before a substep that.
+  [[nodiscard]] double control_interval() const;
+  /// The joint holds nothing any more, as if it had broken now.
+  [[nodiscard]] Errors release_joint(int joint);
+  /// State::memory, to be read and written by whoever sets controls. States with another size do not belong to this world.
+  [[nodiscard]] std::vector<double>& memory();
+  /// Unchecked: for functions that check what they set for a feature (Simulation::set_...()).
+  [[nodiscard]] Controls& controls_of_features();
 
   [[nodiscard]] const Model& model() const;
   [[nodiscard]] const BodySet& bodies() const;
@@ -91,7 +134,7 @@ class World {
   /// Where colliders touch or are about to; empty without colliders, and before the first step.
   [[nodiscard]] std::vector<ContactReport> contacts() const;
 
-  /// Goes back (or ahead) to a state of this world; an error if its shape does not fit.
+  /// Goes back (or ahead) to a state of this world; an error if its shape does not fit, or its controls.
   [[nodiscard]] Errors restore(const State& state);
 
   /// Nothing at time 0, after restore() and after a step that was stopped, until the next step.

@@ -30,7 +30,7 @@ bool drives(const JointDef& joint) {
 
 bool feeds(const LinkDef& link) {
   const auto* point = dynamic_cast<const AttachmentLink*>(&link);
-  return point != nullptr && point->feed_speed != 0.0;
+  return point != nullptr && point->feed_speed.value_or(0.0) != 0.0;
 }
 
 /// Whether anything may do work that World::energy() knows nothing of.

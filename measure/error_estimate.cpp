@@ -8,6 +8,7 @@
 #include "engine/joint_report.h"
 #include "measure/error_growth.h"
 #include "measure/run_error.h"
+#include "scenes/control/scene_supervisor.h"
 
 namespace sheave::measure {
 namespace {
@@ -48,9 +49,9 @@ Result<ErrorEstimator> ErrorEstimator::create(const Scene& scene, const State& s
   }
   std::vector<Simulation> finer;
   for (const int factor : {2, 4}) {
-    Model model = scene.model;
-    model.step.substeps = factor * substeps;
-    Result<Simulation> simulation = Simulation::create(model, scene.cables);
+    Scene finer_scene = scene;
+    finer_scene.model.step.substeps = factor * substeps;
+    Result<Simulation> simulation = create_simulation(finer_scene);
     if (!simulation) return simulation.errors();
     const Errors errors = simulation->world.restore(start);
     if (!errors.empty()) return errors;
@@ -84,7 +85,7 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, std::vector<Simulation> finer
 void ErrorEstimator::observe(const Simulation& run, const StopRequest& stop) {
   if (divergence_ || stopped_) return;
   for (Simulation& finer : finer_) {
-    StepReport report = finer.world.step(stop);
+    StepReport report = finer.step(stop);
     if (report.ok()) continue;
     stopped_ = report.stopped;
     divergence_ = std::move(report.divergence);

@@ -74,6 +74,8 @@ double stretch_of(const CableReport& cable) {
 }  // namespace
 
 bool is_conservative(const Scene& scene) {
+  // Controllers and triggers set drives and forces.
+  if (!scene.controllers.empty() || !scene.triggers.empty()) return false;
   return std::none_of(scene.model.bodies.begin(), scene.model.bodies.end(),
                       [](const BodyDef& body) { return is_driven(body); }) &&
          std::none_of(scene.model.joints.begin(), scene.model.joints.end(),

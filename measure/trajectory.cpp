@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/control/scene_supervisor.h"
+
 namespace sheave::measure {
 namespace {
 
@@ -114,7 +116,7 @@ std::int64_t frame_count(const Scene& scene) {
 
 Result<Trajectory> record(const Scene& scene, const FrameObserver& observe,
                           const StopRequest& stop) {
-  Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
+  Result<Simulation> simulation = create_simulation(scene);
   if (!simulation) return simulation.errors();
   Trajectory trajectory;
   trajectory.scale = simulation->world.bodies().scale();
@@ -122,7 +124,7 @@ Result<Trajectory> record(const Scene& scene, const FrameObserver& observe,
   add_frame(scene, *simulation, trajectory);
   const std::int64_t count = frame_count(scene);
   for (std::int64_t i = 1; i <= count; ++i) {
-    StepReport report = simulation->world.step(stop);
+    StepReport report = simulation->step(stop);
     if (report.stopped) return Error{"", "interrupted"};
     trajectory.row_solves += report.statistics.row_solves;
     trajectory.rounds += report.statistics.rounds;

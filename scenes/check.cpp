@@ -39,6 +39,7 @@ void CheckRecorder::Course::add(double time, double sample, double margin) {
   }
   // Times are sums of steps: a sample at the very edge must not fall out by rounding.
   if (time < from - margin || time > to + margin) return;
+  area += count == 0 ? (time - from) * sample : 0.5 * (time - last_time) * (last + sample);
   if (count == 0) {
     first = minimum = maximum = sample;
     first_time = time;
@@ -68,12 +69,18 @@ double CheckRecorder::Course::measured() const {
       return maximum - minimum;
     case Statistic::drift:
       return last - first;
+    case Statistic::integral:
+      return area;
   }
   return nan;
 }
 
 CheckRecorder::CheckRecorder(const Scene& scene, const Simulation& simulation)
-    : observables_(simulation), dt_(scene.model.step.dt) {
+    : observables_(simulation, ObservableSet::Extent::columns), dt_(scene.model.step.dt) {
+  const bool asks_more =
+      std::any_of(scene.checks.begin(), scene.checks.end(),
+                  [&](const CheckDef& check) { return !observables_.contains(check.quantity); });
+  if (asks_more) observables_ = ObservableSet(simulation);
   for (const CheckDef& check : scene.checks) {
     Course& course = courses_.emplace_back();
     course.check = check;
@@ -113,7 +120,9 @@ CheckResult CheckRecorder::result(const Course& course) const {
   const CheckDef& check = course.check;
   CheckResult result{check, nan, nan, check.allowed_error(), false, {}};
   const std::string what = title(check, course.from, course.to);
-  const bool needs_two = check.statistic == Statistic::rate || check.statistic == Statistic::drift;
+  const bool needs_two = check.statistic == Statistic::rate ||
+                         check.statistic == Statistic::drift ||
+                         check.statistic == Statistic::integral;
   if (course.value < 0) {
     result.message = fmt::format("{}: there is no such quantity", what);
   } else if (last_time_ < course.to - 0.5 * dt_ * (1.0 + 1e-6)) {

@@ -38,7 +38,7 @@ class CheckRecorder {
     double to = 0.0;
     long count = 0;  ///< of samples in the window
     double first = 0.0, last = 0.0, first_time = 0.0, last_time = 0.0;
-    double minimum = 0.0, maximum = 0.0, sum = 0.0;
+    double minimum = 0.0, maximum = 0.0, sum = 0.0, area = 0.0;
     bool finite = true;
     double nearest = 0.0;        ///< value at the sample nearest to `from`
     double nearest_time = -1.0;  ///< its time; < 0: none yet

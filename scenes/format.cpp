@@ -135,6 +135,8 @@ const ObjectFormat& scene_format() {
        {"bodies", "rigid bodies", true, &body_format()},
        {"joints", "joints between two bodies", true, &joint_format()},
        {"cables", "cables", true, &cable_format()},
+       {"controllers", "what leads an observable to a setpoint", true, &controller_format()},
+       {"triggers", "what happens once something has happened", true, &trigger_format()},
        {"colliders", "bodies that touch each other; absent: nothing does", true,
         &collider_format()},
        {"ground", "a frictionless floor for bodies that are no colliders, too; absent: none", false,
@@ -215,6 +217,23 @@ const ObjectFormat& link_format() {
                                    variants_of(link_types()),
                                    {},
                                    {}};
+  return format;
+}
+
+const ObjectFormat& controller_format() {
+  static const ObjectFormat format{"controller",
+                                   "leads an observable to a setpoint",
+                                   true,
+                                   {common_table(controller_types())},
+                                   variants_of(controller_types()),
+                                   {},
+                                   {}};
+  return format;
+}
+
+const ObjectFormat& trigger_format() {
+  static const ObjectFormat format{
+      "trigger", "acts once something has happened", true, {table_of<TriggerDef>()}, {}, {}, {}};
   return format;
 }
 

@@ -61,6 +61,8 @@ struct ObjectFormat {
 [[nodiscard]] const ObjectFormat& ground_format();
 [[nodiscard]] const ObjectFormat& cable_format();
 [[nodiscard]] const ObjectFormat& link_format();
+[[nodiscard]] const ObjectFormat& controller_format();
+[[nodiscard]] const ObjectFormat& trigger_format();
 [[nodiscard]] const ObjectFormat& camera_format();
 [[nodiscard]] const ObjectFormat& paint_format();
 [[nodiscard]] const ObjectFormat& check_format();

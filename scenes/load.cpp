@@ -37,6 +37,14 @@ class SceneReader {
     for (const NodeId node : list(root, scene_format(), "cables")) {
       read_cable(node, scene.cables.emplace_back());
     }
+    for (const NodeId node : list(root, scene_format(), "controllers")) {
+      auto controller = read_typed(node, controller_format(), controller_types(),
+                                   [](ControllerDef& common) { return &common; });
+      if (controller) scene.controllers.push_back(std::move(controller));
+    }
+    for (const NodeId node : list(root, scene_format(), "triggers")) {
+      reader_.read_object(node, trigger_format(), pointers(&scene.triggers.emplace_back()));
+    }
     for (const NodeId node : list(root, scene_format(), "colliders")) {
       reader_.read_object(node, collider_format(), pointers(&scene.model.colliders.emplace_back()));
     }
@@ -50,6 +58,8 @@ class SceneReader {
     }
     reader_.unique_names(list(root, scene_format(), "joints"), "joints");
     reader_.unique_names(list(root, scene_format(), "cables"), "cables");
+    reader_.unique_names(list(root, scene_format(), "controllers"), "controllers");
+    reader_.unique_names(list(root, scene_format(), "triggers"), "triggers");
     return scene;
   }
 
@@ -168,6 +178,33 @@ void add_errors(const Errors& errors, const json::Document& document, json::Faul
   }
 }
 
+/// Takes out of the text what a drive has beside it and cannot have as the kind that an override makes it: its times, values
+/// and limits if it is none now. What overrides themselves have set stays, and is told if it does not fit.
+void drop_companions(json::Document& document, const Override& changed,
+                     const std::string& file_name) {
+  const std::string_view pointer = changed.pointer;
+  const std::string_view key = pointer.substr(std::min(pointer.rfind('/') + 1, pointer.size()));
+  if (key != "drive" && !key.ends_with("_drive")) return;
+  const json::Document::Target parent = document.find(pointer.substr(0, pointer.rfind('/')));
+  const json::Document::Target drive = document.find(pointer);
+  if (!drive.exact || document.kind(drive.node) != json::Kind::string) return;
+  const std::string kind = document.string(drive.node);
+  const auto fits = [&](std::string_view companion) {
+    if (kind == "none") return false;
+    if (kind == "force" || kind == "torque") {
+      return companion != "limit" && companion != "compliance";
+    }
+    return kind != "speed" || companion != "compliance";
+  };
+  const std::string prefix = std::string(key) + "_";
+  const std::span<const NodeId> members = document.children(parent.node);
+  for (const NodeId member : std::vector<NodeId>(members.begin(), members.end())) {
+    const std::string& name = document.key(member);
+    if (!name.starts_with(prefix) || fits(std::string_view(name).substr(prefix.size()))) continue;
+    if (document.location(document.offset(member)).file == file_name) document.remove(member);
+  }
+}
+
 bool overridden(std::string_view pointer, const std::vector<Override>& overrides) {
   return std::any_of(overrides.begin(), overrides.end(),
                      [&](const Override& o) { return o.pointer == pointer; });
@@ -216,6 +253,7 @@ SceneResult load_scene_text(std::string_view text, const std::string& file_name,
       const std::string origin = o.origin.empty() ? "--set " + o.pointer : o.origin;
       document.set(o.pointer, o.value, origin, implied_objects, limits, faults);
     }
+    for (const Override& o : overrides) drop_companions(document, o, file_name);
     return document;
   };
   std::optional<json::Document> document = parsed();

@@ -2,99 +2,26 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "cable/reactions.h"
 #include "engine/joint_report.h"
+#include "scenes/quantities.h"
 #include "scenes/suggestion.h"
 
 namespace sheave {
 namespace {
 
-constexpr std::array<Quantity, 14> body_quantities{{
-    {"x", "m", "position of the body frame's origin"},
-    {"y", "m", "the same"},
-    {"z", "m", "the same"},
-    {"qw", "", "orientation"},
-    {"qx", "", "the same"},
-    {"qy", "", "the same"},
-    {"qz", "", "the same"},
-    {"vx", "m/s", "velocity of the body frame's origin"},
-    {"vy", "m/s", "the same"},
-    {"vz", "m/s", "the same"},
-    {"wx", "rad/s", "angular velocity"},
-    {"wy", "rad/s", "the same"},
-    {"wz", "rad/s", "the same"},
-    {"angle", "rad", "angle turned about the axis: planar bodies and rotors"},
-}};
-constexpr std::array<Quantity, 3> span_quantities{{
-    {"tension", "N", "of the free span that begins at a link, counted from 0"},
-    {"length", "m", "the same"},
-    {"rest_length", "m", "the same"},
-}};
-constexpr std::array<Quantity, 9> link_quantities{{
-    {"stored_length", "m", "cable on link k, counted from 0"},
-    {"wrap_angle", "rad", "the angle that it covers; of a pinhole the angle of deflection"},
-    {"slip", "m", "cable that has slid over the link, forwards"},
-    {"entry_x", "m", "where the cable meets the link"},
-    {"entry_y", "m", "the same"},
-    {"entry_z", "m", "the same"},
-    {"exit_x", "m", "where the cable leaves the link"},
-    {"exit_y", "m", "the same"},
-    {"exit_z", "m", "the same"},
-}};
-constexpr std::array<Quantity, 5> cable_quantities{{
-    {"length_error", "", "relative error of the length invariant"},
-    {"total_length", "m", "rest lengths and stored lengths together"},
-    {"wraps", "", "number of wrappable bodies that the cable lies on"},
-    {"wrapped_length", "m", "cable on these bodies"},
-    {"cut", "", "1 when the cable has been cut or has broken, 0 before"},
-}};
-constexpr std::array<Quantity, 9> joint_quantities{{
-    {"force", "N", "size of the joint's force on body_b in the last substep"},
-    {"fx", "N", "its parts along the axes of the world"},
-    {"fy", "N", "the same"},
-    {"fz", "N", "the same"},
-    {"torque", "N m", "size of its torque about body_b's anchor"},
-    {"tx", "N m", "its parts along the axes of the world"},
-    {"ty", "N m", "the same"},
-    {"tz", "N m", "the same"},
-    {"broken", "", "1 when the joint has broken, 0 before"},
-}};
-// "<coordinate>" stands for the names that JointDef::coordinates() gives.
-constexpr std::array<Quantity, 3> coordinate_quantities{{
-    {"<coordinate>", "m, rad",
-     "what the joint leaves free, since time 0, angles with all turns: extension (distance), twist "
-     "and swing (ball with an axis), angle (hinge, plane), travel (slider), travel and angle "
-     "(cylindrical, rack), angle_a and angle_b (universal, gear)"},
-    {"<coordinate>_rate", "m/s, rad/s", "how fast it changes"},
-    {"drive_force", "N, N m",
-     "of its drive; <coordinate>_drive_force where a joint has two coordinates"},
-}};
-constexpr std::array<Quantity, 4> energy_quantities{{
-    {"kinetic", "J", "of the whole scene"},
-    {"potential", "J", "the same"},
-    {"elastic", "J", "the same"},
-    {"total", "J", "the same"},
-}};
 constexpr int tension = 0;      // in span_quantities
 constexpr int broken = 8;       // in joint_quantities
 constexpr int drive_force = 2;  // in coordinate_quantities
 
 // Comparing a word with more names than this takes longer than a user waits for a hint.
 constexpr std::size_t most_quantities = 100'000;
-
-constexpr std::array<QuantityGroup, 7> groups{{
-    {"<body>.", body_quantities},
-    {"<cable>.<span>.", span_quantities},
-    {"<cable>.link<k>.", link_quantities},
-    {"<cable>.", cable_quantities},
-    {"<joint>.", joint_quantities},
-    {"<joint>.", coordinate_quantities},
-    {"energy.", energy_quantities},
-}};
 
 /// The names of one coordinate's quantities, in the order of coordinate_quantities.
 std::array<std::string, 3> coordinate_names(const JointDef& joint,
@@ -106,7 +33,8 @@ std::array<std::string, 3> coordinate_names(const JointDef& joint,
 
 }  // namespace
 
-std::string shared_quantity(const JointDef& joint) {
+std::string shared_quantity(const JointDef& joint, const BodyDef& body) {
+  if (body.drive != DriveKind::none && joint.coordinates().size() == 1) return "drive_power";
   for (const JointCoordinateInfo& coordinate : joint.coordinates()) {
     for (const std::string& name : coordinate_names(joint, coordinate)) {
       const auto is_it = [&](const Quantity& quantity) { return quantity.name == name; };
@@ -116,7 +44,8 @@ std::string shared_quantity(const JointDef& joint) {
   return "";
 }
 
-std::span<const QuantityGroup> quantity_groups() { return groups; }
+std::span<const QuantityGroup> quantity_groups() { return quantity_group_table; }
+std::span<const QuantityGroup> requested_quantity_groups() { return requested_group_table; }
 
 /// Evaluates observables of one moment. What several of them share is computed once, when first
 /// asked for; asking in the order of the set therefore visits each body once.
@@ -143,6 +72,21 @@ class ObservableSet::Sampler {
         return of_coordinate(joint(source.entity).coordinates[item], source.quantity);
       case Group::energy:
         return energy(source.quantity);
+      case Group::direction: {
+        const SpanReport& span = cable(source.entity).spans[item];
+        return (span.end - span.start).normalized()[source.quantity];
+      }
+      case Group::momentum:
+        return part(momentum(simulation_.world, source.entity), source.quantity);
+      case Group::scene_momentum:
+        return part(momentum(simulation_.world), source.quantity);
+      case Group::bearing:
+      case Group::drive:
+      case Group::link_friction:
+      case Group::joint_friction:
+      case Group::joint_drive:
+      case Group::power:
+        return of_reaction(source);
     }
     return 0.0;
   }
@@ -190,6 +134,38 @@ class ObservableSet::Sampler {
     if (quantity == drive_force) return coordinate.drive_force;
     return quantity == 0 ? coordinate.value : coordinate.rate;
   }
+  static double part(const Momentum& momentum, int quantity) {
+    return quantity < 3 ? momentum.linear[quantity] : momentum.angular[quantity - 3];
+  }
+  static double size_or_part(const Vector3& vector, int quantity) {
+    return quantity == 0 ? vector.norm() : vector[quantity - 1];
+  }
+  /// Not a number as long as there is no substep that it could be of.
+  double of_reaction(const Source& source) {
+    if (!asked_reactions_) reactions_ = Reactions::of(simulation_);
+    asked_reactions_ = true;
+    if (!reactions_) return std::numeric_limits<double>::quiet_NaN();
+    const int quantity = source.quantity;
+    switch (source.group) {
+      case Group::bearing: {
+        const BearingReaction bearing = reactions_->bearing(source.entity);
+        return size_or_part(quantity < 4 ? bearing.force : bearing.torque, quantity % 4);
+      }
+      case Group::drive: {
+        const DriveReaction drive = reactions_->drive(source.entity);
+        return quantity == 0 ? drive.torque : quantity == 1 ? drive.power : drive.error;
+      }
+      case Group::link_friction:
+        return reactions_->link_friction(source.entity, source.item);
+      case Group::joint_friction:
+        return reactions_->joint_friction(source.entity);
+      case Group::joint_drive:
+        if (quantity == 0) return reactions_->drive_power(source.entity, source.item);
+        return joint(source.entity).coordinates[static_cast<std::size_t>(source.item)].drive_error;
+      default:
+        return quantity == 0 ? reactions_->drive_power() : reactions_->friction();
+    }
+  }
   const std::array<double, 14>& body(int index) {
     if (index == body_) return body_values_;
     body_ = index;
@@ -234,9 +210,11 @@ class ObservableSet::Sampler {
   int joint_ = -1;  // whose report is in joint_report_
   JointReport joint_report_;
   std::optional<Energy> energy_;
+  bool asked_reactions_ = false;
+  std::optional<Reactions> reactions_;
 };
 
-ObservableSet::ObservableSet(const Simulation& simulation) {
+ObservableSet::ObservableSet(const Simulation& simulation, Extent extent) {
   add_time();
   add_bodies(simulation.world.model());
   const std::vector<CableReport> reports = simulation.cable_reports();
@@ -246,9 +224,20 @@ ObservableSet::ObservableSet(const Simulation& simulation) {
   }
   add_joints(simulation.world.model());
   add_energies();
+  default_count_ = names_.size();
+  if (extent == Extent::columns) return;
+  add_requested_bodies(simulation.world.model());
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    add_requested_cable(reports[i].name, static_cast<int>(i),
+                        static_cast<int>(reports[i].spans.size()),
+                        static_cast<int>(reports[i].links.size()));
+  }
+  add_requested_joints(simulation.world.model());
+  add_requested_sums();
 }
 
-ObservableSet::ObservableSet(const Model& model, const std::vector<CableDef>& cables) {
+ObservableSet::ObservableSet(const Model& model, const std::vector<CableDef>& cables,
+                             Extent extent) {
   add_time();
   add_bodies(model);
   for (std::size_t i = 0; i < cables.size(); ++i) {
@@ -257,6 +246,15 @@ ObservableSet::ObservableSet(const Model& model, const std::vector<CableDef>& ca
   }
   add_joints(model);
   add_energies();
+  default_count_ = names_.size();
+  if (extent == Extent::columns) return;
+  add_requested_bodies(model);
+  for (std::size_t i = 0; i < cables.size(); ++i) {
+    add_requested_cable(cables[i].name, static_cast<int>(i), cables[i].span_count(),
+                        static_cast<int>(cables[i].links.size()));
+  }
+  add_requested_joints(model);
+  add_requested_sums();
 }
 
 void ObservableSet::add(std::string name, Source source) {
@@ -321,6 +319,67 @@ void ObservableSet::add_energies() {
   }
 }
 
+void ObservableSet::add_requested_bodies(const Model& model) {
+  for (int i = 0; i < static_cast<int>(model.bodies.size()); ++i) {
+    const BodyDef& body = model.bodies[static_cast<std::size_t>(i)];
+    const auto add_all = [&](std::span<const Quantity> quantities, Group group) {
+      for (int q = 0; q < static_cast<int>(quantities.size()); ++q) {
+        add(fmt::format("{}.{}", body.name, quantities[static_cast<std::size_t>(q)].name),
+            {group, i, 0, q});
+      }
+    };
+    if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) continue;
+    add_all(momentum_quantities, Group::momentum);
+    if (body.mobility != Mobility::rotor) continue;
+    add_all(bearing_quantities, Group::bearing);
+    if (body.drive != DriveKind::none) add_all(body_drive_quantities, Group::drive);
+  }
+}
+
+void ObservableSet::add_requested_cable(std::string_view name, int entity, int spans, int links) {
+  for (int span = 0; span < spans; ++span) {
+    for (int q = 0; q < 3; ++q) {
+      add(fmt::format("{}.{}.{}", name, span,
+                      direction_quantities[static_cast<std::size_t>(q)].name),
+          {Group::direction, entity, span, q});
+    }
+  }
+  for (int link = 0; link < links; ++link) {
+    add(fmt::format("{}.link{}.{}", name, link, link_friction_quantities[0].name),
+        {Group::link_friction, entity, link, 0});
+  }
+}
+
+void ObservableSet::add_requested_joints(const Model& model) {
+  for (int i = 0; i < static_cast<int>(model.joints.size()); ++i) {
+    const JointDef& joint = *model.joints[static_cast<std::size_t>(i)];
+    const std::span<const JointCoordinateInfo> coordinates = joint.coordinates();
+    if (coordinates.empty()) continue;
+    add(fmt::format("{}.{}", joint.name, joint_friction_quantities[0].name),
+        {Group::joint_friction, i, 0, 0});
+    for (int k = 0; k < static_cast<int>(coordinates.size()); ++k) {
+      const std::string_view own = coordinates[static_cast<std::size_t>(k)].name;
+      const std::string prefix = coordinates.size() == 1 ? "" : std::string(own) + "_";
+      for (int q = 0; q < 2; ++q) {
+        add(fmt::format("{}.{}{}", joint.name, prefix,
+                        joint_drive_quantities[static_cast<std::size_t>(q)].name),
+            {Group::joint_drive, i, k, q});
+      }
+    }
+  }
+}
+
+void ObservableSet::add_requested_sums() {
+  for (int q = 0; q < 6; ++q) {
+    add(fmt::format("momentum.{}", scene_momentum_quantities[static_cast<std::size_t>(q)].name),
+        {Group::scene_momentum, 0, 0, q});
+  }
+  for (int q = 0; q < 2; ++q) {
+    add(fmt::format("power.{}", power_quantities[static_cast<std::size_t>(q)].name),
+        {Group::power, 0, 0, q});
+  }
+}
+
 Result<int> ObservableSet::index_of(std::string_view name) const {
   const auto found = std::find(names_.begin(), names_.end(), name);
   if (found != names_.end()) return static_cast<int>(found - names_.begin());
@@ -346,15 +405,36 @@ bool ObservableSet::known_at_start(int index) const {
       return source.quantity == broken;
     case Group::coordinate:
       return source.quantity != drive_force;
+    case Group::bearing:
+    case Group::drive:
+    case Group::link_friction:
+    case Group::joint_friction:
+    case Group::joint_drive:
+    case Group::power:
+      return false;
+    default:
+      return true;
+  }
+}
+
+bool ObservableSet::follows_from_state(int index) const {
+  switch (sources_[static_cast<std::size_t>(index)].group) {
+    case Group::bearing:
+    case Group::drive:
+    case Group::link_friction:
+    case Group::joint_friction:
+    case Group::joint_drive:
+    case Group::power:
+      return false;
     default:
       return true;
   }
 }
 
 void ObservableSet::sample(const Simulation& simulation, std::vector<double>& values) const {
-  values.resize(sources_.size());
+  values.resize(default_count_);
   Sampler sampler(simulation);
-  for (std::size_t i = 0; i < sources_.size(); ++i) values[i] = sampler.value(sources_[i]);
+  for (std::size_t i = 0; i < default_count_; ++i) values[i] = sampler.value(sources_[i]);
 }
 
 void ObservableSet::sample(const Simulation& simulation, std::span<const int> indices,

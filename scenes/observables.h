@@ -5,6 +5,7 @@
 // t, the time, and what quantity_groups() lists, e.g. weight.vy, rope.1.tension, rope.link0.slip,
 // door.angle, energy.total.
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,24 +31,38 @@ struct QuantityGroup {
 
 /// All of them but the time, for the documentation.
 [[nodiscard]] std::span<const QuantityGroup> quantity_groups();
+/// Those that are no columns unless they are asked for: they cost more than to look them up.
+[[nodiscard]] std::span<const QuantityGroup> requested_quantity_groups();
 
-/// A quantity of this joint that a body has too, so that they cannot have the same name; empty if there is none.
-[[nodiscard]] std::string shared_quantity(const JointDef& joint);
+/// A quantity of this joint that this body has too, so that they cannot have the same name; empty if there is none.
+[[nodiscard]] std::string shared_quantity(const JointDef& joint, const BodyDef& body);
 
-/// The observables of one model, in a fixed order: time, bodies, cables, joints, energies.
+/// The observables of one model, in a fixed order: time, bodies, cables, joints, energies; then those on request.
 class ObservableSet {
  public:
-  explicit ObservableSet(const Simulation& simulation);
+  /// Which of them a set has: making a name takes time, and most runs need none of those on request.
+  enum class Extent { columns, everything };
+
+  explicit ObservableSet(const Simulation& simulation, Extent extent = Extent::everything);
   /// The same for what a simulation would be made from.
-  ObservableSet(const Model& model, const std::vector<CableDef>& cables);
+  ObservableSet(const Model& model, const std::vector<CableDef>& cables,
+                Extent extent = Extent::everything);
 
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  /// How many of names() are columns by default; those on request follow.
+  [[nodiscard]] std::size_t default_count() const { return default_count_; }
+  [[nodiscard]] bool contains(std::string_view name) const {
+    return std::find(names_.begin(), names_.end(), name) != names_.end();
+  }
   /// Position of a name in names(); an error suggests a name that is nearly the same.
   [[nodiscard]] Result<int> index_of(std::string_view name) const;
   /// Whether the observable means something before the first step. Forces do not.
   [[nodiscard]] bool known_at_start(int index) const;
 
-  /// All values, in the order of names(). `simulation` must be of the model this set was made for.
+  /// Whether a state alone tells it. Forces of bearings and powers take the substep before.
+  [[nodiscard]] bool follows_from_state(int index) const;
+
+  /// The values of all that are columns by default, in the order of names(). `simulation` must be of the model this set was made for.
   void sample(const Simulation& simulation, std::vector<double>& values) const;
   /// The values at `indices` only: costs nothing for bodies and joints that are not asked for, and
   /// cables and energies only if one of them is.
@@ -55,7 +70,26 @@ class ObservableSet {
               std::span<double> values) const;
 
  private:
-  enum class Group { time, body, span, link, cable, joint, coordinate, energy };
+  enum class Group {
+    time,
+    body,
+    span,
+    link,
+    cable,
+    joint,
+    coordinate,
+    energy,
+    // On request.
+    momentum,
+    bearing,
+    drive,
+    direction,
+    link_friction,
+    joint_friction,
+    joint_drive,
+    scene_momentum,
+    power
+  };
   struct Source {
     Group group = Group::time;
     int entity = 0;    ///< index of the body, cable or joint
@@ -70,9 +104,14 @@ class ObservableSet {
   void add(std::string name, Source source);
   void add_time();
   void add_energies();
+  void add_requested_bodies(const Model& model);
+  void add_requested_cable(std::string_view name, int entity, int spans, int links);
+  void add_requested_joints(const Model& model);
+  void add_requested_sums();
 
   std::vector<std::string> names_;
   std::vector<Source> sources_;
+  std::size_t default_count_ = 0;
 };
 
 }  // namespace sheave

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/control/control_point.h"
 #include "scenes/field_json.h"
 #include "scenes/format.h"
 #include "scenes/json/pretty.h"
@@ -32,9 +33,29 @@ What a check may name, and the columns of a CSV file:
 | `t` | s | time |
 )";
 
+constexpr std::string_view requested_quantities = R"(
+### On request
+
+What a check may name too, and `--columns` asks for, but what is no column otherwise, because it costs more than to look it up.
+Forces and powers are means over the last substep.
+
+| quantity | unit | meaning |
+|---|---|---|
+)";
+
+constexpr std::string_view controls = R"(
+## Controls
+
+What a controller or a trigger may set. It holds until it is set again or cleared, and is part of the state. A drive to a speed, an
+angle or a position is there when the controller may act again, or the trigger's `over` is over; a torque or a force is at once.
+
+| control | unit | meaning |
+|---|---|---|
+)";
+
 /// Rows of the table of quantities; those that mean the same share one.
-void append_quantities(std::string& text) {
-  for (const QuantityGroup& group : quantity_groups()) {
+void append_quantities(std::span<const QuantityGroup> groups, std::string& text) {
+  for (const QuantityGroup& group : groups) {
     const auto& quantities_of = group.quantities;
     for (std::size_t i = 0; i < quantities_of.size();) {
       std::string names = fmt::format("`{}{}`", group.prefix, quantities_of[i].name);
@@ -127,7 +148,11 @@ std::string scene_reference() {
   collect(scene_format(), formats);
   for (const ObjectFormat* format : formats) add_format(*format, text);
   text += quantities;
-  append_quantities(text);
+  append_quantities(quantity_groups(), text);
+  text += requested_quantities;
+  append_quantities(requested_quantity_groups(), text);
+  text += controls;
+  append_quantities(control_groups(), text);
   append_codes(text);
   return text;
 }

@@ -62,15 +62,17 @@ std::span<const Field> CheckDef::field_table() {
           "statistic", statistic_names, optional,
           "at: value at the step nearest to the time at; mean, minimum, maximum: of the values in "
           "the window; rate: (last - first value) / time between them; range: maximum - minimum; "
-          "drift: last - first value"),
+          "drift: last - first value; integral: by the trapezium rule, a power's is work"),
       field<&CheckDef::at>("at", "s", at_least(0.0), optional,
                            "time for the statistic at; default: the end"),
       field<&CheckDef::from>("from", "s", at_least(0.0), optional,
                              "begin of the window of all other statistics; default: 0"),
       field<&CheckDef::to>("to", "s", at_least(0.0), optional,
                            "end of that window; default: the end"),
-      field<&CheckDef::equals>("equals", "", any_number(), required,
-                               "the right value, in the observable's unit (per second for a rate)"),
+      field<&CheckDef::equals>(
+          "equals", "", any_number(), required,
+          "the right value, in the observable's unit (per second for a rate, times seconds for an "
+          "integral)"),
       field<&CheckDef::tolerance>("tolerance", "", at_least(0.0), optional,
                                   "largest error that passes, in the same unit"),
       field<&CheckDef::relative_tolerance>(

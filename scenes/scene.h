@@ -3,7 +3,7 @@
 //
 //   sheave::SceneResult scene = sheave::load_scene("scenes/analytic/atwood.json");
 //   if (!scene) for (const auto& error : scene.errors) puts(to_string(error).c_str());
-//   auto simulation = sheave::Simulation::create(scene->model, scene->cables);
+//   auto simulation = sheave::create_simulation(*scene);  // scenes/control/scene_supervisor.h
 
 #include <array>
 #include <optional>
@@ -13,6 +13,8 @@
 
 #include "cable/cable.h"
 #include "engine/model.h"
+#include "scenes/control/controller.h"
+#include "scenes/control/trigger.h"
 #include "scenes/fault_code.h"
 
 namespace sheave {
@@ -59,19 +61,22 @@ enum class Statistic {
   maximum,
   range,  ///< maximum - minimum
   drift,  ///< last - first value
+  /// Over the time in the window; the first value stands for the time before it, too, where there is none at the start.
+  integral,
 };
-inline constexpr std::array<std::string_view, 7> statistic_names{
-    "at", "mean", "rate", "minimum", "maximum", "range", "drift"};
+inline constexpr std::array<std::string_view, 8> statistic_names{
+    "at", "mean", "rate", "minimum", "maximum", "range", "drift", "integral"};
 
 /// What a scene should show: a closed-form value with a tolerance.
 struct CheckDef {
   std::string quantity;  ///< name of an observable (scenes/observables.h)
   Statistic statistic = Statistic::at;
-  std::optional<double> at;         ///< [s]; default: the end. Only with the statistic `at`
-  std::optional<double> from;       ///< begin of the window [s]; default: 0. Not with `at`
-  std::optional<double> to;         ///< end of the window [s]; default: the end. Not with `at`
-  double equals = 0.0;              ///< in the observable's unit; per second for a rate
-  std::optional<double> tolerance;  ///< absolute, same unit
+  std::optional<double> at;    ///< [s]; default: the end. Only with the statistic `at`
+  std::optional<double> from;  ///< begin of the window [s]; default: 0. Not with `at`
+  std::optional<double> to;    ///< end of the window [s]; default: the end. Not with `at`
+  double equals =
+      0.0;  ///< in the observable's unit; per second for a rate, times s for an integral
+  std::optional<double> tolerance;           ///< absolute, same unit
   std::optional<double> relative_tolerance;  ///< of |equals|; the larger of the two counts
   std::string because;                       ///< the closed form, for people
 
@@ -97,6 +102,8 @@ struct Scene {
   StepPresetDef step_preset;
   Model model;
   std::vector<CableDef> cables;
+  std::vector<std::shared_ptr<const ControllerDef>> controllers;
+  std::vector<TriggerDef> triggers;
   std::optional<CameraDef> camera;
   std::vector<PaintDef> paint;
   std::vector<CheckDef> checks;
@@ -139,12 +146,14 @@ struct SceneResult {
 
 /// A setting that replaces or adds to what the text says, before anything is checked.
 struct Override {
-  std::string pointer;  ///< JSON pointer; its parent must exist ("/step" always does)
-  std::string value;    ///< JSON; a bare word is a string
-  std::string origin;   ///< what errors call the source; default "--set POINTER"
+  /// JSON pointer; its parent must exist ("/step" always does). Names stand for places: /bodies/drum/mass. A drive that is
+  /// set to another kind, or to none, loses what it cannot have any more.
+  std::string pointer;
+  std::string value;   ///< JSON; a bare word is a string
+  std::string origin;  ///< what errors call the source; default "--set POINTER"
 };
 
-/// Reads and checks a scene. A scene that loads also builds: Simulation::create accepts it.
+/// Reads and checks a scene. A scene that loads also builds: create_simulation() accepts it.
 [[nodiscard]] SceneResult load_scene(const std::string& path,
                                      const std::vector<Override>& overrides = {});
 [[nodiscard]] SceneResult load_scene_text(std::string_view text, const std::string& file_name,

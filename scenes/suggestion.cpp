@@ -55,4 +55,17 @@ std::size_t Suggestion::distance(std::string_view candidate) {
   return previous_[n];
 }
 
+std::vector<std::string_view> nearest(std::string_view word,
+                                      std::vector<std::string_view> candidates, std::size_t most) {
+  std::vector<std::string_view> result;
+  while (result.size() < most) {
+    Suggestion suggestion(word);
+    for (const std::string_view candidate : candidates) suggestion.consider(candidate);
+    if (suggestion.best().empty()) break;
+    result.push_back(suggestion.best());
+    std::erase(candidates, suggestion.best());
+  }
+  return result;
+}
+
 }  // namespace sheave

@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <string_view>
+#include <unordered_map>
 #include <unordered_set>
 
 #include <fmt/format.h>
 
 #include "cable/simulation.h"
 #include "engine/field_check.h"
+#include "scenes/control/scene_supervisor.h"
 #include "scenes/format.h"
 #include "scenes/observables.h"
 
@@ -128,21 +130,49 @@ void check_names(const Scene& scene, Errors& errors) {
     check(scene.model.joints[i]->name, "joints", i);
   }
   for (std::size_t i = 0; i < scene.cables.size(); ++i) check(scene.cables[i].name, "cables", i);
+  for (std::size_t i = 0; i < scene.controllers.size(); ++i) {
+    check(scene.controllers[i]->name, "controllers", i);
+  }
+  for (std::size_t i = 0; i < scene.triggers.size(); ++i) {
+    check(scene.triggers[i].name, "triggers", i);
+  }
 }
 
 /// Bodies and joints may have the same name as long as every quantity has one of its own.
 void check_shared_names(const Model& model, Errors& errors) {
-  std::unordered_set<std::string_view> bodies;
-  for (const BodyDef& body : model.bodies) bodies.insert(body.name);
+  std::unordered_map<std::string_view, const BodyDef*> bodies;
+  for (const BodyDef& body : model.bodies) bodies.emplace(body.name, &body);
   for (std::size_t i = 0; i < model.joints.size(); ++i) {
     const JointDef& joint = *model.joints[i];
-    if (!bodies.contains(joint.name)) continue;
-    const std::string shared = shared_quantity(joint);
+    const auto body = bodies.find(joint.name);
+    if (body == bodies.end()) continue;
+    const std::string shared = shared_quantity(joint, *body->second);
     if (shared.empty()) continue;
     errors.push_back({fmt::format("/joints/{}/name", i),
                       fmt::format("a body is called \"{0}\" too, so {0}.{1} could be that of "
                                   "either; choose another name",
                                   joint.name, shared)});
+  }
+}
+
+void check_settings_of_controls(const Scene& scene, Errors& errors) {
+  const auto append = [&](Errors found) {
+    for (Error& error : found) errors.push_back(std::move(error));
+  };
+  for (std::size_t i = 0; i < scene.controllers.size(); ++i) {
+    const ControllerDef& controller = *scene.controllers[i];
+    const std::string path = fmt::format("/controllers/{}", i);
+    check_fields(ControllerDef::common_field_table(), &controller, path, errors);
+    for (const auto& type : controller_types()) {
+      if (type.name != controller.type()) continue;
+      check_fields(type.fields(), controller.settings(), path, errors);
+    }
+    append(controller.validate(path));
+  }
+  for (std::size_t i = 0; i < scene.triggers.size(); ++i) {
+    const std::string path = fmt::format("/triggers/{}", i);
+    check_fields(TriggerDef::field_table(), &scene.triggers[i], path, errors);
+    append(scene.triggers[i].validate(path));
   }
 }
 
@@ -158,15 +188,32 @@ Errors validate_scene(const Scene& scene, bool checks_may_end_late) {
   if (scene.camera) check_camera(*scene.camera, errors);
   check_paint(scene, errors);
   std::optional<ObservableSet> observables;
-  if (!scene.checks.empty()) observables.emplace(scene.model, scene.cables);
+  if (!scene.checks.empty()) {
+    observables.emplace(scene.model, scene.cables, ObservableSet::Extent::columns);
+  }
   for (std::size_t i = 0; i < scene.checks.size(); ++i) {
     const std::string path = fmt::format("/checks/{}", i);
     check_check(scene.checks[i], path, scene.duration, checks_may_end_late, errors);
+    const bool columns_only = observables->names().size() == observables->default_count();
+    if (columns_only && !observables->contains(scene.checks[i].quantity)) {
+      observables.emplace(scene.model, scene.cables);
+    }
     const Result<int> index = observables->index_of(scene.checks[i].quantity);
     if (!index) errors.push_back({path + "/quantity", index.errors().front().message});
   }
-  for (Error& error : Simulation::check(scene.model, scene.cables)) {
-    errors.push_back(std::move(error));
+  check_settings_of_controls(scene, errors);
+  if (scene.controllers.empty() && scene.triggers.empty()) {
+    for (Error& error : Simulation::check(scene.model, scene.cables)) {
+      errors.push_back(std::move(error));
+    }
+    return errors;
+  }
+  const bool sound = errors.empty();
+  const Result<Simulation> simulation = create_simulation(scene);
+  if (!simulation) {
+    errors.insert(errors.end(), simulation.errors().begin(), simulation.errors().end());
+  } else if (sound) {
+    errors = try_controls(scene);
   }
   return errors;
 }

@@ -27,6 +27,13 @@ class SceneWriter {
     });
     add_list(root, "cables", scene_.cables,
              [&](const CableDef& cable) { return write_cable(cable); });
+    add_list(root, "controllers", scene_.controllers,
+             [&](const std::shared_ptr<const ControllerDef>& controller) {
+               return typed(controller_format(), controller->type(), controller.get(),
+                            controller->settings());
+             });
+    add_list(root, "triggers", scene_.triggers,
+             [&](const TriggerDef& trigger) { return plain(trigger_format(), &trigger); });
     add_list(root, "colliders", model.colliders,
              [&](const ColliderDef& collider) { return plain(collider_format(), &collider); });
     if (model.ground) root["ground"] = plain(ground_format(), &*model.ground);

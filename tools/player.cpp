@@ -3,9 +3,11 @@
 #include <cmath>
 #include <optional>
 
+#include "scenes/control/scene_supervisor.h"
 #include "tools/failure.h"
 #include "tools/interrupt.h"
 #include "tools/scene_options.h"
+#include "tools/state_file.h"
 
 namespace sheave::tools {
 namespace {
@@ -81,14 +83,16 @@ class Shutter {
 }  // namespace
 
 Simulation make_simulation(const Scene& scene) {
-  Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
+  Result<Simulation> simulation = create_simulation(scene);
   if (!simulation) throw Failure(ExitCode::internal, to_text(simulation.errors()));
   return std::move(simulation).value();
 }
 
-RunOutcome play(const Scene& scene, std::span<const double> times, Progress& progress,
+RunOutcome play(const Scene& scene, const std::string& start, std::span<const double> times,
+                Progress& progress,
                 const std::function<bool(std::size_t, const Simulation&)>& show) {
   Simulation simulation = make_simulation(scene);
+  if (!start.empty()) load_state(simulation.world, start);
   Shutter shutter(scene, times, show);
   return simulate(simulation, step_count(scene), progress,
                   [&](const RunStatistics&) { return shutter.observe(simulation); });
@@ -98,7 +102,7 @@ std::vector<CableReport> reports_to_show(const Scene& scene, const Simulation& s
   std::vector<CableReport> reports = simulation.cable_reports();
   if (reports.empty() || simulation.world.state().time > 0.0) return reports;
   Simulation ahead = make_simulation(scene);
-  if (!ahead.world.step(interrupted).ok()) return reports;
+  if (!ahead.step(interrupted).ok()) return reports;
   const std::vector<CableReport> later = ahead.cable_reports();
   for (std::size_t c = 0; c < reports.size(); ++c) {
     for (std::size_t k = 0; k < reports[c].spans.size(); ++k) {

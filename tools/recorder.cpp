@@ -14,7 +14,9 @@
 namespace sheave::tools {
 
 Recorder::Recorder(const RecordOptions& options, const Simulation& simulation)
-    : observables_(simulation), every_(options.every) {
+    : observables_(simulation, options.patterns.empty() ? ObservableSet::Extent::columns
+                                                        : ObservableSet::Extent::everything),
+      every_(options.every) {
   if (options.paths.empty()) return;
   choose_columns(options.patterns);
   values_.resize(columns_.size());
@@ -29,7 +31,10 @@ Recorder::Recorder(const RecordOptions& options, const Simulation& simulation)
 
 void Recorder::choose_columns(const std::vector<std::string>& patterns) {
   const std::vector<std::string>& names = observables_.names();
-  std::vector<bool> chosen(names.size(), patterns.empty());
+  std::vector<bool> chosen(names.size(), false);
+  if (patterns.empty()) {
+    std::fill_n(chosen.begin(), observables_.default_count(), true);
+  }
   chosen.front() = true;  // without the time a table says little
   for (const std::string& pattern : patterns) {
     bool found = false;

@@ -22,6 +22,7 @@
 #include "tools/player.h"
 #include "tools/render_outputs.h"
 #include "tools/scene_options.h"
+#include "tools/state_file.h"
 #include "tools/terminal.h"
 
 namespace sheave::tools {
@@ -30,6 +31,7 @@ namespace {
 struct RenderOptions {
   SceneOptions scene;
   PictureOptions pictures;
+  std::string load_state;
   bool quiet = false;
 };
 
@@ -53,11 +55,18 @@ void insert_still(Moments& moments, double at, double tolerance) {
   if (!moments.still_is_frame) moments.times.insert(place, at);
 }
 
-Moments choose_moments(const Scene& scene, const PictureOptions& options) {
+/// Frames are those of a run from the start as far as they lie behind `begin` [s], so that films of two parts fit together.
+Moments choose_moments(const Scene& scene, const PictureOptions& options, double begin) {
   constexpr double most_frames = 1e7;
   const double dt = scene.model.step.dt;
   const double end = static_cast<double>(step_count(scene)) * dt;
   const double tolerance = 1e-6 * dt;
+  if (begin > end + tolerance) {
+    throw Failure(ExitCode::usage,
+                  fmt::format("--load-state: the state is of {} s, when the run has ended at {} s; "
+                              "see --duration",
+                              number_text(begin), number_text(end)));
+  }
   Moments moments;
   moments.frames = options.has_frames();
   if (moments.frames) {
@@ -68,7 +77,8 @@ Moments choose_moments(const Scene& scene, const PictureOptions& options) {
                                                  "at most {:.0f} are possible",
                                                  number_text(end), last, most_frames));
     }
-    for (double k = 0.0; k <= last; ++k) moments.times.push_back(k * interval);
+    const double first = std::ceil((begin - tolerance) / interval);
+    for (double k = std::max(first, 0.0); k <= last; ++k) moments.times.push_back(k * interval);
   }
   if (options.still.empty()) return moments;
   const double at = options.at.value_or(end);
@@ -76,7 +86,11 @@ Moments choose_moments(const Scene& scene, const PictureOptions& options) {
     throw Failure(ExitCode::usage, fmt::format("--at {}: the run ends at {} s; see --duration",
                                                number_text(at), number_text(end)));
   }
-  insert_still(moments, std::min(at, end), tolerance);
+  if (at < begin - tolerance) {
+    throw Failure(ExitCode::usage, fmt::format("--at {}: the state that is loaded is of {} s",
+                                               number_text(at), number_text(begin)));
+  }
+  insert_still(moments, std::clamp(at, begin, end), tolerance);
   return moments;
 }
 
@@ -87,14 +101,16 @@ struct Look {
 };
 
 /// Plays the scene once, to frame it and to give every tension the same colour in every frame.
-Look survey(const Scene& scene, const PictureOptions& options, std::span<const double> times,
+Look survey(const Scene& scene, const RenderOptions& settings, std::span<const double> times,
             Progress& progress) {
+  const PictureOptions& options = settings.pictures;
   render::ViewSurvey survey;
   const RunOutcome outcome =
-      play(scene, times, progress, [&](std::size_t /*k*/, const Simulation& simulation) {
-        survey.add(simulation.world, reports_to_show(scene, simulation));
-        return true;
-      });
+      play(scene, settings.load_state, times, progress,
+           [&](std::size_t /*k*/, const Simulation& simulation) {
+             survey.add(simulation.world, reports_to_show(scene, simulation));
+             return true;
+           });
   if (outcome.status == RunStatus::interrupted) {
     throw Failure(ExitCode::interrupted, "interrupted before anything was drawn");
   }
@@ -156,15 +172,21 @@ ExitCode render_scene(const RenderOptions& options) {
   const PictureOptions& pictures = options.pictures;
   const NamedPath first_frame{
       "--png", pictures.png.empty() ? "" : fmt::format("{}/frame_000000.png", pictures.png)};
-  check_paths({{"the scene", options.scene.path}},
+  check_paths({{"the scene", options.scene.path}, {"--load-state", options.load_state}},
               {{"--video", pictures.video}, {"--still", pictures.still}, first_frame}, false);
   const Scene scene = load(options.scene);
-  const Moments moments = choose_moments(scene, pictures);
+  double begin = 0.0;
+  if (!options.load_state.empty()) {
+    Simulation loaded = make_simulation(scene);
+    load_state(loaded.world, options.load_state);
+    begin = loaded.world.state().time;
+  }
+  const Moments moments = choose_moments(scene, pictures, begin);
   catch_interrupts();
   PictureOutputs outputs(pictures);
   const auto steps = static_cast<double>(step_count(scene));
   Progress survey_progress("survey", 0.0, steps, options.quiet);
-  const Look look = survey(scene, pictures, moments.times, survey_progress);
+  const Look look = survey(scene, options, moments.times, survey_progress);
   survey_progress.clear();
   Progress progress("draw", 0.0, steps, options.quiet);
   const auto show = [&](std::size_t k, const Simulation& simulation) {
@@ -176,7 +198,7 @@ ExitCode render_scene(const RenderOptions& options) {
   };
   RunOutcome outcome;
   try {
-    outcome = play(scene, moments.times, progress, show);
+    outcome = play(scene, options.load_state, moments.times, progress, show);
   } catch (...) {
     outputs.finish();  // keeps what has been drawn
     throw;
@@ -236,6 +258,8 @@ Action declare_render(CLI::App& app) {
   auto options = std::make_shared<RenderOptions>();
   add_scene_options(app, options->scene);
   add_picture_options(app, options->pictures);
+  app.add_option("--load-state", options->load_state, "start from a saved state (sheave run)")
+      ->option_text("FILE");
   app.add_flag("-q,--quiet", options->quiet, "print nothing but warnings and errors");
   app.footer(R"(Examples:
   sheave render crane.json --video crane.mp4

@@ -9,6 +9,7 @@
 #include "engine/field_check.h"
 #include "engine/integrators/loads.h"
 #include "measure/stress_judge.h"
+#include "scenes/control/scene_supervisor.h"
 #include "scenes/magnitude.h"
 #include "tools/remedy.h"
 
@@ -262,6 +263,23 @@ void append_rounding_warning(const World& world, std::vector<Warning>& warnings)
   }
 }
 
+/// The controllers and triggers of the simulation's scene, if it has any.
+const SceneSupervisor* supervisor_of(const Simulation& simulation) {
+  return dynamic_cast<const SceneSupervisor*>(simulation.supervisor.get());
+}
+
+void append_control_warning(const Simulation& simulation, std::vector<Warning>& warnings) {
+  const SceneSupervisor* supervisor = supervisor_of(simulation);
+  if (supervisor == nullptr) return;
+  const std::int64_t refusals = supervisor->refusals(simulation.world.state());
+  if (refusals == 0) return;
+  warnings.push_back(
+      {"control_refused", "",
+       fmt::format("{} times a controller or trigger could not set what it wanted to, because it "
+                   "was not finite or not allowed there; give the controller limits",
+                   refusals)});
+}
+
 /// What the solver and the integrator could not do as asked.
 void append_solver_warnings(const RunStatistics& statistics, std::vector<Warning>& warnings) {
   if (statistics.solver_fallbacks > 0) {
@@ -365,6 +383,7 @@ std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simu
   append_energy_warning(scene, simulation, monitor, warnings);
   append_rounding_warning(simulation.world, warnings);
   append_solver_warnings(statistics, warnings);
+  append_control_warning(simulation, warnings);
   return warnings;
 }
 
@@ -373,12 +392,22 @@ std::vector<RunEvent> collect_events(const Simulation& simulation,
   std::vector<RunEvent> events;
   if (simulation.cables != nullptr) {
     for (const CableEvent& event : simulation.cables->events()) {
-      events.push_back({event.time, false, event.cable, event.link, event.body,
+      events.push_back({event.time, RunEvent::Source::cable, event.cable, event.link, event.body,
                         cable_event_names[static_cast<std::size_t>(event.kind)]});
     }
   }
   for (const JointReport& joint : joints) {
-    if (joint.broken_at) events.push_back({*joint.broken_at, true, joint.name, -1, "", "break"});
+    if (!joint.broken_at) continue;
+    events.push_back({*joint.broken_at, RunEvent::Source::joint, joint.name, -1, "", "break"});
+  }
+  if (const SceneSupervisor* supervisor = supervisor_of(simulation)) {
+    const auto times = supervisor->acted_at(simulation.world.state());
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const TriggerDef& trigger = supervisor->trigger(i);
+      if (!times[i]) continue;
+      events.push_back({*times[i], RunEvent::Source::trigger, trigger.name, -1, "",
+                        trigger_action_names[static_cast<std::size_t>(trigger.action)]});
+    }
   }
   std::stable_sort(events.begin(), events.end(),
                    [](const RunEvent& a, const RunEvent& b) { return a.time < b.time; });

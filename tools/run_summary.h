@@ -26,15 +26,17 @@ struct Warning {
 
 /// Something that happened at a moment.
 struct RunEvent {
-  double time = 0.0;      ///< [s]
-  bool of_joint = false;  ///< else of a cable
-  std::string subject;    ///< name of the joint or cable
-  int link = -1;          ///< of the cable; -1: none, and for joints
+  /// What it happened to.
+  enum class Source { cable, joint, trigger };
+  double time = 0.0;  ///< [s]
+  Source source = Source::cable;
+  std::string subject;    ///< name of the cable, joint or trigger
+  int link = -1;          ///< of the cable; -1: none, and for others
   std::string body;       ///< that the cable met; empty: the world, or none
-  std::string_view kind;  ///< "break" of a joint; of a cable as in cable_event_names
+  std::string_view kind;  ///< "break" of a joint; as in cable_event_names, trigger_action_names
 };
 
-/// What cables and joints went through, in the order of time.
+/// What cables and joints went through and triggers did last, in the order of time.
 [[nodiscard]] std::vector<RunEvent> collect_events(const Simulation& simulation,
                                                    const std::vector<JointReport>& joints);
 

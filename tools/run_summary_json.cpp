@@ -127,8 +127,9 @@ RunJson joints(const RunSummary& summary) {
 RunJson events(const RunSummary& summary) {
   RunJson list = RunJson::array();
   for (const RunEvent& event : summary.events) {
-    if (event.of_joint) {
-      list.push_back({{"time", event.time}, {"joint", event.subject}, {"kind", event.kind}});
+    if (event.source != RunEvent::Source::cable) {
+      const char* source = event.source == RunEvent::Source::joint ? "joint" : "trigger";
+      list.push_back({{"time", event.time}, {source, event.subject}, {"kind", event.kind}});
       continue;
     }
     list.push_back({{"time", event.time},

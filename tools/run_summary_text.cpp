@@ -140,7 +140,8 @@ std::string event_lines(const RunSummary& summary) {
   TextTable table({"time [s]", "subject", "body", "event"}, 4);
   for (std::size_t i = 0; i < std::min(summary.events.size(), max_events); ++i) {
     const RunEvent& event = summary.events[i];
-    const std::string body = event.of_joint || !event.body.empty() ? event.body : "world";
+    const std::string body =
+        event.source != RunEvent::Source::cable || !event.body.empty() ? event.body : "world";
     table.add({short_number(event.time), event.subject, body, std::string(event.kind)});
   }
   return "\n" + table.text() + omitted(summary.events.size(), "events", max_events);

@@ -71,7 +71,7 @@ Override parse_setting(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || text.front() != '/') {
     throw Failure(ExitCode::usage, fmt::format("--set {}: must be /json/pointer=value, for example "
-                                               "--set /bodies/0/mass=2",
+                                               "--set /bodies/drum/mass=2",
                                                text));
   }
   const std::string pointer = text.substr(0, equals);
@@ -103,7 +103,10 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
     option->group(group)->option_text(shortcut.number ? "X" : "NAME");
     if (shortcut.number) option->check(finite_number());
   }
-  app.add_option("--set", options.settings, "any setting, by its JSON pointer; may be repeated")
+  app.add_option("--set", options.settings,
+                 "any setting, by its JSON pointer, with names or numbers "
+                 "(/bodies/drum/mass, /joints/0/drive); may be "
+                 "repeated")
       ->group("Instead of what the scene says")
       ->option_text("/POINTER=VALUE")
       ->expected(1)

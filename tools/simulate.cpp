@@ -63,7 +63,7 @@ RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& pr
   bool wanted = observe(outcome.statistics);
   while (wanted && world.state().steps < last_step) {
     const Clock::time_point step_start = Clock::now();
-    StepReport report = world.step(stop);
+    StepReport report = simulation.step(stop);
     if (report.stopped) break;
     outcome.step_time += seconds_since(step_start);
     accumulate(report.statistics, outcome.statistics);
@@ -73,6 +73,9 @@ RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& pr
       break;
     }
     ++outcome.steps;
+    if (simulation.supervisor != nullptr && simulation.supervisor->has_stopped(world.state())) {
+      last_step = world.state().steps;
+    }
     checker.observe(simulation);
     wanted = observe(outcome.statistics);
     if (progress.due()) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "measure/similarity.h"
+#include "scenes/control/scene_supervisor.h"
 #include "scenes/suggestion.h"
 #include "tools/failure.h"
 #include "tools/interrupt.h"
@@ -41,7 +42,7 @@ StressOutcome run_cell(const measure::StressCell& cell, const StressSettings& se
     const std::string fault = scene.errors.empty() ? "" : to_string(scene.errors.front());
     return {{StressKind::refused, std::nan(""), fault}, {}, {}};
   }
-  Result<Simulation> simulation = Simulation::create(scene->model, scene->cables);
+  Result<Simulation> simulation = create_simulation(*scene);
   if (!simulation)
     return {{StressKind::refused, std::nan(""), to_text(simulation.errors())}, {}, {}};
   measure::StressJudge judge(*scene, *simulation);

@@ -18,7 +18,7 @@ class SheaveMachine final : public Machine {
         coordinates_(std::move(coordinates)) {}
 
   void restart() override { static_cast<void>(simulation_.world.restore(start_)); }
-  bool step() override { return simulation_.world.step().ok(); }
+  bool step() override { return simulation_.step().ok(); }
   void read(std::vector<double>& positions, std::vector<double>& rates) const override {
     positions.clear();
     rates.clear();

@@ -26,7 +26,7 @@ class EnergyCheck {
     for (int i = 0; i < evidence.bodies.count(); ++i) {
       kinetic_ += kinetic(i);
       const BodyProperties& body = evidence.bodies[i];
-      weight_ += body.mass * evidence.bodies.gravity().norm();
+      weight_ += body.mass * evidence.gravity.norm();
       flow_ += flow_of(i);
     }
     const Energy reported = evidence.simulation.world.energy();
@@ -71,10 +71,9 @@ class EnergyCheck {
     const BodyProperties& body = e_.bodies[i];
     double power = e_.balances[at(i)].power;
     if (body.mobility != Mobility::fixed && body.mobility != Mobility::kinematic) {
-      const BodyDef& definition = e_.bodies.definition(i);
       const BodyState& state = e_.end.bodies[at(i)];
-      power += std::abs((body.mass * e_.bodies.gravity() + definition.force).dot(state.velocity)) +
-               std::abs(definition.torque.dot(state.angular_velocity));
+      power += std::abs((body.mass * e_.gravity + e_.load_force(i, last_end)).dot(state.velocity)) +
+               std::abs(e_.load_torque(i, last_end).dot(state.angular_velocity));
     }
     return 0.5 * e_.h * power;
   }
@@ -221,7 +220,7 @@ class EnergyCheck {
       if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) continue;
       const BodyState& to = e_.end.bodies[at(i)];
       const Vector3 beside = e_.h * to.velocity - (to.position - e_.start.bodies[at(i)].position);
-      work += body.mass * e_.bodies.gravity().dot(beside);
+      work += body.mass * e_.gravity.dot(beside);
     }
     return work;
   }

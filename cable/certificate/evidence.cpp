@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cable/certificate/pushes.h"
+#include "engine/dynamics/mounted_drive.h"
 #include "engine/substep.h"
 
 namespace sheave::certify {
@@ -15,20 +16,6 @@ FeatureState with_forces(const FeatureState& like, const std::vector<double>& fo
   FeatureState own = like;
   std::copy(forces.begin(), forces.end(), own.reals.begin());
   return own;
-}
-
-/// Two parts of each of `total`, by what was late.
-std::array<std::vector<double>, 2> parts(std::span<const double> total, bool rattle,
-                                         std::span<const double> late) {
-  std::array<std::vector<double>, 2> result;
-  result[last_end].assign(total.begin(), total.end());
-  result[first_end].assign(total.size(), 0.0);
-  if (!rattle || late.size() != total.size()) return result;
-  for (std::size_t i = 0; i < total.size(); ++i) {
-    result[last_end][i] = late[i];
-    result[first_end][i] = total[i] - late[i];
-  }
-  return result;
 }
 
 /// Bodies where they are at the end of a substep that began at `start`.
@@ -49,12 +36,26 @@ Substep placed_at(const BodySet& bodies, const State& start, const State& end, d
 
 }  // namespace
 
+std::array<std::vector<double>, 2> parts(std::span<const double> total, bool rattle,
+                                         std::span<const double> late) {
+  std::array<std::vector<double>, 2> result;
+  result[last_end].assign(total.begin(), total.end());
+  result[first_end].assign(total.size(), 0.0);
+  if (!rattle || late.size() != total.size()) return result;
+  for (std::size_t i = 0; i < total.size(); ++i) {
+    result[last_end][i] = late[i];
+    result[first_end][i] = total[i] - late[i];
+  }
+  return result;
+}
+
 Evidence::Evidence(const Simulation& observed, const LastSubstep& last)
     : simulation(observed),
       model(observed.world.model()),
       bodies(observed.world.bodies()),
       start(last.start),
       end(observed.world.state()),
+      gravity(start.controls.has_gravity ? start.controls.gravity : bodies.gravity()),
       h(last.h),
       rattle(last.integrator == IntegratorKind::rattle),
       moments{Moment{&bodies, &start.bodies}, Moment{&bodies, &end.bodies}} {
@@ -62,11 +63,15 @@ Evidence::Evidence(const Simulation& observed, const LastSubstep& last)
   if (simulation.cables != nullptr) collect_cables(last);
   if (!model.joints.empty()) collect_joints(last);
   for (std::size_t f = 0; f < observed.world.features().size(); ++f) {
+    if (observed.world.features()[f]->name() == mounted_drives_name) {
+      collect_mounted_drives(last, f);
+    }
     if (observed.world.features()[f]->name() == "ground contacts") collect_ground(last, f);
     if (observed.world.features()[f]->name() == "contacts") collect_contacts(last, f);
   }
   apply_cables();
   apply_joints();
+  apply_mounted_drives();
   apply_contacts();
   for (const Balance& balance : balances) {
     largest_force = std::max(largest_force, balance.largest_force);
@@ -138,6 +143,8 @@ void Evidence::push(End when, int body, const Vector3& point, const Vector3& for
     balance.largest_torque = std::max(balance.largest_torque, torque.norm());
   };
   const int mount = bodies[body].mount;
+  balances[at(body)].own_force[at(when)] += force;
+  balances[at(body)].own_torque[at(when)] += (point - now.center(body)).cross(force);
   if (mount < 0) {
     add(body, force, (point - now.center(body)).cross(force));
   } else {
@@ -154,6 +161,7 @@ void Evidence::push(End when, int body, const Vector3& point, const Vector3& for
 void Evidence::twist(End when, int body, const Vector3& torque) {
   if (body == bodies.count() || is_zero(torque)) return;
   const int mount = bodies[body].mount;
+  balances[at(body)].own_torque[at(when)] += torque;
   const auto add = [&](int to, const Vector3& part) {
     balances[at(to)].torque[at(when)] += part;
     balances[at(to)].largest_torque = std::max(balances[at(to)].largest_torque, part.norm());
@@ -198,12 +206,14 @@ void Evidence::collect_cables(const LastSubstep& last) {
     second.reals[system.tension_index(static_cast<int>(k))] = force[last_end][k];
     second.reals[system.rest_length_index(static_cast<int>(k))] = now.reals[k];
   }
+  follow_controls();
   const std::vector<CableReport> at_start = system.report(bodies, start, first);
   const std::vector<CableReport> at_end = system.report(bodies, end, second);
   const std::vector<CableReport> after = system.report(bodies, end, now);
   for (std::size_t c = 0; c < after.size(); ++c) {
     CableEvidence& cable = cables.emplace_back();
-    cable.definition = &(*simulation.cable_definitions)[c];
+    cable.definition = controlled_.empty() ? &(*simulation.cable_definitions)[c] : &controlled_[c];
+    cable.first_link = system.cables()[c].first_link;
     cable.name = cable.definition->name;
     cable.start = at_start[c];
     cable.end = after[c];
@@ -356,12 +366,16 @@ void Evidence::collect_joints(const LastSubstep& last) {
   const Substep at_start(bodies, start, h, 1);
   const Substep at_end = placed_at(bodies, start, end, h);
   const Substep after(bodies, end, h, 1);
+  int coordinate = 0;
   for (const auto& joint : model.joints) {
+    const int first_coordinate = coordinate;
+    coordinate += static_cast<int>(joint->coordinates().size());
     for (Course& course : courses) {
       if (course.type != joint->type()) continue;
       const int index = course.next++;
       JointEvidence& found = joints.emplace_back();
       found.definition = joint.get();
+      found.first_coordinate = first_coordinate;
       found.acting[first_end] = course.batch->report(index, at_start, course.acting[first_end]);
       found.acting[last_end] = course.batch->report(index, at_end, course.acting[last_end]);
       found.start = course.batch->report(index, at_start, start.features[course.feature]);
@@ -386,100 +400,26 @@ void Evidence::apply_joints() {
   }
 }
 
-// Contacts.
-
-void Evidence::collect_ground(const LastSubstep& last, std::size_t feature) {
+void Evidence::collect_mounted_drives(const LastSubstep& last, std::size_t feature) {
   const auto late = last.late_forces.size() > feature
                         ? std::span<const double>(last.late_forces[feature])
                         : std::span<const double>();
-  const auto press = parts(end.features[feature].reals, rattle, late);
-  const Vector3 normal = model.ground->normal.normalized();
+  const auto torque = parts(end.features[feature].reals, rattle, late);
   std::size_t next = 0;
-  std::vector<Vector3> points;
   for (int i = 0; i < bodies.count(); ++i) {
-    const Mobility mobility = bodies[i].mobility;
-    if (mobility != Mobility::free && mobility != Mobility::planar &&
-        mobility != Mobility::slider && bodies[i].mount < 0) {
-      continue;
-    }
-    for (const PlacedShape& placed : bodies.definition(i).shapes) {
-      points.clear();
-      const Quaternion to_world = moments[first_end].orientation(i) * placed.orientation;
-      placed.shape->append_contact_points(to_world.conjugate() * (-normal), points);
-      for (const Vector3& point : points) {
-        const Vector3 own = placed.position + placed.orientation * point - bodies[i].center_of_mass;
-        const std::size_t k = next++;
-        ContactEvidence contact;
-        contact.ground = true;
-        contact.body_a = i;
-        contact.body_b = bodies.count();
-        contact.normal = normal;
-        for (const End when : {first_end, last_end}) {
-          contact.point_a[at(when)] = moments[at(when)].point(i, own);
-          contact.gap[at(when)] = normal.dot(contact.point_a[at(when)] - model.ground->point);
-          contact.point_b[at(when)] = contact.point_a[at(when)] - contact.gap[at(when)] * normal;
-          contact.press[at(when)] = press[at(when)][k];
-          contact.drag[at(when)].setZero();
-        }
-        if (contact.gap[last_end] < 0.0 || press[0][k] != 0.0 || press[1][k] != 0.0) {
-          contacts.push_back(contact);
-        }
-      }
-    }
+    if (bodies[i].mounted_drive == DriveKind::none) continue;
+    mounted_drives.push_back({i, {torque[first_end][next], torque[last_end][next]}});
+    ++next;
   }
 }
 
-void Evidence::collect_contacts(const LastSubstep& last, std::size_t feature) {
-  const std::vector<ContactReport> reports = simulation.world.contacts();
-  const auto late = last.late_forces.size() > feature
-                        ? std::span<const double>(last.late_forces[feature])
-                        : std::span<const double>();
-  const bool halves = rattle && late.size() == 4 * reports.size();
-  const auto collider_of = [&](int body) -> const ColliderDef* {
-    for (const ColliderDef& collider : model.colliders) {
-      if (bodies.index(collider.body) == body) return &collider;
-    }
-    return nullptr;
-  };
-  for (std::size_t i = 0; i < reports.size(); ++i) {
-    const ContactReport& report = reports[i];
-    ContactEvidence contact;
-    contact.body_a = bodies.index(report.body_a);
-    contact.body_b = bodies.index(report.body_b);
-    contact.normal = report.normal;
-    contact.sticks = report.sticks;
-    contact.collider_a = collider_of(contact.body_a);
-    contact.collider_b = collider_of(contact.body_b);
-    const Vector3 end_a = moments[last_end].point(contact.body_a, report.core_a);
-    const Vector3 end_b = moments[last_end].point(contact.body_b, report.core_b);
-    const double radius_a = report.normal.dot(end_a - report.point);
-    const double radius_b = report.normal.dot(end_a - end_b) - radius_a - report.gap;
+void Evidence::apply_mounted_drives() {
+  for (const MountedDriveEvidence& drive : mounted_drives) {
+    const int mount = bodies[drive.rotor].mount;
     for (const End when : {first_end, last_end}) {
-      const Vector3 core_a = moments[at(when)].point(contact.body_a, report.core_a);
-      const Vector3 core_b = moments[at(when)].point(contact.body_b, report.core_b);
-      contact.point_a[at(when)] = core_a - radius_a * report.normal;
-      contact.point_b[at(when)] = core_b + radius_b * report.normal;
-      contact.gap[at(when)] =
-          report.normal.dot(contact.point_a[at(when)] - contact.point_b[at(when)]);
-    }
-    contact.press = {0.0, report.normal_force};
-    contact.drag = {Vector3::Zero(), report.friction_force};
-    if (halves) {
-      contact.press[last_end] = late[4 * i];
-      contact.drag[last_end] = Vector3(late[4 * i + 1], late[4 * i + 2], late[4 * i + 3]);
-      contact.press[first_end] = report.normal_force - contact.press[last_end];
-      contact.drag[first_end] = report.friction_force - contact.drag[last_end];
-    }
-    contacts.push_back(contact);
-  }
-}
-
-void Evidence::apply_contacts() {
-  for (const ContactEvidence& contact : contacts) {
-    for (const End when : {first_end, last_end}) {
-      const Vector3 force = contact.press[at(when)] * contact.normal + contact.drag[at(when)];
-      push(when, contact.body_a, contact.point_a[at(when)], force);
-      push(when, contact.body_b, contact.point_b[at(when)], -force);
+      const Vector3 axle = moments[at(when)].orientation(mount) * bodies[drive.rotor].axis;
+      twist(when, drive.rotor, drive.torque[at(when)] * axle);
+      twist(when, mount, -drive.torque[at(when)] * axle);
     }
   }
 }

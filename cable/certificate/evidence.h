@@ -92,7 +92,9 @@ struct PassEvidence {
 
 struct CableEvidence {
   std::string_view name;
+  /// With what has been set instead; but for friction and feeds of its links.
   const CableDef* definition = nullptr;
+  int first_link = 0;  ///< among those of all cables
   std::vector<SpanEvidence> spans;
   std::vector<PassEvidence> passes;
   bool has_changed =
@@ -105,6 +107,7 @@ struct CableEvidence {
 
 struct JointEvidence {
   const JointDef* definition = nullptr;
+  int first_coordinate = 0;           ///< among those of all joints
   std::array<JointReport, 2> acting;  ///< with the parts of the forces
   JointReport start;
   JointReport end;
@@ -127,11 +130,20 @@ struct ContactEvidence {
   const ColliderDef* collider_b = nullptr;
 };
 
+/// The drive of a mounted rotor.
+struct MountedDriveEvidence {
+  int rotor = 0;
+  std::array<double, 2> torque{};  ///< on it, about the axle [N m]
+};
+
 /// What acts on a body besides its loads.
 struct Balance {
   std::array<Vector3, 2> force{Vector3::Zero(), Vector3::Zero()};
   /// About the centre of mass; of a carrier without what spins its rotors, of a mounted rotor only that, along its axle.
   std::array<Vector3, 2> torque{Vector3::Zero(), Vector3::Zero()};
+  /// What acts on the body itself, its torque about the centre: of a mounted rotor before the bearing passes it on.
+  std::array<Vector3, 2> own_force{Vector3::Zero(), Vector3::Zero()};
+  std::array<Vector3, 2> own_torque{Vector3::Zero(), Vector3::Zero()};
   double largest_force = 0.0;
   double largest_torque = 0.0;
   double power = 0.0;    ///< sum of all |force . velocity| [W]
@@ -147,12 +159,15 @@ class Evidence {
   const BodySet& bodies;
   const State& start;
   const State& end;
+  /// That the substep was made with: what has been set, or the model's [m/s2].
+  Vector3 gravity;
   double h;
   bool rattle;
   std::array<Moment, 2> moments;
   std::vector<CableEvidence> cables;
   std::vector<JointEvidence> joints;
   std::vector<ContactEvidence> contacts;
+  std::vector<MountedDriveEvidence> mounted_drives;
   std::vector<Balance> balances;  ///< per body and the world
   double largest_force = 0.0;     ///< of all [N]
   /// What no force is told apart from nothing by: the rounding of positions, as a force that moves all bodies by it within the
@@ -161,6 +176,9 @@ class Evidence {
 
   /// Radius of the ball about the centre of mass that contains the body, or that of gyration without a shape [m].
   [[nodiscard]] double size_of(int body) const;
+  /// What acts on a body by itself, without its rotors: constant, or set. The torque is about its centre of mass.
+  [[nodiscard]] Vector3 load_force(int body, End when) const;
+  [[nodiscard]] Vector3 load_torque(int body, End when) const;
   /// How far the body has turned in the substep about a world axis [rad].
   [[nodiscard]] Vector3 turn_of(int body) const;
   [[nodiscard]] std::string body_name(int body) const {
@@ -175,17 +193,28 @@ class Evidence {
   void collect_passes(CableEvidence& cable, const CableReport& first, const CableReport& second,
                       const std::vector<int>& places) const;
   void collect_joints(const LastSubstep& last);
+  void collect_mounted_drives(const LastSubstep& last, std::size_t feature);
   void collect_ground(const LastSubstep& last, std::size_t feature);
   void collect_contacts(const LastSubstep& last, std::size_t feature);
   /// Forces of cables that keep their attachments for the substep act between these.
   void freeze(SpanEvidence& span) const;
   void apply_cables();
   void apply_joints();
+  void apply_mounted_drives();
   void apply_contacts();
   void push(End when, int body, const Vector3& point, const Vector3& force);
   void twist(End when, int body, const Vector3& torque);
   void mark_unknown(int body);
   [[nodiscard]] double rounding_of_forces() const;
+  /// Makes the definitions of cables what has been set.
+  void follow_controls();
+
+  std::vector<CableDef>
+      controlled_;  ///< definitions of cables with what has been set; empty if nothing is
 };
+
+/// Two parts of each of `total`, by what was late.
+[[nodiscard]] std::array<std::vector<double>, 2> parts(std::span<const double> total, bool rattle,
+                                                       std::span<const double> late);
 
 }  // namespace sheave::certify

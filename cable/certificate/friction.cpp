@@ -73,7 +73,7 @@ void check_contact(const Evidence& evidence, const ContactEvidence& contact, Fin
   const Vector3 along = velocity - contact.normal * contact.normal.dot(velocity);
   const double speed = along.norm();
   const double crawl =
-      evidence.h * evidence.bodies.gravity().norm() + 1e-6 * evidence.bodies.scale() / evidence.h;
+      evidence.h * evidence.gravity.norm() + 1e-6 * evidence.bodies.scale() / evidence.h;
   const double forwards = speed > 0.0 ? drag.dot(along) / speed : 0.0;
   findings.note(Kind::friction, "N", std::max(forwards, 0.0) * speed / (speed + crawl), scale,
                 1e-7 * scale, name);

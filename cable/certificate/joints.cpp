@@ -8,6 +8,7 @@
 
 #include "cable/certificate/checks.h"
 #include "cable/certificate/joint_frames.h"
+#include "engine/body_drive.h"
 #include "engine/joints/gear.h"
 #include "engine/joints/rack.h"
 
@@ -15,6 +16,33 @@ namespace sheave::certify {
 namespace {
 
 using Kind = CertificateItem::Kind;
+
+/// What a drive is asked for, by its settings or by what has been set.
+struct Demand {
+  TimeSignal signal;
+  const DriveControl* set;
+  double most = 0.0;  ///< of what it is asked for
+  double limit = std::numeric_limits<double>::infinity();
+
+  Demand(const JointCoordinate& settings, const DriveControl* control)
+      : signal(settings.signal()), set(control), most(settings.drive_amplitude) {
+    for (const double v : settings.drive_values) most = std::max(most, std::abs(v));
+    if (settings.drive_limit) limit = *settings.drive_limit;
+    if (set == nullptr) return;
+    if (!std::isnan(set->limit)) limit = set->limit;
+    if (!set->has_target) {
+      set = nullptr;
+    } else {
+      most = std::max(std::abs(set->target.start), std::abs(set->target.end));
+    }
+  }
+  [[nodiscard]] double at(double time) const {
+    return set != nullptr ? set->target.at(time) : signal.at(time);
+  }
+  [[nodiscard]] double integral(double from, double to) const {
+    return set != nullptr ? set->target.integral(from, to) : signal.integral(from, to);
+  }
+};
 
 class JointCheck {
  public:
@@ -240,19 +268,19 @@ class JointCheck {
     if (settings.drive == CoordinateDrive::none) return;
     const JointCoordinateReport& now = joint_.end.coordinates[k];
     const JointCoordinateReport& before = joint_.start.coordinates[k];
-    const TimeSignal signal = settings.signal();
+    const Demand signal(settings, e_.start.controls.joint_drives.find(joint_.first_coordinate +
+                                                                      static_cast<int>(k)));
     const double t0 = e_.start.time;
     const double t1 = e_.end.time;
     const double force = now.drive_force;
-    double most = settings.drive_amplitude;
-    for (const double v : settings.drive_values) most = std::max(most, std::abs(v));
+    const double most = signal.most;
     if (settings.drive == CoordinateDrive::force) {
       note(Kind::drive, now.angle ? "N m" : "N",
            std::abs(force - signal.integral(t0, t1) / (t1 - t0)), most, rounding * most);
       return;
     }
-    const double limit = settings.drive_limit.value_or(std::numeric_limits<double>::infinity());
-    if (settings.drive_limit) {
+    const double limit = signal.limit;
+    if (std::isfinite(limit)) {
       note(Kind::drive, now.angle ? "N m" : "N", std::max(std::abs(force) - limit, 0.0), limit,
            1e-9 * limit);
     }
@@ -369,21 +397,24 @@ bool stalls(const Evidence& evidence, int body) {
 void check_body_drives(const Evidence& evidence, Findings& findings) {
   for (int i = 0; i < evidence.bodies.count(); ++i) {
     const BodyProperties& body = evidence.bodies[i];
-    if (!body.prescribed()) continue;
+    const DriveKind kind = body.driven_by();
+    if (kind != DriveKind::speed && kind != DriveKind::angle) continue;
+    const bool mounted = body.mount >= 0;
+    const BodyDrive drive(body, evidence.start.controls, i);
     const double turned = evidence.end.bodies[at(i)].angle - evidence.start.bodies[at(i)].angle;
     const double t0 = evidence.start.time;
     const double t1 = evidence.end.time;
-    const bool speed = body.drive == DriveKind::speed;
-    const double asked = speed ? body.drive_table.integral(t0, t1)
-                               : body.drive_table.at(t1) - body.drive_table.at(t0);
+    const bool speed = kind == DriveKind::speed;
+    const double asked = speed ? drive.integral(t0, t1) : drive.at(t1) - drive.at(t0);
     // One that has stalled is told as such; it may do less than it is asked for, but nothing else.
     const double least = stalls(evidence, i) ? std::min(asked, 0.0) : asked;
     const double greatest = stalls(evidence, i) ? std::max(asked, 0.0) : asked;
     const double off = std::max({least - turned, turned - greatest, 0.0});
     double most = 0.0;
     for (const double v : body.drive_table.values) most = std::max(most, std::abs(v));
+    most = std::max({most, std::abs(drive.at(t0)), std::abs(drive.at(t1))});
     findings.note(Kind::drive, "rad", off, std::max(speed ? most * evidence.h : most, 1e-6),
-                  1e-13 * (1.0 + std::abs(evidence.end.bodies[at(i)].angle)),
+                  (mounted ? 1e-10 : 1e-13) * (1.0 + std::abs(evidence.end.bodies[at(i)].angle)),
                   [&] { return evidence.body_name(i); });
   }
 }

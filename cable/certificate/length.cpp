@@ -54,7 +54,12 @@ void check_feeds(const Evidence& evidence, const CableEvidence& cable, Findings&
       if (side->place < 0) continue;
       const auto* link =
           dynamic_cast<const AttachmentLink*>(cable.definition->links[at(side->place)].get());
-      if (link != nullptr) speed += link->feed_speed;
+      if (link == nullptr) continue;
+      const LinkControl* set = evidence.start.controls.links.find(cable.first_link + side->place);
+      const double t0 = evidence.start.time;
+      const double t1 = evidence.end.time;
+      speed += set != nullptr && set->has_feed ? set->feed_speed.integral(t0, t1) / (t1 - t0)
+                                               : link->feed_speed.value_or(0.0);
     }
     const double asked = speed * evidence.h;
     if (speed == 0.0 || span.rest_length[first_end] + asked <= 0.0) continue;

@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 
 #include "cable/certificate/checks.h"
+#include "engine/body_drive.h"
 
 namespace sheave::certify {
 namespace {
@@ -47,7 +48,7 @@ class Player {
     const BodyState& from = e_.start.bodies[at(i)];
     const double first = first_share_ * e_.h;
     const Drag drag(bodies_.definition(i).damping / body.mass, first);
-    const Vector3 load = body.mass * bodies_.gravity() + load_force(i);
+    const Vector3 load = body.mass * e_.gravity + load_force(i, first_end);
     const double yield = drag.share / body.mass;
     // The first half of `rattle` acts for all of the way; of `xpbd` all forces do.
     const Vector3& pushed = balance.force[e_.rattle ? first_end : last_end];
@@ -59,7 +60,9 @@ class Player {
     // The second half starts from how the body has really moved.
     const Vector3 moved = (e_.end.bodies[at(i)].position - from.position) / e_.h;
     replay.velocity =
-        drag.keep * moved + allowed(body, yield * (first * load + e_.h * balance.force[last_end]));
+        drag.keep * moved +
+        allowed(body, yield * (first * (load + load_force(i, last_end) - load_force(i, first_end)) +
+                               e_.h * balance.force[last_end]));
   }
 
   /// About the axis that the body keeps.
@@ -78,7 +81,8 @@ class Player {
     const double t1 = e_.end.time;
     const double middle = t0 + first_share_ * (t1 - t0);
     const auto driven = [&](double from, double to) {
-      return body.drive == DriveKind::torque ? body.drive_table.integral(from, to) : 0.0;
+      if (body.drive != DriveKind::torque) return 0.0;
+      return BodyDrive(body, e_.start.controls, i).integral(from, to);
     };
     const double s0 = axis0.dot(e_.start.bodies[at(i)].angular_velocity);
     const double pushed = e_.rattle ? axis0.dot(balance.torque[first_end])
@@ -106,26 +110,24 @@ class Player {
     }
   }
 
-  [[nodiscard]] Vector3 load_force(int i) const {
-    Vector3 force = bodies_.definition(i).force;
-    for (const int r : bodies_[i].mounted_rotors) force += bodies_.definition(r).force;
+  [[nodiscard]] Vector3 load_force(int i, End when) const {
+    Vector3 force = e_.load_force(i, when);
+    for (const int r : bodies_[i].mounted_rotors) force += e_.load_force(r, when);
     return force;
   }
   [[nodiscard]] Vector3 load_torque(int i, End when) const {
-    return torque_at(i, e_.moments[at(when)].orientation(i));
-  }
-
- private:
-  [[nodiscard]] Vector3 torque_at(int i, const Quaternion& orientation) const {
-    Vector3 torque = bodies_.definition(i).torque;
+    const Quaternion orientation = e_.moments[at(when)].orientation(i);
+    Vector3 torque = e_.load_torque(i, when);
     for (const int r : bodies_[i].mounted_rotors) {
-      const BodyDef& rotor = bodies_.definition(r);
+      const Vector3 own = e_.load_torque(r, when);
       const Vector3 axle = orientation * bodies_[r].axis;
-      torque += (orientation * bodies_[r].mount_position).cross(rotor.force) + rotor.torque -
-                axle * axle.dot(rotor.torque);
+      torque += (orientation * bodies_[r].mount_position).cross(e_.load_force(r, when)) + own -
+                axle * axle.dot(own);
     }
     return torque;
   }
+
+ private:
   static Vector3 allowed(const BodyProperties& body, const Vector3& v) {
     const Vector3 along = body.axis * body.axis.dot(v);
     if (body.mobility == Mobility::slider) return along;
@@ -216,10 +218,10 @@ class Player {
     for (const int r : body.mounted_rotors) {
       const Vector3 axis0 = from.orientation * bodies_[r].axis;
       const double gained = h * axis0.dot(e_.balances[at(r)].torque[first_end]) +
-                            0.5 * h * axis0.dot(bodies_.definition(r).torque);
+                            0.5 * h * axis0.dot(e_.load_torque(r, first_end));
       const double own =
           bodies_[r].axis_inertia * axis0.dot(e_.start.bodies[at(r)].angular_velocity);
-      const double by_loads = 0.5 * h * axis0.dot(bodies_.definition(r).torque);
+      const double by_loads = 0.5 * h * axis0.dot(e_.load_torque(r, first_end));
       total += (gained - by_loads) * axis0;
       spun += (own + gained - by_loads) * (to * bodies_[r].axis);
     }
@@ -289,14 +291,16 @@ class MomentumCheck {
     // A bounce has its velocity from elsewhere than its way.
     const double value = std::max(missing.norm(), bounces_ ? 0.0 : placed.norm());
     const Balance& balance = e_.balances[at(i)];
-    const double largest =
-        std::max({balance.largest_force, mass * e_.bodies.gravity().norm(),
-                  player_.load_force(i).norm(), mass * (to.velocity - from.velocity).norm() / h});
+    const double largest = std::max({balance.largest_force, mass * e_.gravity.norm(),
+                                     player_.load_force(i, last_end).norm(),
+                                     mass * (to.velocity - from.velocity).norm() / h});
     const double eps = rounding * mass *
                        ((to.position.norm() + e_.bodies.scale()) / (h * h) +
                         (from.velocity.norm() + to.velocity.norm()) / h);
     findings_.note(CertificateItem::Kind::momentum, "N", value, largest, eps,
                    [&] { return e_.body_name(i); });
+    // What rounding alone may leave does no work; beside a body at rest any of it would be much.
+    if (missing.norm() <= eps) return 0.0;
     return h * missing.dot(0.5 * (from.velocity + to.velocity));
   }
 
@@ -324,16 +328,18 @@ class MomentumCheck {
     const double placed = replay.has_angle && !bounces_
                               ? (to.angle - from.angle - replay.angle) * inertia / (h * h)
                               : 0.0;
-    const double driven =
-        body.drive == DriveKind::torque ? std::abs(body.drive_table.at(e_.end.time)) : 0.0;
-    const double largest = std::max({e_.balances[at(i)].largest_torque, lever(i), driven,
-                                     e_.bodies.definition(i).torque.norm(),
-                                     inertia * std::abs(std::abs(s1) - s0) / h});
+    const double driven = body.drive == DriveKind::torque
+                              ? std::abs(BodyDrive(body, e_.start.controls, i).at(e_.end.time))
+                              : 0.0;
+    const double largest =
+        std::max({e_.balances[at(i)].largest_torque, lever(i), driven,
+                  e_.load_torque(i, last_end).norm(), inertia * std::abs(std::abs(s1) - s0) / h});
     const double eps =
         rounding * inertia * ((1.0 + std::abs(to.angle)) / (h * h) + (std::abs(s1) + s0) / h);
     findings_.note(CertificateItem::Kind::angular_momentum, "N m",
                    std::max(std::abs(missing), std::abs(placed)), largest, eps,
                    [&] { return e_.body_name(i); });
+    if (std::abs(missing) <= eps) return 0.0;
     return h * missing * 0.5 * (s1 + axis.dot(from.angular_velocity));
   }
 
@@ -355,12 +361,13 @@ class MomentumCheck {
     const double gyroscopic = from.angular_velocity.cross(torque_of(from.angular_velocity)).norm();
     const double largest =
         std::max({e_.balances[at(i)].largest_torque, lever(i), gyroscopic,
-                  e_.bodies.definition(i).torque.norm(),
+                  e_.load_torque(i, last_end).norm(),
                   torque_of(to.angular_velocity - from.angular_velocity).norm() / h});
     const double eps = rounding * moment * (1.0 / (h * h) + speed / h);
     findings_.note(CertificateItem::Kind::angular_momentum, "N m",
                    std::max(missing.norm(), bounces_ ? 0.0 : placed.norm()), largest, eps,
                    [&] { return e_.body_name(i); });
+    if (missing.norm() <= eps) return 0.0;
     return h * missing.dot(0.5 * (from.angular_velocity + to.angular_velocity));
   }
 

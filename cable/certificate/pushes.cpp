@@ -1,5 +1,7 @@
 #include "cable/certificate/pushes.h"
 
+#include <cmath>
+
 #include "cable/certificate/joint_frames.h"
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
@@ -139,6 +141,9 @@ void describe_pass(const Evidence& evidence, const CableEvidence& cable, const L
       pass.friction = *rolling->friction;
     }
   }
+  const LinkControl* set =
+      pass.link < 0 ? nullptr : evidence.start.controls.links.find(cable.first_link + pass.link);
+  if (set != nullptr && !std::isnan(set->friction)) pass.friction = set->friction;
   if (pass.massless) pass.friction = 0.0;
   const SpanEvidence& in = cable.spans[at(pass.before)];
   const SpanEvidence& out = cable.spans[at(pass.after)];

@@ -8,7 +8,7 @@ std::span<const Field> AttachmentLink::field_table() {
                                     "where the cable is fixed, body frame (default its origin)"),
       field<&AttachmentLink::feed_speed>("feed_speed", "m/s", any_number(), optional,
                                          "cable that comes out of the point (negative: goes in); "
-                                         "at an end of the cable"),
+                                         "at an end of the cable; 0: at a speed that is set later"),
   };
   return table;
 }
@@ -20,7 +20,8 @@ Result<LinkGeometry> AttachmentLink::compile(const BodySet& bodies,
   link.mounted = bodies[link.body].mount >= 0;
   link.center = point - bodies[link.body].center_of_mass;
   link.given_stored_length = 0.0;
-  link.feed_speed = feed_speed;
+  link.feeds = feed_speed.has_value();
+  link.feed_speed = link.feed_end_speed = feed_speed.value_or(0.0);
   return link;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "cable/link.h"
 
 namespace sheave {
@@ -9,8 +11,8 @@ class AttachmentLink final : public LinkDef {
  public:
   Vector3 point = Vector3::Zero();  ///< [m], body frame
   /// Cable that comes out of the point (< 0: goes into it) [m/s]; at an end of an open cable. It stops when the span has
-  /// no rest length left to take in.
-  double feed_speed = 0.0;
+  /// no rest length left to take in. Only one that has a speed can be given another while the world runs; 0 is one.
+  std::optional<double> feed_speed;
 
   static constexpr std::string_view type_name = "attachment";
   static constexpr std::string_view type_meaning = "the cable is fixed to a point of a body";

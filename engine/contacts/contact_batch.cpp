@@ -17,7 +17,7 @@ namespace sheave {
 namespace {
 
 /// Relative change of a normal force below which the bounds of friction count as found.
-constexpr double settled_share = 1e-7;
+constexpr double settled_share = 1e-9;
 /// A point of contact is the same as one of the last substep if it is no farther away on one of the bodies than this share
 /// of the smaller form.
 constexpr double same_point = 0.05;

@@ -126,8 +126,8 @@ void ContactFinder::place(const Substep& substep) {
     Vector3& acceleration = accelerations_[at(form.body)];
     if (moving.translates) {
       acceleration =
-          times(moving.inverse_mass, substep.bodies[carrier].mass * substep.bodies.gravity() +
-                                         load_on(substep, carrier, moving.orientation).force);
+          times(moving.inverse_mass, substep.bodies[carrier].mass * substep.gravity +
+                                         load_on(substep, carrier, substep.start.bodies).force);
     }
     const Quaternion own_to_world = substep.orientation(form.body);
     const Vector3 position = substep.position(form.body) + own_to_world * form.position;

@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/dynamics/affine_bodies.h"
 #include "engine/index.h"
+#include "engine/solvers/affine_rows.h"
+#include "engine/solvers/direct.h"
 #include "engine/substep.h"
 
 namespace sheave {
@@ -92,6 +95,25 @@ class GroundBatch final : public ConstraintBatch {
     }
   }
 
+  // None of its rows has a force as long as everything ends a substep above the floor.
+  bool append_affine(const AffineBodies& bodies, AffineRows& /*rows*/) override {
+    sliding_.clear();
+    above_ = DirectSolver::closed * bodies.set().scale();
+    for (const Owner& owner : owners_) sliding_.push_back(slide(bodies, owner));
+    return true;
+  }
+  bool begin_affine(const AffineSubstep& /*substep*/, const FeatureState& state,
+                    std::span<double> /*values*/, std::span<char> /*active*/) override {
+    return std::all_of(state.reals.begin(), state.reals.end(),
+                       [](double force) { return force == 0.0; });
+  }
+  bool finish_affine(const AffineSubstep& substep, FeatureState& /*next*/) override {
+    return std::all_of(sliding_.begin(), sliding_.end(), [&](const Sliding& body) {
+      const double place = substep.places[at(body.number)] + substep.motion[at(body.number)];
+      return body.lowest + body.along * place > above_;
+    });
+  }
+
   [[nodiscard]] double elastic_energy(const BodySet& /*bodies*/, const State& /*state*/,
                                       const FeatureState& /*own*/) const override {
     return 0.0;
@@ -115,6 +137,37 @@ class GroundBatch final : public ConstraintBatch {
     bool near = false;     // may touch the floor in this substep, as far as its speed tells
   };
 
+  /// A body of one number: its lowest point is at `lowest` + `along` times that above the floor.
+  struct Sliding {
+    int number = 0;
+    double along = 0.0;
+    double lowest = 0.0;  ///< [m]
+  };
+
+  [[nodiscard]] Sliding slide(const AffineBodies& bodies, const Owner& owner) {
+    const BodySet& set = bodies.set();
+    const State initial = set.initial_state();
+    const int mount = set[owner.body].mount;
+    const int body = mount >= 0 ? mount : owner.body;
+    const int number = bodies.number_of(body);
+    const double along = dot(normal_, bodies.axis(number));
+    double lowest = height(set.initial_point(owner.body, owner.center_of_mass));
+    if (mount >= 0) {
+      // As it may turn.
+      lowest -= (owner.shape->position - owner.center_of_mass).norm() +
+                owner.shape->shape->half_extent().norm();
+    } else {
+      points_.clear();
+      append_points(Substep(set, initial, 1.0, 1), owner);
+      double below = 0.0;
+      for (const Vector3& point : points_) {
+        below = std::min(below, dot(normal_, initial.bodies[at(body)].orientation * point));
+      }
+      lowest += below;
+    }
+    return {number, along,
+            lowest - along * dot(bodies.axis(number), initial.bodies[at(body)].position)};
+  }
   [[nodiscard]] double height(const Vector3& point) const { return dot(normal_, point - point_); }
 
   void add_body(const BodySet& bodies, int body) {
@@ -155,6 +208,8 @@ class GroundBatch final : public ConstraintBatch {
   Vector3 point_;
   Vector3 normal_;
   std::vector<Owner> owners_;
+  double above_ = 0.0;            // [m], below it `rattle` counts a row as closed
+  std::vector<Sliding> sliding_;  // per owner, where all bodies have one number
   std::vector<Contact> contacts_;
   std::vector<Vector3> points_;      // scratch
   std::vector<double> multipliers_;  // scratch

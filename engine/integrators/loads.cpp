@@ -27,17 +27,66 @@ Vector3 rotor_momentum(const Substep& substep, const BodyProperties& carrier,
   return sum;
 }
 
-Load load_on(const Substep& substep, int i, const Quaternion& orientation) {
+namespace {
+
+/// What has been set on the body and its rotors, besides their constant loads.
+void add_set_loads(const Substep& substep, int i, std::span<const BodyState> poses, Load& load) {
+  const ControlTable<ForceControl>& forces = substep.start.controls.forces;
+  if (const ForceControl* set = forces.find(i)) {
+    const Quaternion& orientation = poses[at(i)].orientation;
+    load.force += set->force_in_world(orientation);
+    load.torque += set->torque_in_world(orientation);
+  }
+  for (const int rotor : substep.bodies[i].mounted_rotors) {
+    const ForceControl* set = forces.find(rotor);
+    if (set == nullptr) continue;
+    const Quaternion& carrier = poses[at(i)].orientation;
+    const Vector3 axis = carrier * substep.bodies[rotor].axis;
+    const Vector3 force = set->force_in_world(poses[at(rotor)].orientation);
+    const Vector3 torque = set->torque_in_world(poses[at(rotor)].orientation);
+    load.force += force;
+    load.torque += (carrier * substep.bodies[rotor].mount_position).cross(force) + torque -
+                   axis * axis.dot(torque);
+  }
+}
+
+}  // namespace
+
+Load load_on(const Substep& substep, int i, std::span<const BodyState> poses) {
   const BodyDef& own = substep.bodies.definition(i);
   Load load{own.force, own.torque};
   for (const int rotor : substep.bodies[i].mounted_rotors) {
+    const Quaternion& orientation = poses[at(i)].orientation;
     const BodyDef& mounted = substep.bodies.definition(rotor);
     const Vector3 axis = orientation * substep.bodies[rotor].axis;
     load.force += mounted.force;
     load.torque += (orientation * substep.bodies[rotor].mount_position).cross(mounted.force) +
                    mounted.torque - axis * axis.dot(mounted.torque);
   }
+  if (substep.start.controls.forces.any()) add_set_loads(substep, i, poses, load);
   return load;
+}
+
+double work_of_set_forces(const Substep& substep) {
+  double work = 0.0;
+  for (int i = 0; i < substep.bodies.count(); ++i) {
+    const ForceControl* set = substep.start.controls.forces.find(i);
+    if (set == nullptr) continue;
+    const BodyState& from = substep.start.bodies[at(i)];
+    const BodyState& to = substep.next.bodies[at(i)];
+    const auto point = [&](const BodyState& body) -> Vector3 {
+      return body.position + rotated(body.orientation, set->arm);
+    };
+    const auto torque = [&](const BodyState& body) -> Vector3 {
+      return set->frame == ForceFrame::world ? set->torque : rotated(body.orientation, set->torque);
+    };
+    const Vector3 force =
+        0.5 * (set->force_in_world(from.orientation) + set->force_in_world(to.orientation));
+    work += dot(force, point(to) - point(from)) +
+            0.25 * substep.h *
+                dot(torque(from) + torque(to), from.angular_velocity + to.angular_velocity);
+  }
+  return work;
 }
 
 Vector3 allowed_velocity(const BodyProperties& body, const Vector3& velocity) {

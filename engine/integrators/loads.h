@@ -15,15 +15,19 @@ namespace sheave {
                                      const Quaternion& carrier_start,
                                      const Quaternion& orientation);
 
-/// Constant forces [N] and torques [N m] on a body, about its centre of mass.
+/// Constant forces [N] and torques [N m] on a body, and those that have been set, about its centre of mass.
 struct Load {
   Vector3 force;
   Vector3 torque;
 };
 
-/// What acts on body `i` itself and what its mounted rotors pass on to it when it has this orientation: their forces,
-/// which act at their centres, and their torques but for the part about the axle, which spins the rotor.
-[[nodiscard]] Load load_on(const Substep& substep, int i, const Quaternion& orientation);
+/// What acts on body `i` itself and what its mounted rotors pass on to it when all have these poses: their forces,
+/// which act at their centres unless they have been set elsewhere, and their torques but for the part about the axle, which
+/// spins the rotor.
+[[nodiscard]] Load load_on(const Substep& substep, int i, std::span<const BodyState> poses);
+
+/// Work of the forces and torques that have been set, in the substep that leads to substep.next [J].
+[[nodiscard]] double work_of_set_forces(const Substep& substep);
 
 /// `velocity` without what rounding on tilted axes leaks into directions the mobility excludes; the leak would add up
 /// over the substeps.

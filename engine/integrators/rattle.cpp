@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/body_drive.h"
 #include "engine/index.h"
 #include "engine/integrators/loads.h"
 #include "engine/kinetic_energy.h"
@@ -37,6 +38,8 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   // features decide is settled, sweeps go on to rounding.
   constexpr double rounding = 1e-15;
   const double done = solver_ == SolverKind::direct ? enough : rounding * substep.bodies.scale();
+  // Here only values bend, by the square of the turn; what the first round leaves of less than this the second one mends.
+  constexpr double least_swing = 1e-4;  // [rad]
   double first = 0.0;
   double violated = 0.0;
   bool revised = false;
@@ -55,6 +58,7 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
       // What rows ask for that contradict each other no round finds; xpbd makes them give way.
       if (round > 2 && positions_.contradicts()) return false;
       if (!positions_.solve(substep)) return false;
+      if (round > 0 || positions_.swing() > least_swing) positions_.bend(substep, enough);
     } else {
       positions_.relax(substep, 1);
     }
@@ -143,7 +147,7 @@ void correct_gyroscopic_velocities(Substep& substep) {
     const Vector3 damped =
         damped_rotation(substep.bodies.definition(i), inertia, start.angular_velocity, 0.5 * h);
     Vector3 momentum = inertia * (damped + turned_by / h) +
-                       0.5 * h * load_on(substep, i, start.orientation).torque;
+                       0.5 * h * load_on(substep, i, substep.start.bodies).torque;
     for (const int r : body.mounted_rotors) {
       const BodyProperties& rotor = substep.bodies[r];
       const Vector3 axis = start.orientation * rotor.axis;
@@ -167,9 +171,9 @@ void add_second_half_of_loads(Substep& substep) {
     BodyState& next = substep.next.bodies[at(i)];
     if (!moving.translates && !moving.rotates) continue;
     const BodyDef& definition = substep.bodies.definition(i);
-    const Load load = load_on(substep, i, next.orientation);
+    const Load load = load_on(substep, i, substep.next.bodies);
     if (moving.translates) {
-      const Vector3 force = body.mass * substep.bodies.gravity() + load.force;
+      const Vector3 force = body.mass * substep.gravity + load.force;
       const double keep = decay(definition.damping / body.mass, half).keep;
       next.velocity =
           allowed_velocity(body, keep * next.velocity + half * times(moving.inverse_mass, force));
@@ -195,8 +199,8 @@ void add_second_half_of_loads(Substep& substep) {
     double change = gain * axis.dot(load.torque) / body.axis_inertia +
                     (keep - 1.0) * axis.dot(next.angular_velocity);
     if (body.drive == DriveKind::torque) {
-      change +=
-          gain / half * body.drive_table.integral(middle, substep.next.time) / body.axis_inertia;
+      const BodyDrive drive(body, substep.start.controls, i);
+      change += gain / half * drive.integral(middle, substep.next.time) / body.axis_inertia;
     }
     next.angular_velocity += change * axis;
   }

@@ -19,6 +19,7 @@
 // This deviates from the paper's engine, which gets w' from the difference of orientations: that
 // aliases beyond half a turn per substep and does not conserve L.
 
+#include "engine/body_drive.h"
 #include "engine/index.h"
 #include "engine/integrators/loads.h"
 #include "engine/stages.h"
@@ -48,7 +49,7 @@ void rotate_freely(Substep& substep, int i) {
   const BodyState& start = substep.start.bodies[at(i)];
   MovingBody& moving = substep.moving[at(i)];
   const double h = substep.h;
-  const Vector3 torque = load_on(substep, i, start.orientation).torque;
+  const Vector3 torque = load_on(substep, i, substep.start.bodies).torque;
   Vector3 half_velocity;
   Vector3 end_velocity;
   if (body.isotropic && body.mounted_rotors.empty()) {
@@ -95,21 +96,20 @@ void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
   if (body.prescribed()) {
     const DriveShare share =
         substep.drive_shares.empty() ? DriveShare{} : substep.drive_shares[at(i)];
-    const double turn = body.driven_turn(from, to);
-    spin =
-        share.speed * (body.drive == DriveKind::speed ? body.drive_table.at(to) : turn / substep.h);
-    angle = share.way * turn;
+    spin = share.speed * substep.driven_speed(i);
+    angle = share.way * BodyDrive(body, substep.start.controls, i).turn(from, to);
   } else {
     if (body.axis_inertia > 0.0) {
       const double inertia = body.axis_inertia;
-      const double torque = axis.dot(load_on(substep, i, start.orientation).torque);
+      const double torque = axis.dot(load_on(substep, i, substep.start.bodies).torque);
       const auto [keep, gain] = decay(substep.bodies.definition(i).angular_damping / inertia,
                                       substep.load_share * substep.h);
       spin = keep * spin + gain * torque / inertia;
       if (body.drive == DriveKind::torque) {
         const double middle = from + substep.load_share * (to - from);
         // The mean torque is subject to drag like the constant one.
-        spin += gain / (middle - from) * body.drive_table.integral(from, middle) / inertia;
+        const BodyDrive drive(body, substep.start.controls, i);
+        spin += gain / (middle - from) * drive.integral(from, middle) / inertia;
       }
     }
     angle = substep.h * spin;
@@ -133,11 +133,15 @@ void limit_drives(Substep& substep, std::span<const std::unique_ptr<ConstraintBa
 void move_kinematic_bodies(Substep& substep) {
   for (int i = 0; i < substep.bodies.count(); ++i) {
     if (substep.bodies[i].mobility != Mobility::kinematic) continue;
-    const BodyState end = substep.bodies.kinematic_state(i, substep.next.time);
+    const MotionControl* set = substep.start.controls.motions.find(i);
+    const double time = substep.next.time;
+    const BodyState end = set != nullptr ? set->state_at(substep.bodies, i, time)
+                                         : substep.bodies.kinematic_state(i, time);
     MovingBody& moving = substep.moving[at(i)];
     moving.position = end.position;
     moving.orientation = end.orientation;
-    moving.turn = substep.h * end.angular_velocity;
+    moving.turn = set != nullptr ? set->turn_between(substep.bodies, i, substep.start.time, time)
+                                 : Vector3(substep.h * end.angular_velocity);
     substep.predicted[at(i)] = end;
   }
 }
@@ -152,7 +156,7 @@ void predict(Substep& substep) {
     if (moving.translates) {
       // W M (v + h g + h f / m): the inverse mass matrix keeps what the mobility allows and drag leaves.
       const Vector3 force =
-          body.mass * substep.bodies.gravity() + load_on(substep, i, start.orientation).force;
+          body.mass * substep.gravity + load_on(substep, i, substep.start.bodies).force;
       const double time = substep.load_share * h;
       const double keep = decay(substep.bodies.definition(i).damping / body.mass, time).keep;
       const Vector3 velocity = keep * start.velocity + time * times(moving.inverse_mass, force);

@@ -32,8 +32,9 @@ struct JointCoordinate {
   double damping = 0.0;           ///< force per speed against the motion [N s/m], >= 0
   double friction = 0.0;          ///< dry friction: it takes more than this force to move [N], >= 0
   CoordinateDrive drive = CoordinateDrive::none;
-  std::vector<double> drive_times;    ///< [s], increasing; as many as values, or none
-  std::vector<double> drive_values;   ///< [m, m/s or N], linear in between
+  std::vector<double> drive_times;   ///< [s], increasing; as many as values, or none
+  std::vector<double> drive_values;  ///< [m, m/s or N]
+  Interpolation drive_interpolation = Interpolation::linear;  ///< between these
   double drive_amplitude = 0.0;       ///< of a sine that is added to the values
   double drive_frequency = 0.0;       ///< of it [Hz], >= 0
   double drive_phase = 0.0;           ///< of it [rad]
@@ -41,7 +42,8 @@ struct JointCoordinate {
   double drive_compliance = 0.0;      ///< position drives: gives by this much per force [m/N], >= 0
 
   [[nodiscard]] TimeSignal signal() const {
-    return {{drive_times, drive_values}, drive_amplitude, drive_frequency, drive_phase};
+    return {TimeTable::of(drive_times, drive_values, drive_interpolation), drive_amplitude,
+            drive_frequency, drive_phase};
   }
   /// Whether anything acts.
   [[nodiscard]] bool acts() const;
@@ -67,17 +69,29 @@ struct CoordinateSlots {
   static FieldSlot of(void* object) {
     return &((static_cast<Class*>(object)->*Coordinate).*Member);
   }
-  static FieldSlot drive(void* object) {
+  template <auto Member>
+  static FieldSlot choice(void* object) {
+    using Enumeration = decltype(detail::member_of(Member));
     return ChoiceSlot{&(static_cast<Class*>(object)->*Coordinate),
                       [](const void* o) {
-                        return static_cast<int>(static_cast<const JointCoordinate*>(o)->drive);
+                        return static_cast<int>(static_cast<const JointCoordinate*>(o)->*Member);
                       },
                       [](void* o, int index) {
-                        static_cast<JointCoordinate*>(o)->drive =
-                            static_cast<CoordinateDrive>(index);
+                        static_cast<JointCoordinate*>(o)->*Member = static_cast<Enumeration>(index);
                       }};
   }
 };
+
+/// Names of a coordinate's fields.
+[[nodiscard]] inline std::array<std::string, 16> coordinate_names(const std::string& prefix) {
+  std::array<std::string, 16> names{
+      "lower",       "upper",        "limit_compliance", "stiffness",
+      "rest",        "damping",      "friction",         "drive",
+      "drive_times", "drive_values", "drive_amplitude",  "drive_frequency",
+      "drive_phase", "drive_limit",  "drive_compliance", "drive_interpolation"};
+  for (std::string& text : names) text.insert(0, prefix);
+  return names;
+}
 
 }  // namespace detail
 
@@ -88,15 +102,7 @@ template <class Class, JointCoordinate Class::*Coordinate>
                                                    const std::string& what) {
   using C = JointCoordinate;
   // Fields refer to their texts.
-  static const std::array<std::string, 15> name = [&] {
-    std::array<std::string, 15> names{
-        "lower",       "upper",        "limit_compliance", "stiffness",
-        "rest",        "damping",      "friction",         "drive",
-        "drive_times", "drive_values", "drive_amplitude",  "drive_frequency",
-        "drive_phase", "drive_limit",  "drive_compliance"};
-    for (std::string& text : names) text = prefix + text;
-    return names;
-  }();
+  static const std::array<std::string, 16> name = detail::coordinate_names(prefix);
   static const std::array<std::string, 3> meaning{
       "stops " + what + " from below (default: no stop)",
       "stops " + what + " from above (default: no stop)", "of a spring along " + what};
@@ -121,12 +127,24 @@ template <class Class, JointCoordinate Class::*Coordinate>
           &Slots::template of<&C::damping>),
       row(name[6], unit.force, at_least(0.0), "dry friction, of bearings or guides",
           &Slots::template of<&C::friction>),
-      Field{name[7], "", {}, optional, "what the drive's values prescribe", drives, &Slots::drive},
-      row(name[8], "s", any_number(),
-          "increasing times of the values, linear in between; none for a constant",
+      Field{name[7],
+            "",
+            {},
+            optional,
+            "what the drive's values prescribe",
+            drives,
+            &Slots::template choice<&C::drive>},
+      row(name[8], "s", any_number(), "increasing times of the values; none for a constant",
           &Slots::template of<&C::drive_times>),
       row(name[9], unit.drive, any_number(), "values of the drive, one per time",
           &Slots::template of<&C::drive_values>),
+      Field{name[15],
+            "",
+            {},
+            optional,
+            interpolation_meaning,
+            interpolation_names,
+            &Slots::template choice<&C::drive_interpolation>},
       row(name[10], unit.drive, any_number(), "of a sine added to the values",
           &Slots::template of<&C::drive_amplitude>),
       row(name[11], "Hz", at_least(0.0), "of the sine", &Slots::template of<&C::drive_frequency>),

@@ -85,7 +85,6 @@ class JointBatch final : public JointFeature {
     for (std::size_t i = 0; i < multipliers_.size(); ++i) acted_[i] = state.reals[i] != 0.0 ? 1 : 0;
     const auto coordinates = state.reals.begin() + static_cast<std::ptrdiff_t>(acted_.size());
     std::copy_n(coordinates, starts_.size(), starts_.begin());
-    if (!breakable_) return;
     for (std::size_t j = 0; j < joints_.size(); ++j) intact_[j] = broken_at(state, j) < 0.0;
   }
 
@@ -170,6 +169,34 @@ class JointBatch final : public JointFeature {
     append_coordinates(now, joint, own, report);
     if (!report.broken_at) find_errors(now, joint, own, report);
     return report;
+  }
+  [[nodiscard]] Wrench wrench_of(int index, const Substep& now,
+                                 const FeatureState& own) const override {
+    return reaction(now, joints_[at(index)], own);
+  }
+  void release(int index, double time, FeatureState& own) const override {
+    double& broken = own.reals[multipliers_.size() + starts_.size() + at(index)];
+    if (broken < 0.0) broken = time;
+  }
+  [[nodiscard]] bool is_broken(int index, const FeatureState& own) const override {
+    return broken_at(own, at(index)) >= 0.0;
+  }
+  [[nodiscard]] const JointEffect* drive(int index, int coordinate) const override {
+    const Joint& joint = joints_[at(index)];
+    for (int i = 0; i < joint.effect_count; ++i) {
+      const JointEffect& effect = effects_[at(joint.first_effect + i)];
+      if (effect.coordinate == coordinate && effect.control >= 0) return &effect;
+    }
+    return nullptr;
+  }
+  void number_coordinates(std::span<const int> first) override {
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      for (int i = 0; i < joints_[j].effect_count; ++i) {
+        JointEffect& effect = effects_[at(joints_[j].first_effect + i)];
+        if (!effect.is_drive() || effect.coordinate >= joints_[j].reported) continue;
+        effect.control = first[j] + effect.coordinate;
+      }
+    }
   }
 
  private:
@@ -261,6 +288,7 @@ class JointBatch final : public JointFeature {
       term.linear *= acting.factor;
       term.angular *= acting.factor;
     }
+    row.curved = false;
     Row other;
     const double second = measure(substep, joint, acting.second, starts, other);
     for (const RowTerm& term : other.active_terms()) {
@@ -326,10 +354,15 @@ class JointBatch final : public JointFeature {
       }
       for (int i = joint.lock_count; i < joint.lock_count + joint.effect_count; ++i) {
         const JointEffect& acting = effect(joint, i);
-        if (acting.coordinate != k || !acting.is_drive()) continue;
+        if (acting.coordinate != k) continue;
+        if (acting.kind == JointEffect::Kind::friction) {
+          coordinate.friction_force += own.reals[at(joint.first_row + i)];
+        }
+        if (!acting.is_drive()) continue;
         coordinate.drive_force = own.reals[at(joint.first_row + i)];
-        coordinate.drive_target = acting.signal.at(now.start.time);
-        coordinate.drive_error = drive_error(acting, now.start.time, coordinate.drive_force,
+        const DriveDemand demand(acting, now.start.controls);
+        coordinate.drive_target = demand.at(now.start.time);
+        coordinate.drive_error = drive_error(acting, demand, now.start.time, coordinate.drive_force,
                                              coordinate.value, coordinate.rate);
       }
       report.coordinates.push_back(coordinate);

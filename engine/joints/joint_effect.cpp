@@ -44,12 +44,13 @@ void append_effects(const JointCoordinate& settings, int coordinate,
   }
 }
 
-double drive_error(const JointEffect& drive, double time, double force, double value, double rate) {
+double drive_error(const JointEffect& drive, const DriveDemand& demand, double time, double force,
+                   double value, double rate) {
   constexpr double nearly = 1.0 - 1e-9;
-  const bool stalls = std::abs(force) >= nearly * drive.limit;
+  const bool stalls = std::abs(force) >= nearly * demand.limit();
   if (stalls || drive.compliance > 0.0) return 0.0;
-  if (drive.kind == JointEffect::Kind::position) return value - drive.signal.at(time);
-  if (drive.kind == JointEffect::Kind::speed) return rate - drive.signal.at(time);
+  if (drive.kind == JointEffect::Kind::position) return value - demand.at(time);
+  if (drive.kind == JointEffect::Kind::speed) return rate - demand.at(time);
   return 0.0;
 }
 
@@ -59,8 +60,9 @@ void set_effect(const JointEffect& effect, const Substep& substep, double now, d
   const double from = substep.start.time;
   const double to = substep.time;
   const double square = substep.h * substep.h;
+  const DriveDemand drive(effect, substep.start.controls);
   row.compliance = effect.compliance;
-  row.upper = effect.limit * square;
+  row.upper = drive.limit() * square;
   row.lower = -row.upper;
   switch (effect.kind) {
     case Kind::lower:
@@ -86,17 +88,17 @@ void set_effect(const JointEffect& effect, const Substep& substep, double now, d
       row.value = now - start;
       break;
     case Kind::position:
-      row.value = now - effect.signal.at(to);
-      row.rate = -effect.signal.rate(to);
+      row.value = now - drive.at(to);
+      row.rate = -drive.rate(to);
       break;
     case Kind::speed:
-      row.value = now - start - effect.signal.integral(from, to);
-      row.rate = -effect.signal.at(to);
+      row.value = now - start - drive.integral(from, to);
+      row.rate = -drive.at(to);
       break;
     case Kind::force: {
       const double end = substep.next.time;
       row.value = now - start;
-      row.lower = row.upper = effect.signal.integral(from, end) / (end - from) * square;
+      row.lower = row.upper = drive.integral(from, end) / (end - from) * square;
       break;
     }
   }

@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/controls.h"
 #include "engine/joints/coordinate.h"
 #include "engine/row.h"
 #include "engine/substep.h"
@@ -38,6 +39,8 @@ struct JointEffect {
   /// Friction in several directions: the coordinate whose direction is that of the motion; < 0 if there is but one direction.
   int motion = -1;
   TimeSignal signal;  ///< of drives
+  int control =
+      -1;  ///< of a drive: where what has been set for it is to be found (Controls::joint_drives)
 
   [[nodiscard]] bool is_drive() const {
     return kind == Kind::position || kind == Kind::speed || kind == Kind::force;
@@ -52,14 +55,42 @@ struct JointEffect {
   }
 };
 
+/// What a drive asks for: what has been set, or else what it is defined with.
+class DriveDemand {
+ public:
+  DriveDemand(const JointEffect& drive, const Controls& controls)
+      : drive_(drive),
+        set_(drive.control < 0 ? nullptr : controls.joint_drives.find(drive.control)) {}
+
+  [[nodiscard]] double at(double time) const {
+    return has_target() ? set_->target.at(time) : drive_.signal.at(time);
+  }
+  [[nodiscard]] double rate(double time) const {
+    return has_target() ? set_->target.rate(time) : drive_.signal.rate(time);
+  }
+  [[nodiscard]] double integral(double from, double to) const {
+    return has_target() ? set_->target.integral(from, to) : drive_.signal.integral(from, to);
+  }
+  /// The largest force it has [N or N m].
+  [[nodiscard]] double limit() const {
+    return set_ != nullptr && !std::isnan(set_->limit) ? set_->limit : drive_.limit;
+  }
+
+ private:
+  [[nodiscard]] bool has_target() const { return set_ != nullptr && set_->has_target; }
+
+  const JointEffect& drive_;
+  const DriveControl* set_;
+};
+
 /// Appends what `settings` ask for along the coordinate of this number.
 void append_effects(const JointCoordinate& settings, int coordinate,
                     std::vector<JointEffect>& effects);
 
 /// By how much a coordinate with this value and rate is off what the drive asks for at `time`, while it has this force; 0 if
 /// it asks for nothing (JointCoordinateReport::drive_error).
-[[nodiscard]] double drive_error(const JointEffect& drive, double time, double force, double value,
-                                 double rate);
+[[nodiscard]] double drive_error(const JointEffect& drive, const DriveDemand& demand, double time,
+                                 double force, double value, double rate);
 
 /// Completes `row`, which has the gradient of c, whose value is `now` and was `start` at the start.
 void set_effect(const JointEffect& effect, const Substep& substep, double now, double start,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/substep.h"
+#include "engine/wrench.h"
 
 namespace sheave {
 
@@ -20,13 +21,6 @@ inline void drop_rounding(Row& row, std::span<const MovingBody> bodies) {
     keep(body.inverse_inertia, term.angular);
   }
 }
-
-/// A force and a torque about `about`, both in the world frame.
-struct Wrench {
-  Vector3 force = Vector3::Zero();   ///< [N]
-  Vector3 torque = Vector3::Zero();  ///< [N m]
-  Vector3 about = Vector3::Zero();   ///< [m]
-};
 
 /// Takes what a unit multiplier of a joint's row does to the bodies: as the gradient of the row, and, if asked, as the wrench
 /// on one of them.
@@ -50,7 +44,9 @@ class JointTerms {
   void add_force(int body, const Vector3& at, const Vector3& direction) {
     if (wrench_ == nullptr) {
       // The world never moves and would only take up room in the row.
-      if (body < substep_.bodies.count()) substep_.add_force(row_, body, at, direction);
+      if (body >= substep_.bodies.count()) return;
+      substep_.add_force(row_, body, at, direction);
+      row_.curved = true;
     } else if (body == watched_) {
       wrench_->force += scale_ * direction;
       wrench_->torque += scale_ * cross(at - wrench_->about, direction);

@@ -48,13 +48,7 @@ void ActiveSetSolver::relax(const ComplementarityProblem& problem, int sweeps, W
     if (work != nullptr && work->stops()) return;
     for (std::size_t i = 0; i < solution_.size(); ++i) {
       if (!(problem.diagonal[i] > 0.0)) continue;
-      double residual = problem.constant[i] + problem.diagonal[i] * solution_[i];
-      for (int p = neighbour_start_[i]; p < neighbour_start_[i + 1]; ++p) {
-        const Neighbour& neighbour = neighbours_[at(p)];
-        const bool below = neighbour.transposed && !problem.symmetric;
-        const std::vector<double>& values = below ? problem.lower_values : problem.values;
-        residual += values[at(neighbour.entry)] * solution_[at(neighbour.other)];
-      }
+      const double residual = residual_of(problem, i);
       solution_[i] = std::clamp(solution_[i] - residual / problem.diagonal[i], problem.lower[i],
                                 problem.upper[i]);
     }
@@ -167,6 +161,56 @@ void ActiveSetSolver::solve_free(const ComplementarityProblem& problem) {
   factor_.solve(rhs);
   solution_ = rhs;
   find_residuals(problem);
+}
+
+bool ActiveSetSolver::refine(const ComplementarityProblem& problem,
+                             std::span<const double> change) {
+  const std::size_t n = at(problem.size);
+  refined_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) refined_[i] = problem.free[i] == 1 ? -change[i] : 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (problem.free[i] == 1) continue;
+    const double moved =
+        (is_at_lower(problem, i) ? problem.lower[i] : problem.upper[i]) - solution_[i];
+    if (moved == 0.0) continue;
+    refined_[i] = moved;
+    for (int p = neighbour_start_[i]; p < neighbour_start_[i + 1]; ++p) {
+      const Neighbour& neighbour = neighbours_[at(p)];
+      if (problem.free[at(neighbour.other)] != 1) continue;
+      const bool below = !neighbour.transposed && !problem.symmetric;
+      const std::vector<double>& values = below ? problem.lower_values : problem.values;
+      refined_[at(neighbour.other)] -= values[at(neighbour.entry)] * moved;
+    }
+  }
+  factor_.solve(refined_);
+  for (std::size_t i = 0; i < n; ++i) refined_[i] += solution_[i];
+  solution_.swap(refined_);
+  for (std::size_t i = 0; i < n; ++i) {
+    double broken = 0.0;
+    if (problem.free[i] == 1) {
+      if (solution_[i] >= problem.lower[i] && solution_[i] <= problem.upper[i]) continue;
+      broken = problem.diagonal[i] *
+               std::max(problem.lower[i] - solution_[i], solution_[i] - problem.upper[i]);
+    } else if (problem.lower[i] != problem.upper[i]) {
+      const double residual = residual_of(problem, i);
+      broken = is_at_lower(problem, i) ? -residual : residual;
+    }
+    if (!(broken > 0.0 && broken > noise(problem, i))) continue;
+    solution_.swap(refined_);
+    return false;
+  }
+  return true;
+}
+
+double ActiveSetSolver::residual_of(const ComplementarityProblem& problem, std::size_t i) const {
+  double residual = problem.constant[i] + problem.diagonal[i] * solution_[i];
+  for (int p = neighbour_start_[i]; p < neighbour_start_[i + 1]; ++p) {
+    const Neighbour& neighbour = neighbours_[at(p)];
+    const bool below = neighbour.transposed && !problem.symmetric;
+    const std::vector<double>& values = below ? problem.lower_values : problem.values;
+    residual += values[at(neighbour.entry)] * solution_[at(neighbour.other)];
+  }
+  return residual;
 }
 
 void ActiveSetSolver::find_compromise(const ComplementarityProblem& problem) {

@@ -57,6 +57,10 @@ class ActiveSetSolver {
   [[nodiscard]] int changes() const { return changes_; }  ///< of sides in the last solve()
   [[nodiscard]] int factorisations() const { return factorisations_; }  ///< in the last solve()
   [[nodiscard]] int dropped() const { return dropped_; }  ///< redundant rows in the last solve()
+  /// Solves again, with the matrix and the sets of the last solve(), after `problem.constant` has grown by `change`, and bounds
+  /// may have moved. False if
+  /// these are not the right sets now; the solution is then still the last one.
+  bool refine(const ComplementarityProblem& problem, std::span<const double> change);
   /// Whether in the last solve() some free rows contradicted each other.
   [[nodiscard]] bool contradicts() const { return contradicts_; }
 
@@ -75,6 +79,8 @@ class ActiveSetSolver {
   /// Whether the tries go round in a circle, which is seen after at most three rounds of it.
   [[nodiscard]] bool repeats(const ComplementarityProblem& problem, int tries, const Course& now);
   void solve_free(const ComplementarityProblem& problem);
+  /// r of unknown i with the solution.
+  [[nodiscard]] double residual_of(const ComplementarityProblem& problem, std::size_t i) const;
   /// The residuals of the solution.
   void find_residuals(const ComplementarityProblem& problem);
   /// Solves for the free unknowns again so that all rows that contradict each other give way.
@@ -99,6 +105,7 @@ class ActiveSetSolver {
   std::vector<Neighbour> neighbours_;
   SparseFactor factor_;
   std::vector<double> solution_;
+  std::vector<double> refined_;
   std::vector<double> residual_;
   std::vector<double> diagonal_;
   std::vector<double> values_;

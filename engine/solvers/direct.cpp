@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace sheave {
 
@@ -16,11 +17,21 @@ void DirectSolver::give_up(Substep& substep, Features features, bool at_once) {
   sweeps_.solve(substep, features);
 }
 
+bool DirectSolver::arrives(Substep& substep, double& astray) const {
+  const double before = astray;
+  astray = system_.astray();
+  // What no longer gets less is rounding: of light bodies it is large.
+  if (astray > across * substep.bodies.scale() && !(astray > slow * before)) return false;
+  system_.follow_gradients(substep);
+  return true;
+}
+
 void DirectSolver::solve(Substep& substep, Features features) {
   const double enough = tolerance * substep.bodies.scale();
   double violated = 0.0;
   double before = 0.0;
   double first = 0.0;
+  double astray = std::numeric_limits<double>::infinity();
   bool revised = false;
   bool adding_up = false;
   bool compromise = false;
@@ -29,8 +40,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
     before = violated;
     system_.linearise(substep, features, RowSystem::Rule::backward, adding_up);
     violated = system_.violation();
-    if (round > 0 && !revised && violated <= enough) {
-      if (!adding_up) system_.follow_gradients(substep);
+    if (round > 0 && !revised && violated <= enough && (adding_up || arrives(substep, astray))) {
       break;
     }
     // Rows that nothing can satisfy, between driven bodies, stay violated however many rounds there are.
@@ -43,7 +53,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
     if (!finite && (round == 0 || adding_up)) break;
     // In the first rounds what bends may look like a contradiction.
     compromise = compromise || (round > 1 && system_.contradicts());
-    const bool stuck = !compromise && !revised && violated > slow * before;
+    const bool stuck = !compromise && !revised && violated > slow * before && violated > enough;
     if ((round > 1 || !finite) && !adding_up && (lost || stuck)) {
       adding_up = true;
       system_.begin_adding_up();
@@ -52,6 +62,12 @@ void DirectSolver::solve(Substep& substep, Features features) {
       system_.linearise(substep, features, RowSystem::Rule::backward, true);
     }
     if (!system_.solve(substep, compromise)) return give_up(substep, features, round == 0);
+    // Where nothing swings the first round mostly is all there is, and gradients that are this much off are none the worse.
+    constexpr double least_swing = 1e-6;  // [rad]
+    if (!compromise && round + 1 < substep.iterations &&
+        (round > 0 || system_.swing() > least_swing)) {
+      system_.bend(substep, enough);
+    }
     system_.apply(substep, features);
     revised = false;
     // What the last round finds would have no round to act in; the features decide it for the next substep.

@@ -72,7 +72,7 @@ bool RowSystem::match_start() {
 bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool from_here) {
   collect_rows(substep, features);
   problem_.rounding = value_rounding * substep.bodies.scale();
-  symmetric_rows_ = rule == Rule::backward;
+  symmetric_rows_ = forces_turn_ = rule == Rule::backward;
   bound_share_ = rule == Rule::backward ? 1.0 : 0.5;
   fill_slots(substep);
   if (rule == Rule::midpoint && !match_start()) return false;
@@ -94,6 +94,7 @@ bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool f
   } else {
     settle(substep);
   }
+  bent_ = false;
   return true;
 }
 
@@ -237,14 +238,19 @@ void RowSystem::remember_origin(const Substep& substep) {
 }
 
 void RowSystem::move_on(Substep& substep) {
+  double square = 0.0;
   begin_rounds();
   remember_origin(substep);
   for (int i = 0; i < substep.bodies.count(); ++i) {
     const BodyState& start = substep.start.bodies[at(i)];
     MovingBody& body = substep.moving[at(i)];
     if (body.translates) body.position = sum(body.start_position, substep.h, start.velocity);
-    if (body.rotates) body.rotate(substep.h * start.angular_velocity - body.turn);
+    if (!body.rotates) continue;
+    const Vector3 turn = substep.h * start.angular_velocity;
+    if (body.translates) square = std::max(square, dot(turn, turn));
+    body.rotate(turn - body.turn);
   }
+  swing_ = std::sqrt(square);
 }
 
 void RowSystem::start_again(Substep& substep, Features features) {
@@ -325,6 +331,7 @@ double RowSystem::violation() const {
     const double room = r > 0.0 ? -problem_.lower[g] : problem_.upper[g];
     if (!(room > 0.0)) continue;
     double off = std::abs(r);
+    if (!(off > worst * groups_[g].scale)) continue;
     if (std::isfinite(room)) off = std::min(off, room * yield(g));
     // What nothing can yield to no further round mends, nor a shorter substep.
     if (off > worst * groups_[g].scale && yield(g) > 0.0) worst = off / groups_[g].scale;
@@ -400,6 +407,9 @@ void RowSystem::apply(Substep& substep, Features features) {
       const double gain = from_here_ ? multiplier - previous_[i] : multiplier;
       if (gain != 0.0) slots_.add_row(r, gain, motion_.data());
     }
+  }
+  if (bent_) {
+    for (std::size_t d = 0; d < motion_.size(); ++d) motion_[d] += bend_[d];
   }
   for (const BodyFreedom& freedom : coordinates.movable()) {
     MovingBody& body = substep.moving[at(freedom.body)];

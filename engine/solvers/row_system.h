@@ -28,8 +28,12 @@
 // has exactly its static forces. (Corrections added up along the gradients of each round would keep those of x*, which is
 // off by g h^2 and tensions with it, by 1e-4 in a crane of 8 m at 1/120 s.) That is a fixed point in K: its error shrinks by
 // h^2 F / (m L) per round, with the force F of a row that turns a body m over the length L, the square of what the body's
-// swing at F does in a substep. Where that is no small number, corrections can be added up instead (`from_here`): Newton's
-// method on C alone, which converges however fast the bodies swing, with gradients between those of x* and of the end.
+// swing at F does in a substep. Newton's method on all equations has the turn of K besides: with the derivative H of K^T l
+// along a motion (engine/solvers/curvature.h), the motion of a round is dx = r + W K^T dl + W H dx, r the way from x to
+// x* + W K^T l. bend() solves that within the round, as a fixed point in H dx whose steps take a sweep to and fro over the
+// factors and evaluate no row; the bounds of friction, which follow pressures that depend on them, are found with it. What is
+// left is of second order. Where bodies swing too far for that, corrections can be added up instead (`from_here`): Newton's
+// method on C alone, which converges however fast they swing, with gradients between those of x* and of the end.
 
 #include <memory>
 #include <span>
@@ -38,6 +42,7 @@
 
 #include "engine/constraint_batch.h"
 #include "engine/solvers/active_set.h"
+#include "engine/solvers/curvature.h"
 #include "engine/solvers/row_slots.h"
 #include "engine/substep.h"
 
@@ -60,6 +65,8 @@ class RowSystem {
   /// move at the start of the substep: constraints have the same forces from one substep to the next, more or less, and without
   /// them bodies are much farther from the solution. So the first round has better gradients.
   void move_on(Substep& substep);
+  /// By how much move_on() has turned bodies that rows hold elsewhere than on an axle, at most [rad].
+  [[nodiscard]] double swing() const { return swing_; }
   /// Energy that the rows have made in the substep with the multipliers and positions of the last linearise(), but for what
   /// springs, drives and prescribed motion give, as a share of the kinetic energy; 0 where rounding hides it. Implicit Euler
   /// makes none. To be called after begin_adding_up().
@@ -91,6 +98,13 @@ class RowSystem {
   void follow_gradients(Substep& substep) const;
   /// Finds the unknowns; false if no active set was found, or Substep::work allows no more. Counts into the substep's statistics.
   bool solve(Substep& substep, bool compromise = false);
+  /// Counts in, after solve(), how the forces turn with the motion that it has found (engine/solvers/curvature.h), and how
+  /// friction follows the pressure: one round of Newton's method on all equations, by a few more solutions with the same matrix,
+  /// each a fraction of a round's work. By the midpoint rule forces do not turn, but values do.
+  /// Turns that move nothing by more than `negligible` [m or rad] are left out.
+  void bend(const Substep& substep, double negligible);
+  /// How far the bodies are from where the multipliers of before solve() put them along the gradients of now [m or rad].
+  [[nodiscard]] double astray() const;
   /// Whether in the last solve() some rows contradicted each other, so that nothing satisfies them all. `compromise` makes
   /// all of them give way, where otherwise some are left out.
   [[nodiscard]] bool contradicts() const { return active_set_.contradicts(); }
@@ -156,6 +170,27 @@ class RowSystem {
   void assemble();
   /// Adds what `motion_` changes of the groups' values to the constants of the problem.
   void count_motion();
+  /// A row of friction whose bounds follow the pressure within a round.
+  struct Rubbing {
+    int row = 0;
+    double bound = 0.0;
+    double last_bound = 0.0;
+    double off = 0.0;  ///< what the pressure wanted last, from what was there then
+    double wanted = 0.0;
+    double last_wanted = 0.0;
+  };
+  void find_rubbing_rows();
+  /// Bounds friction by the pressures just found; returns by how much that may move anything [m]. `first`: without regard to
+  /// the step before.
+  double follow_pressure(bool first);
+  void set_friction(const Rubbing& rubbing, std::size_t group);
+  /// What the turn of the forces adds to the motion, into motion_; returns by how much it is another than in bend_. `straight`:
+  /// it counts for nothing.
+  double turn_forces(const Substep& substep, bool& straight);
+  /// Solves with motion_ counted in. False if other rows would have to act.
+  bool refine();
+  /// The rows' multipliers, and the motion of the bodies from where they are, with the unknowns just found.
+  void find_motion();
   void act_springs(Substep& substep);
   /// Counts the impulses in the groups' multipliers as given: the unknowns are what is added to them.
   void start_from_impulses();
@@ -180,6 +215,19 @@ class RowSystem {
   std::vector<Pose> placed_;      ///< per body: where the last round among others has left it
   bool from_here_ = true;
   std::vector<double> motion_;  ///< per degree of freedom: displacement or turn, or their rates
+  double swing_ = 0.0;
+  bool forces_turn_ = true;  ///< K is that of where the bodies are
+  std::vector<Rubbing> rubbing_;
+  Curvature curvature_;
+  bool bent_ = false;  ///< the last round has counted in how forces turn
+  std::vector<double>
+      residual_;  ///< per degree of freedom, of the round: from where bodies are to where they should be
+  std::vector<double> bend_;  ///< and what the turn of the forces adds
+  std::vector<double> trial_;
+  std::vector<double> row_multipliers_;
+  std::vector<double> second_order_;
+  std::vector<double> constant_;  ///< of the problem without the turn
+  std::vector<double> change_;
   bool assembled_ = false;      ///< the matrix is that of the last linearise()
   bool symmetric_rows_ = true;  ///< K = J but for weights
   double bound_share_ = 1.0;    ///< of the rows' bounds, in the rule at work

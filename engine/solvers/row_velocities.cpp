@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/index.h"
+#include "engine/solvers/direct.h"
 #include "engine/solvers/row_system.h"
 #include "engine/stages.h"
 
@@ -20,8 +21,7 @@ double RowSystem::rate_of(const Substep& substep, const Row& row) const {
 }
 
 void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
-  // Closer than this a row counts as closed: far below what a substep moves, far above what the solver leaves.
-  const double closed = 1e-8 * substep.bodies.scale();
+  const double closed = DirectSolver::closed * substep.bodies.scale();
   const double share =
       0.5 / substep.h;  // of the bounds, for an impulse in the second half of the substep
   // Velocities alone tell nothing of forces that hold each other in balance. They stay what they were in the first half,

@@ -43,9 +43,10 @@ void set_drive(const BodyDef& rotor, JointCoordinate& angle) {
                                                    : CoordinateDrive::position;
   angle.drive_times = rotor.drive_times;
   angle.drive_values = rotor.drive_values;
+  angle.drive_interpolation = rotor.drive_interpolation;
   if (rotor.drive != DriveKind::angle) return;
   // A hinge's angle is 0 at time 0; of a rotor's only the change counts.
-  const double start = TimeTable{rotor.drive_times, rotor.drive_values}.at(0.0);
+  const double start = rotor.drive_table().at(0.0);
   for (double& value : angle.drive_values) value -= start;
 }
 
@@ -100,6 +101,7 @@ bool hinge_rotor(Scene& scene, std::size_t index) {
   body.drive = DriveKind::none;
   body.drive_times.clear();
   body.drive_values.clear();
+  body.drive_interpolation = Interpolation::linear;
   scene.model.joints.push_back(std::move(hinge));
   return true;
 }

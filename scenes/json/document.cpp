@@ -8,6 +8,7 @@
 #include "scenes/json/builder.h"
 #include "scenes/json/pointer.h"
 #include "scenes/json/text.h"
+#include "scenes/suggestion.h"
 
 namespace sheave::json {
 namespace {
@@ -170,17 +171,64 @@ void Document::set(std::string_view pointer, std::string_view value, std::string
     nodes_.push_back(object);
     const auto id = static_cast<NodeId>(nodes_.size() - 1);
     add_child(target.node, unescape(parent.substr(1)), id);
-    target = {id, true};
+    target = {id, true, 1};
   }
-  if (!target.exact) return fail(fmt::format("there is no {} in the scene", parent));
-  if (kind(target.node) == Kind::array) {
-    return fail(
-        fmt::format("{} has {} elements, counted from 0", parent, children(target.node).size()));
-  }
+  if (!target.exact) return fail(missing(parent, target));
+  if (kind(target.node) == Kind::array) return fail(missing(pointer, target));
   if (kind(target.node) != Kind::object) {
     return fail(fmt::format("{} is {} and has no members", parent, name_of(kind(target.node))));
   }
   add_child(target.node, steps->back(), child);
+}
+
+void Document::remove(NodeId member) {
+  Node& container = node(node(member).parent);
+  for (std::uint32_t i = node(member).index; i + 1 < container.count; ++i) {
+    const NodeId next = children_[container.first + i + 1];
+    children_[container.first + i] = next;
+    node(next).index = i;
+  }
+  --container.count;
+}
+
+NodeId Document::element(NodeId array, const std::string& step) const {
+  const std::span<const NodeId> elements = children(array);
+  if (const auto index = array_index(step)) {
+    return *index < elements.size() ? elements[*index] : no_node;
+  }
+  for (const NodeId id : elements) {
+    const NodeId name = member(id, "name");
+    if (name != no_node && kind(name) == Kind::string && string(name) == step) return id;
+  }
+  return no_node;
+}
+
+std::vector<std::string_view> Document::names(NodeId array) const {
+  std::vector<std::string_view> result;
+  for (const NodeId id : children(array)) {
+    const NodeId name = member(id, "name");
+    if (name != no_node && kind(name) == Kind::string) result.push_back(string(name));
+  }
+  return result;
+}
+
+std::string Document::missing(std::string_view path, const Target& target) const {
+  if (kind(target.node) != Kind::array) return fmt::format("there is no {} in the scene", path);
+  const std::string step = split(path)->at(target.steps);
+  const std::string place = pointer(target.node);
+  const std::size_t count = children(target.node).size();
+  const std::vector<std::string_view> known = names(target.node);
+  if (array_index(step) || known.empty()) {
+    return fmt::format("there is no {} in the scene: {} has {} elements, counted from 0", path,
+                       place, count);
+  }
+  constexpr std::size_t most = 8;  // what one reads
+  std::vector<std::string_view> near = nearest(step, known, most);
+  const bool some = near.empty();
+  if (some) near.assign(known.begin(), known.begin() + std::min(known.size(), most));
+  return fmt::format("{} has nothing called \"{}\"; {} \"{}\"{}", place, step,
+                     some ? "there are" : "near it are", fmt::join(near, "\", \""),
+                     some && known.size() > most ? ", ..." : "");
 }
 
 std::string Document::pointer(NodeId id) const {
@@ -201,16 +249,14 @@ Document::Target Document::find(std::string_view pointer) const {
   const auto steps = split(pointer);
   if (!steps) return {root_, false};
   for (const std::string& step : *steps) {
-    NodeId next = no_node;
-    if (kind(target.node) == Kind::array) {
-      const auto elements = children(target.node);
-      const auto index = array_index(step);
-      if (index && *index < elements.size()) next = elements[*index];
-    } else {
-      next = member(target.node, step);
+    const bool array = kind(target.node) == Kind::array;
+    const NodeId next = array ? element(target.node, step) : member(target.node, step);
+    if (next == no_node) {
+      target.exact = false;
+      return target;
     }
-    if (next == no_node) return {target.node, false};
     target.node = next;
+    ++target.steps;
   }
   return target;
 }

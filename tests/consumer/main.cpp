@@ -4,11 +4,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "cable/links/attachment.h"
-#include "cable/links/rolling.h"
-#include "cable/simulation.h"
-#include "engine/shapes/box.h"
-#include "engine/shapes/cylinder.h"
+#include "sheave/sheave.h"
 
 namespace {
 
@@ -54,13 +50,15 @@ int main() {
   cable.name = "cable";
   cable.links = {attached_to(light), over, attached_to(heavy)};
 
-  auto simulation = sheave::Simulation::create(model, {cable});
-  if (!simulation) {
-    for (const auto& error : simulation.errors()) std::puts(error.message.c_str());
+  auto world = sheave::LiveWorld::create(model, {cable});
+  if (!world) {
+    for (const auto& error : world.errors()) std::puts(error.message.c_str());
     return 1;
   }
-  for (int i = 0; i < 60; ++i) simulation->world.step();
-  const double tension = simulation->cable_reports()[0].spans[0].tension;
+  for (int i = 0; i < 60; ++i) {
+    if (!world->step().ok()) return 1;
+  }
+  const double tension = *world->tension(*world->cable("cable"), 0);
   // a = (m2 - m1) g / (m1 + m2 + I / r^2) = 10 / 3.5 and T = m1 (g + a).
   const double expected = 1.0 * (10.0 + 10.0 / 3.5);
   std::printf("tension %.6f N, closed form %.6f N\n", tension, expected);

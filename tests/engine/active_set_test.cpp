@@ -71,6 +71,40 @@ TEST(ActiveSet, FindsMultipliersThatMeetAllConditions) {
   }
 }
 
+TEST(ActiveSet, OtherConstantsAndBoundsNeedNoOtherFactorsWhileTheSetsAreRight) {
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> value(-1.0, 1.0);
+  int refined = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    RandomProblem random(2 + trial % 11, trial % 2 == 0 ? 0.0 : 0.3, generator);
+    ComplementarityProblem& p = random.problem;
+    ActiveSetSolver solver;
+    solver.analyse(p.size, random.entries);
+    ASSERT_TRUE(solver.solve(p));
+    const std::vector<double> last(solver.solution().begin(), solver.solution().end());
+    std::vector<double> change(p.constant.size());
+    for (std::size_t i = 0; i < change.size(); ++i) {
+      change[i] = 0.1 * value(generator);
+      p.constant[i] += change[i];
+      p.lower[i] -= 0.05 * std::abs(value(generator));
+      p.upper[i] += 0.05 * std::abs(value(generator));
+    }
+    const std::vector<char> sets = p.free;
+    const bool fits = solver.refine(p, change);
+    const std::vector<double> found(solver.solution().begin(), solver.solution().end());
+    ActiveSetSolver afresh;
+    afresh.analyse(p.size, random.entries);
+    ASSERT_TRUE(afresh.solve(p));
+    // The solution of a problem like these is the only one.
+    EXPECT_EQ(fits, p.free == sets);
+    const std::span<const double> expected = fits ? afresh.solution() : std::span(last);
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-10);
+    refined += fits ? 1 : 0;
+  }
+  EXPECT_GT(refined, 50);
+  EXPECT_LT(refined, 300);
+}
+
 TEST(ActiveSet, StartedFromTheSolutionNothingChanges) {
   std::mt19937 generator(4);
   RandomProblem random(10, 0.0, generator);

@@ -92,10 +92,26 @@ TEST(BodyCheck, AFlatBodyIsAllowed) {
 }
 
 TEST(BodyCheck, Axes) {
-  for (const int i : {0, 4, 5}) {
+  for (const int i : {0, 4}) {
     expect_fault("/bodies/" + std::to_string(i) + "/axis",
                  [&](Model& m) { m.bodies[static_cast<std::size_t>(i)].axis = Vector3::UnitX(); });
   }
+  // A kinematic body with an axis keeps the plane across it.
+  const auto keep_plane = [](Model& m) -> BodyDef& {
+    m.bodies[5].axis = Vector3::UnitZ();
+    return m.bodies[5];
+  };
+  Model model = good_model();
+  keep_plane(model).velocity = {1.0, 2.0, 0.0};
+  model.bodies[5].angular_velocity = {0.0, 0.0, 3.0};
+  EXPECT_EQ(test::text(check_bodies(model)), "");
+  expect_fault("/bodies/5/velocity", [&](Model& m) { keep_plane(m).velocity = {0.0, 0.0, 1.0}; });
+  expect_fault("/bodies/5/oscillation", [&](Model& m) {
+    keep_plane(m).oscillation = {0.0, 0.0, 1.0};
+  });
+  expect_fault("/bodies/5/angular_velocity", [&](Model& m) {
+    keep_plane(m).angular_velocity = {0.0, 1.0, 1.0};
+  });
   expect_fault("/bodies/2", [](Model& m) { m.bodies[2].axis.reset(); });
   expect_fault("/bodies/2/axis", [](Model& m) { m.bodies[2].axis = Vector3::Zero(); });
   expect_fault("/bodies/2/axis/1", [](Model& m) { m.bodies[2].axis = Vector3(1, nan_value, 0); });

@@ -117,6 +117,9 @@ TEST(StopRequest, AtAnyMomentOfASubstepThatIsCutAndOfContacts) {
 TEST(StopRequest, IsAskedOncePerSubstepAndFactorisation) {
   test::Machine machine = test::Atwood{}.machine();
   machine.model.step = StepSettings{};
+  Simulation affine = test::start(machine);
+  // With a free body the stages do what affine substeps do otherwise.
+  machine.model.bodies.push_back(test::lump("besides", {0.0, 0.0, 9.0}, 1.0));
   Simulation s = test::start(machine);
   for (int i = 0; i < 20; ++i) {
     NthTime never;
@@ -124,6 +127,11 @@ TEST(StopRequest, IsAskedOncePerSubstepAndFactorisation) {
     ASSERT_TRUE(report.ok());
     ASSERT_EQ(report.statistics.cut_substeps, 0);
     EXPECT_EQ(never.asked(), machine.model.step.substeps + report.statistics.factorisations);
+    NthTime neither;
+    ASSERT_TRUE(affine.world.step(neither.request()).ok());
+    if (i > 0) {
+      EXPECT_EQ(neither.asked(), 1);
+    }
   }
 }
 

@@ -230,7 +230,9 @@ TEST_P(CableLimits, ADrumThatWindsUpTheOtherWayStopsAtItsLoad) {
   m.cables.push_back(cable("rope", {attach(m.model.add(hung)), drum(body, left, 0.3)}));
   Simulation s = test::start(m);
   double most = 0.0;
-  for (int i = 1; i <= 4500; ++i) {
+  // Later the load, which nothing keeps out of the drum, goes through its centre: there it is an accident on which side the cable
+  // is.
+  for (int i = 1; i <= 3000; ++i) {
     run_and_check(s, 0.002 * i);
     const LinkReport end = s.cable_reports()[0].links[1];
     if (end.winding < 0) most = std::max(most, end.stored_length);

@@ -6,6 +6,7 @@
 
 #include "cable/certificate.h"
 #include "cable/simulation.h"
+#include "scenes/control/scene_supervisor.h"
 #include "scenes/scene.h"
 #include "tests/scenes/scene_files.h"
 
@@ -13,12 +14,12 @@ namespace sheave::test {
 namespace {
 
 Certificate certify_scene(const Scene& scene, double time, int every) {
-  auto simulation = Simulation::create(scene.model, scene.cables);
+  auto simulation = create_simulation(scene);
   EXPECT_TRUE(simulation);
   Certificate all;
   const double end = std::min(scene.duration, time);
   for (int n = 0; simulation && simulation->world.state().time < end - 1e-9; ++n) {
-    if (!simulation->world.step().ok()) {
+    if (!simulation->step().ok()) {
       ADD_FAILURE() << "diverged";
       break;
     }

@@ -58,6 +58,7 @@ TEST_F(Checks, statistics_are_what_they_are_called) {
   add("body.x", Statistic::maximum, speed * 2.0);
   add("body.x", Statistic::range, speed * 2.0);
   add("body.x", Statistic::drift, speed * 2.0);
+  add("body.x", Statistic::integral, speed * 2.0);  // x = v t, for 2 s
   CheckDef& drift = add("body.x", Statistic::drift, speed * 0.5);
   drift.from = 1.0;
   drift.to = 1.5;

@@ -132,7 +132,8 @@ TEST_F(JointObservables, OfADefinitionAndOfItsSimulationAreTheSameAndUnique) {
   EXPECT_EQ(names, set.names());
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
   // 1 time, 5 bodies, 5 joints with 2 + 1 + 2 + 0 + 1 coordinates, energies.
-  EXPECT_EQ(names.size(), 1U + 5U * 14U + 5U * 9U + 6U * 3U + 4U);
+  EXPECT_EQ(ObservableSet(m.model, m.cables).default_count(),
+            1U + 5U * 14U + 5U * 9U + 6U * 3U + 4U);
 }
 
 TEST_F(JointObservables, ForcesAreUnknownAtTheStart) {
@@ -168,7 +169,8 @@ TEST(JointQuantities, NameTheCoordinatesOfEveryType) {
   }
 }
 
-// A joint and a cable of one name share no quantity; a joint and a body share the angle, which is refused at load.
+// A joint and a cable of one name share no quantity; a joint and a body share the angle, and the power of their drives, if
+// both have one, which is refused at load.
 TEST(JointQuantities, AreSharedWithBodiesInTheAngleOnly) {
   for (const auto& type : joint_types()) {
     const auto joint = type.make();
@@ -176,7 +178,11 @@ TEST(JointQuantities, AreSharedWithBodiesInTheAngleOnly) {
     for (const JointCoordinateInfo& coordinate : joint->coordinates()) {
       turns = turns || coordinate.name == "angle";
     }
-    EXPECT_EQ(shared_quantity(*joint), turns ? "angle" : "") << type.name;
+    EXPECT_EQ(shared_quantity(*joint, BodyDef{}), turns ? "angle" : "") << type.name;
+    BodyDef driven;
+    driven.drive = DriveKind::torque;
+    if (joint->coordinates().size() != 1) continue;
+    EXPECT_EQ(shared_quantity(*joint, driven), "drive_power") << type.name;
   }
   std::set<std::string_view> of_cables;
   std::set<std::string_view> of_joints;

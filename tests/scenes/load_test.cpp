@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/joints/hinge.h"
 #include "engine/shapes/box.h"
 #include "scenes/scene.h"
 #include "tests/scenes/scene_files.h"
@@ -252,6 +253,74 @@ TEST(overrides, are_named_in_errors) {
               ElementsAre(HasSubstr("there is no /bodies/3")));
   EXPECT_THAT(errors_of(load(scene_text(), {{"/ground/normal", "[0, 1, 0]", ""}})),
               ElementsAre(HasSubstr("there is no /ground")));
+}
+
+TEST(overrides, know_bodies_joints_and_cables_by_name) {
+  const std::string text = scene_text(R"("bodies": [
+      {"name": "drum", "mobility": "rotor", "mass": 2, "inertia": [1, 1, 1]},
+      {"name": "2", "mass": 1, "inertia": [1, 1, 1], "position": [0, -1, 0]},
+      {"name": "heavy load", "mass": 1, "inertia": [1, 1, 1], "position": [0, -2, 0]}],
+    "joints": [{"type": "hinge", "name": "door", "body_b": "2", "anchor": [0, 0, 0], "axis": [0, 0, 1]}],
+    "cables": [{"name": "rope", "links": [
+      {"type": "attachment", "body": "drum", "point": [0.1, 0, 0]},
+      {"type": "attachment", "body": "heavy load"}]}])");
+  const SceneResult scene = load(text, {{"/bodies/drum/mass", "5", ""},
+                                        {"/bodies/heavy load/mass", "7", ""},
+                                        {"/joints/door/breaking_force", "9", ""},
+                                        {"/cables/rope/links/1/point", "[0, 0.1, 0]", ""}});
+  ASSERT_TRUE(scene) << testing::PrintToString(errors_of(scene));
+  EXPECT_EQ(scene->model.bodies[0].mass, 5.0);
+  EXPECT_EQ(scene->model.bodies[2].mass, 7.0);
+  EXPECT_EQ(scene->model.joints[0]->breaking_force, 9.0);
+  // A number is a place, whatever things are called.
+  EXPECT_EQ(load(text, {{"/bodies/2/mass", "4", ""}})->model.bodies[2].mass, 4.0);
+  EXPECT_THAT(errors_of(load(text, {{"/bodies/drumm/mass", "5", ""}})),
+              ElementsAre("--set /bodies/drumm/mass:1:1: /bodies/drumm/mass: /bodies has nothing "
+                          "called \"drumm\"; near it are \"drum\""));
+  EXPECT_THAT(errors_of(load(text, {{"/bodies/winch/mass", "5", ""}})),
+              ElementsAre(HasSubstr("there are \"drum\", \"2\", \"heavy load\"")));
+  EXPECT_THAT(errors_of(load(text, {{"/bodies/drums", "5", ""}})),
+              ElementsAre(HasSubstr("near it are \"drum\"")));
+  EXPECT_THAT(errors_of(load(text, {{"/bodies/3/mass", "5", ""}})),
+              ElementsAre(HasSubstr("there is no /bodies/3 in the scene: /bodies has 3 elements")));
+  // What is wrong with the value is told at the option.
+  EXPECT_THAT(errors_of(load(text, {{"/bodies/drum/mass", "-5", ""}})),
+              ElementsAre(HasSubstr("--set /bodies/drum/mass:1:1: /bodies/0/mass: value -5")));
+}
+
+TEST(overrides, of_a_drive_take_along_what_it_cannot_have_any_more) {
+  const std::string text = scene_text(R"("bodies": [
+      {"name": "drum", "mobility": "rotor", "mass": 2, "inertia": [1, 1, 1], "drive": "speed",
+       "drive_times": [0, 1], "drive_values": [0, 2], "drive_interpolation": "cubic"},
+      {"name": "arm", "mass": 1, "inertia": [1, 1, 1], "position": [0, -1, 0]}],
+    "joints": [{"type": "hinge", "name": "elbow", "body_b": "arm", "anchor": [0, 0, 0],
+      "axis": [0, 0, 1], "drive": "angle", "drive_times": [0, 1], "drive_values": [0, 2],
+      "drive_limit": 5, "drive_compliance": 0.1}])");
+  const SceneResult none =
+      load(text, {{"/bodies/drum/drive", "none", ""}, {"/joints/elbow/drive", "none", ""}});
+  ASSERT_TRUE(none) << testing::PrintToString(errors_of(none));
+  EXPECT_TRUE(none->model.bodies[0].drive_values.empty());
+  EXPECT_EQ(none->model.bodies[0].drive_interpolation, Interpolation::linear);
+  const auto& elbow = [](const SceneResult& scene) -> const JointCoordinate& {
+    return dynamic_cast<const HingeJoint&>(*scene->model.joints[0]).angle;
+  };
+  EXPECT_EQ(elbow(none).drive, CoordinateDrive::none);
+  EXPECT_FALSE(elbow(none).drive_limit);
+  const SceneResult torque = load(text, {{"/joints/elbow/drive", "torque", ""}});
+  ASSERT_TRUE(torque) << testing::PrintToString(errors_of(torque));
+  EXPECT_FALSE(elbow(torque).drive_limit);
+  EXPECT_EQ(elbow(torque).drive_values.size(), 2U);
+  const SceneResult speed = load(text, {{"/joints/elbow/drive", "speed", ""}});
+  ASSERT_TRUE(speed) << testing::PrintToString(errors_of(speed));
+  EXPECT_EQ(elbow(speed).drive_limit, 5.0);
+  EXPECT_EQ(elbow(speed).drive_compliance, 0.0);
+  // What the command line itself says beside it must fit.
+  EXPECT_FALSE(
+      load(text, {{"/joints/elbow/drive", "torque", ""}, {"/joints/elbow/drive_limit", "3", ""}}));
+  // A scene that says both is a scene with a fault.
+  std::string contradictory = text;
+  contradictory.replace(contradictory.find("\"angle\""), 7, "\"none\"");
+  EXPECT_FALSE(load(contradictory));
 }
 
 TEST(overrides, may_shorten_a_run_below_its_checks) {

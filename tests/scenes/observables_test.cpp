@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cable/reactions.h"
 #include "scenes/generators.h"
 #include "tests/support/builders.h"
 
@@ -69,7 +70,10 @@ TEST(observables, names_are_unique_and_the_number_is_as_documented) {
   const Machine m = machine();
   const std::vector<std::string> names = ObservableSet(m.model, m.cables).names();
   // time, 3 bodies, 1 span, 2 links, the cable, energies
-  EXPECT_EQ(names.size(), 1U + 3U * 14U + 3U + 2U * 9U + 5U + 4U);
+  const std::size_t columns = 1U + 3U * 14U + 3U + 2U * 9U + 5U + 4U;
+  EXPECT_EQ(ObservableSet(m.model, m.cables).default_count(), columns);
+  // On request: momentum of 3 bodies, a rotor's bearings, the span's direction, 2 links' friction, sums
+  EXPECT_EQ(names.size(), columns + 3U * 6U + 8U + 3U + 2U + 6U + 2U);
   EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size());
 }
 
@@ -102,10 +106,45 @@ TEST(observables, unknown_names_get_a_suggestion) {
 TEST(observables, only_tensions_are_unknown_at_the_start) {
   const Machine m = machine();
   const ObservableSet set(m.model, m.cables);
-  for (std::size_t i = 0; i < set.names().size(); ++i) {
+  for (std::size_t i = 0; i < set.default_count(); ++i) {
     const bool is_tension = set.names()[i].ends_with(".tension");
     EXPECT_EQ(set.known_at_start(static_cast<int>(i)), !is_tension) << set.names()[i];
   }
+}
+
+TEST(observables, on_request_are_those_of_the_simulation) {
+  Machine m = machine();
+  m.model.bodies[1].drive = DriveKind::speed;
+  m.model.bodies[1].drive_values = {-1.0};
+  Simulation simulation = start(m);
+  const ObservableSet set(simulation);
+  const auto asked = [&](std::string_view name) {
+    const Result<int> index = set.index_of(name);
+    EXPECT_TRUE(index) << name;
+    double result = 0.0;
+    set.sample(simulation, std::span(&*index, 1), std::span(&result, 1));
+    return result;
+  };
+  EXPECT_TRUE(std::isnan(asked("drum.bearing_fy"))) << "nothing is known before the first step";
+  EXPECT_FALSE(set.known_at_start(*set.index_of("drum.bearing_fy")));
+  EXPECT_TRUE(set.known_at_start(*set.index_of("lump.momentum_x")));
+  run(simulation.world, 0.2);
+  const Reactions reactions = std::move(*Reactions::of(simulation));
+  EXPECT_EQ(asked("drum.bearing_fy"), reactions.bearing(1).force.y());
+  EXPECT_EQ(asked("drum.bearing_force"), reactions.bearing(1).force.norm());
+  EXPECT_EQ(asked("drum.bearing_torque"), reactions.bearing(1).torque.norm());
+  EXPECT_EQ(asked("drum.bearing_tx"), reactions.bearing(1).torque.x());
+  EXPECT_EQ(asked("drum.drive_torque"), reactions.drive(1).torque);
+  EXPECT_EQ(asked("drum.drive_power"), reactions.drive(1).power);
+  EXPECT_EQ(asked("drum.drive_error"), reactions.drive(1).error);
+  EXPECT_EQ(asked("power.drives"), reactions.drive_power());
+  EXPECT_EQ(asked("power.friction"), 0.0);
+  EXPECT_EQ(asked("rope.link1.friction_power"), 0.0);
+  EXPECT_EQ(asked("lump.momentum_z"), momentum(simulation.world, 0).linear.z());
+  EXPECT_EQ(asked("lump.angular_momentum_z"), momentum(simulation.world, 0).angular.z());
+  EXPECT_EQ(asked("momentum.linear_y"), momentum(simulation.world).linear.y());
+  EXPECT_EQ(asked("momentum.angular_x"), momentum(simulation.world).angular.x());
+  EXPECT_NEAR(asked("rope.0.direction_y"), -1.0, 1e-12) << "straight down";
 }
 
 TEST(observables, lengths_of_a_cable_add_up_in_motion) {

@@ -87,7 +87,7 @@ class RandomScene {
     random_.fill(StepPresetDef::field_table(), &scene_.step_preset, 0);
     scene_.model.step = StepSettings::of(scene_.step_preset.preset);
     random_.fill(StepSettings::field_table(), &scene_.model.step, 0);
-    for (int i = 0; i < 12; ++i) attempt([&] { add_body(); });
+    for (int i = 0; i < 16; ++i) attempt([&] { add_body(); });
     for (int i = 0; i < 40; ++i) attempt([&] { add_joint(); });
     for (int i = 0; i < 12; ++i) attempt([&] { add_cable(); });
     for (int i = 0; i < 12; ++i) {
@@ -101,6 +101,8 @@ class RandomScene {
       attempt([&] { fill(PaintDef::field_table(), &scene_.paint.emplace_back()); });
     }
     for (int i = 0; i < 12; ++i) attempt([&] { add_check(); });
+    for (int i = 0; i < 6; ++i) attempt([&] { add_controller(); });
+    for (int i = 0; i < 6; ++i) attempt([&] { add_trigger(); });
     return std::move(scene_);
   }
 
@@ -141,6 +143,7 @@ class RandomScene {
       body.angular_velocity.setZero();
     }
     if (body.mobility != Mobility::rotor) body.mount.reset();
+    if (body.drive == DriveKind::none) body.drive_interpolation = Interpolation::linear;
     if (body.mobility == Mobility::free || body.mobility == Mobility::fixed) body.axis.reset();
     const int shapes = random_.pick(3) + 1;
     for (int i = 0; i < shapes; ++i) {
@@ -198,6 +201,40 @@ class RandomScene {
       check.at.reset();
     }
     scene_.checks.push_back(std::move(check));
+  }
+
+  void add_controller() {
+    auto controller = make(controller_types());
+    fill(ControllerDef::common_field_table(), controller.get());
+    controller->name = name("controller");
+    controller->measures = "energy.kinetic";
+    controller->control = random_.pick(2) == 0 ? "gravity.x" : "gravity.y";
+    // One kind of setpoint.
+    const int kind = random_.pick(3);
+    if (kind != 0) controller->setpoint.reset();
+    if (kind == 0) controller->setpoint = 7.0;
+    controller->setpoint_quantity = kind == 1 ? "t" : "";
+    controller->setpoint_times.clear();
+    controller->setpoint_values.clear();
+    if (kind == 2) {
+      controller->setpoint_times = {0.0, 1.5};
+      controller->setpoint_values = {-1.0, 0.25};
+    } else {
+      controller->setpoint_interpolation = Interpolation::linear;
+    }
+    scene_.controllers.push_back(std::move(controller));
+  }
+  void add_trigger() {
+    TriggerDef trigger;
+    fill(TriggerDef::field_table(), &trigger);
+    trigger.name = name("trigger");
+    trigger.quantity = trigger.at ? "" : "energy.total";
+    if (trigger.at) trigger.above = trigger.below = std::nullopt;
+    trigger.action = random_.pick(2) == 0 ? TriggerAction::set : TriggerAction::stop;
+    const bool sets = trigger.action == TriggerAction::set;
+    trigger.target = sets ? "gravity.z" : "";
+    if (!sets) trigger.value.reset();
+    scene_.triggers.push_back(std::move(trigger));
   }
 
   RandomFields random_;

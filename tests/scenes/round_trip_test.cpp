@@ -37,6 +37,7 @@ TEST(round_trip, random_scenes_survive_exactly) {
   std::size_t entities = 0;
   std::size_t colliders = 0;
   std::size_t paints = 0;
+  std::size_t triggers = 0;
   for (unsigned seed = 0; seed < 150; ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = random_scene(seed);
@@ -48,6 +49,8 @@ TEST(round_trip, random_scenes_survive_exactly) {
     for (const CableDef& cable : scene.cables) {
       for (const auto& link : cable.links) types.insert(link->type());
     }
+    for (const auto& controller : scene.controllers) types.insert(controller->type());
+    triggers += scene.triggers.size();
     colliders += scene.model.colliders.size();
     paints += scene.paint.size();
     entities += scene.model.bodies.size() + scene.model.joints.size() + scene.cables.size() +
@@ -60,6 +63,8 @@ TEST(round_trip, random_scenes_survive_exactly) {
   expect_types(shape_types());
   expect_types(joint_types());
   expect_types(link_types());
+  expect_types(controller_types());
+  EXPECT_GT(triggers, 20U);
   EXPECT_GT(entities, 600U);
   EXPECT_GT(colliders, 50U);
   EXPECT_GT(paints, 50U);

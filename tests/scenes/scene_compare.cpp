@@ -78,6 +78,13 @@ class Printer {
         add_typed("/cable/link", link_types(), *link);
       }
     }
+    for (const auto& controller : scene.controllers) {
+      add("/controller", ControllerDef::common_field_table(), controller.get());
+      add_typed("/controller", controller_types(), *controller);
+    }
+    for (const TriggerDef& trigger : scene.triggers) {
+      add("/trigger", TriggerDef::field_table(), &trigger);
+    }
     if (scene.model.ground) add("/ground", GroundDef::field_table(), &*scene.model.ground);
     if (scene.camera) add("/camera", CameraDef::field_table(), &*scene.camera);
     for (const PaintDef& paint : scene.paint) add("/paint", PaintDef::field_table(), &paint);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "scenes/check.h"
+#include "scenes/control/scene_supervisor.h"
 #include "scenes/generators.h"
 #include "tests/scenes/scene_files.h"
 
@@ -18,13 +19,13 @@ TEST_P(Shipped, shows_what_it_promises) {
   EXPECT_FALSE(scene->name.empty());
   EXPECT_FALSE(scene->description.empty());
   EXPECT_FALSE(scene->checks.empty());
-  auto simulation = Simulation::create(scene->model, scene->cables);
+  auto simulation = create_simulation(*scene);
   ASSERT_TRUE(simulation);
   CheckRecorder recorder(*scene, *simulation);
   recorder.record(*simulation);
   const auto steps = static_cast<int>(std::lround(scene->duration / scene->model.step.dt));
   for (int i = 0; i < steps; ++i) {
-    const StepReport report = simulation->world.step();
+    const StepReport report = simulation->step();
     ASSERT_TRUE(report.ok()) << report.divergence->message;
     recorder.record(*simulation);
   }

@@ -89,6 +89,34 @@ TEST(Player, ShowsTheFirstTensionsAtTheStart) {
   }
 }
 
+TEST(RenderCommand, StartsFromASavedState) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::string state = folder.path("half.state");
+  ASSERT_EQ(run_sheave({"run", scene, "-q", "--steps", "37", "--save-state", state}).exit_code, 0);
+  EXPECT_EQ(render(scene, {"--png", folder.path("all"), "--fps", "10"}).exit_code, 0);
+  const ProcessResult rest =
+      render(scene, {"--png", folder.path("rest"), "--fps", "10", "--load-state", state, "--still",
+                     folder.path("now.png"), "--at", "0.37"});
+  EXPECT_EQ(rest.exit_code, 0) << rest.err;
+  // Frames at 0.4, 0.5 ... 1 s; the camera shows what is left of the way.
+  EXPECT_TRUE(std::filesystem::exists(folder.path("rest/frame_000006.png")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("rest/frame_000007.png")));
+  EXPECT_TRUE(std::filesystem::exists(folder.path("now.png")));
+  const ProcessResult early =
+      render(scene, {"--still", folder.path("a.png"), "--at", "0.3", "--load-state", state});
+  EXPECT_EQ(early.exit_code, 2);
+  EXPECT_THAT(early.err, HasSubstr("the state that is loaded is of 0.37"));
+  const ProcessResult late =
+      render(scene, {"--still", folder.path("a.png"), "--duration", "0.2", "--load-state", state});
+  EXPECT_EQ(late.exit_code, 2);
+  EXPECT_THAT(late.err, HasSubstr("--duration"));
+  EXPECT_EQ(render(scene, {"--still", folder.path("a.png"), "--load-state", folder.path("none")})
+                .exit_code,
+            66);
+  EXPECT_EQ(render(scene, {"--still", state, "--load-state", state}).exit_code, 2);
+}
+
 TEST(RenderCommand, TheSameTwice) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);

@@ -1,10 +1,7 @@
 // sheave run: summary, overrides, checks, tables.
 
-#include <chrono>
 #include <cmath>
-#include <csignal>
 #include <string>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -198,6 +195,31 @@ TEST(RunCommand, SavedAndLoadedStateGivesTheHashOfAnUninterruptedRun) {
   EXPECT_EQ(rest["steps"], 63);
   EXPECT_DOUBLE_EQ(rest["sim_time"], 1.0);
   EXPECT_EQ(rest["state_hash"], whole["state_hash"]);
+}
+
+TEST(RunCommand, TellsWhatTriggersDidAndEndsWhereTheySay) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("hoist.json", R"({
+    "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 5, "step": {"dt": 0.01, "substeps": 1},
+    "bodies": [{"name": "weight", "mobility": "slider", "axis": [0, 1, 0], "mass": 1}],
+    "triggers": [
+      {"name": "push", "at": 0.25, "action": "set", "target": "weight.force_y", "value": 30},
+      {"name": "far", "quantity": "weight.y", "above": 1, "action": "stop"}],
+    "controllers": [{"type": "pid", "name": "blind", "measures": "weight.y", "control": "gravity.x",
+      "setpoint": 1e300, "proportional": 1e300}]})");
+  const json run = run_json({scene});
+  ASSERT_EQ(run["events"].size(), 2U);
+  EXPECT_EQ(run["events"][0]["trigger"], "push");
+  EXPECT_EQ(run["events"][0]["kind"], "set");
+  EXPECT_EQ(run["events"][0]["time"], 0.25);
+  EXPECT_EQ(run["events"][1]["trigger"], "far");
+  EXPECT_EQ(run["status"], "done");
+  // It falls to -0.3125 m at -2.5 m/s, and rises with 20 m/s2: 10 t^2 - 2.5 t = 1.3125, t = 0.508 s. What is seen before a step
+  // ends the run behind it.
+  EXPECT_NEAR(run["sim_time"].get<double>(), 0.25 + 0.508 + 0.015, 0.011);
+  // What the controller wants is no number.
+  ASSERT_EQ(run["warnings"].size(), 1U) << run["warnings"];
+  EXPECT_EQ(run["warnings"][0]["kind"], "control_refused");
 }
 
 TEST(RunCommand, StatesThatDoNotFitAreRefused) {
@@ -439,46 +461,6 @@ TEST(RunCommand, ReadsASceneFromStandardInput) {
   const ProcessResult result = run_sheave({"run", "-", "--json"}, {.input = atwood_scene});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(json::parse(result.out)["steps"], 100);
-}
-
-/// What an endless run says on standard error before it is stopped: on a terminal after it has drawn its progress.
-std::string endless_run_stderr(const ProcessOptions& options) {
-  const TemporaryFolder folder;
-  const std::string scene = folder.write("endless.json", endless_scene);
-  Process process({"run", scene, "--out", folder.path("out.csv")}, options);
-  if (options.terminal_stderr) {
-    EXPECT_TRUE(process.wait_for_terminal(" left"));
-  } else {
-    // It listens to signals before it opens its output. Then there is time for what must not come, whenever it would.
-    EXPECT_TRUE(process.wait_until([&] { return folder.entries().size() >= 2; }));
-    std::this_thread::sleep_for(std::chrono::seconds(1));
-  }
-  process.send(SIGINT);
-  const ProcessResult result = process.wait();
-  EXPECT_EQ(result.exit_code, 130);
-  return result.err;
-}
-
-TEST(RunCommand, ProgressIsDrawnOnATerminalAndLeavesItClean) {
-  const std::string colored =
-      endless_run_stderr({.environment = {"TERM=xterm"}, .terminal_stderr = true});
-  EXPECT_THAT(colored, HasSubstr(" % t = "));
-  EXPECT_THAT(colored, HasSubstr(" left"));
-  EXPECT_THAT(colored, HasSubstr("\033[32m"));
-  EXPECT_THAT(colored, HasSubstr("  \rsheave: "));
-}
-
-TEST(RunCommand, ProgressHasNoColorIfNobodyWantsIt) {
-  const std::string plain =
-      endless_run_stderr({.environment = {"TERM=xterm", "NO_COLOR=1"}, .terminal_stderr = true});
-  EXPECT_THAT(plain, HasSubstr(" % t = "));
-  EXPECT_THAT(plain, Not(HasSubstr("\033")));
-}
-
-TEST(RunCommand, ProgressIsNotWrittenToALog) {
-  const std::string log = endless_run_stderr({});
-  EXPECT_THAT(log, Not(HasSubstr("%")));
-  EXPECT_THAT(log, Not(HasSubstr("\r")));
 }
 
 }  // namespace

@@ -1,0 +1,150 @@
+// Bodies that are put elsewhere between two steps.
+//
+// It is done as a substep of no time in which nothing acts: wheels that the cable now meets elsewhere have taken or given the
+// arcs in between, as they do when bodies move there, so lengths are conserved to the last bit. What the spans are then longer
+// or shorter than before stays as it is, if the cable's length is to be kept, or else is made up for: a span keeps the stretch,
+// or the slack, that it had.
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/cable_system.h"
+#include "engine/field_check.h"
+#include "engine/index.h"
+
+namespace sheave {
+namespace {
+
+/// The rotation vector of the shorter turn between two orientations.
+Vector3 shorter_turn(const Quaternion& from, const Quaternion& to) {
+  Quaternion change = to * from.conjugate();
+  if (change.w() < 0.0) change.coeffs() = -change.coeffs();
+  const double sine = change.vec().norm();
+  if (!(sine > 0.0)) return Vector3::Zero();
+  return change.vec() * (2.0 * std::atan2(sine, change.w()) / sine);
+}
+
+/// Puts the bodies of a substep where `end` has them.
+void move_bodies(const State& end, Substep& substep) {
+  const BodySet& bodies = substep.bodies;
+  for (int i = 0; i < bodies.count(); ++i) {
+    const BodyState& from = substep.start.bodies[at(i)];
+    const BodyState& to = end.bodies[at(i)];
+    if (bodies[i].mount >= 0 || bodies[i].mobility == Mobility::rotor) continue;
+    MovingBody& moving = substep.moving[at(i)];
+    moving.position = to.position;
+    moving.orientation = to.orientation;
+    moving.turn = bodies[i].mobility == Mobility::planar
+                      ? Vector3((to.angle - from.angle) * bodies[i].axis)
+                      : shorter_turn(from.orientation, to.orientation);
+    for (const int rotor : bodies[i].mounted_rotors) {
+      // They turn with it, and not on their axles.
+      const Vector3 axle = from.orientation * bodies[rotor].axis;
+      substep.moving[at(rotor)].turn = axle * axle.dot(moving.turn);
+    }
+  }
+  substep.time = substep.next.time;
+}
+
+}  // namespace
+
+CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start, const State& end,
+                                       const FeatureState& own, bool keeps_tension) {
+  // Long enough for tensions, of which there are none, to be numbers.
+  constexpr double no_time = 1e-9;
+  Placed placed{own, std::vector<double>(cables_.size(), 0.0), {}};
+  FeatureState& next = placed.own;
+  Substep substep(bodies, start, no_time, 1);
+  substep.next = end;
+  substep.next.time = start.time + no_time;
+  begin(substep, own);
+  std::fill(fed_.begin(), fed_.end(), std::array<double, 2>{});
+  std::vector<double> stretches(spans_.size(), 0.0);
+  for (int k = 0; k < row_count(); ++k) {
+    if (!spans_[at(k)].active) continue;
+    stretches[at(k)] = geometry_of(substep, k).length - own.reals[rest_length_index(k)];
+  }
+  move_bodies(end, substep);
+  if (!stored_.empty()) stored_end_ = stored_;
+  std::fill(end_strains_.begin(), end_strains_.end(), -1.0);
+  for (int k = 0; k < row_count(); ++k) {
+    if (!spans_[at(k)].active) continue;
+    if (is_affine_[at(k)] != 0) {
+      finish_affine(substep, k, next);
+    } else {
+      finish_span(substep, k, next);
+    }
+    next.reals[tension_index(k)] = own.reals[tension_index(k)];
+    if (!keeps_tension) continue;
+    const int index = spans_[at(k)].cable;
+    const CompiledCable& cable = cables_[at(index)];
+    double& rest_length = next.reals[rest_length_index(k)];
+    const double length = geometry_of(substep, k).length;
+    // Of a material it is the strain that has the tension.
+    const double before = own.reals[rest_length_index(k)];
+    const bool strained = cable.inverse_stiffness > 0.0 && stretches[at(k)] > 0.0 && before > 0.0;
+    const double wanted =
+        strained ? length / (1.0 + stretches[at(k)] / before) : length - stretches[at(k)];
+    const double more = cable.quantised(wanted - rest_length);
+    rest_length += more;
+    placed.added[at(index)] += more;
+  }
+  if (!stored_end_.empty()) keep_strains(next);
+  for (const CompiledCable& cable : cables_) {
+    placed.fault = placement_fault(substep, cable, next);
+    if (!placed.fault.empty()) break;
+  }
+  if (placed.fault.empty()) {
+    if (!changing_links_.empty()) change_ends(substep, next);
+    if (course_changes_) leave_and_touch(substep, next);
+  }
+  knows_lengths_ = false;
+  return placed;
+}
+
+std::string CableSystem::placement_fault(const Substep& substep, const CompiledCable& cable,
+                                         const FeatureState& next) const {
+  const double slop = 1e-9 * substep.bodies.scale();
+  const std::string name = "cable \"" + cable.name + "\"";
+  if (cable.inverse_stiffness > 0.0) {
+    // With which strain what lies on its wheels has come there depends on the way.
+    for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+      const SpanSetup& setup = spans_[at(k)];
+      if (!setup.active) continue;
+      const bool wheels = links_[at(setup.first)].wraps() || links_[at(setup.second)].wraps();
+      Substep before(substep.bodies, substep.start, substep.h, 1);
+      const Vector3 turned = geometry_of(substep, k).direction - geometry_of(before, k).direction;
+      if (wheels && turned.norm() > 1e-9) {
+        return name +
+               " is of a material and lies on wheels that it would meet elsewhere; it "
+               "cannot be led there at once";
+      }
+    }
+  }
+  double excess = 0.0;
+  int at_span = 0;
+  for_each_run(cable, [&](Run run) {
+    // Cable passes the links in a run.
+    double missing = 0.0;
+    int k = run.first;
+    for (int i = 0; i < run.count; ++i, k = next_span(cable, k)) {
+      missing += geometry_of(substep, k).length - next.reals[rest_length_index(k)];
+    }
+    if (missing <= excess) return;
+    excess = missing;
+    at_span = run.first - cable.first_span;
+  });
+  if (cable.compliance == 0.0 && cable.inverse_stiffness == 0.0 && excess > slop) {
+    return name + " is " + number_text(excess) + " m too short for that at its span " +
+           std::to_string(at_span) + ", and it is rigid; its tension can be kept instead";
+  }
+  for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+    if (!spans_[at(k)].active) continue;
+    const std::string span = " at its span " + std::to_string(k - cable.first_span);
+    if (next.reals[rest_length_index(k)] < 0.0) return name + " has not so much to give" + span;
+    if (!geometry_of(substep, k).has_tangent) return name + " would run through a wheel" + span;
+  }
+  return {};
+}
+
+}  // namespace sheave

@@ -1,0 +1,110 @@
+// What the last substep tells of the floor and of contacts.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cable/certificate/evidence.h"
+#include "cable/certificate/pushes.h"
+#include "engine/dynamics/mounted_drive.h"
+#include "engine/substep.h"
+
+namespace sheave::certify {
+
+void Evidence::collect_ground(const LastSubstep& last, std::size_t feature) {
+  const auto late = last.late_forces.size() > feature
+                        ? std::span<const double>(last.late_forces[feature])
+                        : std::span<const double>();
+  const auto press = parts(end.features[feature].reals, rattle, late);
+  const Vector3 normal = model.ground->normal.normalized();
+  std::size_t next = 0;
+  std::vector<Vector3> points;
+  for (int i = 0; i < bodies.count(); ++i) {
+    const Mobility mobility = bodies[i].mobility;
+    if (mobility != Mobility::free && mobility != Mobility::planar &&
+        mobility != Mobility::slider && bodies[i].mount < 0) {
+      continue;
+    }
+    for (const PlacedShape& placed : bodies.definition(i).shapes) {
+      points.clear();
+      const Quaternion to_world = moments[first_end].orientation(i) * placed.orientation;
+      placed.shape->append_contact_points(to_world.conjugate() * (-normal), points);
+      for (const Vector3& point : points) {
+        const Vector3 own = placed.position + placed.orientation * point - bodies[i].center_of_mass;
+        const std::size_t k = next++;
+        ContactEvidence contact;
+        contact.ground = true;
+        contact.body_a = i;
+        contact.body_b = bodies.count();
+        contact.normal = normal;
+        for (const End when : {first_end, last_end}) {
+          contact.point_a[at(when)] = moments[at(when)].point(i, own);
+          contact.gap[at(when)] = normal.dot(contact.point_a[at(when)] - model.ground->point);
+          contact.point_b[at(when)] = contact.point_a[at(when)] - contact.gap[at(when)] * normal;
+          contact.press[at(when)] = press[at(when)][k];
+          contact.drag[at(when)].setZero();
+        }
+        if (contact.gap[last_end] < 0.0 || press[0][k] != 0.0 || press[1][k] != 0.0) {
+          contacts.push_back(contact);
+        }
+      }
+    }
+  }
+}
+
+void Evidence::collect_contacts(const LastSubstep& last, std::size_t feature) {
+  const std::vector<ContactReport> reports = simulation.world.contacts();
+  const auto late = last.late_forces.size() > feature
+                        ? std::span<const double>(last.late_forces[feature])
+                        : std::span<const double>();
+  const bool halves = rattle && late.size() == 4 * reports.size();
+  const auto collider_of = [&](int body) -> const ColliderDef* {
+    for (const ColliderDef& collider : model.colliders) {
+      if (bodies.index(collider.body) == body) return &collider;
+    }
+    return nullptr;
+  };
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const ContactReport& report = reports[i];
+    ContactEvidence contact;
+    contact.body_a = bodies.index(report.body_a);
+    contact.body_b = bodies.index(report.body_b);
+    contact.normal = report.normal;
+    contact.sticks = report.sticks;
+    contact.collider_a = collider_of(contact.body_a);
+    contact.collider_b = collider_of(contact.body_b);
+    const Vector3 end_a = moments[last_end].point(contact.body_a, report.core_a);
+    const Vector3 end_b = moments[last_end].point(contact.body_b, report.core_b);
+    const double radius_a = report.normal.dot(end_a - report.point);
+    const double radius_b = report.normal.dot(end_a - end_b) - radius_a - report.gap;
+    for (const End when : {first_end, last_end}) {
+      const Vector3 core_a = moments[at(when)].point(contact.body_a, report.core_a);
+      const Vector3 core_b = moments[at(when)].point(contact.body_b, report.core_b);
+      contact.point_a[at(when)] = core_a - radius_a * report.normal;
+      contact.point_b[at(when)] = core_b + radius_b * report.normal;
+      contact.gap[at(when)] =
+          report.normal.dot(contact.point_a[at(when)] - contact.point_b[at(when)]);
+    }
+    contact.press = {0.0, report.normal_force};
+    contact.drag = {Vector3::Zero(), report.friction_force};
+    if (halves) {
+      contact.press[last_end] = late[4 * i];
+      contact.drag[last_end] = Vector3(late[4 * i + 1], late[4 * i + 2], late[4 * i + 3]);
+      contact.press[first_end] = report.normal_force - contact.press[last_end];
+      contact.drag[first_end] = report.friction_force - contact.drag[last_end];
+    }
+    contacts.push_back(contact);
+  }
+}
+
+void Evidence::apply_contacts() {
+  for (const ContactEvidence& contact : contacts) {
+    for (const End when : {first_end, last_end}) {
+      const Vector3 force = contact.press[at(when)] * contact.normal + contact.drag[at(when)];
+      push(when, contact.body_a, contact.point_a[at(when)], force);
+      push(when, contact.body_b, contact.point_b[at(when)], -force);
+    }
+  }
+}
+
+}  // namespace sheave::certify

@@ -1,0 +1,153 @@
+#pragma once
+// A world that one holds in one's hands: steps it, reads it, and steers it while it runs.
+//
+//   auto world = sheave::load("crane.json");                        // or LiveWorld::create(model, cables)
+//   if (!world) report(world.errors());
+//   const auto drum = *world->body("drum");
+//   const auto rope = *world->cable("rope");
+//   while (running) {
+//     if (auto errors = world->set_speed(drum, lever()); !errors.empty()) report(errors);
+//     if (!world->step().ok()) break;
+//     show(*world->tension(rope, 2));
+//   }
+//
+// Bodies, joints and cables are told by handles. Errors are values: what cannot be done says why and what can, and nothing has
+// changed. Readers look at the state as it is between two steps; but for energy() none of them allocates or searches.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cable/handle.h"
+#include "cable/simulation.h"
+#include "engine/control_check.h"
+#include "engine/wrench.h"
+
+namespace sheave {
+
+/// Where a body's frame is and how it moves.
+struct BodyPose {
+  Vector3 position = Vector3::Zero();               ///< of its origin [m]
+  Quaternion orientation = Quaternion::Identity();  ///< body frame to world frame
+  Vector3 velocity = Vector3::Zero();               ///< of its origin [m/s]
+  Vector3 angular_velocity = Vector3::Zero();       ///< [rad/s]
+};
+
+/// What is kept of the cables when a body is put elsewhere.
+enum class Keep {
+  length,  ///< their lengths: they get slack, or taut where they are elastic. A rigid one must be long enough
+  tension,  ///< their tensions, and their slack: what spans need comes in or goes out
+};
+
+/// What a placement did.
+struct Placement {
+  struct Cable {
+    CableHandle cable;
+    double added = 0.0;  ///< to its length [m]; < 0: taken out
+  };
+  double energy = 0.0;        ///< by how much there is more of it [J]
+  std::vector<Cable> cables;  ///< those whose lengths have changed
+};
+
+/// What a step of a LiveWorld did.
+struct LiveReport : StepReport {
+  /// The most events that a report has.
+  static constexpr std::size_t most_events = 64;
+  std::vector<CableEvent> events;          ///< of cables, in their order
+  std::vector<JointHandle> broken_joints;  ///< in this step
+  std::size_t omitted = 0;                 ///< events beyond those
+};
+
+class LiveWorld {
+ public:
+  static Result<LiveWorld> create(const Model& model, const std::vector<CableDef>& cables);
+
+  // By name; the error says which names are like it.
+  [[nodiscard]] Result<BodyHandle> body(std::string_view name) const;
+  [[nodiscard]] Result<JointHandle> joint(std::string_view name) const;
+  [[nodiscard]] Result<CableHandle> cable(std::string_view name) const;
+
+  /// As World::step(), with what happened.
+  [[nodiscard]] LiveReport step(const StopRequest& stop = {},
+                                const std::function<void()>& before_substep = {});
+
+  // Readers.
+  [[nodiscard]] double time() const { return simulation_->world.state().time; }
+  [[nodiscard]] Result<BodyPose> pose(BodyHandle body) const;
+  /// Of the body-frame point `local` [m], in the world.
+  [[nodiscard]] Result<Vector3> point(BodyHandle body, const Vector3& local) const;
+  /// Mean over the last substep [N], >= 0; of a span as listed, 0 where the cable passes a link by.
+  [[nodiscard]] Result<double> tension(CableHandle cable, int span) const;
+  /// Unstretched length of a span, and of what lies on a listed link [m].
+  [[nodiscard]] Result<double> rest_length(CableHandle cable, int span) const;
+  [[nodiscard]] Result<double> stored_length(CableHandle cable, int link) const;
+  /// What the joint did to its body_b in the last substep, as JointReport tells it.
+  [[nodiscard]] Result<Wrench> force(JointHandle joint) const;
+  /// Of everything; takes time in proportion to what there is.
+  [[nodiscard]] Energy energy() const { return simulation_->world.energy(); }
+
+  // Controls, as World and Simulation have them (engine/world.h, cable/simulation.h).
+  [[nodiscard]] Errors set_gravity(const Vector3& gravity);
+  void clear_gravity();
+  /// Of a rotor with a drive to a speed [rad/s], an angle [rad], a torque [N m].
+  [[nodiscard]] Errors set_speed(BodyHandle body, const DriveTarget& target);
+  [[nodiscard]] Errors set_angle(BodyHandle body, const DriveTarget& target);
+  [[nodiscard]] Errors set_torque(BodyHandle body, const DriveTarget& target);
+  [[nodiscard]] Errors clear_drive(BodyHandle body);
+  [[nodiscard]] Errors set_force(BodyHandle body, const PointForce& force);
+  [[nodiscard]] Errors clear_force(BodyHandle body);
+  [[nodiscard]] Errors set_motion(BodyHandle body, const MotionTarget& target);
+  [[nodiscard]] Errors clear_motion(BodyHandle body, std::optional<double> over = {});
+  /// Of the drive of a joint's coordinate, by its index in JointDef::coordinates().
+  [[nodiscard]] Errors set_drive(JointHandle joint, const DriveTarget& target, int coordinate = 0);
+  [[nodiscard]] Errors set_drive_limit(JointHandle joint, double limit, int coordinate = 0);
+  [[nodiscard]] Errors clear_drive(JointHandle joint, int coordinate = 0);
+  [[nodiscard]] Errors set_compliance(CableHandle cable, double compliance);
+  [[nodiscard]] Errors clear_compliance(CableHandle cable);
+  [[nodiscard]] Errors set_breaking_tension(CableHandle cable, double tension);
+  [[nodiscard]] Errors clear_breaking_tension(CableHandle cable);
+  [[nodiscard]] Errors set_wrap_friction(CableHandle cable, double friction);
+  [[nodiscard]] Errors clear_wrap_friction(CableHandle cable);
+  [[nodiscard]] Errors set_friction(CableHandle cable, int link, double friction);
+  [[nodiscard]] Errors clear_friction(CableHandle cable, int link);
+  [[nodiscard]] Errors set_feed_speed(CableHandle cable, int link, const DriveTarget& target);
+  [[nodiscard]] Errors clear_feed_speed(CableHandle cable, int link);
+
+  /// Puts a free, planar or slider body that no joint holds elsewhere, with what is mounted on it; it keeps its velocity. The
+  /// origin of its frame goes to `position` [m]. Cables follow: wheels take and give the arcs in between. Whether bodies then
+  /// overlap nobody asks; the next step takes them apart.
+  [[nodiscard]] Result<Placement> place(BodyHandle body, const Vector3& position,
+                                        std::optional<Quaternion> orientation, Keep keep);
+
+  /// The state, to hash, to keep and to go back to.
+  [[nodiscard]] const State& state() const { return simulation_->world.state(); }
+  [[nodiscard]] Errors restore(const State& state);
+
+  /// Everything else that can be asked of it: reports, certificates.
+  [[nodiscard]] const Simulation& simulation() const { return *simulation_; }
+
+ private:
+  explicit LiveWorld(Simulation simulation);
+  [[nodiscard]] Errors set_drive_of(BodyHandle body, DriveKind kind, const DriveTarget& target);
+  [[nodiscard]] std::string fault_of(BodyHandle body) const;
+  [[nodiscard]] std::string fault_of(JointHandle joint) const;
+  [[nodiscard]] std::string fault_of(CableHandle cable) const;
+  /// The fault of a span or link of that cable.
+  [[nodiscard]] std::string span_fault(CableHandle cable, int span) const;
+  [[nodiscard]] CableSystem* cable_system() const;
+  /// Why the body cannot be put anywhere else, or there.
+  [[nodiscard]] std::string place_fault(int body) const;
+  [[nodiscard]] std::string place_fault(int body, const BodyState& there) const;
+  void note_events(LiveReport& report) const;
+  [[nodiscard]] bool is_broken(int joint) const;
+
+  // Its address stays, for what reads from it.
+  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<Substep> view_;   // for readers of joints: where their bodies are
+  std::vector<JointPlace> joints_;  // in the order of the model
+  std::vector<int> breakable_joints_;
+};
+
+}  // namespace sheave

@@ -1,0 +1,124 @@
+// Putting a body elsewhere, all or nothing: a new state is made beside the old one and restored if it is right.
+
+#include <cmath>
+
+#include "cable/live_world.h"
+#include "engine/field_check.h"
+#include "engine/index.h"
+
+namespace sheave {
+namespace {
+
+/// The angle of a planar body with this orientation that is nearest to the one it has.
+double angle_of(const BodyProperties& body, const Quaternion& orientation, double now) {
+  const Quaternion turn = orientation * body.start_orientation.conjugate();
+  const double angle = 2.0 * std::atan2(body.axis.dot(turn.vec()), turn.w());
+  return angle + 2.0 * pi * std::round((now - angle) / (2.0 * pi));
+}
+
+/// Puts the rotors on a body where it now is, with the spins that they have.
+void carry_rotors(const BodySet& bodies, int carrier, const BodyState& before, State& state) {
+  const BodyState& on = state.bodies[at(carrier)];
+  for (const int i : bodies[carrier].mounted_rotors) {
+    const BodyProperties& rotor = bodies[i];
+    BodyState& now = state.bodies[at(i)];
+    const Vector3 offset = on.orientation * rotor.mount_position;
+    const Vector3 axis = on.orientation * rotor.axis;
+    const double spin = (before.orientation * rotor.axis).dot(now.angular_velocity);
+    now.position = on.position + offset;
+    now.orientation =
+        on.orientation * rotation_by(now.angle * rotor.axis) * rotor.start_orientation;
+    now.velocity = on.velocity + on.angular_velocity.cross(offset);
+    now.angular_velocity = on.angular_velocity - axis * axis.dot(on.angular_velocity) + spin * axis;
+  }
+}
+
+}  // namespace
+
+std::string LiveWorld::place_fault(int body) const {
+  const World& world = simulation_->world;
+  const std::string name = "body \"" + world.bodies().name(body) + "\"";
+  const Mobility mobility = world.bodies()[body].mobility;
+  if (mobility == Mobility::kinematic) return name + " is kinematic; tell it where to go instead";
+  if (mobility == Mobility::fixed) return name + " is static; it stays where it is";
+  if (mobility == Mobility::rotor) return name + " is a rotor; it stays on its axle";
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const JointDef& joint = *world.model().joints[j];
+    for (const BodyId held : {joint.body_a, joint.body_b}) {
+      const bool its =
+          !held.is_world() && (held.index == body || world.bodies()[held.index].mount == body);
+      if (!its || is_broken(static_cast<int>(j))) continue;
+      return name + " is held by joint \"" + joint.name +
+             "\"; only one that no joint holds can be put elsewhere";
+    }
+  }
+  return {};
+}
+
+std::string LiveWorld::place_fault(int body, const BodyState& there) const {
+  const BodySet& bodies = simulation_->world.bodies();
+  const BodyProperties& own = bodies[body];
+  const BodyState& now = state().bodies[at(body)];
+  const Vector3 way = there.position - now.position;
+  const double slop = 1e-9 * bodies.scale();
+  const std::string name = "body \"" + bodies.name(body) + "\"";
+  const Quaternion turn = there.orientation * now.orientation.conjugate();
+  constexpr double turn_slop = 1e-9;
+  if (own.mobility == Mobility::slider) {
+    if (way.cross(own.axis).norm() > slop) return name + " slides along its axis alone";
+    if (turn.vec().norm() > turn_slop) return name + " slides, and does not turn";
+  }
+  if (own.mobility == Mobility::planar) {
+    if (std::abs(way.dot(own.axis)) > slop) return name + " stays in its plane";
+    if (turn.vec().cross(own.axis).norm() > turn_slop) return name + " turns about its axis alone";
+  }
+  return {};
+}
+
+Result<Placement> LiveWorld::place(BodyHandle body, const Vector3& position,
+                                   std::optional<Quaternion> orientation, Keep keep) {
+  std::string fault = fault_of(body);
+  if (fault.empty()) fault = place_fault(body.slot);
+  constexpr double unit_slop = 1e-6;
+  const bool unit = !orientation || std::abs(orientation->norm() - 1.0) < unit_slop;
+  if (fault.empty() && !(position.allFinite() && unit)) {
+    fault = "a position must be finite, and an orientation have length 1";
+  }
+  if (!fault.empty()) return Error{"", std::move(fault)};
+  World& world = simulation_->world;
+  const BodySet& bodies = world.bodies();
+  State next = state();
+  BodyState& there = next.bodies[at(body.slot)];
+  const BodyState before = there;
+  if (orientation) there.orientation = orientation->normalized();
+  there.position = position + there.orientation * bodies[body.slot].center_of_mass;
+  fault = place_fault(body.slot, there);
+  if (!fault.empty()) return Error{"", std::move(fault)};
+  if (bodies[body.slot].mobility == Mobility::planar) {
+    there.angle = angle_of(bodies[body.slot], there.orientation, there.angle);
+  }
+  carry_rotors(bodies, body.slot, before, next);
+  Placement placement;
+  if (CableSystem* cables = cable_system()) {
+    CableSystem::Placed placed =
+        cables->place(bodies, state(), next, state().features.back(), keep == Keep::tension);
+    if (!placed.fault.empty()) return Error{"", std::move(placed.fault)};
+    next.features.back() = std::move(placed.own);
+    for (std::size_t c = 0; c < placed.added.size(); ++c) {
+      if (placed.added[c] == 0.0) continue;
+      const auto index = static_cast<int>(c);
+      placement.cables.push_back({{index, 1}, placed.added[c]});
+      const CableControl* set = next.controls.cables.find(index);
+      CableControl control = set != nullptr ? *set : CableControl{};
+      control.added_length += placed.added[c];
+      next.controls.cables.put(index, placed.added.size(), control);
+    }
+  }
+  const double energy = world.energy().total();
+  Errors errors = world.restore(next);
+  if (!errors.empty()) return errors;
+  placement.energy = world.energy().total() - energy;
+  return placement;
+}
+
+}  // namespace sheave

@@ -1,0 +1,294 @@
+#include "engine/control_check.h"
+
+#include <cmath>
+
+#include "engine/control_members.h"
+#include "engine/field_check.h"
+#include "engine/index.h"
+#include "engine/joints/joint_effect.h"
+
+namespace sheave {
+namespace {
+
+bool all_finite(double x) { return std::isfinite(x); }
+bool all_finite(bool /*b*/) { return true; }
+bool all_finite(ForceFrame /*frame*/) { return true; }
+bool all_finite(const Vector3& v) { return v.allFinite(); }
+
+template <class Value>
+bool is_ramp(const RampOf<Value>& ramp) {
+  bool finite = ramp.from <= ramp.to;
+  visit_ramp(ramp, [&](const auto& member) { finite = finite && all_finite(member); });
+  return finite;
+}
+
+bool is_drive(const DriveControl& control) {
+  return is_ramp(control.target) && (std::isnan(control.limit) || control.limit > 0.0);
+}
+
+constexpr double unit_slop = 1e-6;
+
+}  // namespace
+
+std::vector<JointPlace> number_joints(const Model& model,
+                                      std::span<const std::unique_ptr<ConstraintBatch>> features) {
+  std::vector<JointPlace> places(model.joints.size());
+  if (places.empty()) return places;
+  int coordinate = 0;
+  for (std::size_t j = 0; j < places.size(); ++j) {
+    places[j].first_coordinate = coordinate;
+    coordinate += static_cast<int>(model.joints[j]->coordinates().size());
+  }
+  for (const auto& feature : features) {
+    auto* joints = dynamic_cast<JointFeature*>(feature.get());
+    if (joints == nullptr) continue;
+    std::vector<int> first;
+    for (std::size_t j = 0; j < places.size(); ++j) {
+      if (model.joints[j]->type() != joints->type()) continue;
+      places[j].feature = joints;
+      places[j].index = static_cast<int>(first.size());
+      first.push_back(places[j].first_coordinate);
+    }
+    joints->number_coordinates(first);
+  }
+  return places;
+}
+
+bool make_ramp(const DriveNow& now, const DriveTarget& target, Ramp& ramp) {
+  const bool position = now.meaning == DriveMeaning::position;
+  const double by_default = now.meaning == DriveMeaning::force ? 0.0 : now.interval;
+  const double over = target.over.value_or(by_default);
+  const double mean = over > 0.0 ? (target.value - now.value) / over : 0.0;
+  const bool takes_time = over >= 0.0 && !(position && over == 0.0) && std::isfinite(over);
+  const bool arrives = !target.rate || (position && std::isfinite(*target.rate));
+  if (!takes_time || !arrives || !std::isfinite(target.value) || !std::isfinite(mean)) return false;
+  ramp = {now.time, now.time + over, now.value, mean, target.value, mean, 0.0};
+  if (target.rate) {
+    ramp.start_rate = now.rate;
+    ramp.end_rate = ramp.rate_after = *target.rate;
+  }
+  return true;
+}
+
+std::string ramp_fault(const DriveNow& now, const DriveTarget& target) {
+  const bool position = now.meaning == DriveMeaning::position;
+  if (!std::isfinite(target.value)) {
+    return " must go to a finite value, not to " + number_text(target.value);
+  }
+  const double over = target.over.value_or(now.interval);
+  if (!std::isfinite(over) || over < 0.0 || (position && over == 0.0)) {
+    return " must get there in a finite time " +
+           std::string(position ? "above 0, for it cannot jump" : "of at least 0 s") + ", not " +
+           number_text(over);
+  }
+  if (target.rate && !position) return " has no rate to arrive with; only an angle or position has";
+  if (target.rate && !std::isfinite(*target.rate)) {
+    return " must arrive at a finite rate, not " + number_text(*target.rate);
+  }
+  return " cannot get from " + number_text(now.value) + " to " + number_text(target.value) +
+         " in " + number_text(over) + " s";
+}
+
+std::string ControlCheck::body_name(int body) const {
+  return "body \"" + bodies_.name(body) + "\"";
+}
+
+std::string ControlCheck::joint_name(int joint) const {
+  return "joint \"" + model_.joints[at(joint)]->name + "\"";
+}
+
+std::string ControlCheck::fault_of(BodyId body) const {
+  if (body.is_world()) return "the world stays where it is; name a body";
+  if (bodies_.contains(body)) return {};
+  return "there is no body number " + std::to_string(body.index) + "; there are " +
+         std::to_string(bodies_.count());
+}
+
+std::string ControlCheck::drive_fault(int body) const {
+  if (bodies_[body].driven_by() != DriveKind::none) return {};
+  return body_name(body) + " has no drive; give it one in the model: speed, angle or torque";
+}
+
+std::string ControlCheck::force_fault(int body) const {
+  const BodyProperties& own = bodies_[body];
+  const auto deny = [&](const char* why) {
+    return body_name(body) + " " + why + ", so no force moves it";
+  };
+  if (own.mobility == Mobility::fixed) return deny("is static");
+  if (own.mobility == Mobility::kinematic) return deny("is kinematic");
+  if (own.prescribed() && own.mount < 0) return deny("is turned by its drive");
+  if (own.massless()) return deny("is a massless wheel, which its cable turns");
+  return {};
+}
+
+std::string ControlCheck::motion_fault(int body) const {
+  if (bodies_[body].mobility == Mobility::kinematic) return {};
+  return body_name(body) + " is " +
+         std::string(mobility_names[static_cast<std::size_t>(bodies_[body].mobility)]) +
+         "; only kinematic bodies go where they are told to";
+}
+
+std::string ControlCheck::way_fault(int body, const BodyState& state) const {
+  const BodyDef& def = bodies_.definition(body);
+  const Quaternion& start = bodies_[body].start_orientation;
+  Quaternion change = state.orientation * start.conjugate();
+  const Vector3 moved = state.position - def.position;
+  // Rounding of what a caller computes.
+  const double slop = 1e-9 * bodies_.scale();
+  const double turn_slop = 1e-9;
+  const auto along = [](const Vector3& v, const Vector3& axis) {
+    return v.cross(axis.normalized()).norm();
+  };
+  if (def.axis) {
+    const Vector3 axis = def.axis->normalized();
+    const double speed_slop = 1e-9 * (state.velocity.norm() + bodies_.scale());
+    if (std::abs(moved.dot(axis)) > slop || std::abs(state.velocity.dot(axis)) > speed_slop) {
+      return body_name(body) + " stays in the plane across its axis";
+    }
+    if (along(change.vec(), axis) > turn_slop ||
+        along(state.angular_velocity, axis) > 1e-9 * (1.0 + state.angular_velocity.norm())) {
+      return body_name(body) + " turns about its axis alone";
+    }
+    return {};
+  }
+  const bool slides = !is_zero(def.velocity) || !is_zero(def.oscillation);
+  const bool turns = !is_zero(def.angular_velocity);
+  if (!slides && !turns) return {};
+  // The directions of its own motion.
+  const auto off = [&](Vector3 v) {
+    Vector3 first = def.velocity;
+    Vector3 second = def.oscillation;
+    if (first.norm() > 0.0) {
+      first.normalize();
+      v -= first * first.dot(v);
+      second -= first * first.dot(second);
+    }
+    if (second.norm() > 1e-9 * def.oscillation.norm()) {
+      second.normalize();
+      v -= second * second.dot(v);
+    }
+    return v.norm();
+  };
+  if (off(moved) > slop || off(state.velocity) > 1e-9 * (state.velocity.norm() + bodies_.scale())) {
+    return body_name(body) +
+           " has a motion of its own and keeps to the directions of it; without one, or with an "
+           "axis, it may go elsewhere";
+  }
+  const Vector3 axis = turns ? def.angular_velocity : Vector3(Vector3::Zero());
+  const double off_axis = turns ? along(change.vec(), axis) : change.vec().norm();
+  const double spin_off =
+      turns ? along(state.angular_velocity, axis) : state.angular_velocity.norm();
+  if (off_axis > turn_slop || spin_off > 1e-9 * (1.0 + state.angular_velocity.norm())) {
+    return body_name(body) + (turns ? " turns about the direction of its angular_velocity alone"
+                                    : " has a motion of its own without turning, and keeps to it");
+  }
+  return {};
+}
+
+std::string ControlCheck::joint_fault(int joint, int coordinate) const {
+  if (joint < 0 || joint >= static_cast<int>(joints_.size())) {
+    return "there is no joint number " + std::to_string(joint) + "; there are " +
+           std::to_string(joints_.size());
+  }
+  const auto coordinates = model_.joints[at(joint)]->coordinates();
+  if (coordinate < 0 || coordinate >= static_cast<int>(coordinates.size())) {
+    return joint_name(joint) + " has no coordinate number " + std::to_string(coordinate) +
+           "; it has " + std::to_string(coordinates.size());
+  }
+  const JointPlace& place = joints_[at(joint)];
+  if (place.feature->drive(place.index, coordinate) != nullptr) return {};
+  return joint_name(joint) + " has no drive of its " +
+         std::string(coordinates[at(coordinate)].name) + "; give it one in the model";
+}
+
+const JointEffect& ControlCheck::drive_of(int joint, int coordinate) const {
+  const JointPlace& place = joints_[at(joint)];
+  return *place.feature->drive(place.index, coordinate);
+}
+
+std::string ControlCheck::limit_fault(int joint, int coordinate, double limit) const {
+  if (drive_of(joint, coordinate).kind == JointEffect::Kind::force) {
+    return joint_name(joint) + ": the drive's force is what its target says; it has no limit";
+  }
+  if (limit > 0.0 && std::isfinite(limit)) return {};
+  return joint_name(joint) + ": the limit of a drive must be finite and above 0, not " +
+         number_text(limit);
+}
+
+int ControlCheck::coordinate_count() const {
+  if (joints_.empty()) return 0;
+  return joints_.back().first_coordinate +
+         static_cast<int>(model_.joints.back()->coordinates().size());
+}
+
+std::string ControlCheck::bodies_fault(const Controls& controls) const {
+  const auto count = at(bodies_.count());
+  if (controls.body_drives.entries().size() > count || controls.forces.entries().size() > count ||
+      controls.motions.entries().size() > count) {
+    return "it has controls of more bodies than there are";
+  }
+  for (int i = 0; i < bodies_.count(); ++i) {
+    std::string fault;
+    if (const DriveControl* drive = controls.body_drives.find(i)) {
+      fault = drive_fault(i);
+      if (!drive->has_target || !is_drive(*drive)) fault = body_name(i) + " has no such drive";
+    }
+    if (const ForceControl* force = controls.forces.find(i); force != nullptr && fault.empty()) {
+      fault = force_fault(i);
+      ControlMembers<ForceControl>::visit(*force, [&](const auto& member) {
+        if (!all_finite(member)) fault = body_name(i) + " has a force that is not finite";
+      });
+    }
+    if (const MotionControl* set = controls.motions.find(i); set != nullptr && fault.empty()) {
+      fault = motion_fault(i);
+      const double length = set->start_orientation.norm();
+      if (!is_ramp(set->position) || !is_ramp(set->turn) || !(std::abs(length - 1.0) < unit_slop) ||
+          !(set->position.to > set->position.from)) {
+        fault = body_name(i) + " has no such motion";
+      }
+      for (const double time : {set->position.from, set->position.to}) {
+        if (fault.empty()) fault = way_fault(i, set->state_at(bodies_, i, time));
+      }
+    }
+    if (!fault.empty()) return fault;
+  }
+  return {};
+}
+
+std::string ControlCheck::joints_fault(const ControlTable<DriveControl>& drives) const {
+  if (static_cast<int>(drives.entries().size()) > coordinate_count()) {
+    return "it has controls of more joints than there are";
+  }
+  for (int j = 0; j < static_cast<int>(joints_.size()); ++j) {
+    const int first = joints_[at(j)].first_coordinate;
+    const auto count = static_cast<int>(model_.joints[at(j)]->coordinates().size());
+    for (int k = 0; k < count; ++k) {
+      const DriveControl* drive = drives.find(first + k);
+      if (drive == nullptr) continue;
+      std::string fault = joint_fault(j, k);
+      if (fault.empty() && !std::isnan(drive->limit)) fault = limit_fault(j, k, drive->limit);
+      if (fault.empty() && !is_drive(*drive)) fault = joint_name(j) + " has no such drive";
+      if (!fault.empty()) return fault;
+    }
+  }
+  return {};
+}
+
+std::string ControlCheck::fault_of(
+    const Controls& controls, std::span<const std::unique_ptr<ConstraintBatch>> features) const {
+  if (controls.empty()) return {};
+  if (controls.has_gravity && !controls.gravity.allFinite()) return "its gravity is not finite";
+  std::string fault = bodies_fault(controls);
+  if (fault.empty()) fault = joints_fault(controls.joint_drives);
+  if (!fault.empty()) return fault;
+  bool cables = false;
+  for (const auto& feature : features) {
+    cables = cables || feature->takes_cables();
+    if (!feature->accepts_controls(controls)) {
+      return "it has controls of " + std::string(feature->name()) + " that these cannot have";
+    }
+  }
+  return controls.cables_any() && !cables ? "it has controls of cables, and there are none" : "";
+}
+
+}  // namespace sheave

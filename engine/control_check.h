@@ -1,0 +1,82 @@
+#pragma once
+// What is wrong with controls; internal to the engine, but for make_ramp(). Faults are texts, empty where there is none.
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/body_set.h"
+#include "engine/control_requests.h"
+#include "engine/joint_report.h"
+#include "engine/model.h"
+
+namespace sheave {
+
+/// Where a joint of a model is to be found.
+struct JointPlace {
+  const JointFeature* feature = nullptr;
+  int index = 0;             ///< within it
+  int first_coordinate = 0;  ///< of its coordinates among those of all joints
+};
+
+/// The places of all joints; tells features where their joints' coordinates are.
+[[nodiscard]] std::vector<JointPlace> number_joints(
+    const Model& model, std::span<const std::unique_ptr<ConstraintBatch>> features);
+
+/// What the value of a drive is.
+enum class DriveMeaning { speed, position, force };
+
+/// What a drive asks for now.
+struct DriveNow {
+  DriveMeaning meaning = DriveMeaning::speed;
+  double value = 0.0;
+  double rate = 0.0;      ///< of positions
+  double time = 0.0;      ///< [s]
+  double interval = 0.0;  ///< until the caller can set it anew [s]
+};
+
+/// Makes the ramp from there to `target`; false if there is none.
+[[nodiscard]] bool make_ramp(const DriveNow& now, const DriveTarget& target, Ramp& ramp);
+/// Why there is none, as the rest of a sentence that begins with what is driven.
+[[nodiscard]] std::string ramp_fault(const DriveNow& now, const DriveTarget& target);
+
+class ControlCheck {
+ public:
+  /// All must outlive this.
+  ControlCheck(const Model& model, const BodySet& bodies, std::span<const JointPlace> joints)
+      : model_(model), bodies_(bodies), joints_(joints) {}
+
+  /// Of controls from elsewhere.
+  [[nodiscard]] std::string fault_of(
+      const Controls& controls, std::span<const std::unique_ptr<ConstraintBatch>> features) const;
+  /// Whether there is such a body, and it is not the world.
+  [[nodiscard]] bool is_body(BodyId body) const {
+    return body.index >= 0 && body.index < bodies_.count();
+  }
+  /// The fault of one that is not.
+  [[nodiscard]] std::string fault_of(BodyId body) const;
+  // Whether the body can have such a control at all. It must be one of the model's.
+  [[nodiscard]] std::string drive_fault(int body) const;
+  [[nodiscard]] std::string force_fault(int body) const;
+  [[nodiscard]] std::string motion_fault(int body) const;
+  /// Whether a kinematic body may be in this pose and move so.
+  [[nodiscard]] std::string way_fault(int body, const BodyState& state) const;
+  [[nodiscard]] std::string joint_fault(int joint, int coordinate) const;
+  /// The drive of a coordinate without such a fault.
+  [[nodiscard]] const JointEffect& drive_of(int joint, int coordinate) const;
+  [[nodiscard]] std::string limit_fault(int joint, int coordinate, double limit) const;
+  [[nodiscard]] int coordinate_count() const;
+
+ private:
+  [[nodiscard]] std::string joint_name(int joint) const;
+  [[nodiscard]] std::string body_name(int body) const;
+  [[nodiscard]] std::string joints_fault(const ControlTable<DriveControl>& drives) const;
+  [[nodiscard]] std::string bodies_fault(const Controls& controls) const;
+
+  const Model& model_;
+  const BodySet& bodies_;
+  std::span<const JointPlace> joints_;
+};
+
+}  // namespace sheave

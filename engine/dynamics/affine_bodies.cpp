@@ -1,0 +1,250 @@
+#include "engine/dynamics/affine_bodies.h"
+
+#include <cmath>
+#include <limits>
+
+#include "engine/divergence.h"
+#include "engine/index.h"
+#include "engine/integrators/loads.h"
+
+namespace sheave {
+
+std::optional<AffineBodies> AffineBodies::of(const BodySet& bodies) {
+  AffineBodies affine(bodies);
+  affine.numbers_.assign(at(bodies.count()) + 1, 0);
+  affine.movers_.emplace_back();
+  for (int i = 0; i < bodies.count(); ++i) {
+    if (!affine.add(i)) return std::nullopt;
+  }
+  const std::size_t count = affine.movers_.size();
+  for (std::vector<double>* values :
+       {&affine.yields_, &affine.keep_, &affine.gains_, &affine.push_, &affine.set_loads_,
+        &affine.farthest_, &affine.fastest_, &affine.loaded_, &affine.places_, &affine.speeds_,
+        &affine.motion_, &affine.end_places_, &affine.end_speeds_}) {
+    values->assign(count, 0.0);
+  }
+  return affine;
+}
+
+bool AffineBodies::add(int body) {
+  const BodyProperties& properties = (*bodies_)[body];
+  const BodyDef& definition = bodies_->definition(body);
+  if (properties.mobility == Mobility::fixed) return properties.mounted_rotors.empty();
+  Mover mover;
+  mover.body = body;
+  mover.axis = properties.axis;
+  if (properties.mobility == Mobility::slider) {
+    mover.slides = true;
+    mover.mass = properties.mass;
+    mover.drag = definition.damping;
+    Vector3 force = properties.mass * bodies_->gravity() + definition.force;
+    for (const int rotor : properties.mounted_rotors) force += bodies_->definition(rotor).force;
+    mover.load = dot(mover.axis, force);
+  } else if (properties.mobility == Mobility::rotor) {
+    if (properties.massless()) return false;
+    Quaternion carrier = Quaternion::Identity();
+    if (properties.mount >= 0) {
+      if ((*bodies_)[properties.mount].mobility != Mobility::slider) return false;
+      carrier = bodies_->initial_orientation(properties.mount);
+      mover.axis = carrier * properties.axis;
+      mover.carrier = properties.mount;
+      mover.offset = carrier * properties.mount_position;
+    }
+    mover.mass = properties.prescribed() ? 0.0 : properties.axis_inertia;
+    mover.drag = definition.angular_damping;
+    mover.load = dot(mover.axis, definition.torque);
+    const Vector3& own = properties.axis;
+    mover.upright = carrier * properties.start_orientation;
+    mover.turned =
+        carrier * Quaternion(0.0, own.x(), own.y(), own.z()) * properties.start_orientation;
+  } else {
+    return false;
+  }
+  const auto number = static_cast<int>(movers_.size());
+  numbers_[at(body)] = number;
+  if (properties.prescribed()) prescribed_.push_back(number);
+  if (properties.drive == DriveKind::torque) driven_.push_back(number);
+  if (mover.carrier >= 0) mounted_.push_back(number);
+  movers_.push_back(mover);
+  return true;
+}
+
+void AffineBodies::prepare(double h, double time) {
+  if (h == h_ && time == drag_time_) return;
+  h_ = h;
+  drag_time_ = time;
+  const Runaway runaway = runaway_limits(bodies_->scale(), h);
+  for (std::size_t d = 1; d < movers_.size(); ++d) {
+    const Mover& mover = movers_[d];
+    farthest_[d] = mover.slides ? runaway.distance : std::numeric_limits<double>::max();
+    fastest_[d] = mover.slides ? runaway.speed : runaway.spin;
+    keep_[d] = 1.0;
+    if (mover.mass == 0.0) continue;
+    const auto [keep, gain] = decay(mover.drag / mover.mass, time);
+    keep_[d] = keep;
+    gains_[d] = gain / mover.mass;
+    push_[d] = gains_[d] * mover.load;
+    yields_[d] = gains_[d] / time;
+    if (mover.drag == 0.0) yields_[d] = 1.0 / mover.mass;
+  }
+}
+
+BodyDrive AffineBodies::drive_of(std::size_t number) const {
+  const int body = movers_[number].body;
+  return {(*bodies_)[body], *controls_, body};
+}
+
+bool AffineBodies::set_load_on(const Mover& mover, const State& state, double& load) const {
+  const ControlTable<ForceControl>& forces = state.controls.forces;
+  load = 0.0;
+  const ForceControl* set = forces.find(mover.body);
+  if (!mover.slides) {
+    if (set == nullptr) return true;
+    // What turns with the body has the same torque about its axle wherever it is.
+    const bool turns =
+        set->frame == ForceFrame::world && !set->force.isZero(0.0) && !set->arm.isZero(0.0);
+    load = dot(mover.axis, set->torque_in_world(state.bodies[at(mover.body)].orientation));
+    return !turns;
+  }
+  const BodyProperties& body = (*bodies_)[mover.body];
+  if (set != nullptr) {
+    load += dot(mover.axis, set->force_in_world(state.bodies[at(mover.body)].orientation));
+  }
+  for (const int rotor : body.mounted_rotors) {
+    const ForceControl* on_rotor = forces.find(rotor);
+    if (on_rotor == nullptr) continue;
+    // A force that turns with the rotor pushes its carrier to and fro.
+    if (on_rotor->frame == ForceFrame::body && !on_rotor->force.isZero(0.0)) return false;
+    load += dot(mover.axis, on_rotor->force);
+  }
+  return true;
+}
+
+bool AffineBodies::take_set_loads(const State& state) {
+  for (std::size_t d = 1; d < movers_.size(); ++d) {
+    if (!set_load_on(movers_[d], state, set_loads_[d])) return false;
+    double load = movers_[d].load + set_loads_[d];
+    if (state.controls.has_gravity && movers_[d].slides) {
+      const Vector3 change = state.controls.gravity - bodies_->gravity();
+      load += movers_[d].mass * dot(movers_[d].axis, change);
+    }
+    push_[d] = gains_[d] * load;
+  }
+  return true;
+}
+
+double AffineBodies::work_of_set_loads() const {
+  if (!has_set_loads_) return 0.0;
+  double work = 0.0;
+  for (std::size_t d = 1; d < movers_.size(); ++d) {
+    // That of a torque as work_of_set_forces() has it.
+    const double way = movers_[d].slides ? motion_[d] : 0.5 * h_ * (speeds_[d] + end_speeds_[d]);
+    work += set_loads_[d] * way;
+  }
+  return work;
+}
+
+bool AffineBodies::load(const State& state) {
+  controls_ = &state.controls;
+  const bool any = state.controls.has_gravity || state.controls.forces.any();
+  if (any || has_set_loads_) {
+    if (!take_set_loads(state)) return false;
+    has_set_loads_ = any;
+  }
+  for (std::size_t d = 1; d < movers_.size(); ++d) {
+    const Mover& mover = movers_[d];
+    const BodyState& body = state.bodies[at(mover.body)];
+    places_[d] = mover.slides ? dot(mover.axis, body.position) : body.angle;
+    speeds_[d] = dot(mover.axis, mover.slides ? body.velocity : body.angular_velocity);
+    loaded_[d] = places_[d];
+  }
+  return true;
+}
+
+void AffineBodies::predict(double from, double loaded, double to) {
+  const std::size_t count = movers_.size();
+  for (std::size_t d = 1; d < count; ++d) {
+    end_speeds_[d] = keep_[d] * speeds_[d] + push_[d];
+    motion_[d] = h_ * end_speeds_[d];
+  }
+  for (const int number : driven_) {
+    const std::size_t d = at(number);
+    end_speeds_[d] += yields_[d] * drive_of(d).integral(from, loaded);
+    motion_[d] = h_ * end_speeds_[d];
+  }
+  for (const int number : prescribed_) {
+    const std::size_t d = at(number);
+    const BodyDrive drive = drive_of(d);
+    motion_[d] = drive.turn(from, to);
+    end_speeds_[d] = drive.speed(from, to, h_, loaded < to);
+  }
+}
+
+void AffineBodies::derive() {
+  const double rate = 1.0 / h_;
+  const std::size_t count = movers_.size();
+  for (std::size_t d = 1; d < count; ++d) {
+    if (yields_[d] > 0.0) end_speeds_[d] = rate * motion_[d];
+  }
+}
+
+void AffineBodies::add_loads(double from, double to) {
+  const std::size_t count = movers_.size();
+  for (std::size_t d = 1; d < count; ++d) end_speeds_[d] = keep_[d] * end_speeds_[d] + push_[d];
+  for (const int number : driven_) {
+    const std::size_t d = at(number);
+    end_speeds_[d] += yields_[d] * drive_of(d).integral(from, to);
+  }
+}
+
+bool AffineBodies::arrive() {
+  // A NaN passes no comparison.
+  bool sound = true;
+  const std::size_t count = movers_.size();
+  const double* const places = places_.data();
+  const double* const motion = motion_.data();
+  const double* const speeds = end_speeds_.data();
+  double* const ends = end_places_.data();
+  for (std::size_t d = 1; d < count; ++d) {
+    const double place = places[d] + motion[d];
+    ends[d] = place;
+    sound &= std::abs(place) <= farthest_[d];
+    sound &= std::abs(speeds[d]) <= fastest_[d];
+  }
+  return sound;
+}
+
+void AffineBodies::go_on() {
+  places_.swap(end_places_);
+  speeds_.swap(end_speeds_);
+}
+
+void AffineBodies::store(const std::vector<double>& places, const std::vector<double>& speeds,
+                         const State& loaded, State& state) const {
+  for (std::size_t d = 1; d < movers_.size(); ++d) {
+    const Mover& mover = movers_[d];
+    BodyState& body = state.bodies[at(mover.body)];
+    const double place = places[d];
+    const double speed = speeds[d];
+    if (mover.slides) {
+      // By what it has moved: a direction whose length is rounded would make the whole place creep.
+      body.position = sum(loaded.bodies[at(mover.body)].position, place - loaded_[d], mover.axis);
+      body.velocity = speed * mover.axis;
+      continue;
+    }
+    body.angle = place;
+    body.angular_velocity = speed * mover.axis;
+    const double cosine = std::cos(0.5 * place);
+    const double sine = std::sin(0.5 * place);
+    body.orientation.coeffs() = cosine * mover.upright.coeffs() + sine * mover.turned.coeffs();
+  }
+  for (const int number : mounted_) {
+    const Mover& mover = movers_[at(number)];
+    const BodyState& carrier = state.bodies[at(mover.carrier)];
+    BodyState& body = state.bodies[at(mover.body)];
+    body.position = carrier.position + mover.offset;
+    body.velocity = carrier.velocity;
+  }
+}
+
+}  // namespace sheave

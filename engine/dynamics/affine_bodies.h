@@ -1,0 +1,111 @@
+#pragma once
+// Bodies that move along straight lines: sliders, and rotors on axles that do not turn.
+//
+// Each has one number and one speed, in flat arrays. Nothing in their motion depends on where they are, so what loads and drag
+// make of a speed in a substep is a factor and a sum, found once:
+//   v* = keep v + push,   dq* = h v*.
+// What a rotor is mounted on may slide, but not turn. Number 0 belongs to what does not move.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/body_drive.h"
+#include "engine/body_set.h"
+#include "engine/state.h"
+
+namespace sheave {
+
+class AffineBodies {
+ public:
+  /// Nothing if one of the bodies moves in another way. `bodies` must outlive it.
+  static std::optional<AffineBodies> of(const BodySet& bodies);
+
+  [[nodiscard]] const BodySet& set() const { return *bodies_; }
+  /// Numbers of all bodies, that of what does not move among them.
+  [[nodiscard]] std::size_t count() const { return yields_.size(); }
+  /// Which one is the body's; 0 if it does not move, and of the world.
+  [[nodiscard]] int number_of(int body) const { return numbers_[static_cast<std::size_t>(body)]; }
+  /// The unit direction or axle that it counts along or about, world frame.
+  [[nodiscard]] const Vector3& axis(int number) const {
+    return movers_[static_cast<std::size_t>(number)].axis;
+  }
+
+  /// Takes what loads and drag do in `time` [s], of a substep of `h` [s].
+  void prepare(double h, double time);
+  /// Inverse masses and moments of inertia, as far as drag leaves them [1/kg], [1/(kg m2)].
+  [[nodiscard]] std::span<const double> yields() const { return yields_; }
+
+  /// Takes places [m], [rad] and speeds from a state, and what its controls say of drives and loads. False if a force that has
+  /// been set turns about an axle. `state` must outlive the substeps that follow.
+  [[nodiscard]] bool load(const State& state);
+  [[nodiscard]] std::span<const double> places() const { return places_; }  ///< at the start
+  [[nodiscard]] std::span<const double> speeds() const { return speeds_; }  ///< likewise
+  /// Displacements of the substep [m], [rad]: free ones from predict() on.
+  [[nodiscard]] std::span<double> motion() { return motion_; }
+  /// Speeds at the end of the substep.
+  [[nodiscard]] std::span<double> end_speeds() { return end_speeds_; }
+  /// The motion without constraints in a substep between these times [s], with what loads do until `loaded`.
+  void predict(double from, double loaded, double to);
+  /// Work that forces do in the substep which have been set [J].
+  [[nodiscard]] double work_of_set_loads() const;
+  /// Speeds at the end follow from the motion.
+  void derive();
+  /// What loads do between these times to the speeds at the end.
+  void add_loads(double from, double to);
+  /// Places at the end; false if they, or the speeds, mean nothing any more.
+  [[nodiscard]] bool arrive();
+  /// The end of the substep becomes the start of the next one.
+  void go_on();
+
+  /// Writes the start of the last substep, of which go_on() was called, to `state`, whose other bodies and numbers are those
+  /// of `loaded`, the state that was loaded. Both may be the same.
+  void store_start(const State& loaded, State& state) const {
+    store(end_places_, end_speeds_, loaded, state);
+  }
+  /// Likewise its end, which is where the next one starts.
+  void store_end(const State& loaded, State& state) const {
+    store(places_, speeds_, loaded, state);
+  }
+
+ private:
+  struct Mover {
+    int body = 0;
+    bool slides = false;
+    int carrier = -1;  ///< that slides; -1: none
+    Vector3 axis = Vector3::Zero();
+    double mass = 0.0;  ///< or moment of inertia; 0: prescribed
+    double load = 0.0;  ///< constant force or torque along it
+    double drag = 0.0;
+    // The orientation at the angle a is cos(a/2) upright + sin(a/2) turned.
+    Quaternion upright = Quaternion::Identity();
+    Quaternion turned = Quaternion::Identity();
+    Vector3 offset = Vector3::Zero();  ///< of the centre from the carrier's centre of mass
+  };
+  explicit AffineBodies(const BodySet& bodies) : bodies_(&bodies) {}
+  bool add(int body);
+  [[nodiscard]] BodyDrive drive_of(std::size_t number) const;
+  /// Of a body and what it carries [N or N m]; false if it depends on where the body is.
+  [[nodiscard]] bool set_load_on(const Mover& mover, const State& state, double& load) const;
+  [[nodiscard]] bool take_set_loads(const State& state);
+  void store(const std::vector<double>& places, const std::vector<double>& speeds,
+             const State& loaded, State& state) const;
+
+  const BodySet* bodies_;
+  std::vector<int> numbers_;   ///< per body, and of the world
+  std::vector<Mover> movers_;  ///< per number; the first is none
+  std::vector<int> driven_;    ///< by a torque that changes with time
+  std::vector<int> prescribed_;
+  std::vector<int> mounted_;  ///< on what slides
+  double h_ = 0.0;
+  double drag_time_ = 0.0;
+  const Controls* controls_ = nullptr;
+  bool has_set_loads_ = false;
+  std::vector<double> set_loads_;  ///< besides Mover::load
+  std::vector<double> yields_, keep_, gains_, push_;
+  std::vector<double> farthest_, fastest_;  ///< beyond these a state means nothing
+  std::vector<double> loaded_;              ///< places of load()
+  std::vector<double> places_, speeds_, motion_, end_places_, end_speeds_;
+};
+
+}  // namespace sheave

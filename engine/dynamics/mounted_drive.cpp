@@ -1,0 +1,124 @@
+// One row per drive, along the angle c of the rotor against its carrier: the gradient is the axle a on the rotor and -a on the
+// carrier, so whatever the drive does to one it does to the other in the opposite sense, and angular momentum is kept. The rows
+// are those of a driven hinge:
+//
+//   angle    C = c - (table(t) - table(0))
+//   speed    C = c - c0 - integral of the table
+//   torque   the multiplier has equal bounds: the mean of the torque over the substep
+
+#include "engine/dynamics/mounted_drive.h"
+
+#include "engine/body_drive.h"
+#include "engine/index.h"
+#include "engine/substep.h"
+
+namespace sheave {
+namespace {
+
+class MountedDrives final : public ConstraintBatch {
+ public:
+  explicit MountedDrives(const BodySet& bodies) {
+    for (int i = 0; i < bodies.count(); ++i) {
+      const BodyProperties& rotor = bodies[i];
+      if (rotor.mounted_drive == DriveKind::none) continue;
+      drives_.push_back(i);
+    }
+    multipliers_.resize(drives_.size());
+    acted_.resize(drives_.size());
+  }
+
+  [[nodiscard]] std::string_view name() const override { return mounted_drives_name; }
+  [[nodiscard]] FeatureState initial_state() const override {
+    return {std::vector<double>(drives_.size(), 0.0), {}};
+  }
+  [[nodiscard]] int row_count() const override { return static_cast<int>(drives_.size()); }
+
+  void begin(const Substep& /*substep*/, const FeatureState& state) override {
+    std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
+    for (std::size_t i = 0; i < drives_.size(); ++i) acted_[i] = state.reals[i] != 0.0 ? 1 : 0;
+  }
+
+  double sweep(Substep& substep) override {
+    double correction = 0.0;
+    Row row;
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+      row.clear();
+      evaluate(substep, drives_[i], row);
+      correction = std::max(correction, solve_row(row, substep.h, multipliers_[i], substep.moving));
+    }
+    return correction;
+  }
+
+  void linearise(Substep& substep, RowList& rows) override {
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+      Row& row = rows.emplace_back();
+      evaluate(substep, drives_[i], row);
+      row.index = static_cast<int>(i);
+      row.active = acted_[i] != 0;
+    }
+  }
+  [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
+
+  void finish(Substep& substep, FeatureState& next) override {
+    for (std::size_t i = 0; i < multipliers_.size(); ++i) {
+      next.reals[i] = multipliers_[i] / (substep.h * substep.h);
+    }
+  }
+
+  [[nodiscard]] double elastic_energy(const BodySet& /*bodies*/, const State& /*state*/,
+                                      const FeatureState& /*own*/) const override {
+    return 0.0;
+  }
+
+ private:
+  static void evaluate(const Substep& substep, int rotor, Row& row) {
+    const BodyProperties& body = substep.bodies[rotor];
+    const MovingBody& carrier = substep.moving[at(body.mount)];
+    const Vector3 axle = rotated(carrier.orientation, body.axis);
+    const double start = substep.start.bodies[at(rotor)].angle;
+    const double turned = dot(axle, substep.moving[at(rotor)].turn - carrier.turn);
+    row.add(rotor, Vector3::Zero(), axle);
+    row.add(body.mount, Vector3::Zero(), -axle);
+    const BodyDrive drive(body, substep.start.controls, rotor);
+    const double from = substep.start.time;
+    const double to = substep.time;
+    switch (body.mounted_drive) {
+      case DriveKind::none:
+        break;
+      case DriveKind::angle:
+        row.value = start + turned - drive.at(to);
+        row.rate = -drive.rate(to);
+        break;
+      case DriveKind::speed:
+        row.value = turned - drive.integral(from, to);
+        row.rate = -drive.at(to);
+        break;
+      case DriveKind::torque: {
+        const double end = substep.next.time;
+        row.value = turned;
+        row.lower = row.upper = drive.integral(from, end) / (end - from) * substep.h * substep.h;
+        break;
+      }
+    }
+  }
+
+  std::vector<int> drives_;  // their rotors
+  // Scratch of a substep.
+  std::vector<double> multipliers_;
+  std::vector<char> acted_;  // whether the drive had a torque in the last substep
+};
+
+}  // namespace
+
+bool has_mounted_drives(const BodySet& bodies) {
+  for (int i = 0; i < bodies.count(); ++i) {
+    if (bodies[i].mounted_drive != DriveKind::none) return true;
+  }
+  return false;
+}
+
+std::unique_ptr<ConstraintBatch> make_mounted_drives(const BodySet& bodies) {
+  return std::make_unique<MountedDrives>(bodies);
+}
+
+}  // namespace sheave

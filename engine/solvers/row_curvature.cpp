@@ -1,0 +1,153 @@
+// Counting in how forces turn within a round: engine/solvers/row_system.h.
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/index.h"
+#include "engine/solvers/row_system.h"
+
+namespace sheave {
+
+double RowSystem::astray() const {
+  double most = 0.0;
+  for (const double motion : motion_) most = std::max(most, std::abs(motion));
+  return most;
+}
+
+void RowSystem::find_motion() {
+  const std::span<const double> change = active_set_.solution();
+  for (const int r : curvature_.rows()) {
+    const auto g = at(group_of_[at(r)]);
+    row_multipliers_[at(r)] =
+        forces_turn_ ? rows_[at(r)].weight * (groups_[g].multiplier + change[g]) : 0.0;
+  }
+  for (std::size_t d = 0; d < trial_.size(); ++d) trial_[d] = residual_[d] + bend_[d];
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    if (change[g] != 0.0) slots_.add_unknown(static_cast<int>(g), change[g], trial_.data());
+  }
+}
+
+void RowSystem::find_rubbing_rows() {
+  rubbing_.clear();
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Row& row = rows_[i];
+    if (row.friction > 0.0) rubbing_.push_back({static_cast<int>(i), bound_share_ * row.upper});
+  }
+}
+
+double RowSystem::follow_pressure(bool first) {
+  const std::span<const double> change = active_set_.solution();
+  const auto unknown = [&](std::size_t g) { return groups_[g].multiplier + change[g]; };
+  // Bounds b follow pressures that follow bounds: a linear fixed point b = f(b), of which the last two steps tell the next
+  // (Anderson's method).
+  double product = 0.0;
+  double square = 0.0;
+  for (Rubbing& rubbing : rubbing_) {
+    const auto i = at(rubbing.row);
+    const std::size_t normal = at(group_of_[i - at(rows_[i].pressed_by)]);
+    rubbing.wanted = rows_[i].friction * std::max(unknown(normal), 0.0);
+    const double off = rubbing.wanted - rubbing.bound;
+    product += off * (off - rubbing.off);
+    square += (off - rubbing.off) * (off - rubbing.off);
+  }
+  const double back = first || !(square > 0.0) ? 0.0 : product / square;
+  double moved = 0.0;
+  for (Rubbing& rubbing : rubbing_) {
+    const auto i = at(rubbing.row);
+    const std::size_t g = at(group_of_[i]);
+    const double off = rubbing.wanted - rubbing.bound;
+    const double next =
+        std::max(rubbing.wanted - back * (rubbing.wanted - rubbing.last_wanted), 0.0);
+    const double used = std::abs(unknown(g));
+    // Where friction does not use what it has, having more or less changes nothing.
+    if (used >= (1.0 - 1e-9) * rubbing.bound || used > next) {
+      moved = std::max(moved, std::abs(next - rubbing.bound) * slots_.yield(rubbing.row));
+    }
+    rubbing.off = off;
+    rubbing.last_wanted = rubbing.wanted;
+    rubbing.last_bound = rubbing.bound;
+    rubbing.bound = next;
+    set_friction(rubbing, g);
+  }
+  return moved;
+}
+
+void RowSystem::set_friction(const Rubbing& rubbing, std::size_t group) {
+  problem_.lower[group] = -rubbing.bound - groups_[group].multiplier;
+  problem_.upper[group] = rubbing.bound - groups_[group].multiplier;
+}
+
+double RowSystem::turn_forces(const Substep& substep, bool& straight) {
+  std::fill(motion_.begin(), motion_.end(), 0.0);
+  straight = curvature_.rows().empty() ||
+             !curvature_.turn(substep.bodies.coordinates(), substep.moving, row_multipliers_,
+                              trial_, motion_, second_order_);
+  if (straight) {
+    motion_ = bend_;
+    return 0.0;
+  }
+  double change = 0.0;
+  for (std::size_t d = 0; d < motion_.size(); ++d) {
+    change = std::max(change, std::abs(motion_[d] - bend_[d]));
+  }
+  return change;
+}
+
+bool RowSystem::refine() {
+  change_.swap(problem_.constant);
+  problem_.constant = constant_;
+  count_motion();
+  for (const int r : curvature_.rows()) {
+    const auto g = at(group_of_[at(r)]);
+    problem_.constant[g] += groups_[g].scale * second_order_[at(r)];
+  }
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    change_[g] = problem_.constant[g] - change_[g];
+  }
+  return active_set_.refine(problem_, change_);
+}
+
+void RowSystem::bend(const Substep& substep, double negligible) {
+  constexpr int most_turns = 12;
+  constexpr double settled_share = 1e-2;  // a round leaves about as much of its own accord
+  if (from_here_) return;
+  find_rubbing_rows();
+  const bool curved = curvature_.collect(rows_, substep.bodies.coordinates(), substep.moving);
+  if (!curved && rubbing_.empty()) return;
+  residual_ = motion_;
+  constant_ = problem_.constant;
+  bend_.assign(motion_.size(), 0.0);
+  trial_.resize(motion_.size());
+  row_multipliers_.resize(rows_.size());
+  second_order_.assign(rows_.size(), 0.0);
+  double before = 0.0;
+  double whole = 0.0;
+  for (int i = 0; i < most_turns; ++i) {
+    find_motion();
+    bool straight = false;
+    double change = turn_forces(substep, straight);
+    if (straight && rubbing_.empty()) return;
+    change = std::max(change, follow_pressure(i < 2));
+    if (i == 0 && change <= negligible && curvature_.largest(second_order_) <= negligible) break;
+    // Where other rows would have to act the next round tells which.
+    if (!refine()) break;
+    bend_ = motion_;
+    bent_ = true;
+    for (const Rubbing& rubbing : rubbing_) {
+      Row& row = rows_[at(rubbing.row)];
+      row.upper = rubbing.bound / bound_share_;
+      row.lower = -row.upper;
+    }
+    whole = std::max(whole, change);
+    // What one or two turns more make negligible is worth them; a round is not.
+    const bool near = before > 0.0 && change * std::sqrt(change / before) <= negligible;
+    if (change <= negligible || (change <= settled_share * whole && !near)) return;
+    before = change;
+  }
+  for (Rubbing& rubbing : rubbing_) {
+    rubbing.bound = rubbing.last_bound;
+    set_friction(rubbing, at(group_of_[at(rubbing.row)]));
+  }
+}
+
+}  // namespace sheave

@@ -1,0 +1,48 @@
+#pragma once
+// What a world is made of; internal to the engine.
+
+#include "engine/control_check.h"
+#include "engine/substep_driver.h"
+#include "engine/world.h"
+
+namespace sheave {
+
+struct World::Content {
+  Model model;
+  std::shared_ptr<const BodySet> bodies;
+  std::vector<std::unique_ptr<ConstraintBatch>> features;
+  State state;
+  Substep substep;
+  std::vector<Stage> stages;
+  SubstepDriver driver;
+  State step_start;                // of a step that may be stopped
+  std::size_t contacts = 0;        // which feature; means something if the model has colliders
+  std::vector<JointPlace> joints;  // in the order of the model
+  double control_interval = 0.0;   // how long what is set now has [s]
+
+  Content(Model m, std::shared_ptr<const BodySet> b,
+          std::vector<std::unique_ptr<ConstraintBatch>> f, State s)
+      : model(std::move(m)),
+        bodies(std::move(b)),
+        features(std::move(f)),
+        state(std::move(s)),
+        substep(*bodies, state, model.step.dt / model.step.substeps, model.step.iterations),
+        stages(substep_stages(model, features)),
+        driver(model, features, stages, substep, state),
+        joints(number_joints(model, features)),
+        control_interval(model.step.dt) {
+    substep.next = state;
+  }
+
+  void mark_notes() {
+    for (const auto& feature : features) feature->mark_notes(NoteMark::step);
+  }
+  void undo_step() {
+    state = step_start;
+    substep.next = state;
+    driver.forget();
+    for (const auto& feature : features) feature->return_to(NoteMark::step);
+  }
+};
+
+}  // namespace sheave

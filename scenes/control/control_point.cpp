@@ -1,0 +1,221 @@
+#include "scenes/control/control_point.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "engine/joints/coordinate.h"
+#include "scenes/suggestion.h"
+
+namespace sheave {
+namespace {
+
+using Kind = ControlPoint::Kind;
+
+constexpr std::array<Quantity, 7> body_controls{{
+    {"drive", "rad/s, rad, N m", "what the drive of a rotor asks for, as its kind says"},
+    {"force_x", "N", "a force at its centre of mass, besides that of its definition"},
+    {"force_y", "N", "the same"},
+    {"force_z", "N", "the same"},
+    {"torque_x", "N m", "a torque, likewise"},
+    {"torque_y", "N m", "the same"},
+    {"torque_z", "N m", "the same"},
+}};
+constexpr std::array<Quantity, 2> joint_controls{{
+    {"drive", "m, m/s, N, rad, rad/s, N m",
+     "what its drive asks for; <coordinate>_drive where a joint has two coordinates"},
+    {"drive_limit", "N, N m",
+     "the most that its drive can do, > 0; <coordinate>_drive_limit likewise. A brake is a drive "
+     "to "
+     "the speed 0 whose limit is set"},
+}};
+constexpr std::array<Quantity, 2> cable_controls{{
+    {"compliance", "m/N", "of a cable that has one, > 0"},
+    {"breaking_tension", "N", "> 0"},
+}};
+constexpr std::array<Quantity, 2> link_controls{{
+    {"feed_speed", "m/s", "of an attachment that has one"},
+    {"friction", "", "of a link that has one, > 0"},
+}};
+constexpr std::array<Quantity, 3> gravity_controls{{
+    {"x", "m/s2", "acceleration of free fall"},
+    {"y", "m/s2", "the same"},
+    {"z", "m/s2", "the same"},
+}};
+constexpr std::array<QuantityGroup, 5> groups{{
+    {"<body>.", body_controls},
+    {"<joint>.", joint_controls},
+    {"<cable>.", cable_controls},
+    {"<cable>.link<k>.", link_controls},
+    {"gravity.", gravity_controls},
+}};
+
+/// Which drives joint coordinates have follows from their field tables: "<prefix>drive".
+struct JointDrive {
+  std::string prefix;
+  int choice = 0;  // index among the kinds of drives
+};
+std::vector<JointDrive> drives_of(const JointDef& joint) {
+  std::vector<JointDrive> drives;
+  for (const auto& entry : joint_types()) {
+    if (entry.name != joint.type()) continue;
+    for (const Field& field : entry.fields()) {
+      if (field.name != "drive" && !field.name.ends_with("_drive")) continue;
+      // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast): only read
+      const FieldSlot slot = field.slot(const_cast<void*>(joint.settings()));
+      const auto* choice = std::get_if<ChoiceSlot>(&slot);
+      if (choice == nullptr) continue;
+      drives.push_back(
+          {std::string(field.name.substr(0, field.name.size() - 5)), choice->get(choice->object)});
+    }
+  }
+  return drives;
+}
+
+using Visit = std::function<void(const std::string&, const ControlPoint&)>;
+
+void visit_bodies(const Model& model, const Visit& visit) {
+  constexpr std::array<char, 3> axes{'x', 'y', 'z'};
+  for (int i = 0; i < static_cast<int>(model.bodies.size()); ++i) {
+    const BodyDef& body = model.bodies[static_cast<std::size_t>(i)];
+    if (body.drive != DriveKind::none) {
+      visit(body.name + ".drive", {Kind::body_drive, i, 0, body.drive == DriveKind::angle});
+    }
+    const bool moves = body.mobility != Mobility::fixed && body.mobility != Mobility::kinematic;
+    if (!moves || body.drive == DriveKind::speed || body.drive == DriveKind::angle) continue;
+    for (int k = 0; k < 3; ++k) {
+      const char axis = axes[static_cast<std::size_t>(k)];
+      visit(fmt::format("{}.force_{}", body.name, axis), {Kind::force, i, k});
+      visit(fmt::format("{}.torque_{}", body.name, axis), {Kind::torque, i, k});
+    }
+  }
+  for (int k = 0; k < 3; ++k) {
+    visit(fmt::format("gravity.{}", axes[static_cast<std::size_t>(k)]), {Kind::gravity, 0, k});
+  }
+}
+
+void visit_joints(const Model& model, const Visit& visit) {
+  for (int i = 0; i < static_cast<int>(model.joints.size()); ++i) {
+    const JointDef& joint = *model.joints[static_cast<std::size_t>(i)];
+    const std::vector<JointDrive> drives = drives_of(joint);
+    for (int k = 0; k < static_cast<int>(drives.size()); ++k) {
+      const JointDrive& drive = drives[static_cast<std::size_t>(k)];
+      if (drive.choice == static_cast<int>(CoordinateDrive::none)) continue;
+      const bool position = drive.choice == static_cast<int>(CoordinateDrive::position);
+      visit(fmt::format("{}.{}drive", joint.name, drive.prefix),
+            {Kind::joint_drive, i, k, position});
+      if (drive.choice == static_cast<int>(CoordinateDrive::force)) continue;
+      visit(fmt::format("{}.{}drive_limit", joint.name, drive.prefix), {Kind::joint_limit, i, k});
+    }
+  }
+}
+
+void visit_cables(const std::vector<CableDef>& cables, const Visit& visit) {
+  for (int i = 0; i < static_cast<int>(cables.size()); ++i) {
+    const CableDef& cable = cables[static_cast<std::size_t>(i)];
+    visit(cable.name + ".compliance", {Kind::compliance, i});
+    visit(cable.name + ".breaking_tension", {Kind::breaking_tension, i});
+    for (int k = 0; k < static_cast<int>(cable.links.size()); ++k) {
+      visit(fmt::format("{}.link{}.feed_speed", cable.name, k), {Kind::feed_speed, i, k});
+      visit(fmt::format("{}.link{}.friction", cable.name, k), {Kind::link_friction, i, k});
+    }
+  }
+}
+
+/// The force that is set on a body now, which one component of is changed.
+PointForce force_now(const Simulation& simulation, int body) {
+  const ForceControl* set = simulation.world.state().controls.forces.find(body);
+  PointForce force;
+  if (set != nullptr) {
+    force.force = set->force;
+    force.torque = set->torque;
+  }
+  return force;
+}
+
+}  // namespace
+
+Errors ControlPoint::set(Simulation& simulation, double value, double over) const {
+  World& world = simulation.world;
+  const DriveTarget target = takes_time ? DriveTarget(value, over) : DriveTarget(value);
+  switch (kind) {
+    case Kind::body_drive:
+      return world.set_drive(BodyId{entity}, target);
+    case Kind::joint_drive:
+      return world.set_joint_drive(entity, item, target);
+    case Kind::joint_limit:
+      return world.set_joint_drive_limit(entity, item, value);
+    case Kind::force:
+    case Kind::torque: {
+      PointForce force = force_now(simulation, entity);
+      (kind == Kind::force ? force.force : force.torque)[item] = value;
+      return world.set_force(BodyId{entity}, force);
+    }
+    case Kind::gravity: {
+      const Controls& set = world.state().controls;
+      Vector3 gravity = set.has_gravity ? set.gravity : world.model().gravity;
+      gravity[item] = value;
+      return world.set_gravity(gravity);
+    }
+    case Kind::feed_speed:
+      return simulation.set_feed_speed(entity, item, target);
+    case Kind::link_friction:
+      return simulation.set_friction(entity, item, value);
+    case Kind::compliance:
+      return simulation.set_compliance(entity, value);
+    case Kind::breaking_tension:
+      return simulation.set_breaking_tension(entity, value);
+  }
+  return {};
+}
+
+Errors ControlPoint::clear(Simulation& simulation) const {
+  World& world = simulation.world;
+  switch (kind) {
+    case Kind::body_drive:
+      return world.clear_drive(BodyId{entity});
+    case Kind::joint_drive:
+    case Kind::joint_limit:
+      return world.clear_joint_drive(entity, item);
+    case Kind::force:
+    case Kind::torque:
+      return world.clear_force(BodyId{entity});
+    case Kind::gravity:
+      world.clear_gravity();
+      return {};
+    case Kind::feed_speed:
+      return simulation.clear_feed_speed(entity, item);
+    case Kind::link_friction:
+      return simulation.clear_friction(entity, item);
+    case Kind::compliance:
+      return simulation.clear_compliance(entity);
+    case Kind::breaking_tension:
+      return simulation.clear_breaking_tension(entity);
+  }
+  return {};
+}
+
+std::span<const QuantityGroup> control_groups() { return groups; }
+
+Result<ControlPoint> find_control(std::string_view name, const Model& model,
+                                  const std::vector<CableDef>& cables) {
+  std::optional<ControlPoint> found;
+  std::vector<std::string> names;
+  const auto visit = [&](const std::string& candidate, const ControlPoint& point) {
+    if (candidate == name && !found) found = point;
+    names.push_back(candidate);
+  };
+  visit_bodies(model, visit);
+  visit_joints(model, visit);
+  visit_cables(cables, visit);
+  if (found) return *found;
+  const std::vector<std::string_view> near = nearest(name, {names.begin(), names.end()}, 5);
+  return Error{
+      "", fmt::format("there is no control \"{}\"; {}", name,
+                      near.empty() ? std::string("allowed are <driven rotor>.drive, "
+                                                 "<driven joint>.drive, <body>.force_x, "
+                                                 "<cable>.link<k>.feed_speed and alike")
+                                   : fmt::format("near it are \"{}\"", fmt::join(near, "\", \"")))};
+}
+
+}  // namespace sheave

@@ -1,0 +1,343 @@
+#include "scenes/control/scene_supervisor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scenes/suggestion.h"
+
+namespace sheave {
+namespace {
+
+// Places in the memory.
+constexpr std::size_t stopped = 0;
+constexpr std::size_t refused = 1;
+// Of a trigger, from its first.
+constexpr std::size_t acted = 0;
+constexpr std::size_t holds = 1;
+constexpr std::size_t trigger_size = 2;
+// Of a controller.
+constexpr std::size_t is_on = 0;
+constexpr std::size_t samples = 1;
+constexpr std::size_t sampled_at = 2;
+constexpr std::size_t controller_size = 3;
+
+constexpr double never = -1.0;
+/// What parts a cable as soon as it pulls [N].
+constexpr double no_tension = 1e-300;
+
+/// Index of the element of `list` with this name.
+template <class List, class Name>
+Result<int> index_of(const List& list, const std::string& name, std::string_view what,
+                     const Name& name_of) {
+  std::vector<std::string_view> names;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (name_of(list[i]) == name) return static_cast<int>(i);
+    names.push_back(name_of(list[i]));
+  }
+  const std::vector<std::string_view> near = nearest(name, names, 5);
+  return Error{"", fmt::format("there is no {} \"{}\"{}", what, name,
+                               near.empty() ? std::string()
+                                            : fmt::format("; near it are \"{}\"",
+                                                          fmt::join(near, "\", \"")))};
+}
+
+Error at_path(const Errors& errors, const std::string& path) {
+  return {path, errors.front().message};
+}
+
+/// When what is due at `due` is done: at the start of the substep nearest to it. Times are sums of steps.
+bool is_due(double time, double due, double substep) { return time > due - 1e-6 * substep; }
+
+double substep_of(const Simulation& simulation) {
+  const StepSettings& step = simulation.world.model().step;
+  return step.dt / step.substeps;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const SceneSupervisor>> SceneSupervisor::create(
+    const Scene& scene, const Simulation& simulation) {
+  std::shared_ptr<SceneSupervisor> made(new SceneSupervisor(simulation));
+  Errors errors;
+  for (std::size_t i = 0; i < scene.triggers.size(); ++i) {
+    for (Error& error : made->add_trigger(scene, i)) errors.push_back(std::move(error));
+  }
+  for (std::size_t i = 0; i < scene.controllers.size(); ++i) {
+    for (Error& error : made->add_controller(scene, i)) errors.push_back(std::move(error));
+  }
+  if (!errors.empty()) return errors;
+  return std::shared_ptr<const SceneSupervisor>(std::move(made));
+}
+
+Result<std::size_t> SceneSupervisor::sampled(const std::string& quantity, const std::string& path) {
+  const Result<int> index = observables_.index_of(quantity);
+  if (!index) return at_path(index.errors(), path);
+  if (!observables_.follows_from_state(*index)) {
+    return Error{path, fmt::format("\"{}\" is known of the last substep only and no part of the "
+                                   "state, so a run that begins with a saved one would go another "
+                                   "way; take another quantity",
+                                   quantity)};
+  }
+  const auto found = std::find(indices_.begin(), indices_.end(), *index);
+  const auto place = static_cast<std::size_t>(found - indices_.begin());
+  if (found == indices_.end()) indices_.push_back(*index);
+  waits_for_step_ = waits_for_step_ || !observables_.known_at_start(*index);
+  return place;
+}
+
+Errors SceneSupervisor::add_trigger(const Scene& scene, std::size_t index) {
+  const std::string path = fmt::format("/triggers/{}", index);
+  const TriggerDef& definition = scene.triggers[index];
+  TriggerAtWork trigger;
+  trigger.definition = definition;
+  trigger.first = memory_size_;
+  memory_size_ += trigger_size;
+  Errors errors;
+  if (!definition.quantity.empty()) {
+    const Result<std::size_t> place = sampled(definition.quantity, path + "/quantity");
+    if (!place) errors.push_back(place.errors().front());
+    if (place) trigger.quantity = *place;
+  }
+  if (definition.target.empty() && definition.action != TriggerAction::stop) {
+    errors.push_back({path, fmt::format("trigger \"{}\": it needs a target", definition.name)});
+    return errors;
+  }
+  Result<int> target = 0;
+  switch (definition.action) {
+    case TriggerAction::set:
+    case TriggerAction::clear: {
+      const Result<ControlPoint> point = find_control(definition.target, scene.model, scene.cables);
+      if (!point) errors.push_back(at_path(point.errors(), path + "/target"));
+      if (point) trigger.control = *point;
+      break;
+    }
+    case TriggerAction::release:
+      target = index_of(scene.model.joints, definition.target, "joint",
+                        [](const auto& joint) -> const std::string& { return joint->name; });
+      break;
+    case TriggerAction::cut:
+      target = index_of(scene.cables, definition.target, "cable",
+                        [](const CableDef& cable) -> const std::string& { return cable.name; });
+      break;
+    case TriggerAction::on:
+    case TriggerAction::off:
+      target = index_of(scene.controllers, definition.target, "controller",
+                        [](const auto& own) -> const std::string& { return own->name; });
+      break;
+    case TriggerAction::stop:
+      break;
+  }
+  if (!target) errors.push_back(at_path(target.errors(), path + "/target"));
+  if (target) trigger.target = *target;
+  triggers_.push_back(std::move(trigger));
+  return errors;
+}
+
+Errors SceneSupervisor::add_controller(const Scene& scene, std::size_t index) {
+  const std::string path = fmt::format("/controllers/{}", index);
+  ControllerAtWork controller;
+  controller.definition = scene.controllers[index];
+  const ControllerDef& definition = *controller.definition;
+  controller.first = memory_size_;
+  memory_size_ += controller_size + definition.memory_size();
+  controller.sample_time = definition.sample_time.value_or(scene.model.step.dt);
+  Errors errors;
+  const Result<std::size_t> measured = sampled(definition.measures, path + "/measures");
+  if (!measured) errors.push_back(measured.errors().front());
+  if (measured) controller.measured = *measured;
+  if (definition.setpoint_quantity.empty()) {
+    controller.setpoint = definition.setpoint_table();
+  } else {
+    const Result<std::size_t> place =
+        sampled(definition.setpoint_quantity, path + "/setpoint_quantity");
+    if (!place) errors.push_back(place.errors().front());
+    if (place) controller.setpoint_quantity = *place;
+  }
+  const Result<ControlPoint> point = find_control(definition.control, scene.model, scene.cables);
+  if (!point) errors.push_back(at_path(point.errors(), path + "/control"));
+  if (point) controller.control = *point;
+  controllers_.push_back(std::move(controller));
+  return errors;
+}
+
+std::vector<double> SceneSupervisor::initial_memory() const {
+  std::vector<double> memory(memory_size_, 0.0);
+  for (const TriggerAtWork& trigger : triggers_) memory[trigger.first + acted] = never;
+  for (const ControllerAtWork& controller : controllers_) {
+    memory[controller.first + is_on] = controller.definition->on ? 1.0 : 0.0;
+    memory[controller.first + sampled_at] = never;
+  }
+  return memory;
+}
+
+bool SceneSupervisor::has_stopped(const State& state) const {
+  return state.memory.size() == memory_size_ && state.memory[stopped] != 0.0;
+}
+
+std::vector<std::optional<double>> SceneSupervisor::acted_at(const State& state) const {
+  std::vector<std::optional<double>> times;
+  for (const TriggerAtWork& trigger : triggers_) {
+    const double time = state.memory[trigger.first + acted];
+    times.push_back(time < 0.0 ? std::nullopt : std::optional(time));
+  }
+  return times;
+}
+
+std::int64_t SceneSupervisor::refusals(const State& state) const {
+  return static_cast<std::int64_t>(state.memory[refused]);
+}
+
+void SceneSupervisor::note(const Errors& errors, Simulation& simulation) {
+  if (!errors.empty()) simulation.world.memory()[refused] += 1.0;
+}
+
+void SceneSupervisor::supervise(Simulation& simulation) const {
+  const double time = simulation.world.state().time;
+  const double substep = substep_of(simulation);
+  std::vector<double> values;
+  // Reports of cables take time, and most substeps need none.
+  const auto look = [&] {
+    if (!values.empty()) return;
+    values.resize(indices_.size());
+    observables_.sample(simulation, indices_, values);
+  };
+  const bool known = time > 0.0 || !waits_for_step_;
+  for (const TriggerAtWork& trigger : triggers_) {
+    const TriggerDef& own = trigger.definition;
+    double& acted_last = simulation.world.memory()[trigger.first + acted];
+    double& held = simulation.world.memory()[trigger.first + holds];
+    bool now = false;
+    if (own.at) {
+      now = is_due(time, *own.at, substep);
+    } else if (known || observables_.known_at_start(indices_[trigger.quantity])) {
+      look();
+      const double value = values[trigger.quantity];
+      now = own.above ? value > *own.above : value < *own.below;
+    }
+    const bool comes = now && held == 0.0;
+    held = now ? 1.0 : 0.0;
+    if (!comes || (acted_last >= 0.0 && !own.repeats)) continue;
+    acted_last = time;
+    act(trigger, simulation);
+  }
+  for (const ControllerAtWork& controller : controllers_) {
+    const std::vector<double>& memory = simulation.world.memory();
+    if (memory[controller.first + is_on] == 0.0) continue;
+    if (!known && !observables_.known_at_start(indices_[controller.measured])) continue;
+    const double due = memory[controller.first + samples] * controller.sample_time;
+    if (!is_due(time, due, substep)) continue;
+    look();
+    act(controller, values, simulation);
+  }
+}
+
+void SceneSupervisor::act(const TriggerAtWork& trigger, Simulation& simulation) const {
+  std::vector<double>& memory = simulation.world.memory();
+  const TriggerDef& own = trigger.definition;
+  switch (own.action) {
+    case TriggerAction::set:
+      note(trigger.control.set(simulation, *own.value,
+                               own.over > 0.0 ? own.over : substep_of(simulation)),
+           simulation);
+      break;
+    case TriggerAction::clear:
+      note(trigger.control.clear(simulation), simulation);
+      break;
+    case TriggerAction::release:
+      note(simulation.world.release_joint(trigger.target), simulation);
+      break;
+    case TriggerAction::cut:
+      note(simulation.set_breaking_tension(trigger.target, no_tension), simulation);
+      break;
+    case TriggerAction::on: {
+      const ControllerAtWork& controller = controllers_[static_cast<std::size_t>(trigger.target)];
+      if (memory[controller.first + is_on] != 0.0) break;
+      memory[controller.first + is_on] = 1.0;
+      memory[controller.first + sampled_at] = never;
+      const auto own_memory =
+          memory.begin() + static_cast<std::ptrdiff_t>(controller.first + controller_size);
+      std::fill_n(own_memory, controller.definition->memory_size(), 0.0);
+      break;
+    }
+    case TriggerAction::off:
+      memory[controllers_[static_cast<std::size_t>(trigger.target)].first + is_on] = 0.0;
+      break;
+    case TriggerAction::stop:
+      memory[stopped] = 1.0;
+      break;
+  }
+}
+
+void SceneSupervisor::act(const ControllerAtWork& controller, std::span<const double> values,
+                          Simulation& simulation) const {
+  const ControllerDef& definition = *controller.definition;
+  const double time = simulation.world.state().time;
+  std::vector<double>& memory = simulation.world.memory();
+  double* const own = memory.data() + controller.first;
+  ControllerInput input;
+  input.first = own[sampled_at] < 0.0;
+  input.interval = input.first ? std::max(controller.sample_time, substep_of(simulation))
+                               : time - own[sampled_at];
+  input.measured = values[controller.measured];
+  if (definition.setpoint_quantity.empty()) {
+    input.setpoint = controller.setpoint.at(time);
+    const double ahead = std::max(controller.sample_time, substep_of(simulation));
+    input.setpoint_rate = (controller.setpoint.at(time + ahead) - input.setpoint) / ahead;
+  } else {
+    input.setpoint = values[controller.setpoint_quantity];
+  }
+  // The next multiple of the sample time that has not come yet.
+  own[samples] = std::floor(time / controller.sample_time + 1e-6) + 1.0;
+  own[sampled_at] = time;
+  // What is no number leaves the control as it is.
+  if (!std::isfinite(input.measured) || !std::isfinite(input.setpoint)) {
+    memory[refused] += 1.0;
+    return;
+  }
+  const double output = definition.output(input, {own + controller_size, definition.memory_size()});
+  note(controller.control.set(simulation, output, controller.sample_time), simulation);
+}
+
+Errors try_controls(const Scene& scene) {
+  Errors errors;
+  Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
+  if (!simulation) return simulation.errors();
+  const auto attempt = [&](const std::string& control, double value, double over,
+                           const std::string& path) {
+    const Result<ControlPoint> point = find_control(control, scene.model, scene.cables);
+    if (!point) return;
+    const Errors found = point->set(*simulation, value, over);
+    if (!found.empty()) errors.push_back(at_path(found, path));
+  };
+  for (std::size_t i = 0; i < scene.controllers.size(); ++i) {
+    const ControllerDef& controller = *scene.controllers[i];
+    const std::string path = fmt::format("/controllers/{}/control", i);
+    const auto [lower, upper] = controller.range();
+    const double time = controller.sample_time.value_or(scene.model.step.dt);
+    const std::size_t before = errors.size();
+    attempt(controller.control, lower.value_or(upper.value_or(0.0)), time, path);
+    if (upper && errors.size() == before) attempt(controller.control, *upper, time, path);
+  }
+  for (std::size_t i = 0; i < scene.triggers.size(); ++i) {
+    const TriggerDef& trigger = scene.triggers[i];
+    if (trigger.action != TriggerAction::set) continue;
+    attempt(trigger.target, *trigger.value, std::max(trigger.over, scene.model.step.dt),
+            fmt::format("/triggers/{}/value", i));
+  }
+  return errors;
+}
+
+Result<Simulation> create_simulation(const Scene& scene) {
+  Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
+  if (!simulation || (scene.controllers.empty() && scene.triggers.empty())) return simulation;
+  Result<std::shared_ptr<const SceneSupervisor>> supervisor =
+      SceneSupervisor::create(scene, *simulation);
+  if (!supervisor) return supervisor.errors();
+  simulation->world.memory() = (*supervisor)->initial_memory();
+  simulation->supervisor = std::move(*supervisor);
+  return simulation;
+}
+
+}  // namespace sheave

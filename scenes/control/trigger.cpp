@@ -1,0 +1,64 @@
+#include "scenes/control/trigger.h"
+
+#include <fmt/format.h>
+
+namespace sheave {
+
+std::span<const Field> TriggerDef::field_table() {
+  static const std::array table{
+      field<&TriggerDef::name>("name", "", {}, required, "unique name among the triggers"),
+      field<&TriggerDef::at>("at", "s", at_least(0.0), optional,
+                             "when it acts; or else quantity and above or below"),
+      field<&TriggerDef::quantity>("quantity", "", {}, optional,
+                                   "an observable, not one on request that is known of the last "
+                                   "substep only"),
+      field<&TriggerDef::above>("above", "", any_number(), optional,
+                                "it acts when the quantity comes to be above this"),
+      field<&TriggerDef::below>("below", "", any_number(), optional,
+                                "it acts when the quantity comes to be below this"),
+      field<&TriggerDef::repeats>("repeats", "", {}, optional,
+                                  "whenever that comes to be so, and not the first time alone"),
+      choice_field<&TriggerDef::action>(
+          "action", trigger_action_names, required,
+          "set: a control to value; clear: the control is again what the scene says; release: a "
+          "joint holds nothing any more; cut: a cable parts as soon as it pulls; on, off: switches "
+          "a "
+          "controller; stop: the run ends"),
+      field<&TriggerDef::target>("target", "", {}, optional,
+                                 "the control, joint, cable or controller"),
+      field<&TriggerDef::value>("value", "", any_number(), optional,
+                                "what set sets, in the control's unit"),
+      field<&TriggerDef::over>("over", "s", at_least(0.0), optional,
+                               "time that a drive to a position or an angle takes to be there; "
+                               "default: a substep"),
+  };
+  return table;
+}
+
+Errors TriggerDef::validate(const std::string& path) const {
+  Errors errors;
+  const auto fail = [&](std::string_view key, std::string_view message) {
+    errors.push_back(
+        {fmt::format("{}{}", path, key), fmt::format("trigger \"{}\": {}", name, message)});
+  };
+  const bool watches = !quantity.empty();
+  if (at.has_value() == watches) fail("", "it needs either at or a quantity");
+  if (watches && above.has_value() == below.has_value()) {
+    fail("/quantity", "a quantity needs either above or below");
+  }
+  if (!watches && (above || below)) {
+    fail(above ? "/above" : "/below", "what comes to be so? give a quantity");
+  }
+  if (repeats && !watches) fail("/repeats", "a time does not come again");
+  if (action == TriggerAction::stop && !target.empty()) {
+    fail("/target", "the whole run stops; leave the target out");
+  }
+  const bool sets = action == TriggerAction::set;
+  if (sets != value.has_value()) {
+    fail(value ? "/value" : "", sets ? "set needs a value" : "only set has a value");
+  }
+  if (over > 0.0 && !sets) fail("/over", "only what is set takes time");
+  return errors;
+}
+
+}  // namespace sheave

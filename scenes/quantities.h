@@ -1,0 +1,157 @@
+#pragma once
+// The names, units and meanings of all observables, for ObservableSet and the documentation.
+
+#include <array>
+
+#include "scenes/observables.h"
+
+namespace sheave {
+
+inline constexpr std::array<Quantity, 14> body_quantities{{
+    {"x", "m", "position of the body frame's origin"},
+    {"y", "m", "the same"},
+    {"z", "m", "the same"},
+    {"qw", "", "orientation"},
+    {"qx", "", "the same"},
+    {"qy", "", "the same"},
+    {"qz", "", "the same"},
+    {"vx", "m/s", "velocity of the body frame's origin"},
+    {"vy", "m/s", "the same"},
+    {"vz", "m/s", "the same"},
+    {"wx", "rad/s", "angular velocity"},
+    {"wy", "rad/s", "the same"},
+    {"wz", "rad/s", "the same"},
+    {"angle", "rad", "angle turned about the axis: planar bodies and rotors"},
+}};
+inline constexpr std::array<Quantity, 3> span_quantities{{
+    {"tension", "N", "of the free span that begins at a link, counted from 0"},
+    {"length", "m", "the same"},
+    {"rest_length", "m", "the same"},
+}};
+inline constexpr std::array<Quantity, 9> link_quantities{{
+    {"stored_length", "m", "cable on link k, counted from 0"},
+    {"wrap_angle", "rad", "the angle that it covers; of a pinhole the angle of deflection"},
+    {"slip", "m", "cable that has slid over the link, forwards"},
+    {"entry_x", "m", "where the cable meets the link"},
+    {"entry_y", "m", "the same"},
+    {"entry_z", "m", "the same"},
+    {"exit_x", "m", "where the cable leaves the link"},
+    {"exit_y", "m", "the same"},
+    {"exit_z", "m", "the same"},
+}};
+inline constexpr std::array<Quantity, 5> cable_quantities{{
+    {"length_error", "", "relative error of the length invariant"},
+    {"total_length", "m", "rest lengths and stored lengths together"},
+    {"wraps", "", "number of wrappable bodies that the cable lies on"},
+    {"wrapped_length", "m", "cable on these bodies"},
+    {"cut", "", "1 when the cable has been cut or has broken, 0 before"},
+}};
+inline constexpr std::array<Quantity, 9> joint_quantities{{
+    {"force", "N", "size of the joint's force on body_b in the last substep"},
+    {"fx", "N", "its parts along the axes of the world"},
+    {"fy", "N", "the same"},
+    {"fz", "N", "the same"},
+    {"torque", "N m", "size of its torque about body_b's anchor"},
+    {"tx", "N m", "its parts along the axes of the world"},
+    {"ty", "N m", "the same"},
+    {"tz", "N m", "the same"},
+    {"broken", "", "1 when the joint has broken, 0 before"},
+}};
+// "<coordinate>" stands for the names that JointDef::coordinates() gives.
+inline constexpr std::array<Quantity, 3> coordinate_quantities{{
+    {"<coordinate>", "m, rad",
+     "what the joint leaves free, since time 0, angles with all turns: extension (distance), twist "
+     "and swing (ball with an axis), angle (hinge, plane), travel (slider), travel and angle "
+     "(cylindrical, rack), angle_a and angle_b (universal, gear)"},
+    {"<coordinate>_rate", "m/s, rad/s", "how fast it changes"},
+    {"drive_force", "N, N m",
+     "of its drive; <coordinate>_drive_force where a joint has two coordinates"},
+}};
+inline constexpr std::array<Quantity, 4> energy_quantities{{
+    {"kinetic", "J", "of the whole scene"},
+    {"potential", "J", "the same"},
+    {"elastic", "J", "the same"},
+    {"total", "J", "the same"},
+}};
+
+// On request.
+
+inline constexpr std::array<Quantity, 6> momentum_quantities{{
+    {"momentum_x", "kg m/s", "linear momentum, of a carrier with the rotors mounted on it"},
+    {"momentum_y", "kg m/s", "the same"},
+    {"momentum_z", "kg m/s", "the same"},
+    {"angular_momentum_x", "kg m2/s",
+     "angular momentum about its centre of mass; of a rotor that of its spin, which its carrier's "
+     "is without"},
+    {"angular_momentum_y", "kg m2/s", "the same"},
+    {"angular_momentum_z", "kg m2/s", "the same"},
+}};
+inline constexpr std::array<Quantity, 8> bearing_quantities{{
+    {"bearing_force", "N", "size of the force of its bearings on it in the last substep"},
+    {"bearing_fx", "N", "its parts along the axes of the world"},
+    {"bearing_fy", "N", "the same"},
+    {"bearing_fz", "N", "the same"},
+    {"bearing_torque", "N m", "size of their torque about its centre, which is across the axle"},
+    {"bearing_tx", "N m", "its parts along the axes of the world"},
+    {"bearing_ty", "N m", "the same"},
+    {"bearing_tz", "N m", "the same"},
+}};
+inline constexpr std::array<Quantity, 3> body_drive_quantities{{
+    {"drive_torque", "N m", "of its drive on the rotor in the last substep, about its axis"},
+    {"drive_power", "W", "that the drive puts in"},
+    {"drive_error", "rad, rad/s",
+     "by how much the rotor is off the angle or the speed that its drive asks for"},
+}};
+inline constexpr std::array<Quantity, 3> direction_quantities{{
+    {"direction_x", "", "unit vector along the span, from its first link to its second"},
+    {"direction_y", "", "the same"},
+    {"direction_z", "", "the same"},
+}};
+inline constexpr std::array<Quantity, 1> link_friction_quantities{{
+    {"friction_power", "W", "that friction takes where the cable slides over link k"},
+}};
+inline constexpr std::array<Quantity, 1> joint_friction_quantities{{
+    {"friction_power", "W", "that the joint's dry friction takes"},
+}};
+inline constexpr std::array<Quantity, 2> joint_drive_quantities{{
+    {"drive_power", "W",
+     "that its drive puts in; <coordinate>_drive_power where a joint has two coordinates"},
+    {"drive_error", "m, rad, m/s, rad/s",
+     "by how much it is off what a drive that is not at its limit asks for; with the coordinate's "
+     "name likewise"},
+}};
+inline constexpr std::array<Quantity, 6> scene_momentum_quantities{{
+    {"linear_x", "kg m/s", "of all bodies together"},
+    {"linear_y", "kg m/s", "the same"},
+    {"linear_z", "kg m/s", "the same"},
+    {"angular_x", "kg m2/s", "of all bodies together, about the world's origin"},
+    {"angular_y", "kg m2/s", "the same"},
+    {"angular_z", "kg m2/s", "the same"},
+}};
+inline constexpr std::array<Quantity, 2> power_quantities{{
+    {"drives", "W", "that all drives put in, in the last substep"},
+    {"friction", "W", "that dry friction takes in joints, in contacts and under cables that slide"},
+}};
+
+inline constexpr std::array<QuantityGroup, 7> quantity_group_table{{
+    {"<body>.", body_quantities},
+    {"<cable>.<span>.", span_quantities},
+    {"<cable>.link<k>.", link_quantities},
+    {"<cable>.", cable_quantities},
+    {"<joint>.", joint_quantities},
+    {"<joint>.", coordinate_quantities},
+    {"energy.", energy_quantities},
+}};
+inline constexpr std::array<QuantityGroup, 9> requested_group_table{{
+    {"<body>.", momentum_quantities},
+    {"<rotor>.", bearing_quantities},
+    {"<driven rotor>.", body_drive_quantities},
+    {"<cable>.<span>.", direction_quantities},
+    {"<cable>.link<k>.", link_friction_quantities},
+    {"<joint>.", joint_friction_quantities},
+    {"<joint>.", joint_drive_quantities},
+    {"momentum.", scene_momentum_quantities},
+    {"power.", power_quantities},
+}};
+
+}  // namespace sheave

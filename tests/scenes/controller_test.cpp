@@ -1,0 +1,359 @@
+// Controllers and triggers of scenes: against the recursions and closed forms that they are made of.
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scenes/control/scene_supervisor.h"
+#include "scenes/scene.h"
+#include "tests/scenes/scene_files.h"
+
+namespace sheave::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A rotor of 0.5 kg m2 that a torque drives, and what is told beside it.
+std::string rotor_scene(const std::string& rest, const std::string& of_rotor = "",
+                        const std::string& step = R"({"dt": 0.005, "substeps": 1})") {
+  return R"({"format": "sheave-scene/1", "gravity": [0, 0, 0], "duration": 10, "step": )" + step +
+         R"(, "bodies": [{"name": "rotor", "mobility": "rotor", "mass": 1, "spin_inertia": 0.5,
+              "drive": "torque", "drive_values": [0])" +
+         of_rotor + "}], " + rest + "}";
+}
+
+Simulation start(const std::string& text) {
+  const SceneResult scene = load_scene_text(text, "s.json");
+  if (!scene) throw std::runtime_error(to_string(scene.errors.front()));
+  Result<Simulation> simulation = create_simulation(*scene);
+  if (!simulation) throw std::runtime_error(simulation.errors().front().message);
+  return std::move(*simulation);
+}
+
+std::vector<std::string> errors_of(const std::string& text) {
+  std::vector<std::string> texts;
+  for (const SceneError& error : load_scene_text(text, "s.json").errors) {
+    texts.push_back(to_string(error));
+  }
+  return texts;
+}
+
+void run(Simulation& simulation, double time) {
+  const double dt = simulation.world.model().step.dt;
+  while (simulation.world.state().time < time - 0.5 * dt) {
+    if (!simulation.step().ok()) throw std::runtime_error("it diverges");
+  }
+}
+
+/// The controller of the documentation, over again.
+struct Pid {
+  double p = 0.0, i = 0.0, d = 0.0, filter = 0.0, limit = 0.0;
+  double sum = 0.0, before = 0.0, slope = 0.0;
+  bool first = true;
+  double operator()(double error, double interval) {
+    slope = first ? 0.0 : (filter * slope + d * (error - before)) / (filter + interval);
+    first = false;
+    before = error;
+    const double wanted = p * error + sum + slope;
+    const double given = std::min(std::max(wanted, -limit), limit);
+    const double growth = i * error * interval;
+    if (!((wanted - given) * growth > 0.0)) sum += growth;
+    return given;
+  }
+};
+
+// A torque that holds from sample to sample moves a rotor by parabolas, which `rattle` follows exactly: so the loop is the
+// recursion of its samples, at the limits, too.
+TEST(Pid, IsTheRecursionOfItsSamples) {
+  for (const double limit : {1e9, 3.0}) {
+    Simulation simulation = start(rotor_scene(fmt::format(
+        R"("controllers": [{{"type": "pid", "name": "servo", "measures": "rotor.angle",
+             "control": "rotor.drive", "setpoint": 1, "proportional": 8, "integral": 4,
+             "derivative": 2, "derivative_filter": 0.03, "sample_time": 0.02,
+             "lower": -{0}, "upper": {0}}}])",
+        limit)));
+    Pid pid{8.0, 4.0, 2.0, 0.03, limit};
+    double angle = 0.0;
+    double speed = 0.0;
+    for (int k = 0; k < 100; ++k) {
+      const double torque = pid(1.0 - angle, 0.02);
+      angle += 0.02 * speed + 0.5 * 0.02 * 0.02 * torque / 0.5;
+      speed += 0.02 * torque / 0.5;
+      run(simulation, 0.02 * (k + 1));
+      ASSERT_NEAR(simulation.world.state().bodies[0].angle, angle, 1e-10) << k << ", " << limit;
+    }
+  }
+}
+
+// J x'' = P (1 - x) - D x' has the poles -1 +- 4.8990 i for J = 0.5, P = 12.5, D = 1: a step response with known peaks.
+TEST(Pid, HasThePolesOfItsLinearLoop) {
+  Simulation simulation = start(rotor_scene(
+      R"("controllers": [{"type": "pid", "name": "servo", "measures": "rotor.angle",
+           "control": "rotor.drive", "setpoint": 1, "proportional": 12.5, "derivative": 1}])",
+      "", R"({"dt": 0.0005, "substeps": 1})"));
+  const double w = std::sqrt(24.0);
+  std::vector<double> peaks;
+  std::vector<double> times;
+  double before = 0.0;
+  double last = 0.0;
+  while (simulation.world.state().time < 2.5) {
+    ASSERT_TRUE(simulation.step().ok());
+    const double angle = simulation.world.state().bodies[0].angle;
+    if ((last - before) * (angle - last) < 0.0) {
+      peaks.push_back(last - 1.0);
+      times.push_back(simulation.world.state().time - 0.0005);
+    }
+    before = last;
+    last = angle;
+  }
+  ASSERT_GE(peaks.size(), 3U);
+  // From peak to trough half a period, and the decay e^(-pi / w). Samples hold for 0.5 ms: what is 0.1 % of the pole's time.
+  EXPECT_NEAR(times[1] - times[0], pi / w, 0.01 * pi / w);
+  EXPECT_NEAR(std::log(std::abs(peaks[0] / peaks[1])) / (times[1] - times[0]), 1.0, 0.01);
+  EXPECT_NEAR(peaks[0], std::exp(-pi / w), 0.01);
+}
+
+// Feed-forward alone: what the setpoint and its rate say.
+TEST(Pid, FeedsForward) {
+  Simulation simulation = start(rotor_scene(
+      R"("controllers": [{"type": "pid", "name": "servo", "measures": "rotor.wz",
+           "control": "rotor.drive", "setpoint_times": [0, 1, 2], "setpoint_values": [0, 1, 4],
+           "setpoint_interpolation": "cubic", "feed_forward": 0.5, "setpoint_gain": 2,
+           "rate_gain": 3}])"));
+  // Through three points goes t^2, whose mean rate until the next sample is 2 t + dt: u = 0.5 + 2 t^2 + 3 (2 t + dt), held from
+  // sample to sample.
+  run(simulation, 1.0);
+  const auto u = [](double t) { return 0.5 + 2.0 * t * t + 3.0 * (2.0 * t + 0.005); };
+  double speed = 0.0;
+  for (int k = 0; k < 200; ++k) speed += 0.005 * u(0.005 * k) / 0.5;
+  EXPECT_NEAR(simulation.world.angular_velocity(BodyId{0}).z(), speed, 1e-10);
+}
+
+// A rotor in drag c is switched between the torques 0 and 1: it runs up towards 1 / c and down towards 0 between two speeds, in
+// times J / c ln((1 / c - low) / (1 / c - high)) and J / c ln(high / low).
+TEST(BangBang, RunsBetweenItsThresholds) {
+  Simulation simulation = start(rotor_scene(
+      R"("controllers": [{"type": "bang-bang", "name": "relay", "measures": "rotor.wz",
+           "control": "rotor.drive", "setpoint": 2.5, "low": 0, "high": 1, "hysteresis": 1}])",
+      R"(, "angular_damping": 0.2)", R"({"dt": 0.001, "substeps": 1})"));
+  std::vector<double> turns;
+  double before = 0.0;
+  double last = 0.0;
+  while (simulation.world.state().time < 10.0) {
+    ASSERT_TRUE(simulation.step().ok());
+    const double speed = simulation.world.angular_velocity(BodyId{0}).z();
+    if ((last - before) * (speed - last) < 0.0) turns.push_back(simulation.world.state().time);
+    before = last;
+    last = speed;
+  }
+  ASSERT_GE(turns.size(), 4U);
+  const double up = 0.5 / 0.2 * std::log((5.0 - 2.0) / (5.0 - 3.0));
+  const double down = 0.5 / 0.2 * std::log(3.0 / 2.0);
+  // It is looked at every millisecond.
+  EXPECT_NEAR(turns[1] - turns[0], down, 0.003);
+  EXPECT_NEAR(turns[2] - turns[1], up, 0.003);
+}
+
+const char* const follower = R"("controllers": [
+  {"type": "pid", "name": "servo", "measures": "rotor.angle", "control": "rotor.drive",
+   "setpoint_quantity": "t", "proportional": 30, "integral": 5, "derivative": 3, "sample_time": 0.013},
+  {"type": "bang-bang", "name": "relay", "measures": "rotor.angle", "control": "gravity.y",
+   "setpoint": 1, "low": -1, "high": 1, "on": false}],
+ "triggers": [
+  {"name": "late", "quantity": "rotor.angle", "above": 0.8, "action": "on", "target": "relay"},
+  {"name": "slower", "at": 1.5, "action": "off", "target": "servo"},
+  {"name": "push", "at": 1.7, "action": "set", "target": "rotor.drive", "value": 0.25}])";
+
+// What they remember is part of the state: a run that is saved and loaded is the same to the last bit.
+TEST(Supervisor, ReplaysFromASavedState) {
+  Simulation whole = start(rotor_scene(follower));
+  run(whole, 0.9);
+  const Result<State> saved = state_from_bytes(to_bytes(whole.world.state()));
+  ASSERT_TRUE(saved);
+  EXPECT_EQ(hash(*saved), hash(whole.world.state()));
+  run(whole, 2.0);
+  Simulation rest = start(rotor_scene(follower));
+  EXPECT_NE(hash(rest.world.state()), hash(*saved));
+  ASSERT_THAT(rest.world.restore(*saved), IsEmpty());
+  run(rest, 2.0);
+  EXPECT_EQ(hash(rest.world.state()), hash(whole.world.state()));
+  // The memory is hashed, and belongs to this scene.
+  State other = *saved;
+  other.memory.back() += 1.0;
+  EXPECT_NE(hash(other), hash(*saved));
+  other.memory.pop_back();
+  EXPECT_FALSE(rest.world.restore(other).empty());
+}
+
+TEST(Supervisor, ActsAtEachSubstep) {
+  // Twice the substeps at twice the step: the same samples, the same motion.
+  const char* const servo = R"("controllers": [{"type": "pid", "name": "servo",
+    "measures": "rotor.angle", "control": "rotor.drive", "setpoint": 1, "proportional": 8,
+    "derivative": 1, "sample_time": 0.005}])";
+  Simulation steps = start(rotor_scene(servo));
+  Simulation substeps = start(rotor_scene(servo, "", R"({"dt": 0.01, "substeps": 2})"));
+  run(steps, 1.0);
+  run(substeps, 1.0);
+  EXPECT_NEAR(steps.world.state().bodies[0].angle, substeps.world.state().bodies[0].angle, 1e-12);
+}
+
+/// A weight that hangs by a rope from a fixed ring, and one on a joint.
+std::string hanging_scene(const std::string& triggers) {
+  return R"({"format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 3,
+    "step": {"dt": 0.01, "substeps": 1, "solver": "direct", "integrator": "rattle"},
+    "bodies": [
+      {"name": "weight", "mobility": "slider", "axis": [0, 1, 0], "mass": 2, "position": [0, -1, 0]},
+      {"name": "bar", "mass": 2, "inertia": [1, 1, 1], "position": [5, 0, 0]}],
+    "joints": [{"type": "fixed", "name": "clamp", "body_b": "bar", "anchor": [5, 0, 0]}],
+    "cables": [{"name": "rope", "links": [{"type": "attachment", "body": "world"},
+      {"type": "attachment", "body": "weight"}]}],
+    "triggers": [)" +
+         triggers + "]}";
+}
+
+TEST(Triggers, ReleaseAJoint) {
+  Simulation simulation = start(
+      hanging_scene(R"({"name": "let go", "at": 0.5, "action": "release", "target": "clamp"})"));
+  run(simulation, 0.5);
+  EXPECT_NEAR(simulation.world.position(BodyId{1}).y(), 0.0, 1e-12);
+  run(simulation, 1.0);
+  EXPECT_NEAR(simulation.world.position(BodyId{1}).y(), -5.0 * 0.25, 1e-9) << "g t^2 / 2";
+  EXPECT_NEAR(simulation.world.velocity(BodyId{1}).y(), -5.0, 1e-9);
+  // Released it stays, in a world that starts from there, too.
+  const State state = simulation.world.state();
+  Simulation again = start(
+      hanging_scene(R"({"name": "let go", "at": 0.5, "action": "release", "target": "clamp"})"));
+  ASSERT_THAT(again.world.restore(state), IsEmpty());
+  run(again, 1.5);
+  EXPECT_NEAR(again.world.position(BodyId{1}).y(), -5.0, 1e-9);
+}
+
+TEST(Triggers, CutACable) {
+  Simulation simulation =
+      start(hanging_scene(R"({"name": "snip", "at": 1, "action": "cut", "target": "rope"})"));
+  run(simulation, 1.0);
+  EXPECT_NEAR(simulation.world.velocity(BodyId{0}).y(), 0.0, 1e-12);
+  run(simulation, 2.0);
+  EXPECT_TRUE(simulation.cable_reports()[0].cut);
+  // It acts until the end of the substep in which it parts.
+  EXPECT_NEAR(simulation.world.velocity(BodyId{0}).y(), -10.0 * (1.0 - 0.01), 1e-9);
+}
+
+TEST(Triggers, StopARunOnce) {
+  Simulation simulation = start(hanging_scene(
+      R"({"name": "let go", "at": 0.2, "action": "release", "target": "clamp"},
+         {"name": "enough", "quantity": "bar.y", "below": -1.25, "action": "stop"})"));
+  const auto* supervisor = dynamic_cast<const SceneSupervisor*>(simulation.supervisor.get());
+  ASSERT_NE(supervisor, nullptr);
+  int steps = 0;
+  while (!simulation.supervisor->has_stopped(simulation.world.state()) && steps < 1000) {
+    ASSERT_TRUE(simulation.step().ok());
+    ++steps;
+  }
+  // 1.25 m take 0.5 s; what is seen at the start of a step ends the run with it.
+  EXPECT_NEAR(simulation.world.state().time, 0.2 + 0.5 + 0.02, 0.0101);
+  const auto times = supervisor->acted_at(simulation.world.state());
+  EXPECT_EQ(times.at(0), 0.2);
+  EXPECT_NEAR(times.at(1).value(), 0.71, 0.0101);
+  EXPECT_EQ(supervisor->refusals(simulation.world.state()), 0);
+}
+
+// A force that is set as often as the weight of a spring has come down: edges count, not levels.
+TEST(Triggers, ActOnceOrWheneverItHappens) {
+  for (const bool repeats : {false, true}) {
+    Simulation simulation = start(rotor_scene(fmt::format(
+        R"("controllers": [{{"type": "pid", "name": "swing", "measures": "rotor.angle",
+              "control": "rotor.drive", "setpoint": 1, "proportional": 20}}],
+           "triggers": [{{"name": "past", "quantity": "rotor.angle", "above": 1, "action": "set",
+              "target": "gravity.x", "value": 1, "repeats": {}}}])",
+        repeats ? "true" : "false")));
+    const auto* supervisor = dynamic_cast<const SceneSupervisor*>(simulation.supervisor.get());
+    double acted = -1.0;
+    int count = 0;
+    while (simulation.world.state().time < 5.0) {
+      ASSERT_TRUE(simulation.step().ok());
+      const auto time = supervisor->acted_at(simulation.world.state())[0];
+      if (time && *time != acted) ++count;
+      acted = time.value_or(acted);
+    }
+    // x'' = 40 (1 - x): a period of 0.9935 s, so it comes past 1 five times.
+    EXPECT_EQ(count, repeats ? 5 : 1);
+  }
+}
+
+TEST(Controllers, FaultsAreLocated) {
+  const auto with = [](const std::string& controller) {
+    return errors_of(
+        rotor_scene(R"("controllers": [{"type": "pid", "name": "servo", )" + controller + "}]"));
+  };
+  EXPECT_THAT(with(R"("measures": "rotor.angel", "control": "rotor.drive", "setpoint": 1)"),
+              ElementsAre(AllOf(HasSubstr("/controllers/0/measures"),
+                                HasSubstr("did you mean \"rotor.angle\"?"))));
+  EXPECT_THAT(with(R"("measures": "rotor.angle", "control": "rotor.drve", "setpoint": 1)"),
+              ElementsAre(AllOf(HasSubstr("/controllers/0/control"),
+                                HasSubstr("near it are \"rotor.drive\""))));
+  EXPECT_THAT(with(R"("measures": "rotor.angle", "control": "what", "setpoint": 1)"),
+              ElementsAre(HasSubstr("allowed are")));
+  EXPECT_THAT(with(R"("measures": "rotor.drive_power", "control": "rotor.drive", "setpoint": 1)"),
+              ElementsAre(HasSubstr("known of the last substep only")));
+  EXPECT_THAT(with(R"("measures": "rotor.angle", "control": "rotor.drive")"),
+              ElementsAre(HasSubstr("needs one of setpoint")));
+  EXPECT_THAT(with(R"("measures": "rotor.angle", "control": "rotor.drive", "setpoint": "high")"),
+              ElementsAre(AllOf(HasSubstr("/controllers/0/setpoint"), HasSubstr("a number"))));
+  EXPECT_THAT(with(R"("measures": "rotor.angle", "control": "rotor.drive", "setpoint": 1,
+                      "sample_time": 0)"),
+              ElementsAre(AllOf(HasSubstr("/controllers/0/sample_time"), HasSubstr("> 0"))));
+  EXPECT_THAT(with(R"("measures": "rotor.angle", "control": "rotor.drive", "setpoint": 1,
+                      "lower": 2, "upper": 1)"),
+              ElementsAre(HasSubstr("must be below the greatest")));
+  EXPECT_THAT(with(R"("measures": "rotor.angle", "control": "rotor.drive", "setpoint_times": [0, 1],
+                      "setpoint_values": [1])"),
+              ElementsAre(HasSubstr("there are 1 and 2")));
+  EXPECT_THAT(errors_of(rotor_scene(R"("controllers": [{"type": "fuzzy", "name": "x"}])")),
+              ElementsAre(HasSubstr("/controllers/0/type")));
+}
+
+TEST(Triggers, FaultsAreLocated) {
+  const auto with = [](const std::string& trigger) {
+    return errors_of(hanging_scene(R"({"name": "t", )" + trigger + "}"));
+  };
+  EXPECT_THAT(
+      with(R"("at": 1, "action": "release", "target": "clmp")"),
+      ElementsAre(AllOf(HasSubstr("/triggers/0/target"), HasSubstr("near it are \"clamp\""))));
+  EXPECT_THAT(with(R"("at": 1, "action": "explode")"),
+              ElementsAre(HasSubstr("/triggers/0/action")));
+  EXPECT_THAT(with(R"("action": "stop")"), ElementsAre(HasSubstr("either at or a quantity")));
+  EXPECT_THAT(with(R"("quantity": "bar.y", "action": "stop")"),
+              ElementsAre(HasSubstr("either above or below")));
+  EXPECT_THAT(with(R"("at": 1, "action": "set", "target": "weight.force_y")"),
+              ElementsAre(HasSubstr("set needs a value")));
+  EXPECT_THAT(with(R"("at": 1, "action": "set", "target": "rope.breaking_tension", "value": -3)"),
+              ElementsAre(AllOf(HasSubstr("/triggers/0/value"), HasSubstr("-3"))));
+  EXPECT_THAT(with(R"("at": 1, "action": "cut")"), ElementsAre(HasSubstr("it needs a target")));
+  EXPECT_THAT(with(R"("at": -1, "action": "stop")"), ElementsAre(HasSubstr("/triggers/0/at")));
+}
+
+TEST(Controllers, AreWrittenAsTheyWereRead) {
+  const SceneResult scene = load_scene_text(rotor_scene(follower), "s.json");
+  ASSERT_TRUE(scene);
+  const std::string text = write_scene(*scene);
+  const SceneResult again = load_scene_text(text, "again.json");
+  ASSERT_TRUE(again);
+  EXPECT_EQ(write_scene(*again), text);
+  ASSERT_EQ(again->controllers.size(), 2U);
+  ASSERT_EQ(again->triggers.size(), 3U);
+  EXPECT_EQ(again->triggers[2].value, 0.25);
+  EXPECT_EQ(again->controllers[0]->sample_time, 0.013);
+  Simulation a = start(rotor_scene(follower));
+  Simulation b = start(text);
+  run(a, 2.0);
+  run(b, 2.0);
+  EXPECT_EQ(hash(a.world.state()), hash(b.world.state()));
+}
+
+}  // namespace
+}  // namespace sheave::test
