@@ -27,7 +27,8 @@ struct DriveTarget {
   DriveTarget(double target, double time, double speed) : value(target), over(time), rate(speed) {}
 };
 
-/// A force at a point of a body, and a torque. It acts until it is set anew.
+/// A force at a point of a body, and a torque. It acts until it is set anew. Name what you set: an empty `{}` in the place of a
+/// vector leaves it uninitialised, as Eigen does; write Vector3::Zero().
 struct PointForce {
   Vector3 force = Vector3::Zero();   ///< [N]
   Vector3 torque = Vector3::Zero();  ///< besides that of the force [N m]

@@ -148,6 +148,8 @@ bool AffineBodies::load(const State& state) {
   controls_ = &state.controls;
   const bool any = state.controls.has_gravity || state.controls.forces.any();
   if (any || has_set_loads_) {
+    // Also if they are refused half way: what was taken goes again.
+    has_set_loads_ = true;
     if (!take_set_loads(state)) return false;
     has_set_loads_ = any;
   }

@@ -4,14 +4,9 @@
 #include <cmath>
 
 #include "engine/solvers/direct.h"
+#include "engine/solvers/row_system.h"
 
 namespace sheave {
-namespace {
-
-/// What rounding leaves of a row's value, relative to the scene's size: as that of RowSystem.
-constexpr double value_rounding = 1e-14;
-
-}  // namespace
 
 std::unique_ptr<AffineMotion> AffineMotion::create(const Model& model, const BodySet& bodies,
                                                    Features features) {
@@ -150,7 +145,7 @@ bool AffineMotion::solve_positions() {
     unknowns_[i] = active_[i] != 0 ? -(value + terms.along(i, motion)) : 0.0;
   }
   factor_.solve(unknowns_);
-  const double rounding = value_rounding * scale_;
+  const double rounding = RowSystem::value_rounding * scale_;
   bool holds = true;
   for (std::size_t i = 0; i < n; ++i) {
     holds &= unknowns_[i] * diagonal_[i] >= -rounding;
@@ -159,11 +154,13 @@ bool AffineMotion::solve_positions() {
     terms.act(i, multiplier, motion);
   }
   const double enough = DirectSolver::tolerance * scale_;
+  left_ = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const double residual = free_[i] + terms.along(i, motion) + softness_[i] * multipliers_[i];
     const bool acts = active_[i] != 0;
     holds &= residual >= (acts ? -enough : -rounding);
     holds &= !acts || residual <= enough;
+    if (acts) left_ = std::max(left_, std::abs(residual));
   }
   return holds;
 }
@@ -182,7 +179,7 @@ bool AffineMotion::solve_velocities() {
     impulses_[i] = acts ? -terms.along(i, speeds) : 0.0;
   }
   (elastic_ ? rigid_factor_ : factor_).solve(impulses_);
-  const double rounding = value_rounding * scale_ * rate;
+  const double rounding = RowSystem::value_rounding * scale_ * rate;
   bool holds = true;
   for (std::size_t i = 0; i < n; ++i) {
     if (springs_[i] != 0) {
@@ -250,6 +247,7 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
     const double end =
         (static_cast<double>(state.steps) + static_cast<double>(i + 1) / substeps) * dt;
     if (!attempt(state.time, end, state, before, substep)) break;
+    substep.statistics.last_correction = std::max(substep.statistics.last_correction, left_);
     substep.statistics.external_work += bodies_.work_of_set_loads();
     bodies_.go_on();
     state.features.swap(before.features);

@@ -108,6 +108,7 @@ class AffineMotion {
   // Of one substep.
   std::vector<double> values_, free_, unknowns_, multipliers_, impulses_;
   std::vector<char> active_;
+  double left_ = 0.0;                       ///< the largest residual of the rows that act [m]
   std::vector<std::vector<double>> first_;  ///< per feature, of the state before all
 };
 

@@ -53,6 +53,11 @@ using Features = std::span<const std::unique_ptr<ConstraintBatch>>;
 /// Rows, unknowns and matrix, with their scratch; what it keeps between substeps is only the pattern of the matrix.
 class RowSystem {
  public:
+  /// What rounding leaves of a row's value, relative to the scene's size: lengths are sums of some ten numbers of that
+  /// size. Without it rows that only a wheel between walls can move, taut by rounding on either side of it, would have no
+  /// solution: no turn of the wheel is good for both.
+  static constexpr double value_rounding = 1e-14;
+
   enum class Rule { backward, midpoint };
 
   /// Keeps the rows at the start of the substep, whose gradients the midpoint rule lets multipliers act along.
@@ -123,11 +128,6 @@ class RowSystem {
   [[nodiscard]] int row_count() const { return static_cast<int>(rows_.size()); }
 
  private:
-  /// What rounding leaves of a row's value, relative to the scene's size: lengths are sums of some ten numbers of that
-  /// size. Without it rows that only a wheel between walls can move, taut by rounding on either side of it, would have no
-  /// solution: no turn of the wheel is good for both.
-  static constexpr double value_rounding = 1e-14;
-
   /// Rows that share an unknown.
   struct Group {
     int first_row = 0;

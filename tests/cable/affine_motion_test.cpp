@@ -199,6 +199,26 @@ TEST_P(AffineMotion, ForcesThatTurnAboutAnAxleAreLeftToTheStages) {
   compare(train(integrator(), substeps()), 60, 8, rim);
 }
 
+// The second force is one for the stages; by then the first has been taken.
+TEST_P(AffineMotion, ForcesThatAreClearedTogetherAreGone) {
+  const Setter set = [](World& world, int i) -> Errors {
+    Errors errors;
+    const auto keep = [&](const Errors& more) {
+      errors.insert(errors.end(), more.begin(), more.end());
+    };
+    if (i == 10) {
+      keep(world.set_force(BodyId{0}, {Vector3::Zero(), {0.0, 0.0, 0.5}}));
+      keep(world.set_force(BodyId{1}, {{0.0, 1.0, 0.0}, Vector3::Zero(), Vector3(0.2, 0.0, 0.0)}));
+    }
+    if (i == 20) {
+      keep(world.clear_force(BodyId{0}));
+      keep(world.clear_force(BodyId{1}));
+    }
+    return errors;
+  };
+  compare(train(integrator(), substeps()), 60, 48, set);
+}
+
 TEST_P(AffineMotion, DrivesAreSet) {
   for (const DriveKind drive : {DriveKind::torque, DriveKind::speed, DriveKind::angle}) {
     const Setter set = [&](World& world, int i) -> Errors {

@@ -16,15 +16,6 @@ using test::g;
 using test::right;
 using test::roll;
 
-StepSettings rope_step(IntegratorKind integrator, double dt, int substeps = 1) {
-  StepSettings step;
-  step.dt = dt;
-  step.substeps = substeps;
-  step.solver = SolverKind::direct;
-  step.integrator = integrator;
-  return step;
-}
-
 void let_run(World& world, int steps) {
   for (int i = 0; i < steps; ++i) ASSERT_TRUE(world.step().ok());
 }
@@ -36,7 +27,7 @@ TEST(ControlsFeed, ARampIsItsIntegral) {
   auto mouth = attach(BodyId::world(), {0.0, 3.0, 0.0});
   mouth->feed_speed = 0.0;
   machine.cables.push_back(cable("rope", {mouth, attach(load)}));
-  machine.model.step = rope_step(IntegratorKind::rattle, 0.01, 2);
+  machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01, 2);
   Simulation s = test::start(machine);
   let_run(s.world, 5);
   EXPECT_NEAR(s.world.position({0}).y(), 0.0, 1e-12);
@@ -70,7 +61,7 @@ TEST(ControlsCable, ComplianceIsThatOfTheSpring) {
     }
     machine.cables[0].compliance = 1e-4;
     machine.cables[0].damping = 200.0;
-    machine.model.step = rope_step(IntegratorKind::rattle, 0.01, 2);
+    machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01, 2);
     Simulation s = test::start(machine);
     let_run(s.world, 300);
     EXPECT_NEAR(s.world.position({0}).y(), -2.0 * g * 1e-4, 1e-9);
@@ -98,7 +89,7 @@ TEST(ControlsCable, FrictionIsThatOfThePost) {
   auto over = roll(on, right);
   over->friction = 0.3;
   machine.cables.push_back(cable("rope", {attach(light), over, attach(heavy)}));
-  machine.model.step = rope_step(IntegratorKind::rattle, 0.005, 2);
+  machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.005, 2);
   Simulation s = test::start(machine);
   let_run(s.world, 20);
   // e^(0.3 pi) = 2.57 holds 2 : 1.
@@ -122,7 +113,7 @@ TEST(ControlsCable, BreaksAtATensionThatIsSet) {
     machine.cables.push_back(
         cable("rope", {attach(BodyId::world(), {0.0, 3.0, 0.0}), attach(load)}));
     if (defined) machine.cables[0].breaking_tension = 100.0;
-    machine.model.step = rope_step(IntegratorKind::rattle, 0.01, 2);
+    machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01, 2);
     Simulation s = test::start(machine);
     let_run(s.world, 10);
     ASSERT_TRUE(s.set_breaking_tension(0, 25.0).empty());

@@ -16,15 +16,6 @@ using test::g;
 using test::right;
 using test::roll;
 
-StepSettings led_step(IntegratorKind integrator, double dt, int substeps = 1) {
-  StepSettings step;
-  step.dt = dt;
-  step.substeps = substeps;
-  step.solver = SolverKind::direct;
-  step.integrator = integrator;
-  return step;
-}
-
 void lead(World& world, int steps) {
   for (int i = 0; i < steps; ++i) ASSERT_TRUE(world.step().ok());
 }
@@ -54,10 +45,10 @@ TEST(ControlsMotion, WhatHangsOnATargetFeelsItsVelocity) {
   double previous = 0.0;
   for (const double dt : {0.02, 0.01}) {
     test::Machine machine = hanging(true);
-    machine.model.step = led_step(IntegratorKind::rattle, dt, 4);
+    machine.model.step = test::direct_settings(IntegratorKind::rattle, dt, 4);
     Simulation table = test::start(machine);
     machine = hanging(false);
-    machine.model.step = led_step(IntegratorKind::rattle, dt, 4);
+    machine.model.step = test::direct_settings(IntegratorKind::rattle, dt, 4);
     // The velocity at the start comes from the definition; the hand is at rest, so the first target sets it off.
     Simulation led = test::start(machine);
     double worst = 0.0;
@@ -89,7 +80,7 @@ TEST(ControlsMotion, WhatHangsOnATargetFeelsItsVelocity) {
 
 TEST(ControlsMotion, GoesStraightAndStopsWithoutAVelocity) {
   test::Machine machine = hanging(false);
-  machine.model.step = led_step(IntegratorKind::xpbd, 0.01, 2);
+  machine.model.step = test::direct_settings(IntegratorKind::xpbd, 0.01, 2);
   Simulation s = test::start(machine);
   const Quaternion turned_by = rotation_by({0.3, -0.4, 0.5});
   MotionTarget target;
@@ -110,7 +101,7 @@ TEST(ControlsMotion, GoesStraightAndStopsWithoutAVelocity) {
 // The angular velocity that is told is how the orientation changes, also where the axis does.
 TEST(ControlsMotion, SpinIsTheRateOfTheOrientation) {
   Model model;
-  model.step = led_step(IntegratorKind::xpbd, 1e-3);
+  model.step = test::direct_settings(IntegratorKind::xpbd, 1e-3);
   BodyDef hand;
   hand.name = "hand";
   hand.mobility = Mobility::kinematic;
@@ -145,7 +136,7 @@ TEST(ControlsMotion, SpinIsTheRateOfTheOrientation) {
 
 TEST(ControlsMotion, ClearedItIsLedBackWithoutAJump) {
   test::Machine machine = hanging(true);
-  machine.model.step = led_step(IntegratorKind::rattle, 0.01);
+  machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
   Simulation s = test::start(machine);
   MotionTarget target;
   target.position = Vector3{0.0, 2.0, 0.0} + 0.3 * Vector3{0.05, 0.2, 0.0};
@@ -179,7 +170,7 @@ TEST(ControlsMotion, ATurningDrumWindsItsCable) {
   auto spool = roll(on, right);
   spool->stored_length = 5.0;
   machine.cables.push_back(cable("rope", {spool, attach(load)}));
-  machine.model.step = led_step(IntegratorKind::rattle, 0.01, 2);
+  machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01, 2);
   Simulation s = test::start(machine);
   const double y0 = s.world.position({1}).y();
   double angle = 0.0;

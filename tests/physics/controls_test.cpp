@@ -20,15 +20,6 @@ using test::g;
 using test::right;
 using test::roll;
 
-StepSettings fine(IntegratorKind integrator, double dt, int substeps = 1) {
-  StepSettings step;
-  step.dt = dt;
-  step.substeps = substeps;
-  step.solver = SolverKind::direct;
-  step.integrator = integrator;
-  return step;
-}
-
 constexpr std::array both{IntegratorKind::xpbd, IntegratorKind::rattle};
 
 void advance(World& world, int steps) {
@@ -46,7 +37,7 @@ bool same_motion(const State& a, const State& b) {
 TEST(ControlsForce, EqualsABodyWithThatConstantForce) {
   for (const IntegratorKind integrator : both) {
     Model model;
-    model.step = fine(integrator, 0.01, 2);
+    model.step = test::direct_settings(integrator, 0.01, 2);
     BodyDef lump = test::lump("lump", Vector3::Zero(), 2.0);
     lump.angular_velocity = {1.0, 2.0, 3.0};
     Model pushed = model;
@@ -81,7 +72,7 @@ TEST(ControlsForce, AtAPointThatTurnsWithTheBody) {
   std::array<double, 2> errors{};
   for (const int k : {0, 1}) {
     Model model;
-    model.step = fine(IntegratorKind::rattle, k == 0 ? 0.01 : 0.005);
+    model.step = test::direct_settings(IntegratorKind::rattle, k == 0 ? 0.01 : 0.005);
     BodyDef body;
     body.name = "plate";
     body.mobility = Mobility::planar;
@@ -107,7 +98,7 @@ TEST(ControlsForce, AtAPointThatTurnsWithTheBody) {
 // On a rotor whose axle a free block carries: the block gets the force and all of the torque but what spins the rotor.
 TEST(ControlsForce, OnAMountedRotorMovesItsCarrier) {
   Model model;
-  model.step = fine(IntegratorKind::rattle, 1e-3);
+  model.step = test::direct_settings(IntegratorKind::rattle, 1e-3);
   BodyDef block = test::lump("block", Vector3::Zero(), 4.0);
   const BodyId carrier = model.add(block);
   const BodyId rotor = model.add(test::sheave("rotor", carrier, {0.0, 0.0, 0.0}, 0.2, 1.0, 0.02));
@@ -127,7 +118,7 @@ TEST(ControlsGravity, EqualsAModelWithThatGravityFromThereOn) {
     test::Tackle tackle;
     tackle.strands = 4;
     test::Machine machine = tackle.machine();
-    machine.model.step = fine(integrator, 0.01, 2);
+    machine.model.step = test::direct_settings(integrator, 0.01, 2);
     Simulation a = test::start(machine);
     advance(a.world, 20);
     machine.model.gravity = {0.5, -3.0, 0.2};
@@ -164,7 +155,7 @@ TEST(ControlsDrive, AtOnceEqualsAModelWithThatDrive) {
   for (const IntegratorKind integrator : both) {
     for (const auto& [kind, value] : {std::pair{DriveKind::speed, 1.0}, {DriveKind::torque, 9.0}}) {
       test::Machine machine = winch(kind, {}, {0.0});
-      machine.model.step = fine(integrator, 0.01, 2);
+      machine.model.step = test::direct_settings(integrator, 0.01, 2);
       Simulation a = test::start(machine);
       machine.model.bodies[0].drive_values = {value};
       Simulation b = test::start(machine);
@@ -187,7 +178,7 @@ TEST(ControlsDrive, ARampEqualsATable) {
       const double lift = kind == DriveKind::torque ? 9.0 : 1.0;
       const double start = kind == DriveKind::torque ? 6.0 : 0.0;
       test::Machine machine = winch(kind, {}, {start});
-      machine.model.step = fine(integrator, 0.01, 2);
+      machine.model.step = test::direct_settings(integrator, 0.01, 2);
       Simulation a = test::start(machine);
       machine.model.bodies[0].drive_times = {0.0, 0.25};
       machine.model.bodies[0].drive_values = {start, lift};
@@ -212,7 +203,7 @@ TEST(ControlsDrive, ARampEqualsATable) {
 // at every substep, and no blows.
 TEST(ControlsDrive, ASpeedThatIsSetEveryStepIsAnAcceleration) {
   test::Machine machine = winch(DriveKind::speed, {}, {0.0});
-  machine.model.step = fine(IntegratorKind::rattle, 1.0 / 60.0, 4);
+  machine.model.step = test::direct_settings(IntegratorKind::rattle, 1.0 / 60.0, 4);
   Simulation s = test::start(machine);
   for (int i = 1; i <= 30; ++i) {
     ASSERT_TRUE(s.world.set_drive({0}, 2.0 * i / 60.0).empty());
@@ -230,7 +221,7 @@ TEST(ControlsDrive, ASpeedThatIsSetEveryStepIsAnAcceleration) {
 
 TEST(ControlsDrive, ClearedItFollowsItsTableAgain) {
   test::Machine machine = winch(DriveKind::speed, {}, {0.5});
-  machine.model.step = fine(IntegratorKind::rattle, 0.01);
+  machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
   Simulation s = test::start(machine);
   ASSERT_TRUE(s.world.set_drive({0}, {1.0, 0.0}).empty());
   advance(s.world, 5);
@@ -263,7 +254,7 @@ TEST(ControlsJointDrive, ARampEqualsATable) {
          {CoordinateDrive::position, CoordinateDrive::speed, CoordinateDrive::force}) {
       const double goal = kind == CoordinateDrive::force ? 12.0 : 0.8;
       Model model = driven_bar(kind, {}, {0.0});
-      model.step = fine(integrator, 0.01, 2);
+      model.step = test::direct_settings(integrator, 0.01, 2);
       World a = test::start(model);
       model.joints = driven_bar(kind, {0.0, 0.3}, {0.0, goal}).joints;
       World b = test::start(model);
@@ -284,7 +275,7 @@ TEST(ControlsJointDrive, ARampEqualsATable) {
 // The drive may have 5 N m; it takes 2 kg x 9.81 x 0.5 m = 9.81 N m to hold the bar up. It sinks with the rest.
 TEST(ControlsJointDrive, StallsAtALimitThatIsSet) {
   Model model = driven_bar(CoordinateDrive::speed, {}, {0.0});
-  model.step = fine(IntegratorKind::rattle, 1e-3);
+  model.step = test::direct_settings(IntegratorKind::rattle, 1e-3);
   World world = test::start(model);
   advance(world, 10);
   EXPECT_NEAR(joint_reports(world)[0].coordinates[0].drive_force, 9.81, 1e-6);

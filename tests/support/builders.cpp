@@ -43,6 +43,15 @@ StepSettings settings(double dt, int substeps, int iterations) {
   return step;
 }
 
+StepSettings direct_settings(IntegratorKind integrator, double dt, int substeps) {
+  StepSettings step;
+  step.dt = dt;
+  step.substeps = substeps;
+  step.solver = SolverKind::direct;
+  step.integrator = integrator;
+  return step;
+}
+
 BodyDef wheel(std::string name, const Vector3& center, double radius, double inertia) {
   BodyDef body;
   body.name = std::move(name);

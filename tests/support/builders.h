@@ -34,6 +34,8 @@ void run(World& world, double time);
 
 /// The paper's settings with these dt, substeps and iterations.
 [[nodiscard]] StepSettings settings(double dt, int substeps, int iterations);
+/// The direct solver with its own number of rounds.
+[[nodiscard]] StepSettings direct_settings(IntegratorKind integrator, double dt, int substeps = 1);
 
 /// A wheel on a fixed axle along z with the moment of inertia `inertia` about it; mass 1 kg.
 [[nodiscard]] BodyDef wheel(std::string name, const Vector3& center, double radius, double inertia);

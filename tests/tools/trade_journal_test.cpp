@@ -22,7 +22,7 @@ TEST(TradeJournal, IsReadAsStrictlyAsAScene) {
                                          journal,  "--solver",
                                          "direct", "--substeps",
                                          "1",      "--reference-seconds",
-                                         "0.1",    "--repetitions",
+                                         "1e6",    "--repetitions",
                                          "1"};
   ASSERT_EQ(run_sheave(command).exit_code, 0);
   const json good = json::parse(read_file(journal));
