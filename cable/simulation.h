@@ -33,6 +33,9 @@ class Supervisor {
   [[nodiscard]] virtual std::vector<double> initial_memory() const = 0;
   /// Called before each substep.
   virtual void supervise(Simulation& simulation) const = 0;
+  /// The same for a simulation that has been edited, in which it finds what it controls by name; its memory stays as it is.
+  [[nodiscard]] virtual Result<std::shared_ptr<const Supervisor>> again(
+      const Simulation& simulation) const = 0;
   /// Whether the run shall end with this state.
   [[nodiscard]] virtual bool has_stopped(const State& state) const = 0;
 };

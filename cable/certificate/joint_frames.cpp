@@ -104,7 +104,8 @@ class FrameMaker {
 
  private:
   [[nodiscard]] Vector3 own(int body, const Vector3& point) const {
-    return bodies_.initial_local(body, point) - bodies_[body].center_of_mass;
+    const BodyFrame frame = bodies_.frame(body, frame_.defined_in);
+    return frame.orientation.conjugate() * (point - frame.position) - bodies_[body].center_of_mass;
   }
   void anchor(const Vector3& point) const {
     frame_.own_anchor_a = own(frame_.body_a, point);
@@ -151,6 +152,7 @@ JointFrame frame_of(const BodySet& bodies, const JointDef& joint) {
   JointFrame frame;
   frame.body_a = bodies.index(joint.body_a);
   frame.body_b = bodies.index(joint.body_b);
+  frame.defined_in = joint.defined_in;
   visit_joint(joint, FrameMaker(bodies, frame));
   return frame;
 }

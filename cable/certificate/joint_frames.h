@@ -25,7 +25,8 @@ struct JointFrame {
   int carrier = -1;
   Vector3 own_anchor_a = Vector3::Zero();  ///< own frames
   Vector3 own_anchor_b = Vector3::Zero();
-  Vector3 axis_a = Vector3::UnitZ();  ///< world frame at time 0; of gears that of body_a's rotation
+  Vector3 axis_a =
+      Vector3::UnitZ();  ///< world frame when defined; of gears that of body_a's rotation
   Vector3 axis_b = Vector3::UnitZ();
   double compliance = 0.0;
   double angular_compliance = 0.0;
@@ -35,9 +36,11 @@ struct JointFrame {
   double upper = 0.0;
   double damping = 0.0;
 
-  /// Rotation of a body since time 0.
-  [[nodiscard]] static Quaternion turned_by(const Moment& now, int body) {
-    return now.orientation(body) * now.bodies->initial_orientation(body).conjugate();
+  BodyFrames defined_in;  ///< of the joint
+
+  /// Rotation of a body since the joint was defined.
+  [[nodiscard]] Quaternion turned_by(const Moment& now, int body) const {
+    return now.orientation(body) * now.bodies->frame(body, defined_in).orientation.conjugate();
   }
   [[nodiscard]] Vector3 anchor_a(const Moment& now) const {
     return now.point(body_a, own_anchor_a);

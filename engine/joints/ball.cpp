@@ -115,7 +115,7 @@ std::unique_ptr<ConstraintBatch> BallJoint::make_batch(
     const auto& joint = static_cast<const BallJoint&>(*def);
     const Quaternion frame = frame_along(joint.axis.value_or(Vector3::UnitZ()));
     JointParts<BallKernel> part{
-        {AnchorPair::at_start(bodies, joint.body_a, joint.body_b, joint.anchor, frame),
+        {AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b, joint.anchor, frame),
          joint.compliance},
         {}};
     JointCoordinate swing;

@@ -72,10 +72,11 @@ std::unique_ptr<ConstraintBatch> CylindricalJoint::make_batch(
   std::vector<JointParts<CylindricalKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const CylindricalJoint&>(*def);
-    JointParts<CylindricalKernel> part{{AnchorPair::at_start(bodies, joint.body_a, joint.body_b,
-                                                             joint.anchor, frame_along(joint.axis)),
-                                        joint.compliance, joint.angular_compliance},
-                                       {}};
+    JointParts<CylindricalKernel> part{
+        {AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b, joint.anchor,
+                              frame_along(joint.axis)),
+         joint.compliance, joint.angular_compliance},
+        {}};
     append_effects(joint.travel, 0, part.effects);
     append_effects(joint.angle, 1, part.effects);
     parts.push_back(std::move(part));

@@ -102,8 +102,8 @@ std::unique_ptr<ConstraintBatch> DistanceJoint::make_batch(
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const DistanceJoint&>(*def);
     DistanceKernel kernel;
-    kernel.a = Anchor::at_start(bodies, joint.body_a, joint.anchor_a);
-    kernel.b = Anchor::at_start(bodies, joint.body_b, joint.anchor_b);
+    kernel.a = Anchor::at_start(bodies, joint, joint.body_a, joint.anchor_a);
+    kernel.b = Anchor::at_start(bodies, joint, joint.body_b, joint.anchor_b);
     kernel.start_length = (joint.anchor_a - joint.anchor_b).norm();
     kernel.length = joint.length.value_or(kernel.start_length);
     kernel.compliance = joint.compliance;

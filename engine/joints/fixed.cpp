@@ -51,7 +51,7 @@ std::unique_ptr<ConstraintBatch> FixedJoint::make_batch(
   std::vector<JointParts<FixedKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const FixedJoint&>(*def);
-    parts.push_back({{AnchorPair::at_start(bodies, joint.body_a, joint.body_b, joint.anchor),
+    parts.push_back({{AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b, joint.anchor),
                       joint.compliance, joint.angular_compliance},
                      {}});
   }

@@ -64,8 +64,9 @@ std::unique_ptr<ConstraintBatch> GearJoint::make_batch(
     const auto& joint = static_cast<const GearJoint&>(*def);
     const auto side = [&](BodyId body, const Vector3& axis) {
       const int index = bodies.index(body);
-      const Vector3 center = bodies.initial_state().bodies[at(index)].position;
-      return AnchorPair::at_start(bodies, joint.carrier, body, center, frame_along(axis));
+      const BodyFrame frame = bodies.frame(index, joint.defined_in);
+      const Vector3 center = frame.position + frame.orientation * bodies[index].center_of_mass;
+      return AnchorPair::at_start(bodies, joint, joint.carrier, body, center, frame_along(axis));
     };
     JointParts<GearKernel> part{
         {side(joint.body_a, joint.axis_a), side(joint.body_b, joint.axis_b)}, {}};

@@ -69,7 +69,7 @@ std::unique_ptr<ConstraintBatch> HingeJoint::make_batch(
   std::vector<JointParts<HingeKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const HingeJoint&>(*def);
-    JointParts<HingeKernel> part{{AnchorPair::at_start(bodies, joint.body_a, joint.body_b,
+    JointParts<HingeKernel> part{{AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b,
                                                        joint.anchor, frame_along(joint.axis)),
                                   joint.compliance, joint.angular_compliance},
                                  {}};

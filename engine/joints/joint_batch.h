@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -60,6 +61,7 @@ class JointBatch final : public JointFeature {
       effects_.insert(effects_.end(), joints[j].effects.begin(), joints[j].effects.end());
       joint.reported = static_cast<int>(definition.coordinates().size());
       names_.push_back(definition.name);
+      definitions_.push_back(&definition);
       limits_.push_back({definition.breaking_force, definition.breaking_torque});
       breakable_ = breakable_ || definition.breaking_force || definition.breaking_torque;
       joints_.push_back(joint);
@@ -189,6 +191,17 @@ class JointBatch final : public JointFeature {
     }
     return nullptr;
   }
+  void adopt(const ConstraintBatch& before, const FeatureState& from,
+             FeatureState& own) const override {
+    const auto* other = dynamic_cast<const JointBatch*>(&before);
+    if (other == nullptr) return;
+    std::map<const JointDef*, std::size_t> places;
+    for (std::size_t k = 0; k < other->joints_.size(); ++k) places[other->definitions_[k]] = k;
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const auto found = places.find(definitions_[j]);
+      if (found != places.end()) adopt(j, *other, found->second, from, own);
+    }
+  }
   void number_coordinates(std::span<const int> first) override {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       for (int i = 0; i < joints_[j].effect_count; ++i) {
@@ -216,6 +229,24 @@ class JointBatch final : public JointFeature {
     std::optional<double> torque;
   };
 
+  /// Takes over the joint at `place` of another batch for that at `index`.
+  void adopt(std::size_t index, const JointBatch& other, std::size_t place,
+             const FeatureState& from, FeatureState& own) const {
+    const Joint& now = joints_[index];
+    const Joint& then = other.joints_[place];
+    if (now.lock_count == then.lock_count) {
+      std::copy_n(from.reals.begin() + then.first_row, now.lock_count + now.effect_count,
+                  own.reals.begin() + now.first_row);
+    }
+    const auto rows = [](const JointBatch& batch) {
+      return static_cast<std::ptrdiff_t>(batch.multipliers_.size());
+    };
+    if (now.first_coordinate >= 0) {
+      std::copy_n(from.reals.begin() + rows(other) + then.first_coordinate, coordinate_count,
+                  own.reals.begin() + rows(*this) + now.first_coordinate);
+    }
+    own.reals[multipliers_.size() + starts_.size() + index] = other.broken_at(from, place);
+  }
   static bool is_restricted(const BodySet& bodies, BodyId body) {
     if (body.is_world()) return false;
     const Mobility mobility = bodies[bodies.index(body)].mobility;
@@ -401,6 +432,8 @@ class JointBatch final : public JointFeature {
   std::vector<Joint> joints_;
   std::vector<JointEffect> effects_;
   std::vector<std::string> names_;
+  std::vector<const JointDef*>
+      definitions_;  // which a joint is known by, in all worlds that have it
   std::vector<BreakingLimits> limits_;
   bool breakable_ = false;
   bool elastic_ = false;

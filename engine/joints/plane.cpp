@@ -95,7 +95,7 @@ std::unique_ptr<ConstraintBatch> PlaneJoint::make_batch(
   std::vector<JointParts<PlaneKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const PlaneJoint&>(*def);
-    JointParts<PlaneKernel> part{{AnchorPair::at_start(bodies, joint.body_a, joint.body_b,
+    JointParts<PlaneKernel> part{{AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b,
                                                        joint.anchor, frame_along(joint.normal)),
                                   joint.compliance, joint.angular_compliance},
                                  {}};

@@ -66,9 +66,9 @@ std::unique_ptr<ConstraintBatch> RackJoint::make_batch(
   std::vector<JointParts<RackKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const RackJoint&>(*def);
-    JointParts<RackKernel> part{{AnchorPair::at_start(bodies, joint.carrier, joint.body_a,
+    JointParts<RackKernel> part{{AnchorPair::at_start(bodies, joint, joint.carrier, joint.body_a,
                                                       joint.anchor, frame_along(joint.axis)),
-                                 AnchorPair::at_start(bodies, joint.carrier, joint.body_b,
+                                 AnchorPair::at_start(bodies, joint, joint.carrier, joint.body_b,
                                                       joint.anchor, frame_along(joint.direction))},
                                 {}};
     append_coupling(joint.radius, joint.compliance, joint.backlash, part.effects);

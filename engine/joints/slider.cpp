@@ -62,7 +62,7 @@ std::unique_ptr<ConstraintBatch> SliderJoint::make_batch(
   std::vector<JointParts<SliderKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const SliderJoint&>(*def);
-    JointParts<SliderKernel> part{{AnchorPair::at_start(bodies, joint.body_a, joint.body_b,
+    JointParts<SliderKernel> part{{AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b,
                                                         joint.anchor, frame_along(joint.axis)),
                                    joint.compliance, joint.angular_compliance},
                                   {}};

@@ -108,7 +108,8 @@ std::unique_ptr<ConstraintBatch> UniversalJoint::make_batch(
     axes.col(2) = axes.col(0).cross(joint.axis_b).normalized();
     axes.col(1) = axes.col(2).cross(axes.col(0));
     JointParts<UniversalKernel> part{
-        {AnchorPair::at_start(bodies, joint.body_a, joint.body_b, joint.anchor, Quaternion(axes)),
+        {AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b, joint.anchor,
+                              Quaternion(axes)),
          joint.compliance, joint.angular_compliance},
         {}};
     append_effects(joint.angle_a, 0, part.effects);
