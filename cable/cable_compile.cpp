@@ -58,7 +58,7 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
     const auto link = static_cast<int>(i);
     s.initial_.integers[s.next_index(link)] = next_links_[i];
     if (s.links_[i].starts_lifted) {
-      s.initial_.integers[s.mode_index(link)] = CableSystem::lifted_mode;
+      s.initial_.integers[s.mode_index(link)] = RunningLink::lifted_mode;
     }
     if (s.links_[i].changes()) s.changing_links_.push_back(link);
     s.has_layers_ = s.has_layers_ || s.links_[i].layer_pitch > 0.0;

@@ -47,7 +47,7 @@ void CableCompiler::compile_links(const CableDef& def) {
 void CableCompiler::lift_links(const RunningCable& running) {
   std::size_t i = 0;
   for (const RunningLink& link : running.links) {
-    if (link.is_listed()) links_[i++].starts_lifted = link.mode >= CableSystem::lifted_mode;
+    if (link.is_listed()) links_[i++].starts_lifted = link.mode >= RunningLink::lifted_mode;
   }
 }
 

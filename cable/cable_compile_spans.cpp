@@ -89,6 +89,11 @@ void CableCompiler::check_span(const CableDef& def, int first, int second) {
                       "would do nothing");
     return check_rest_length(def, first, span);
   }
+  if (on_one_outline(a, b)) {
+    return fail(field, pair +
+                           " run over one outline, one behind the other: no span can be between "
+                           "them; use \"turns\" for more of it");
+  }
   if (span.has_tangent) return check_rest_length(def, first, span);
   explain_missing_tangent(first, second);
 }

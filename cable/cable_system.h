@@ -28,23 +28,10 @@ namespace sheave {
 /// The feature "cables" of a world; its state is laid out as cable/cable_state_layout.h says.
 class CableSystem final : public ConstraintBatch, public CableStateLayout {
  public:
-  /// Checks and compiles the cables. Errors have paths "/cables/i/...". `starts`, one per cable or none: where those of an
-  /// edited world come from; continue_from() then gives them their state.
+  /// Checks and compiles the cables. Errors have paths "/cables/i/...". `starts`, per cable: see CableTransfer.
   static Result<std::unique_ptr<CableSystem>> create(const std::vector<CableDef>& cables,
                                                      const BodySet& bodies,
                                                      std::span<const CableStart> starts = {});
-
-  // Between two worlds: cable/running_cable.cpp.
-  [[nodiscard]] RunningCable running_cable(int cable, const CableDef& definition,
-                                           const FeatureState& own, const Controls& controls) const;
-  /// Makes initial_state() that in which cables go on from another world, whose cables had the state `from`; null: there were none.
-  [[nodiscard]] Errors continue_from(const CableSystem* before, const FeatureState* from,
-                                     std::span<const CableStart> starts);
-  /// By how much the cable is too short where that is worst [m], in a state `now` that cables have the part `own` of.
-  [[nodiscard]] double missing_length(const Substep& now, const FeatureState& own, int cable);
-  /// Why the cable cannot begin as in initial_state(), with bodies as `now`; one that is too short by no more than `allowed`
-  /// [m] has been so before.
-  [[nodiscard]] std::string start_fault(const Substep& now, int cable, double allowed);
 
   [[nodiscard]] const std::vector<CompiledCable>& cables() const { return cables_; }
   /// One report per cable for a state of the world this system is a feature of; `own` is the
@@ -125,25 +112,13 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
 
  private:
   friend class CableCompiler;
+  friend class CableTransfer;  // between two worlds
   CableSystem() = default;
   using StretchedSpan = cable_parts::StretchedSpan;
   /// The row of a span; of a material what it was made of, too, if `kept` is not null.
   SpanGeometry evaluate(const Substep& substep, int span, Row& row,
                         StretchedSpan* kept = nullptr) const;
   [[nodiscard]] SpanGeometry geometry_of(const Substep& substep, int span) const;
-
-  // Between two worlds: cable/running_cable.cpp.
-  [[nodiscard]] RunningLink running_link(int cable, int link, const FeatureState& own,
-                                         const Controls& controls) const;
-  void put_link(int cable, int link, const RunningLink& running, FeatureState& own);
-  /// Gives links that have just been inserted what lies on them, and shares the rest of their span; why that cannot be.
-  [[nodiscard]] std::string share_with_fresh(int cable, RunningCable& running) const;
-  /// Gives the cable the state `running`; why it cannot.
-  [[nodiscard]] std::string put_cable(int cable, const RunningCable& running, FeatureState& own);
-  /// Whether its part of the state has the form of that of cable `then` of another system.
-  [[nodiscard]] bool has_layout_of(int cable, const CableSystem& before, int then) const;
-  void copy_cable(int cable, const CableSystem& before, int then, const FeatureState& from,
-                  FeatureState& own);
 
   // What has been set: cable/cable_controls.cpp.
   /// Makes cables_, links_ and spans_ those of the state at the start of the substep.
@@ -202,8 +177,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   double weigh_run(const CompiledCable& cable, std::size_t count, double heaviest, double h,
                    RunValue& value);
   double solve_run(Substep& substep, const CompiledCable& cable, Run run);
-  /// Puts the rest lengths that spans of the run have before anything passes their links into run_spare_, and those that go
-  /// with their tensions into run_lengths_ [m]. Whether any of them has one.
+  /// Into run_spare_ the rest lengths before anything passes the links, into run_lengths_ those with the tensions [m]; whether any has one.
   bool shorten_run(const Substep& substep, const CompiledCable& cable, Run run);
   /// The same of a material.
   bool stretch_run(const Substep& substep, const CompiledCable& cable, Run run);
@@ -305,8 +279,6 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   void change_end(const Substep& substep, const CompiledCable& cable, int index, int span,
                   bool first, FeatureState& next);
   // The order in which a cable runs over its links: cable/cable_course.cpp.
-  static constexpr std::int64_t lifted_mode = RunningLink::lifted_mode;
-  static constexpr std::int64_t passed_mode = RunningLink::passed_mode;
   [[nodiscard]] static int span_before(const CompiledCable& cable, int link,
                                        const std::vector<SpanSetup>& spans);
   [[nodiscard]] static int span_after(const CompiledCable& cable, int link) {
@@ -336,8 +308,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   /// Lets the span touch the first body that it cuts; false if there is none.
   bool touch_on_span(const Substep& substep, int cable, int span, FeatureState& next);
   [[nodiscard]] int listed_before(const CompiledCable& cable, int span) const;
-  /// Winds on or off the cable by which a span's end moves along its link, of a material with `strain`; returns what the
-  /// span gains [m].
+  /// Winds on or off what a span's end moves along its link, of a material with `strain`; what the span gains [m].
   double shift_contact(const Substep& substep, const CompiledCable& cable, int link,
                        const SpanGeometry& from, const SpanGeometry& to, bool first, double strain,
                        FeatureState& next) const;

@@ -32,6 +32,7 @@ EditDraft::EditDraft(LiveRevision& from, std::uint32_t& generation)
 BodyHandle Edit::add(BodyDef body) {
   const BodyHandle handle = draft_.bodies.add(-1, draft_.next_generation++);
   const std::size_t slot = at(handle.slot);
+  draft_.has_other_bodies = true;
   draft_.bodies.set_index(slot, handle.slot);
   if (slot >= draft_.model.bodies.size()) {
     draft_.model.bodies.resize(slot + 1);
@@ -65,6 +66,7 @@ void Edit::add(const ColliderDef& collider) { draft_.model.colliders.push_back(c
 
 void Edit::remove(BodyHandle body) {
   if (!draft_.check(draft_.bodies, body, "body")) return;
+  draft_.has_other_bodies = true;
   BodyDef& definition = draft_.model.bodies[at(body.slot)];
   draft_.bodies.remove(body, definition.name);
   definition = no_body(at(body.slot));
@@ -114,6 +116,7 @@ void Edit::change(BodyHandle body, const std::function<void(BodyDef&)>& change) 
     return;
   }
   definition = std::move(changed);
+  draft_.has_other_bodies = true;
 }
 
 void Edit::set_step(const StepSettings& step) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cable/cable_transfer.h"
 #include "cable/edit_draft.h"
 #include "cable/links/attachment.h"
 #include "engine/field_check.h"
@@ -111,11 +112,13 @@ DraftCable* EditDraft::running(CableHandle handle, bool may_be_cut) {
     own.running = record.running;
     if (record.place >= 0) {
       const State& state = before.world().state();
-      own.running = before.system()->running_cable(record.place, record.definition,
-                                                   state.features.back(), state.controls);
+      own.running = CableTransfer(*before.system())
+                        .running_cable(record.place, record.definition, state.features.back(),
+                                       state.controls);
       own.running.control.added_length = 0.0;
       const Substep now(before.world().bodies(), state, model.step.dt, 1);
-      own.excess = before.system()->missing_length(now, state.features.back(), record.place);
+      own.excess =
+          CableTransfer(*before.system()).missing_length(now, state.features.back(), record.place);
     }
     own.runs = true;
     own.definition.rest_lengths.clear();

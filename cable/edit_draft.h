@@ -35,19 +35,21 @@ struct EditDraft {
   SlotTable<BodyTag> bodies;
   SlotTable<JointTag> joints;
   SlotTable<CableTag> cables;
-  std::vector<char> is_new;  ///< per body: not the one that was there before
+  bool has_other_bodies = false;  ///< than the world before
+  std::vector<char> is_new;       ///< per body: not the one that was there before
   std::vector<DraftJoint> own_joints;
   std::map<int, DraftCable>
       own_cables;  ///< by slot; those that are not among them are as they were
   Errors errors;
 
   void fail(std::string message) { errors.push_back({"", std::move(message)}); }
-  /// Adds a fault if the handle refers to nothing; else true.
+  /// Whether the handle refers to something; if not, that is a fault.
   template <class Tag>
   bool check(const SlotTable<Tag>& slots, Handle<Tag> handle, std::string_view kind) {
     std::string fault = slots.fault_of(handle, kind);
-    if (!fault.empty()) fail(std::move(fault));
-    return fault.empty();
+    if (fault.empty()) return true;
+    fail(std::move(fault));
+    return false;
   }
   /// The cable, taken apart; null, and a fault, if it cannot be changed.
   DraftCable* running(CableHandle handle, bool may_be_cut = false);

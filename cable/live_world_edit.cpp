@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "cable/cable_transfer.h"
 #include "cable/edit_draft.h"
 #include "cable/live_world.h"
 #include "engine/field_check.h"
@@ -110,8 +111,10 @@ BodyState EditMaker::state_of(int body, const State& initial) const {
   }
   if (is_new) return initial.bodies[at(body)];
   BodyState state = then_.bodies[at(body)];
+  const Vector3& before = old_.bodies()[body].center_of_mass;
+  if (own.center_of_mass == before) return state;
   // Its frame stays where it is, whatever has become of its centre of mass.
-  const Vector3 way = state.orientation * (own.center_of_mass - old_.bodies()[body].center_of_mass);
+  const Vector3 way = state.orientation * (own.center_of_mass - before);
   state.position += way;
   state.velocity += state.angular_velocity.cross(way);
   return state;
@@ -190,7 +193,7 @@ std::unique_ptr<CableSystem> EditMaker::make_cables() {
     return nullptr;
   }
   const FeatureState* from = draft_.before.system() != nullptr ? &then_.features.back() : nullptr;
-  for (Error& error : (*made)->continue_from(draft_.before.system(), from, starts)) {
+  for (Error& error : CableTransfer(**made).continue_from(draft_.before.system(), from, starts)) {
     draft_.errors.push_back(std::move(error));
   }
   return std::move(*made);
@@ -200,7 +203,8 @@ void EditMaker::check_cables() {
   const Substep now(*bodies_, now_, draft_.model.step.dt, 1);
   for (std::size_t c = 0; c < kept_.size(); ++c) {
     if (kept_[c].start.running == nullptr) continue;
-    std::string fault = system_->start_fault(now, static_cast<int>(c), kept_[c].allowed);
+    std::string fault =
+        CableTransfer(*system_).start_fault(now, static_cast<int>(c), kept_[c].allowed);
     if (!fault.empty()) fail(std::move(fault));
   }
 }
@@ -294,10 +298,14 @@ Result<std::shared_ptr<LiveRevision>> EditMaker::make() {
   list_joints();
   check_references();
   if (!draft_.errors.empty()) return draft_.errors;
-  place_rotors();
-  Result<BodySet> bodies = BodySet::create(draft_.model);
-  if (!bodies) return bodies.errors();
-  bodies_ = std::make_shared<const BodySet>(std::move(*bodies));
+  if (draft_.has_other_bodies) {
+    place_rotors();
+    Result<BodySet> bodies = BodySet::create(draft_.model);
+    if (!bodies) return bodies.errors();
+    bodies_ = std::make_shared<const BodySet>(std::move(*bodies));
+  } else {
+    bodies_ = old_.shared_bodies();
+  }
   move_bodies();
   for (const DraftJoint& joint : draft_.own_joints) {
     if (joint.added != nullptr) joint.added->defined_in = frames_;
@@ -346,8 +354,8 @@ double length_of(const LiveRevision& revision, std::size_t slot) {
   if (record.place < 0) return length + record.running.length();
   const State& state = revision.world().state();
   return length +
-         revision.system()
-             ->running_cable(record.place, record.definition, state.features.back(), state.controls)
+         CableTransfer(*revision.system())
+             .running_cable(record.place, record.definition, state.features.back(), state.controls)
              .length();
 }
 

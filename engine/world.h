@@ -125,6 +125,8 @@ class World {
 
   [[nodiscard]] const Model& model() const;
   [[nodiscard]] const BodySet& bodies() const;
+  /// The same, for another world of the same bodies.
+  [[nodiscard]] std::shared_ptr<const BodySet> shared_bodies() const;
   [[nodiscard]] const State& state() const;
   [[nodiscard]] const std::vector<Stage>& stages() const;  ///< of one substep
   [[nodiscard]] std::span<const std::unique_ptr<ConstraintBatch>> features() const;

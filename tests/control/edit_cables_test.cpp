@@ -8,42 +8,22 @@
 #include "cable/links/spool.h"
 #include "cable/live_world.h"
 #include "tests/support/builders.h"
+#include "tests/support/live.h"
 
 namespace sheave {
 namespace {
 
+using test::advance;
 using test::attach;
 using test::cable;
+using test::edit;
 using test::g;
 using test::left;
+using test::live;
 using test::right;
 using test::roll;
+using test::worst_figure;
 using testing::HasSubstr;
-
-constexpr std::array both{IntegratorKind::xpbd, IntegratorKind::rattle};
-
-LiveWorld live(const test::Machine& machine) {
-  Result<LiveWorld> world = LiveWorld::create(machine.model, machine.cables);
-  EXPECT_TRUE(world.ok()) << test::text(world.errors());
-  return std::move(*world);
-}
-
-EditReport edit(LiveWorld& world, const std::function<void(Edit&)>& changes) {
-  Result<EditReport> done = world.edit(changes);
-  EXPECT_TRUE(done.ok()) << (done ? std::string() : test::text(done.errors()));
-  return done ? *done : EditReport{};
-}
-
-void advance(LiveWorld& world, int steps) {
-  for (int i = 0; i < steps; ++i) ASSERT_TRUE(world.step().ok());
-}
-
-/// The worst figure of the certificate, relative.
-double worst(const LiveWorld& world) {
-  const std::optional<Certificate> certificate = world.simulation().certificate();
-  EXPECT_TRUE(certificate.has_value());
-  return certificate->worst() != nullptr ? certificate->worst()->relative : 0.0;
-}
 
 /// A body that slides along x.
 BodyDef sled(const char* name, double x, double mass) {
@@ -54,7 +34,7 @@ BodyDef sled(const char* name, double x, double mass) {
 
 // Two ends that move apart are joined with some slack: when it is used up, m1 v / (m1 + m2).
 TEST(EditCables, JoiningTwoMovingEndsIsAnInelasticImpact) {
-  for (const IntegratorKind integrator : both) {
+  for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     test::Machine machine;
     machine.model.step = test::direct_settings(integrator, 0.01);
     BodyDef fast = sled("fast", 0.0, 2.0);
@@ -90,7 +70,7 @@ TEST(EditCables, JoiningTwoMovingEndsIsAnInelasticImpact) {
 
 // At rest a cable that is just long enough changes neither energy nor momentum, and bears the load when another one goes.
 TEST(EditCables, AttachingAtRestChangesNothing) {
-  for (const IntegratorKind integrator : both) {
+  for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     test::Machine machine;
     machine.model.gravity = test::down;
     machine.model.step = test::direct_settings(integrator, 0.01, 2);
@@ -99,25 +79,26 @@ TEST(EditCables, AttachingAtRestChangesNothing) {
     LiveWorld world = live(machine);
     advance(world, 10);
     CableHandle fresh;
+    const double speed = world.state().bodies[0].velocity.y();
     const EditReport added = edit(world, [&](Edit& e) {
       fresh = e.add(cable("new", {attach(BodyId::world()), attach(BodyId{0})}));
     });
     EXPECT_EQ(added.energy.total(), 0.0);
     ASSERT_EQ(added.cables.size(), 1U);
     EXPECT_NEAR(added.cables[0].added, 2.0, 1e-9);
-    EXPECT_EQ(world.pose(*world.body("load"))->velocity.norm(), 0.0);
+    EXPECT_EQ(world.state().bodies[0].velocity.y(), speed);
     edit(world, [&](Edit& e) { e.remove(*world.cable("old")); });
     advance(world, 10);
     EXPECT_NEAR(*world.tension(fresh, 0), 3.0 * g, 1e-6);
     EXPECT_NEAR(world.pose(*world.body("load"))->position.y(), -2.0, 1e-9);
-    EXPECT_LT(worst(world), 1e-6);
+    EXPECT_LT(worst_figure(world), 1e-6);
   }
 }
 
 // Each span is a spring: what is released is the sum of T^2 c / 2 over those that lose their hold, and the weights fall.
 TEST(EditCables, SplittingATautCableReleasesItsEnergy) {
   const double compliance = 1e-4;
-  for (const IntegratorKind integrator : both) {
+  for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     test::Machine machine = test::Atwood{2.0, 2.0}.machine();
     machine.model.step = test::direct_settings(integrator, 0.005);
     machine.cables[0].compliance = compliance;
@@ -164,7 +145,7 @@ TEST(EditCables, APieceHoldsUpToItsLastAttachment) {
   EXPECT_NEAR(*world.tension(rope, 0), 1.0 * g, 1e-6);
   EXPECT_NEAR(world.pose(*world.body("upper"))->position.y(), -1.0, 1e-9);
   EXPECT_LT(world.pose(*world.body("lower"))->position.y(), -2.1);
-  EXPECT_LT(worst(world), 1e-6);
+  EXPECT_LT(worst_figure(world), 1e-6);
   // And the two halves are of use: the lower one catches its weight when it is tied to the upper one's end.
   const double drop = -1.0 - world.pose(*world.body("lower"))->position.y();
   EditReport tied = edit(world, [&](Edit& e) {
@@ -195,7 +176,10 @@ TEST(EditCables, SplitAndJoinedAgainItIsTheSame) {
   EXPECT_TRUE(report.cables.empty());
   EXPECT_EQ(report.energy.total(), 0.0);
   EXPECT_EQ(*world.length(rope), whole);
-  EXPECT_EQ(world.state().features.back().reals, alone.state().features.back().reals);
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(*world.rest_length(rope, i), *alone.rest_length(rope, i));
+  for (int i = 0; i < 7; ++i) {
+    EXPECT_EQ(*world.stored_length(rope, i), *alone.stored_length(rope, i));
+  }
   advance(world, 30);
   advance(alone, 30);
   for (std::size_t i = 0; i < world.state().bodies.size(); ++i) {
@@ -230,8 +214,7 @@ TEST(EditCables, InsertedWheelTakesItsArc) {
     const double span = *world.rest_length(handle, 1);
     auto wheel = roll(BodyId{1}, left);
     edit(world, [&](Edit& e) { e.insert(handle, 1, wheel); });
-    EXPECT_EQ(*world.length(handle),
-              elastic ? whole + CompiledCable::quantised(0.3, 1e-30, 1e30) : whole);
+    EXPECT_NEAR(*world.length(handle), elastic ? whole + 0.3 : whole, 1e-14);
     const double on_wheel = *world.stored_length(handle, 2);
     EXPECT_GT(on_wheel, 0.05);
     EXPECT_NEAR(*world.rest_length(handle, 1) + on_wheel + *world.rest_length(handle, 2), span,
@@ -242,11 +225,11 @@ TEST(EditCables, InsertedWheelTakesItsArc) {
                 report.spans[2].length / report.spans[2].rest_length, 1e-9);
     advance(world, 200);
     EXPECT_LT(std::abs(world.simulation().cable_reports()[0].length_error), 1e-14);
-    EXPECT_LT(worst(world), 1e-3);
+    EXPECT_LT(worst_figure(world), 1e-3);
     edit(world, [&](Edit& e) { e.remove_link(handle, 2); });
     EXPECT_EQ(world.simulation().cable_reports()[0].spans.size(), 2U);
     advance(world, 200);
-    EXPECT_LT(worst(world), 1e-3);
+    EXPECT_LT(worst_figure(world), 1e-3);
   }
 }
 
