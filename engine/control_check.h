@@ -62,6 +62,8 @@ class ControlCheck {
   [[nodiscard]] std::string motion_fault(int body) const;
   /// Whether a kinematic body may be in this pose and move so.
   [[nodiscard]] std::string way_fault(int body, const BodyState& state) const;
+  /// Whether there is such a joint.
+  [[nodiscard]] std::string fault_of_joint(int joint) const;
   [[nodiscard]] std::string joint_fault(int joint, int coordinate) const;
   /// The drive of a coordinate without such a fault.
   [[nodiscard]] const JointEffect& drive_of(int joint, int coordinate) const;

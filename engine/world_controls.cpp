@@ -6,6 +6,7 @@
 #include "engine/field_check.h"
 #include "engine/index.h"
 #include "engine/joints/joint_effect.h"
+#include "engine/joints/joint_hold.h"
 #include "engine/world_content.h"
 
 namespace sheave {
@@ -15,7 +16,9 @@ std::string path_of(BodyId body, const char* key) {
   return "/bodies/" + std::to_string(body.index) + "/" + key;
 }
 
-std::string joint_path(int joint) { return "/joints/" + std::to_string(joint) + "/drive"; }
+std::string joint_path(int joint, const char* key = "/drive") {
+  return "/joints/" + std::to_string(joint) + key;
+}
 
 DriveMeaning meaning_of(DriveKind kind) {
   if (kind == DriveKind::speed) return DriveMeaning::speed;
@@ -100,16 +103,31 @@ std::vector<double>& World::memory() { return content_->state.memory; }
 
 Errors World::release_joint(int joint) {
   Content& c = *content_;
-  if (joint < 0 || joint >= static_cast<int>(c.joints.size())) {
-    return {{"/joints/" + std::to_string(joint), "there is no joint number " +
-                                                     std::to_string(joint) + "; there are " +
-                                                     std::to_string(c.joints.size())}};
-  }
+  const ControlCheck check(c.model, *c.bodies, c.joints);
+  std::string fault = check.fault_of_joint(joint);
+  if (!fault.empty()) return {{joint_path(joint, ""), std::move(fault)}};
   const JointPlace& place = c.joints[at(joint)];
-  for (std::size_t i = 0; i < c.features.size(); ++i) {
-    if (c.features[i].get() != place.feature) continue;
-    place.feature->release(place.index, c.state.time, c.state.features[i]);
-    place.feature->release(place.index, c.state.time, c.substep.next.features[i]);
+  const std::size_t feature = c.feature_of(place);
+  for (State* state : {&c.state, &c.substep.next}) {
+    place.feature->release(place.index, c.state.time, state->features[feature]);
+  }
+  return {};
+}
+
+Errors World::lock_joint(int joint) {
+  Content& c = *content_;
+  const ControlCheck check(c.model, *c.bodies, c.joints);
+  std::string fault = check.fault_of_joint(joint);
+  if (!fault.empty()) return {{joint_path(joint, ""), std::move(fault)}};
+  const JointPlace& place = c.joints[at(joint)];
+  const std::size_t feature = c.feature_of(place);
+  const FeatureState& own = c.state.features[feature];
+  if (!place.feature->is_broken(place.index, own)) return {};
+  const Substep now(*c.bodies, c.state, c.substep.h, 1);
+  const Result<JointHold> hold = place.feature->hold_here(place.index, now, own);
+  if (!hold) return {{joint_path(joint, ""), hold.errors().front().message}};
+  for (State* state : {&c.state, &c.substep.next}) {
+    place.feature->lock(place.index, *hold, state->features[feature]);
   }
   return {};
 }
@@ -258,7 +276,7 @@ Errors World::set_joint_drive_limit(int joint, int coordinate, double limit) {
   const ControlCheck check(c.model, *c.bodies, c.joints);
   std::string fault = check.joint_fault(joint, coordinate);
   if (fault.empty()) fault = check.limit_fault(joint, coordinate, limit);
-  if (!fault.empty()) return {{joint_path(joint) + "_limit", fault}};
+  if (!fault.empty()) return {{joint_path(joint, "/drive_limit"), fault}};
   const int place = check.drive_of(joint, coordinate).control;
   const DriveControl* before = c.state.controls.joint_drives.find(place);
   DriveControl control = before != nullptr ? *before : DriveControl{};
