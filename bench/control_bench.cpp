@@ -53,7 +53,8 @@ LiveWorld workshop() {
   rope.name = "rope";
   rope.compliance = 1e-6;
   rope.links = {from, to};
-  return std::move(*LiveWorld::create(model, {rope}));
+  Result<LiveWorld> world = LiveWorld::create(model, {rope});
+  return std::move(*world);
 }
 
 /// `call` sets something to a value below 1.

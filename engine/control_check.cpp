@@ -128,6 +128,12 @@ std::string ControlCheck::motion_fault(int body) const {
          "; only kinematic bodies go where they are told to";
 }
 
+bool ControlCheck::keeps_to_a_way(int body) const {
+  const BodyDef& def = bodies_.definition(body);
+  return def.axis.has_value() || !is_zero(def.velocity) || !is_zero(def.oscillation) ||
+         !is_zero(def.angular_velocity);
+}
+
 std::string ControlCheck::way_fault(int body, const BodyState& state) const {
   const BodyDef& def = bodies_.definition(body);
   const Quaternion& start = bodies_[body].start_orientation;
