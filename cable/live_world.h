@@ -138,6 +138,8 @@ class LiveWorld {
   [[nodiscard]] Errors set_drive(JointHandle joint, const DriveTarget& target, int coordinate = 0);
   [[nodiscard]] Errors set_drive_limit(JointHandle joint, double limit, int coordinate = 0);
   [[nodiscard]] Errors clear_drive(JointHandle joint, int coordinate = 0);
+  [[nodiscard]] Errors release_joint(JointHandle joint);
+  [[nodiscard]] Errors lock_joint(JointHandle joint);
   [[nodiscard]] Errors set_compliance(CableHandle cable, double compliance);
   [[nodiscard]] Errors clear_compliance(CableHandle cable);
   [[nodiscard]] Errors set_breaking_tension(CableHandle cable, double tension);

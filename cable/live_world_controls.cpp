@@ -85,6 +85,16 @@ Errors LiveWorld::clear_drive(JointHandle joint, int coordinate) {
                        : as_errors(std::move(fault));
 }
 
+Errors LiveWorld::release_joint(JointHandle joint) {
+  std::string fault = fault_of(joint);
+  return fault.empty() ? simulation_->world.release_joint(joint.slot) : as_errors(std::move(fault));
+}
+
+Errors LiveWorld::lock_joint(JointHandle joint) {
+  std::string fault = fault_of(joint);
+  return fault.empty() ? simulation_->world.lock_joint(joint.slot) : as_errors(std::move(fault));
+}
+
 Errors LiveWorld::set_compliance(CableHandle cable, double compliance) {
   std::string fault = pull_fault(cable);
   return fault.empty() ? running().set_compliance(index_of(cable), compliance)

@@ -73,7 +73,6 @@ class JointViewBuilder {
     view_.unit = unit;
     const auto& joints = world.model().joints;
     for (std::size_t i = 0; i < joints.size(); ++i) {
-      view_.breakable = view_.breakable || joints[i]->breaking_force || joints[i]->breaking_torque;
       piece_ = {};
       piece_.joint = static_cast<int>(i);
       defined_in_ = joints[i]->defined_in;

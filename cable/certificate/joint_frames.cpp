@@ -148,12 +148,15 @@ struct CoordinateLister {
 
 }  // namespace
 
-JointFrame frame_of(const BodySet& bodies, const JointDef& joint) {
+JointFrame frame_of(const BodySet& bodies, const JointEvidence& joint) {
   JointFrame frame;
-  frame.body_a = bodies.index(joint.body_a);
-  frame.body_b = bodies.index(joint.body_b);
-  frame.defined_in = joint.defined_in;
-  visit_joint(joint, FrameMaker(bodies, frame));
+  frame.body_a = bodies.index(joint.definition->body_a);
+  frame.body_b = bodies.index(joint.definition->body_b);
+  frame.defined_in = joint.definition->defined_in;
+  visit_joint(*joint.definition, FrameMaker(bodies, frame));
+  (frame.kind.coupling ? frame.mesh : frame.length) += joint.hold.offset;
+  frame.own_anchor_a += joint.hold.shift;
+  frame.relocked = joint.hold.turn;
   return frame;
 }
 

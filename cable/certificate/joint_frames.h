@@ -32,15 +32,23 @@ struct JointFrame {
   double angular_compliance = 0.0;
   double ratio = 0.0;  ///< of couplings
   double length = 0.0;
+  double mesh = 0.0;   ///< of couplings: by how much their teeth mesh elsewhere [m or rad]
   double lower = 0.0;  ///< of the distance over the length, 0 or -infinity
   double upper = 0.0;
   double damping = 0.0;
 
   BodyFrames defined_in;  ///< of the joint
+  /// Of a joint that has been locked again: of its axes on body_a against those defined, own frame.
+  Quaternion relocked = Quaternion::Identity();
 
   /// Rotation of a body since the joint was defined.
   [[nodiscard]] Quaternion turned_by(const Moment& now, int body) const {
     return now.orientation(body) * now.bodies->frame(body, defined_in).orientation.conjugate();
+  }
+  /// Rotation of what the joint has fixed to body_a since then.
+  [[nodiscard]] Quaternion turned_a(const Moment& now) const {
+    return now.orientation(body_a) * relocked *
+           now.bodies->frame(body_a, defined_in).orientation.conjugate();
   }
   [[nodiscard]] Vector3 anchor_a(const Moment& now) const {
     return now.point(body_a, own_anchor_a);
@@ -50,7 +58,7 @@ struct JointFrame {
   }
 };
 
-[[nodiscard]] JointFrame frame_of(const BodySet& bodies, const JointDef& joint);
+[[nodiscard]] JointFrame frame_of(const BodySet& bodies, const JointEvidence& joint);
 
 /// A coordinate that reports tell, in their order.
 struct CoordinateSettings {

@@ -66,7 +66,7 @@ JointPushes pushes_of(const Evidence& evidence, const JointEvidence& joint, End 
   const JointReport& report = joint.acting[at(when)];
   if (is_zero(report.force) && is_zero(report.torque)) return result;
   const Moment& now = evidence.moments[at(when)];
-  const JointFrame frame = frame_of(evidence.bodies, *joint.definition);
+  const JointFrame frame = frame_of(evidence.bodies, joint);
   const Vector3 at_b = frame.anchor_b(now);
   if (!frame.kind.coupling) {
     result.push_back({frame.body_b, at_b, report.force, report.torque});

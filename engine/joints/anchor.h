@@ -5,6 +5,8 @@
 
 namespace sheave {
 
+struct JointHold;
+
 /// A point of a body and a frame fixed to it, in the body's own frame.
 struct Anchor {
   int body = 0;
@@ -46,6 +48,8 @@ struct AnchorPair {
     return {Anchor::at_start(bodies, joint, body_a, world_point, frame),
             Anchor::at_start(bodies, joint, body_b, world_point, frame)};
   }
+  /// Makes A's anchor, as defined, that of a joint that was locked again (engine/joints/joint_hold.h).
+  void apply(const JointHold& hold);
   [[nodiscard]] int anchor_body() const { return b.body; }
   [[nodiscard]] Vector3 anchor(const Substep& substep) const { return b.position(substep); }
 };

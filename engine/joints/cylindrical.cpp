@@ -33,6 +33,12 @@ struct CylindricalKernel : AnchorPair {  // z of the frame is the axis
       angle_about(a, b, terms);
     }
   }
+  [[nodiscard]] JointHold hold_here(const CylindricalKernel& defined, const Substep& now) const {
+    const Quaternion frame = b.orientation(now);
+    const Vector3 way = coordinate_of(*this, 0, now) * (frame * Vector3::UnitZ());
+    return JointHold::of(defined.a, now, b.position(now) - way,
+                         turned_about(frame, 2, -coordinate_of(*this, 1, now)));
+  }
 };
 
 }  // namespace

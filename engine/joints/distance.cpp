@@ -28,6 +28,15 @@ struct DistanceKernel : AnchorPair {
     terms.set_bounds(lower, upper);
   }
   void coordinate(int /*index*/, JointTerms& terms) const { measure(start_length, terms); }
+  void apply(const JointHold& hold) { length += hold.offset; }
+  [[nodiscard]] JointHold hold_here(const DistanceKernel& defined, const Substep& now) const {
+    const double growth = (a.position(now) - b.position(now)).norm() - defined.length;
+    const bool pulls = lower < 0.0;
+    const bool pushes = upper > 0.0;
+    JointHold hold;
+    if ((growth > 0.0 && pulls) || (growth < 0.0 && pushes)) hold.offset = growth;
+    return hold;
+  }
   void measure(double less, JointTerms& terms) const {
     const Vector3 at_a = a.position(terms.substep());
     const Vector3 at_b = b.position(terms.substep());

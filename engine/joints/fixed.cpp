@@ -24,6 +24,9 @@ struct FixedKernel : AnchorPair {
       terms.set_compliance(angular_compliance);
     }
   }
+  [[nodiscard]] JointHold hold_here(const FixedKernel& defined, const Substep& now) const {
+    return JointHold::of(defined.a, now, b.position(now), b.orientation(now));
+  }
 };
 
 }  // namespace

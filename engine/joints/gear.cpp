@@ -15,10 +15,16 @@ struct GearKernel {
   AnchorPair a;  // of the carrier, and of body_a
   AnchorPair b;
 
+  double mesh = 0.0;  // by how much the teeth mesh elsewhere than as defined
+
   [[nodiscard]] bool elastic() const { return false; }
   [[nodiscard]] int anchor_body() const { return b.anchor_body(); }
   [[nodiscard]] Vector3 anchor(const Substep& substep) const { return b.anchor(substep); }
   void lock(int /*index*/, JointTerms& /*terms*/) const {}
+  void apply(const JointHold& hold) { mesh = hold.offset; }
+  [[nodiscard]] JointHold hold_here(const GearKernel& /*defined*/, const Substep& /*now*/) const {
+    return {};  // all that it holds is the coupling
+  }
   void coordinate(int index, JointTerms& terms) const {
     const AnchorPair& side = index == 0 ? a : b;
     angle_about(side.a, side.b, terms);

@@ -33,6 +33,11 @@ struct HingeKernel : AnchorPair {  // z of the frame is the axis
     }
   }
   void coordinate(int /*index*/, JointTerms& terms) const { angle_about(a, b, terms); }
+  [[nodiscard]] JointHold hold_here(const HingeKernel& defined, const Substep& now) const {
+    const double angle = coordinate_of(*this, 0, now);
+    return JointHold::of(defined.a, now, b.position(now),
+                         turned_about(b.orientation(now), 2, -angle));
+  }
 };
 
 }  // namespace

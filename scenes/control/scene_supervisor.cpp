@@ -126,6 +126,7 @@ Errors SceneSupervisor::add_trigger(const Scene& scene, std::size_t index) {
       break;
     }
     case TriggerAction::release:
+    case TriggerAction::lock:
       target = index_of(scene.model.joints, definition.target, "joint",
                         [](const auto& joint) -> const std::string& { return joint->name; });
       break;
@@ -259,6 +260,9 @@ void SceneSupervisor::act(const TriggerAtWork& trigger, Simulation& simulation) 
       break;
     case TriggerAction::release:
       note(simulation.world.release_joint(trigger.target), simulation);
+      break;
+    case TriggerAction::lock:
+      note(simulation.world.lock_joint(trigger.target), simulation);
       break;
     case TriggerAction::cut:
       note(simulation.set_breaking_tension(trigger.target, no_tension), simulation);
