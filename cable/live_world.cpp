@@ -129,7 +129,14 @@ LiveReport LiveWorld::step(const StopRequest& stop, const std::function<void()>&
     if (!is_broken(joint)) intact.push_back(joint);
   }
   LiveReport report;
-  static_cast<StepReport&>(report) = simulation_->world.step(stop, before_substep);
+  Simulation& own = *simulation_;
+  // Without anything to do before substeps the world may take them together.
+  const auto supervise = [&] {
+    own.supervisor->supervise(own);
+    if (before_substep) before_substep();
+  };
+  static_cast<StepReport&>(report) =
+      own.world.step(stop, own.supervisor != nullptr ? supervise : before_substep);
   note_events(report);
   for (const int joint : intact) {
     if (is_broken(joint)) report.broken_joints.push_back({joint, first_generation});

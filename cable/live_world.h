@@ -63,13 +63,15 @@ struct LiveReport : StepReport {
 class LiveWorld {
  public:
   static Result<LiveWorld> create(const Model& model, const std::vector<CableDef>& cables);
+  /// Of a simulation that is there, with its supervisor if it has one.
+  static LiveWorld of(Simulation simulation) { return LiveWorld(std::move(simulation)); }
 
   // By name; the error says which names are like it.
   [[nodiscard]] Result<BodyHandle> body(std::string_view name) const;
   [[nodiscard]] Result<JointHandle> joint(std::string_view name) const;
   [[nodiscard]] Result<CableHandle> cable(std::string_view name) const;
 
-  /// As World::step(), with what happened.
+  /// As World::step(), with what happened. A supervisor acts before `before_substep`.
   [[nodiscard]] LiveReport step(const StopRequest& stop = {},
                                 const std::function<void()>& before_substep = {});
 
@@ -114,6 +116,9 @@ class LiveWorld {
   [[nodiscard]] Errors clear_friction(CableHandle cable, int link);
   [[nodiscard]] Errors set_feed_speed(CableHandle cable, int link, const DriveTarget& target);
   [[nodiscard]] Errors clear_feed_speed(CableHandle cable, int link);
+
+  /// Several controls, all or none: what `set` has set and cleared is as it was if it returns faults.
+  [[nodiscard]] Errors set_together(const std::function<Errors()>& set);
 
   /// Puts a free, planar or slider body that no joint holds elsewhere, with what is mounted on it; it keeps its velocity. The
   /// origin of its frame goes to `position` [m]. Cables follow: wheels take and give the arcs in between. Whether bodies then
