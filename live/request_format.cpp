@@ -26,13 +26,14 @@ std::vector<ObjectFormat> make_formats() {
 }  // namespace
 
 const ObjectFormat& any_request_format() {
-  static const ObjectFormat format{"request",
-                                   "what a line asks for",
-                                   false,
-                                   {common_table(request_types())},
-                                   variants_of(request_types()),
-                                   {},
-                                   {}};
+  static const ObjectFormat format{
+      "request",
+      "what a line asks for: its `type`, one of those below, with the keys of that and these",
+      false,
+      {common_table(request_types())},
+      variants_of(request_types()),
+      {},
+      {}};
   return format;
 }
 
@@ -47,7 +48,8 @@ std::string protocol_schema() {
   Json types = Json::array();
   Json definitions = Json::object();
   for (const ObjectFormat& format : request_formats()) {
-    for (const Json& type : format_schema(format)["oneOf"]) types.push_back(type);
+    const Json schemas = format_schema(format);
+    for (const Json& type : schemas["oneOf"]) types.push_back(type);
     add_definitions(format, definitions);
   }
   schema["oneOf"] = std::move(types);
@@ -58,11 +60,15 @@ std::string protocol_schema() {
 std::string protocol_reference() {
   std::string text;
   ObjectFormat all = any_request_format();
+  all.variants.clear();
   append_reference(all, text);
+  std::string lists;
   for (const ObjectFormat& format : request_formats()) {
-    for (const Member& member : format.members) append_reference(*member.format, text);
+    const Variant& type = format.variants.front();
+    append_reference({type.name, type.meaning, false, {type.table}, {}, format.members, {}}, text);
+    for (const Member& member : format.members) append_reference(*member.format, lists);
   }
-  return text;
+  return text + lists;
 }
 
 }  // namespace sheave::live

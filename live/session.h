@@ -1,7 +1,8 @@
 #pragma once
 // A world that is held by lines of text.
 //
-//   sheave::live::Session session(scene, std::move(*sheave::create_simulation(scene)));
+//   auto simulation = sheave::create_simulation(scene);
+//   sheave::live::Session session(scene, std::move(*simulation));
 //   session.answer(R"({"id": 1, "type": "step", "count": 10})");
 //   // {"id":1,"ok":true,"step":10,"time":0.1,"steps":10}
 

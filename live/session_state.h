@@ -17,13 +17,13 @@ namespace sheave::live {
 /// What a session asks of the program that it is in. All of them may be empty.
 struct Hooks {
   /// Takes an event, a line without its end. One that is not needed may be left out where nobody takes it in time.
-  std::function<void(const std::string& line, bool needed)> event;
+  std::function<void(const std::string& line, bool needed)> event{};
   /// Takes a line of the log: a request without the end of its line.
-  std::function<void(const std::string& line)> log;
+  std::function<void(const std::string& line)> log{};
   /// Called before each step of a request, with the time that the world will have [s], and whether it may go on.
-  std::function<bool(double time)> before_step;
+  std::function<bool(double time)> before_step{};
   /// Ends a step that has begun, which then has not been.
-  StopRequest stop;
+  StopRequest stop{};
 };
 
 /// What somebody wants to be told while the world steps.

@@ -126,7 +126,11 @@ void collect(const ObjectFormat& format, std::vector<const ObjectFormat*>& forma
 
 void append_reference(const ObjectFormat& format, std::string& text) {
   text += fmt::format("\n## {}\n\n{}.\n", format.name, format.meaning);
-  add_table_head(text);
+  const auto has_fields = [](const TableFormat& table) { return !table.fields.empty(); };
+  if (!format.variants.empty() || !format.members.empty() ||
+      std::any_of(format.tables.begin(), format.tables.end(), has_fields)) {
+    add_table_head(text);
+  }
   if (!format.variants.empty()) text += "| `type` | one of the types below | required | |\n";
   for (const TableFormat& table : format.tables) add_fields(table, text);
   for (const Member& member : format.members) {

@@ -38,6 +38,7 @@ struct LiveOptions {
   std::optional<double> realtime;
   std::string load_state, log;
   bool schema = false;
+  bool reference = false;
 };
 
 /// The requests of a session, in a file that can be given to another one.
@@ -143,9 +144,14 @@ class LiveServer {
     // A time that is not over yet must not become none.
     const int milliseconds = seconds > 0.0 ? static_cast<int>(1e3 * seconds) + 1 : 0;
     if (::poll(files.data(), files.size(), milliseconds) <= 0) return;
-    if ((files[1].revents & (POLLERR | POLLNVAL)) != 0) writer_.break_off();
+    if (files[0].revents != 0) {
+      reader_.read();
+      has_lines_ = true;  // perhaps
+    }
+    // A program that has ended has closed both.
+    const bool broken = (files[1].revents & (POLLERR | POLLNVAL)) != 0;
+    if (broken && !reader_.at_end()) writer_.break_off();
     if (files[1].revents != 0) writer_.wait(0.0);
-    if (files[0].revents != 0) reader_.read();
   }
 
   std::optional<double> realtime_;
@@ -162,6 +168,10 @@ class LiveServer {
 ExitCode run_live(const LiveOptions& options) {
   if (options.schema) {
     print(live::protocol_schema());
+    return ExitCode::done;
+  }
+  if (options.reference) {
+    print(live::protocol_reference());
     return ExitCode::done;
   }
   if (options.scene.path.empty()) {
@@ -207,6 +217,8 @@ Action declare_live(CLI::App& app) {
       ->option_text("FILE");
   app.add_flag("--schema", options->schema,
                "print the JSON Schema (draft-07) of requests, and nothing else");
+  app.add_flag("--reference", options->reference,
+               "print the reference of requests (Markdown), and nothing else");
   app.footer(R"(Examples:
   sheave live scenes/machines/crane.json
   sheave live crane.json --realtime 0.5 --log session.jsonl

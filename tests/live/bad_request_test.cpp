@@ -30,51 +30,51 @@ const std::vector<Bad>& bad_requests() {
       {"{\"type\":\n\"step\"}", "syntax", "", "one line"},
       {"{\"type\":\"st\xff\"}", "encoding", "", "UTF-8"},
       {"{\"type\":\"step\"}\0"s, "encoding", "", "null"},
-      {"[]", "wrong_type", "", "object"},
-      {"3", "wrong_type", "", "object"},
-      {"null", "wrong_type", "", "object"},
-      {"{}", "missing_key", "/type", "required key"},
-      {R"({"type":3})", "wrong_type", "/type", "must be one of"},
-      {R"({"type":"setp"})", "unknown_choice", "/type", "did you mean \"step\"?"},
-      {R"({"type":"edit"})", "unknown_choice", "/type", "unknown type of request"},
-      {R"({"type":"step","cuont":3})", "unknown_key", "/cuont", "did you mean \"count\"?"},
-      {R"({"type":"step","count":3,"count":4})", "duplicate_key", "/count", "twice"},
-      {R"({"type":"step","count":3,"controls":[]})", "unknown_key", "/controls", "unknown key"},
-      {R"({"id":"seven","type":"step"})", "wrong_type", "/id", "a number"},
+      {"[]", "wrong-type", "", "object"},
+      {"3", "wrong-type", "", "object"},
+      {"null", "wrong-type", "", "object"},
+      {"{}", "missing-key", "/type", "required key"},
+      {R"({"type":3})", "wrong-type", "/type", "must be one of"},
+      {R"({"type":"setp"})", "unknown-choice", "/type", "did you mean \"step\"?"},
+      {R"({"type":"edit"})", "unknown-choice", "/type", "unknown type of request"},
+      {R"({"type":"step","cuont":3})", "unknown-key", "/cuont", "did you mean \"count\"?"},
+      {R"({"type":"step","count":3,"count":4})", "duplicate-key", "/count", "first given"},
+      {R"({"type":"step","count":3,"controls":[]})", "unknown-key", "/controls", "unknown key"},
+      {R"({"id":"seven","type":"step"})", "wrong-type", "/id", "a number"},
       {R"({"type":"step","at_step":1})", "meaning", "/at_step", "the world is at step 3"},
       {R"({"type":"step","at_step":2.5})", "meaning", "/at_step", "the world is at step 3"},
-      {R"({"type":"hello","protocol":"sheave-live/0"})", "unknown_choice", "/protocol", "sheave"},
+      {R"({"type":"hello","protocol":"sheave-live/0"})", "unknown-choice", "/protocol", "sheave"},
       // Steps.
-      {R"({"type":"step","count":0})", "out_of_range", "/count", ">= 1"},
-      {R"({"type":"step","count":-1})", "out_of_range", "/count", ">= 1"},
-      {R"({"type":"step","count":1.5})", "wrong_type", "/count", "an integer"},
-      {R"({"type":"step","count":"3"})", "wrong_type", "/count", "an integer"},
-      {R"({"type":"step","count":1e400})", "number_range", "", ""},
+      {R"({"type":"step","count":0})", "out-of-range", "/count", ">= 1"},
+      {R"({"type":"step","count":-1})", "out-of-range", "/count", ">= 1"},
+      {R"({"type":"step","count":1.5})", "wrong-type", "/count", "an integer"},
+      {R"({"type":"step","count":"3"})", "wrong-type", "/count", "an integer"},
+      {R"({"type":"step","count":1e400})", "number-range", "/count", "too large"},
       {R"({"type":"step","count":21})", "meaning", "/count", "at most 20"},
       {R"({"type":"step","until":1e9})", "meaning", "/until", "at most 20"},
       {R"({"type":"step","until":-1e300})", "meaning", "/until", "is over"},
-      {R"({"type":"step","until":NaN})", "syntax", "", ""},
-      {R"({"type":"step","count":1,"until":1})", "exclusive_keys", "/until", "exclude"},
-      {R"({"type":"run","pace":0})", "out_of_range", "/pace", "> 0"},
+      {R"({"type":"step","until":NaN})", "syntax", "/until", "invalid"},
+      {R"({"type":"step","count":1,"until":1})", "exclusive-keys", "/until", "exclude"},
+      {R"({"type":"run","pace":0})", "out-of-range", "/pace", "> 0"},
       // Controls.
-      {R"({"type":"set"})", "missing_key", "/controls", "required"},
-      {R"({"type":"set","controls":{}})", "wrong_type", "/controls", "list"},
-      {R"({"type":"set","controls":[3]})", "wrong_type", "/controls/0", "object"},
-      {R"({"type":"set","controls":[{}]})", "missing_key", "/controls/0/type", "required"},
-      {R"({"type":"set","controls":[{"type":"sped"}]})", "unknown_choice", "/controls/0/type",
+      {R"({"type":"set"})", "missing-key", "/controls", "required"},
+      {R"({"type":"set","controls":{}})", "wrong-type", "/controls", "list"},
+      {R"({"type":"set","controls":[3]})", "wrong-type", "/controls/0", "object"},
+      {R"({"type":"set","controls":[{}]})", "missing-key", "/controls/0/type", "required"},
+      {R"({"type":"set","controls":[{"type":"sped"}]})", "unknown-choice", "/controls/0/type",
        "did you mean \"speed\"?"},
-      {R"({"type":"set","controls":[{"type":"drive","body":"drum"}]})", "unknown_choice",
+      {R"({"type":"set","controls":[{"type":"drive","body":"drum"}]})", "unknown-choice",
        "/controls/0/type", "speed"},
-      {R"({"type":"set","controls":[{"type":"speed","value":1}]})", "missing_key",
+      {R"({"type":"set","controls":[{"type":"speed","value":1}]})", "missing-key",
        "/controls/0/body", "required"},
-      {R"({"type":"set","controls":[{"type":"speed","body":3,"value":1}]})", "wrong_type",
+      {R"({"type":"set","controls":[{"type":"speed","body":3,"value":1}]})", "wrong-type",
        "/controls/0/body", "string"},
-      {R"({"type":"set","controls":[{"type":"speed","body":"drum","value":[1]}]})", "wrong_type",
+      {R"({"type":"set","controls":[{"type":"speed","body":"drum","value":[1]}]})", "wrong-type",
        "/controls/0/value", "a number [rad/s]"},
-      {R"({"type":"set","controls":[{"type":"speed","body":"drum","value":null}]})", "wrong_type",
+      {R"({"type":"set","controls":[{"type":"speed","body":"drum","value":null}]})", "wrong-type",
        "/controls/0/value", "a number"},
       {R"({"type":"set","controls":[{"type":"speed","body":"drum","value":1,"over":-1}]})",
-       "out_of_range", "/controls/0/over", ">= 0"},
+       "out-of-range", "/controls/0/over", ">= 0"},
       {R"({"type":"set","controls":[{"type":"speed","body":"","value":1}]})", "meaning",
        "/controls/0/body", "no body"},
       {R"({"type":"set","controls":[{"type":"speed","body":"load","value":1}]})", "meaning",
@@ -83,14 +83,14 @@ const std::vector<Bad>& bad_requests() {
        "/controls/0", "has a speed"},
       {R"({"type":"set","controls":[{"type":"force","body":"hand","force":[1,0,0]}]})", "meaning",
        "/controls/0", "hand"},
-      {R"({"type":"set","controls":[{"type":"force","body":"load","force":[1,0]}]})", "wrong_type",
+      {R"({"type":"set","controls":[{"type":"force","body":"load","force":[1,0]}]})", "wrong-type",
        "/controls/0/force", "[x, y, z]"},
       {R"({"type":"set","controls":[{"type":"force","body":"load","frame":"own"}]})",
-       "unknown_choice", "/controls/0/frame", "body"},
+       "unknown-choice", "/controls/0/frame", "body"},
       {R"({"type":"set","controls":[{"type":"motion","body":"load","position":[0,0,0]}]})",
        "meaning", "/controls/0", "kinematic"},
       {R"({"type":"set","controls":[{"type":"motion","body":"hand","position":[0,0,0],"orientation":[0,0,0,0]}]})",
-       "out_of_range", "/controls/0/orientation", "unit quaternion"},
+       "out-of-range", "/controls/0/orientation", "unit quaternion"},
       {R"({"type":"set","controls":[{"type":"motion","body":"hand","position":[0,0,0],"angular_velocity":[1,0,0]}]})",
        "meaning", "/controls/0", "velocity"},
       {R"({"type":"set","controls":[{"type":"joint_drive","joint":"hing","value":1}]})", "meaning",
@@ -98,7 +98,7 @@ const std::vector<Bad>& bad_requests() {
       {R"({"type":"set","controls":[{"type":"joint_drive","joint":"hinge","coordinate":"travel","value":1}]})",
        "meaning", "/controls/0/coordinate", "angle"},
       {R"({"type":"set","controls":[{"type":"joint_drive_limit","joint":"hinge","value":0}]})",
-       "out_of_range", "/controls/0/value", "> 0"},
+       "out-of-range", "/controls/0/value", "> 0"},
       {R"({"type":"set","controls":[{"type":"compliance","cable":"line","value":1}]})", "meaning",
        "/controls/0", "compliance"},
       {R"({"type":"set","controls":[{"type":"compliance","cable":"rpoe","value":1}]})", "meaning",
@@ -106,30 +106,30 @@ const std::vector<Bad>& bad_requests() {
       {R"({"type":"set","controls":[{"type":"friction","cable":"line","link":0,"value":1}]})",
        "meaning", "/controls/0", "friction"},
       {R"({"type":"set","controls":[{"type":"friction","cable":"line","link":-1,"value":1}]})",
-       "out_of_range", "/controls/0/link", ">= 0"},
+       "out-of-range", "/controls/0/link", ">= 0"},
       {R"({"type":"set","controls":[{"type":"feed_speed","cable":"line","link":99,"value":1}]})",
        "meaning", "/controls/0", "line"},
-      {R"({"type":"clear","controls":[{"type":"speed","body":"drum"}]})", "unknown_choice",
+      {R"({"type":"clear","controls":[{"type":"speed","body":"drum"}]})", "unknown-choice",
        "/controls/0/type", "drive"},
       {R"({"type":"clear","controls":[{"type":"drive","body":"load"}]})", "meaning", "/controls/0",
        "drive"},
       // Places, readings, names.
-      {R"({"type":"place","body":"load"})", "missing_key", "/position", "required"},
+      {R"({"type":"place","body":"load"})", "missing-key", "/position", "required"},
       {R"({"type":"place","body":"load","position":[0,0,1]})", "meaning", "", "plane"},
       {R"({"type":"place","body":"drum","position":[0,0,1]})", "meaning", "", "rotor"},
-      {R"({"type":"place","body":"load","position":[0,0,0],"keep":"slack"})", "unknown_choice",
+      {R"({"type":"place","body":"load","position":[0,0,0],"keep":"slack"})", "unknown-choice",
        "/keep", "tension"},
       {R"({"type":"observe"})", "meaning", "", "nothing is asked for"},
-      {R"({"type":"observe","quantities":"load.y"})", "wrong_type", "/quantities", "strings"},
+      {R"({"type":"observe","quantities":"load.y"})", "wrong-type", "/quantities", "strings"},
       {R"({"type":"observe","quantities":["load.yy"]})", "meaning", "/quantities/0",
        "did you mean"},
       {R"({"type":"observe","quantities":["t","t"]})", "meaning", "/quantities/1", "already"},
       {R"({"type":"observe","poses":["load","world"]})", "meaning", "/poses/1", "no body"},
-      {R"({"type":"subscribe","quantities":["t"]})", "missing_key", "/name", "required"},
+      {R"({"type":"subscribe","quantities":["t"]})", "missing-key", "/name", "required"},
       {R"({"type":"subscribe","name":"a"})", "meaning", "", "nothing is asked for"},
       {R"({"type":"subscribe","name":"known","events":true})", "meaning", "/name", "unsubscribe"},
       {R"({"type":"subscribe","name":"a\nb","events":true})", "meaning", "/name", "must consist"},
-      {R"({"type":"subscribe","name":"b","every":0,"events":true})", "out_of_range", "/every",
+      {R"({"type":"subscribe","name":"b","every":0,"events":true})", "out-of-range", "/every",
        ">= 1"},
       {R"({"type":"unsubscribe","name":"knwon"})", "meaning", "/name", "did you mean \"known\"?"},
       {R"({"type":"snapshot","name":"start"})", "meaning", "/name", "belongs"},
@@ -223,13 +223,13 @@ std::string mutated(const std::vector<std::string>& lines, Random& random) {
     return static_cast<std::size_t>(random.below(static_cast<int>(count)));
   };
   std::string line = lines[any(lines.size())];
-  const int changes = 1 + random.below(4);
+  const int changes = 1 + random.below(3);
   for (int i = 0; i < changes && !line.empty(); ++i) {
     const std::size_t at = any(line.size());
     const std::size_t length = std::min(any(8) + 1, line.size() - at);
     const std::string& other = lines[any(lines.size())];
     constexpr std::string_view bytes = "{}[]\",:0123456789.eE+-\\ntrufalse \x80\xff\n";
-    switch (random.below(6)) {
+    switch (random.below(12)) {
       case 0:
         line[at] = static_cast<char>(random.below(256) - 128);
         break;
@@ -245,8 +245,15 @@ std::string mutated(const std::vector<std::string>& lines, Random& random) {
       case 4:
         if (!other.empty()) line.insert(at, other.substr(any(other.size()), length));
         break;
-      default:
+      case 5:
         line.insert(at, 1, bytes[any(bytes.size())]);
+        break;
+      default:
+        // Another number.
+        if (const std::size_t digit = line.find_first_of("0123456789", at);
+            digit != std::string::npos) {
+          line[digit] = static_cast<char>('0' + random.below(10));
+        }
         break;
     }
   }
@@ -272,6 +279,11 @@ TEST(LiveFaults, JunkNeitherCrashesNorChangesAnything) {
       R"({"type":"run","pace":1})",
       R"({"type":"pause"})",
       R"({"type":"hash","at_step":0})"};
+  // Most of them are right before they are changed.
+  const std::vector<std::string> right_lines = lines;
+  for (int i = 0; i < 4; ++i) {
+    lines.insert(lines.end(), right_lines.begin(), right_lines.end());
+  }
   for (const Bad& bad : bad_requests()) lines.push_back(bad.line);
   live::Limits limits;
   limits.steps = 5;
@@ -292,8 +304,10 @@ TEST(LiveFaults, JunkNeitherCrashesNorChangesAnything) {
     ASSERT_FALSE(answer.is_discarded()) << line << '\n' << text;
     const bool ok = answer["ok"].get<bool>();
     ASSERT_EQ(ok, !answer.contains("errors")) << text;
-    if (!ok) ASSERT_EQ(hash_of(session), before) << line;
-    if (!ok) ASSERT_FALSE(answer["errors"].empty()) << line;
+    if (!ok) {
+      ASSERT_EQ(hash_of(session), before) << line;
+      ASSERT_FALSE(answer["errors"].empty()) << line;
+    }
     ++(ok ? right : wrong);
     // What was set may have made the world end.
     if (ok && answer.contains("ended")) done(session, R"({"type":"restore","name":"start"})");

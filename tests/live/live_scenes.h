@@ -1,6 +1,7 @@
 #pragma once
 // A scene with everything that a session can set, and sessions that hold it.
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -80,9 +81,15 @@ inline nlohmann::json ask(live::Session& session, const std::string& line) {
   return nlohmann::json::parse(answer);
 }
 
+/// A request of several lines as one.
+inline std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
 /// An answer that must be ok.
 inline nlohmann::json done(live::Session& session, const std::string& line) {
-  nlohmann::json answer = ask(session, line);
+  nlohmann::json answer = ask(session, one_line(line));
   EXPECT_TRUE(answer["ok"].get<bool>()) << line << '\n' << answer;
   return answer;
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "tests/live/live_scenes.h"
@@ -45,7 +46,8 @@ TEST(LiveSession, SaysHello) {
 TEST(LiveSession, SetsAllThatAWorldHas) {
   live::Session session = session_of(live_scene);
   Scene scene = scene_of(live_scene);
-  LiveWorld world = LiveWorld::of(std::move(*create_simulation(scene)));
+  Result<Simulation> simulation = create_simulation(scene);
+  LiveWorld world = LiveWorld::of(std::move(*simulation));
   const BodyHandle hand = *world.body("hand");
   const JointHandle hinge = *world.joint("hinge");
   const CableHandle rope = *world.cable("rope");
@@ -122,9 +124,9 @@ TEST(LiveSession, SetsAllOrNothing) {
   done(session, R"({"type":"set","controls":[{"type":"speed","body":"drum","value":0.3}]})");
   done(session, R"({"type":"step","count":5})");
   const std::uint64_t before = hash_of(session);
-  const json refused = ask(session, R"({"type":"set","controls":[
+  const json refused = ask(session, one_line(R"({"type":"set","controls":[
     {"type":"speed","body":"drum","value":1},{"type":"gravity","value":[0,0,0]},
-    {"type":"force","body":"laod","force":[1,0,0]},{"type":"speed","body":"dial","value":1}]})");
+    {"type":"force","body":"laod","force":[1,0,0]},{"type":"speed","body":"dial","value":1}]})"));
   EXPECT_EQ(refused["ok"], false);
   ASSERT_EQ(refused["errors"].size(), 2U);
   EXPECT_EQ(refused["errors"][0]["pointer"], "/controls/2/body");
@@ -243,11 +245,10 @@ TEST(LiveSession, TellsWhyTheWorldGoesNoFurther) {
   EXPECT_EQ(again["ok"], false);
   EXPECT_THAT(again["errors"][0]["message"].get<std::string>(), HasSubstr("restore a snapshot"));
   done(session, R"({"type":"restore","name":"start"})");
-  done(session,
-       R"({"type":"set","controls":[{"type":"force","body":"weight","force":[1e15,0,0]}]})");
+  done(session, R"({"type":"set","controls":[{"type":"force","body":"load","force":[1e15,0,0]}]})");
   const json diverged = done(session, R"({"type":"step","count":200})");
   EXPECT_EQ(diverged["ended"], "divergence");
-  EXPECT_THAT(diverged["reason"].get<std::string>(), HasSubstr("weight"));
+  EXPECT_THAT(diverged["reason"].get<std::string>(), HasSubstr("load"));
   EXPECT_LT(diverged["steps"].get<int>(), 200);
 }
 
