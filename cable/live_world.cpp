@@ -80,6 +80,10 @@ Result<CableHandle> LiveWorld::cable(std::string_view name) const {
                         [&](std::size_t i) -> std::string_view { return cables[i].name; });
 }
 
+BodyHandle LiveWorld::body_at(int index) const { return {index, first_generation}; }
+JointHandle LiveWorld::joint_at(int index) const { return {index, first_generation}; }
+CableHandle LiveWorld::cable_at(int index) const { return {index, first_generation}; }
+
 std::string LiveWorld::fault_of(BodyHandle body) const {
   return handle_fault(body, "body", simulation_->world.model().bodies.size());
 }

@@ -70,6 +70,10 @@ class LiveWorld {
   [[nodiscard]] Result<BodyHandle> body(std::string_view name) const;
   [[nodiscard]] Result<JointHandle> joint(std::string_view name) const;
   [[nodiscard]] Result<CableHandle> cable(std::string_view name) const;
+  // By the index in the model's list, or in that of the cables, which must be in it.
+  [[nodiscard]] BodyHandle body_at(int index) const;
+  [[nodiscard]] JointHandle joint_at(int index) const;
+  [[nodiscard]] CableHandle cable_at(int index) const;
 
   /// As World::step(), with what happened. A supervisor acts before `before_substep`.
   [[nodiscard]] LiveReport step(const StopRequest& stop = {},

@@ -10,6 +10,7 @@
 #include "cable/live_world.h"
 #include "engine/field.h"
 #include "engine/result.h"
+#include "live/names.h"
 #include "scenes/format.h"
 
 namespace sheave::live {
@@ -24,7 +25,7 @@ class Control {
   [[nodiscard]] virtual std::string_view type() const = 0;  ///< key in the registry
   [[nodiscard]] virtual const void* settings() const = 0;   ///< this, as its own type
   /// Sets or clears it; faults have pointers within the control.
-  [[nodiscard]] virtual Errors apply(LiveWorld& world) const = 0;
+  [[nodiscard]] virtual Errors apply(LiveWorld& world, const Names& names) const = 0;
 
  protected:
   Control() = default;

@@ -15,14 +15,6 @@ namespace {
 constexpr std::size_t most_suggestions = 5000;
 constexpr std::size_t most_shown = 80;  // of a name
 
-template <class List, class NameOf>
-std::vector<std::string_view> names_of(const List& list, const NameOf& name_of) {
-  std::vector<std::string_view> names;
-  names.reserve(list.size());
-  for (const auto& element : list) names.push_back(name_of(element));
-  return names;
-}
-
 }  // namespace
 
 Error no_such(const std::string& what, const std::string& name,
@@ -41,45 +33,50 @@ Error no_such(const std::string& what, const std::string& name,
                                names.size() > enough ? ", ..." : "")};
 }
 
-Result<BodyHandle> body_named(const LiveWorld& world, const std::string& name,
-                              const std::string& pointer) {
-  Result<BodyHandle> found = world.body(name);
-  if (found) return found;
-  return no_such("body", name,
-                 names_of(world.simulation().world.model().bodies,
-                          [](const BodyDef& body) -> std::string_view { return body.name; }),
-                 pointer);
+void Names::Index::add(std::string_view name) {
+  places.emplace(name, static_cast<int>(names.size()));
+  names.push_back(name);
 }
 
-Result<JointHandle> joint_named(const LiveWorld& world, const std::string& name,
-                                const std::string& pointer) {
-  Result<JointHandle> found = world.joint(name);
-  if (found) return found;
-  return no_such("joint", name,
-                 names_of(world.simulation().world.model().joints,
-                          [](const auto& joint) -> std::string_view { return joint->name; }),
-                 pointer);
+int Names::Index::find(std::string_view name) const {
+  const auto found = places.find(name);
+  return found == places.end() ? -1 : found->second;
 }
 
-Result<CableHandle> cable_named(const LiveWorld& world, const std::string& name,
-                                const std::string& pointer) {
-  Result<CableHandle> found = world.cable(name);
-  if (found) return found;
-  return no_such("cable", name,
-                 names_of(*world.simulation().cable_definitions,
-                          [](const CableDef& cable) -> std::string_view { return cable.name; }),
-                 pointer);
+Names::Names(const LiveWorld& world) : world_(world) {
+  const Model& model = world.simulation().world.model();
+  for (const BodyDef& body : model.bodies) bodies_.add(body.name);
+  for (const auto& joint : model.joints) joints_.add(joint->name);
+  for (const CableDef& cable : *world.simulation().cable_definitions) cables_.add(cable.name);
 }
 
-Result<int> coordinate_named(const LiveWorld& world, JointHandle joint, const std::string& name) {
-  const auto coordinates = world.simulation().world.model().joints[at(joint.slot)]->coordinates();
+Result<BodyHandle> Names::body(const std::string& name, const std::string& pointer) const {
+  const int place = bodies_.find(name);
+  if (place >= 0) return world_.body_at(place);
+  return no_such("body", name, bodies_.names, pointer);
+}
+
+Result<JointHandle> Names::joint(const std::string& name, const std::string& pointer) const {
+  const int place = joints_.find(name);
+  if (place >= 0) return world_.joint_at(place);
+  return no_such("joint", name, joints_.names, pointer);
+}
+
+Result<CableHandle> Names::cable(const std::string& name, const std::string& pointer) const {
+  const int place = cables_.find(name);
+  if (place >= 0) return world_.cable_at(place);
+  return no_such("cable", name, cables_.names, pointer);
+}
+
+Result<int> Names::coordinate(JointHandle joint, const std::string& name) const {
   if (name.empty()) return 0;
+  const auto coordinates = world_.simulation().world.model().joints[at(joint.slot)]->coordinates();
+  std::vector<std::string_view> names;
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     if (coordinates[i].name == name) return static_cast<int>(i);
+    names.push_back(coordinates[i].name);
   }
-  return no_such("coordinate", name,
-                 names_of(coordinates, [](const JointCoordinateInfo& info) { return info.name; }),
-                 "/coordinate");
+  return no_such("coordinate", name, names, "/coordinate");
 }
 
 }  // namespace sheave::live

@@ -3,22 +3,45 @@
 
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "cable/live_world.h"
 
 namespace sheave::live {
 
-/// The thing with this name; a fault at `pointer` says which name may have been meant.
-[[nodiscard]] Result<BodyHandle> body_named(const LiveWorld& world, const std::string& name,
-                                            const std::string& pointer = "/body");
-[[nodiscard]] Result<JointHandle> joint_named(const LiveWorld& world, const std::string& name,
-                                              const std::string& pointer = "/joint");
-[[nodiscard]] Result<CableHandle> cable_named(const LiveWorld& world, const std::string& name,
-                                              const std::string& pointer = "/cable");
-/// Index of a coordinate of a joint; an empty name is the first.
-[[nodiscard]] Result<int> coordinate_named(const LiveWorld& world, JointHandle joint,
-                                           const std::string& name);
+/// The names of a world, found at once. A fault is told at `pointer`, and says which name may have been meant.
+class Names {
+ public:
+  /// `world` must outlive this.
+  explicit Names(const LiveWorld& world);
+  Names(const Names&) = delete;
+  Names& operator=(const Names&) = delete;
+
+  [[nodiscard]] Result<BodyHandle> body(const std::string& name,
+                                        const std::string& pointer = "/body") const;
+  [[nodiscard]] Result<JointHandle> joint(const std::string& name,
+                                          const std::string& pointer = "/joint") const;
+  [[nodiscard]] Result<CableHandle> cable(const std::string& name,
+                                          const std::string& pointer = "/cable") const;
+  /// Index of a coordinate of a joint; an empty name is the first.
+  [[nodiscard]] Result<int> coordinate(JointHandle joint, const std::string& name) const;
+
+ private:
+  /// The names of one kind, in their order, and their places.
+  struct Index {
+    std::vector<std::string_view> names;
+    std::unordered_map<std::string_view, int> places;
+    void add(std::string_view name);
+    /// The place of a name, or -1.
+    [[nodiscard]] int find(std::string_view name) const;
+  };
+
+  const LiveWorld& world_;
+  Index bodies_;
+  Index joints_;
+  Index cables_;
+};
 
 /// What is wrong with a name that none of `names` is: there is no body "drun", did you mean "drum"?
 [[nodiscard]] Error no_such(const std::string& what, const std::string& name,

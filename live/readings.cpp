@@ -53,7 +53,7 @@ Result<int> QuantityIndex::find(const std::string& name) const {
   return set_.index_of(name);
 }
 
-Result<Readings> Readings::create(const QuantityIndex& index, const LiveWorld& world,
+Result<Readings> Readings::create(const QuantityIndex& index, const Names& names,
                                   const std::vector<std::string>& quantities,
                                   const std::vector<std::string>& poses) {
   Readings readings;
@@ -69,7 +69,7 @@ Result<Readings> Readings::create(const QuantityIndex& index, const LiveWorld& w
     }
   }
   for (std::size_t i = 0; i < poses.size() && errors.size() < enough; ++i) {
-    const Result<BodyHandle> body = body_named(world, poses[i], fmt::format("/poses/{}", i));
+    const Result<BodyHandle> body = names.body(poses[i], fmt::format("/poses/{}", i));
     if (body) readings.handles_.push_back(*body);
     if (!body) errors.push_back(body.errors().front());
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cable/live_world.h"
+#include "live/names.h"
 #include "live/request.h"
 #include "scenes/observables.h"
 
@@ -31,7 +32,7 @@ class QuantityIndex {
 class Readings {
  public:
   /// Faults have pointers into the lists "quantities" and "poses". Names must not be given twice.
-  static Result<Readings> create(const QuantityIndex& index, const LiveWorld& world,
+  static Result<Readings> create(const QuantityIndex& index, const Names& names,
                                  const std::vector<std::string>& quantities,
                                  const std::vector<std::string>& poses);
   [[nodiscard]] bool empty() const { return indices_.empty() && bodies_.empty(); }

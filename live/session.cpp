@@ -85,9 +85,9 @@ std::string logged_text(const Document& document, std::string_view line, std::in
 
 }  // namespace
 
-Session::Session(Scene scene, Simulation simulation, Hooks hooks, const Limits& limits)
-    : state_(std::make_unique<SessionState>(std::move(scene), std::move(simulation),
-                                            std::move(hooks), limits)) {
+Session::Session(const Scene& scene, Simulation simulation, Hooks hooks, const Limits& limits)
+    : state_(
+          std::make_unique<SessionState>(scene, std::move(simulation), std::move(hooks), limits)) {
   state_->snapshots.emplace("start", state_->world.state());
   state_->logged_to = state_->world.state().steps;
 }

@@ -17,7 +17,7 @@ namespace sheave::live {
 class Session {
  public:
   /// `simulation` is one of `scene`, at its start or where a saved state has it; a snapshot of it has the name "start".
-  Session(Scene scene, Simulation simulation, Hooks hooks = {}, const Limits& limits = {});
+  Session(const Scene& scene, Simulation simulation, Hooks hooks = {}, const Limits& limits = {});
   ~Session();
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;

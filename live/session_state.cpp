@@ -24,6 +24,22 @@ Errors check_name(const std::string& name) {
   return {{"/name", fmt::format("a name must consist of {}", name_rule)}};
 }
 
+SessionState::SessionState(const Scene& scene, Simulation simulation, Hooks called,
+                           const Limits& bounds)
+    : about{scene.name, scene.duration, {}, {}},
+      world(LiveWorld::of(std::move(simulation))),
+      names(world),
+      hooks(std::move(called)),
+      limits(bounds) {
+  for (const auto& own : scene.controllers) about.controllers.push_back(own->name);
+  for (const TriggerDef& own : scene.triggers) about.triggers.push_back(own.name);
+}
+
+const QuantityIndex& SessionState::quantities() {
+  if (!quantities_) quantities_ = std::make_unique<const QuantityIndex>(world.simulation());
+  return *quantities_;
+}
+
 std::optional<std::string> SessionState::stopped_by() const {
   const Supervisor* own = world.simulation().supervisor.get();
   if (own == nullptr || !own->has_stopped(world.state())) return {};
@@ -42,8 +58,6 @@ std::optional<std::string> SessionState::stopped_by() const {
 }
 
 Ending SessionState::step(std::string& reason) {
-  const double dt = world.simulation().world.model().step.dt;
-  if (hooks.before_step && !hooks.before_step(world.time() + dt)) return Ending::interrupted;
   const LiveReport report = world.step(hooks.stop);
   if (report.stopped) return Ending::interrupted;
   ++unlogged_steps;
@@ -85,7 +99,7 @@ void SessionState::tell(const LiveReport& report) {
     if (world.state().steps % subscription.every != 0) continue;
     Json line = event("values");
     line["subscription"] = name;
-    subscription.readings.read(quantities, world, line);
+    subscription.readings.read(quantities(), world, line);
     send(line, false);
   }
 }

@@ -3,9 +3,11 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cable/live_world.h"
 #include "live/protocol.h"
@@ -44,12 +46,10 @@ inline constexpr std::array<std::string_view, 4> ending_names{"none", "trigger",
                                                               "interrupted"};
 
 struct SessionState {
-  SessionState(Scene made_of, Simulation simulation, Hooks called, const Limits& bounds)
-      : scene(std::move(made_of)),
-        world(LiveWorld::of(std::move(simulation))),
-        quantities(world.simulation()),
-        hooks(std::move(called)),
-        limits(bounds) {}
+  SessionState(const Scene& scene, Simulation simulation, Hooks called, const Limits& bounds);
+
+  /// Those of the world, named when they are first asked for: that takes time and memory.
+  [[nodiscard]] const QuantityIndex& quantities();
 
   /// Steps once, and tells subscribers. `reason` is why it ended, if it did.
   [[nodiscard]] Ending step(std::string& reason);
@@ -58,9 +58,16 @@ struct SessionState {
   /// Writes steps that are not in the log yet into it.
   void log_steps();
 
-  const Scene scene;
+  /// What of the scene is told that is not in the world.
+  struct About {
+    std::string name;
+    double duration = 0.0;  ///< [s]
+    std::vector<std::string> controllers;
+    std::vector<std::string> triggers;
+  };
+  About about;
   LiveWorld world;
-  const QuantityIndex quantities;
+  const Names names;
   const Hooks hooks;
   const Limits limits;
   std::map<std::string, State> snapshots;
@@ -72,6 +79,8 @@ struct SessionState {
   std::int64_t logged_to = 0;  ///< the step that the world was at after the last that is in the log
 
  private:
+  std::unique_ptr<const QuantityIndex> quantities_;
+
   void tell(const LiveReport& report);
   void tell_events(const std::string& name, const LiveReport& report) const;
   [[nodiscard]] Json event(std::string_view kind) const;

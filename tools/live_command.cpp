@@ -73,14 +73,17 @@ class RequestLog {
 /// A session between standard input and standard output.
 class LiveServer {
  public:
-  LiveServer(const LiveOptions& options, Scene scene, Simulation simulation)
+  LiveServer(const LiveOptions& options, const Scene& scene, Simulation simulation)
       : realtime_(options.realtime),
         log_(options.log, faults_),
         writer_(STDOUT_FILENO, live::dropped_event),
         reader_(STDIN_FILENO, live::Limits{}.line_bytes, "standard input"),
-        pacer_(scene.model.step.dt),
+        step_pacer_(scene.model.step.dt),
+        run_pacer_(scene.model.step.dt),
         step_(scene.model.step.dt),
-        session_(std::move(scene), std::move(simulation), hooks()) {}
+        session_(scene, std::move(simulation), hooks()) {
+    step_pacer_.set_pace(realtime_);
+  }
 
   ExitCode serve() {
     faults_.attempt([&] {
@@ -108,7 +111,7 @@ class LiveServer {
     if (log_.is_open()) hooks.log = [this](const std::string& line) { log_.write(line); };
     hooks.before_step = [this](double time) {
       while (!ends()) {
-        const double wait = pacer_.until(time);
+        const double wait = step_pacer_.until(time);
         if (wait <= 0.0) return true;
         writer_.wait(wait);
       }
@@ -123,7 +126,6 @@ class LiveServer {
     const std::optional<LineReader::Line> line = reader_.next();
     has_lines_ = line.has_value();
     if (line) {
-      pacer_.set_pace(realtime_);
       writer_.write(line->too_long ? session_.answer_to_long_line() : session_.answer(line->text));
     } else {
       log_.flush();
@@ -134,8 +136,8 @@ class LiveServer {
   }
 
   double time_to_step() {
-    pacer_.set_pace(session_.pace() ? session_.pace() : realtime_);
-    return pacer_.until(session_.world().time() + step_);
+    run_pacer_.set_pace(session_.pace() ? session_.pace() : realtime_);
+    return run_pacer_.until(session_.world().time() + step_);
   }
 
   void wait_for_input(double seconds) {
@@ -159,7 +161,8 @@ class LiveServer {
   RequestLog log_;
   LineWriter writer_;
   LineReader reader_;
-  Pacer pacer_;
+  Pacer step_pacer_;  // of requests to step
+  Pacer run_pacer_;   // of a world that runs by itself
   double step_;
   bool has_lines_ = true;
   live::Session session_;
@@ -184,7 +187,7 @@ ExitCode run_live(const LiveOptions& options) {
                {"--load-state", options.load_state},
                {"standard input", "-"}},
               {{"--log", options.log}}, true);
-  Scene scene = load(options.scene);
+  const Scene scene = load(options.scene);
   constexpr std::size_t most_warnings = 20;
   for (const MagnitudeWarning& warning : check_magnitudes(scene, most_warnings)) {
     print_warning(warning.message);
@@ -193,7 +196,7 @@ ExitCode run_live(const LiveOptions& options) {
   if (!simulation) throw Failure(ExitCode::bad_scene, to_text(simulation.errors()));
   if (!options.load_state.empty()) load_state(simulation->world, options.load_state);
   catch_interrupts();
-  LiveServer server(options, std::move(scene), std::move(*simulation));
+  LiveServer server(options, scene, std::move(*simulation));
   return server.serve();
 }
 

@@ -25,9 +25,9 @@ class SetBodyDrive : public Control {
     wanted.over = over;
     return wanted;
   }
-  [[nodiscard]] Errors give(LiveWorld& world, const DriveTarget& wanted,
+  [[nodiscard]] Errors give(LiveWorld& world, const Names& names, const DriveTarget& wanted,
                             Errors (LiveWorld::*set)(BodyHandle, const DriveTarget&)) const {
-    const Result<BodyHandle> handle = body_named(world, body);
+    const Result<BodyHandle> handle = names.body(body);
     if (!handle) return handle.errors();
     return at_pointer((world.*set)(*handle, wanted), "");
   }
@@ -48,8 +48,8 @@ class SetSpeed final : public SetBodyDrive<SetSpeed> {
     };
     return table;
   }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
-    return give(world, target(), &LiveWorld::set_speed);
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
+    return give(world, names, target(), &LiveWorld::set_speed);
   }
 };
 
@@ -71,10 +71,10 @@ class SetAngle final : public SetBodyDrive<SetAngle> {
     };
     return table;
   }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
     DriveTarget wanted = target();
     wanted.rate = rate;
-    return give(world, wanted, &LiveWorld::set_angle);
+    return give(world, names, wanted, &LiveWorld::set_angle);
   }
 };
 
@@ -91,8 +91,8 @@ class SetTorque final : public SetBodyDrive<SetTorque> {
     };
     return table;
   }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
-    return give(world, target(), &LiveWorld::set_torque);
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
+    return give(world, names, target(), &LiveWorld::set_torque);
   }
 };
 
@@ -110,8 +110,8 @@ class ClearDrive final : public Control {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
-    const Result<BodyHandle> handle = body_named(world, body);
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
+    const Result<BodyHandle> handle = names.body(body);
     return handle ? at_pointer(world.clear_drive(*handle), "") : handle.errors();
   }
 };

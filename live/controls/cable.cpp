@@ -50,8 +50,8 @@ class SetCable final : public Control {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
-    const Result<CableHandle> handle = cable_named(world, cable);
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
+    const Result<CableHandle> handle = names.cable(cable);
     return handle ? at_pointer((world.*Setting::set)(*handle, value), "") : handle.errors();
   }
 };
@@ -71,8 +71,8 @@ class ClearCable final : public Control {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
-    const Result<CableHandle> handle = cable_named(world, cable);
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
+    const Result<CableHandle> handle = names.cable(cable);
     return handle ? at_pointer((world.*Setting::clear)(*handle), "") : handle.errors();
   }
 };

@@ -38,8 +38,8 @@ class SetForce final : public Control {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
-    const Result<BodyHandle> handle = body_named(world, body);
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
+    const Result<BodyHandle> handle = names.body(body);
     if (!handle) return handle.errors();
     return at_pointer(world.set_force(*handle, {force, torque, point, frame}), "");
   }
@@ -59,8 +59,8 @@ class ClearForce final : public Control {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
-    const Result<BodyHandle> handle = body_named(world, body);
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
+    const Result<BodyHandle> handle = names.body(body);
     return handle ? at_pointer(world.clear_force(*handle), "") : handle.errors();
   }
 };

@@ -21,7 +21,7 @@ class SetGravity final : public Control {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& /*names*/) const override {
     return at_pointer(world.set_gravity(value), "/value");
   }
 };
@@ -33,7 +33,7 @@ class ClearGravity final : public Control {
   static std::span<const Field> field_table() { return {}; }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& /*names*/) const override {
     world.clear_gravity();
     return {};
   }

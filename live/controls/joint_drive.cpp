@@ -16,10 +16,10 @@ class JointControl : public Control {
 
  protected:
   template <class Set>
-  [[nodiscard]] Errors with_coordinate(const LiveWorld& world, const Set& set) const {
-    const Result<JointHandle> handle = joint_named(world, joint);
+  [[nodiscard]] Errors with_coordinate(const Names& names, const Set& set) const {
+    const Result<JointHandle> handle = names.joint(joint);
     if (!handle) return handle.errors();
-    const Result<int> index = coordinate_named(world, *handle, coordinate);
+    const Result<int> index = names.coordinate(*handle, coordinate);
     return index ? at_pointer(set(*handle, *index), "") : index.errors();
   }
   static constexpr std::string_view joint_meaning = "name of the joint";
@@ -55,11 +55,11 @@ class SetJointDrive final : public JointControl {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
     DriveTarget wanted(value);
     wanted.over = over;
     wanted.rate = rate;
-    return with_coordinate(world, [&](JointHandle handle, int index) {
+    return with_coordinate(names, [&](JointHandle handle, int index) {
       return world.set_drive(handle, wanted, index);
     });
   }
@@ -84,8 +84,8 @@ class SetJointDriveLimit final : public JointControl {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
-    return with_coordinate(world, [&](JointHandle handle, int index) {
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
+    return with_coordinate(names, [&](JointHandle handle, int index) {
       return world.set_drive_limit(handle, value, index);
     });
   }
@@ -106,9 +106,9 @@ class ClearJointDrive final : public JointControl {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
     return with_coordinate(
-        world, [&](JointHandle handle, int index) { return world.clear_drive(handle, index); });
+        names, [&](JointHandle handle, int index) { return world.clear_drive(handle, index); });
   }
 };
 

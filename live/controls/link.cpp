@@ -16,8 +16,8 @@ class LinkedControl : public Control {
 
  protected:
   template <class Set>
-  [[nodiscard]] Errors with_cable(const LiveWorld& world, const Set& set) const {
-    const Result<CableHandle> handle = cable_named(world, cable);
+  [[nodiscard]] Errors with_cable(const Names& names, const Set& set) const {
+    const Result<CableHandle> handle = names.cable(cable);
     return handle ? at_pointer(set(*handle), "") : handle.errors();
   }
   static constexpr std::string_view cable_meaning = "name of the cable";
@@ -41,8 +41,8 @@ class SetFriction final : public LinkedControl {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
-    return with_cable(world,
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
+    return with_cable(names,
                       [&](CableHandle handle) { return world.set_friction(handle, link, value); });
   }
 };
@@ -67,11 +67,11 @@ class SetFeedSpeed final : public LinkedControl {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
     DriveTarget wanted(value);
     wanted.over = over;
     return with_cable(
-        world, [&](CableHandle handle) { return world.set_feed_speed(handle, link, wanted); });
+        names, [&](CableHandle handle) { return world.set_feed_speed(handle, link, wanted); });
   }
 };
 
@@ -100,8 +100,8 @@ class ClearLink final : public LinkedControl {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
-    return with_cable(world,
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
+    return with_cable(names,
                       [&](CableHandle handle) { return (world.*Setting::clear)(handle, link); });
   }
 };

@@ -39,8 +39,8 @@ class SetMotion final : public Control {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
-    const Result<BodyHandle> handle = body_named(world, body);
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
+    const Result<BodyHandle> handle = names.body(body);
     if (!handle) return handle.errors();
     MotionTarget target;
     target.position = position;
@@ -70,8 +70,8 @@ class ClearMotion final : public Control {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(LiveWorld& world) const override {
-    const Result<BodyHandle> handle = body_named(world, body);
+  [[nodiscard]] Errors apply(LiveWorld& world, const Names& names) const override {
+    const Result<BodyHandle> handle = names.body(body);
     return handle ? at_pointer(world.clear_motion(*handle, over), "") : handle.errors();
   }
 };

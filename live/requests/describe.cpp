@@ -95,8 +95,10 @@ class Settable {
     if (errors.empty()) list_.push_back(std::move(control));
   }
   void bodies() {
-    for (const BodyDef& body : world_.simulation().world.model().bodies) {
-      const BodyHandle handle = *world_.body(body.name);
+    const std::vector<BodyDef>& all = world_.simulation().world.model().bodies;
+    for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+      const BodyDef& body = all[at(i)];
+      const BodyHandle handle = world_.body_at(i);
       const auto told = [&](const char* type) { return Json{{"type", type}, {"body", body.name}}; };
       const DriveTarget soon(0.0, 1.0);
       note(world_.set_speed(handle, soon), told("speed"));
@@ -109,8 +111,10 @@ class Settable {
     }
   }
   void joints() {
-    for (const auto& joint : world_.simulation().world.model().joints) {
-      const JointHandle handle = *world_.joint(joint->name);
+    const auto& all = world_.simulation().world.model().joints;
+    for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+      const auto& joint = all[at(i)];
+      const JointHandle handle = world_.joint_at(i);
       const auto coordinates = joint->coordinates();
       for (int k = 0; k < static_cast<int>(coordinates.size()); ++k) {
         const auto told = [&](const char* type) {
@@ -123,8 +127,10 @@ class Settable {
     }
   }
   void cables() {
-    for (const CableDef& cable : *world_.simulation().cable_definitions) {
-      const CableHandle handle = *world_.cable(cable.name);
+    const std::vector<CableDef>& all = *world_.simulation().cable_definitions;
+    for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+      const CableDef& cable = all[at(i)];
+      const CableHandle handle = world_.cable_at(i);
       const auto told = [&](const char* type) {
         return Json{{"type", type}, {"cable", cable.name}};
       };
@@ -152,12 +158,10 @@ Errors Describe::run(SessionState& session, Json& answer) const {
   answer["bodies"] = bodies_json(model);
   answer["joints"] = joints_json(model);
   answer["cables"] = cables_json(model, *session.world.simulation().cable_definitions);
-  answer["controllers"] = Json::array();
-  for (const auto& own : session.scene.controllers) answer["controllers"].push_back(own->name);
-  answer["triggers"] = Json::array();
-  for (const TriggerDef& own : session.scene.triggers) answer["triggers"].push_back(own.name);
+  answer["controllers"] = session.about.controllers;
+  answer["triggers"] = session.about.triggers;
   answer["controls"] = Settable(session.world).list();
-  if (quantities) answer["quantities"] = session.quantities.set().names();
+  if (quantities) answer["quantities"] = session.quantities().set().names();
   return {};
 }
 

@@ -28,9 +28,9 @@ class Hello final : public Request {
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override {
     const Limits& limits = session.limits;
     answer["protocol"] = protocol_names[static_cast<std::size_t>(Protocol::v1)];
-    answer["scene"] = session.scene.name;
-    answer["dt"] = session.scene.model.step.dt;
-    answer["duration"] = session.scene.duration;
+    answer["scene"] = session.about.name;
+    answer["dt"] = session.world.simulation().world.model().step.dt;
+    answer["duration"] = session.about.duration;
     answer["limits"] = {{"line_bytes", limits.line_bytes},
                         {"steps", limits.steps},
                         {"snapshots", limits.snapshots},

@@ -30,10 +30,10 @@ class Observe final : public Request {
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override {
     const Result<Readings> readings =
-        Readings::create(session.quantities, session.world, quantities, poses);
+        Readings::create(session.quantities(), session.names, quantities, poses);
     if (!readings) return readings.errors();
     if (readings->empty()) return {{"", "nothing is asked for: name quantities or poses"}};
-    readings->read(session.quantities, session.world, answer);
+    readings->read(session.quantities(), session.world, answer);
     return {};
   }
 };

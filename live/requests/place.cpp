@@ -38,7 +38,7 @@ class Place final : public Request {
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override {
-    const Result<BodyHandle> handle = body_named(session.world, body);
+    const Result<BodyHandle> handle = session.names.body(body);
     if (!handle) return handle.errors();
     const std::optional<Quaternion> turned =
         orientation.coeffs().isZero(0.0) ? std::nullopt : std::optional(orientation);

@@ -48,7 +48,7 @@ Errors Change::run(SessionState& session, Json& answer) const {
   Errors errors = session.world.set_together([&] {
     Errors faults;
     for (std::size_t i = 0; i < changes_.size(); ++i) {
-      for (Error& error : changes_[i]->apply(session.world)) {
+      for (Error& error : changes_[i]->apply(session.world, session.names)) {
         error.path.insert(0, fmt::format("/controls/{}", i));
         faults.push_back(std::move(error));
       }

@@ -74,7 +74,12 @@ Errors Step::run(SessionState& session, Json& answer) const {
   const std::int64_t before = session.world.state().steps;
   Ending ending = Ending::none;
   std::string reason;
-  for (std::int64_t i = 0; i < *steps && ending == Ending::none; ++i) ending = session.step(reason);
+  const double dt = session.world.simulation().world.model().step.dt;
+  for (std::int64_t i = 0; i < *steps && ending == Ending::none; ++i) {
+    const auto& may_go_on = session.hooks.before_step;
+    const bool goes_on = !may_go_on || may_go_on(session.world.time() + dt);
+    ending = goes_on ? session.step(reason) : Ending::interrupted;
+  }
   answer["steps"] = session.world.state().steps - before;
   if (ending == Ending::none) return {};
   answer["ended"] = ending_names[static_cast<std::size_t>(ending)];

@@ -49,7 +49,7 @@ Errors Subscribe::run(SessionState& session, Json& /*answer*/) const {
     errors.push_back({"/name", "there is a subscription of this name; unsubscribe it first"});
   }
   const Result<Readings> readings =
-      Readings::create(session.quantities, session.world, quantities, poses);
+      Readings::create(session.quantities(), session.names, quantities, poses);
   if (!readings) {
     errors.insert(errors.end(), readings.errors().begin(), readings.errors().end());
   } else if (readings->empty() && !events) {

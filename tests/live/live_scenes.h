@@ -68,10 +68,10 @@ inline Scene scene_of(const std::string& text) {
 
 inline live::Session session_of(const std::string& text, live::Hooks hooks = {},
                                 const live::Limits& limits = {}) {
-  Scene scene = scene_of(text);
+  const Scene scene = scene_of(text);
   Result<Simulation> simulation = create_simulation(scene);
   EXPECT_TRUE(simulation.ok());
-  return {std::move(scene), std::move(*simulation), std::move(hooks), limits};
+  return {scene, std::move(*simulation), std::move(hooks), limits};
 }
 
 /// The answer as JSON; it must be one line.

@@ -78,11 +78,11 @@ TEST(LivePage, ItsExamplesHappenAsItSays) {
   std::vector<std::string> told;
   std::vector<std::string> lines;
   const auto start = [&] {
-    SceneResult loaded = load_scene(scene);
+    const SceneResult loaded = load_scene(scene);
     Result<Simulation> simulation = create_simulation(*loaded);
     live::Hooks hooks;
     hooks.event = [&](const std::string& line, bool) { lines.push_back(line); };
-    return live::Session(std::move(*loaded.scene), std::move(*simulation), hooks);
+    return live::Session(*loaded, std::move(*simulation), hooks);
   };
   live::Session session = start();
   std::istringstream text(page());
