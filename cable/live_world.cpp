@@ -153,6 +153,10 @@ Result<std::string> LiveWorld::name(CableHandle cable) const {
   return revision_->records[at(cable.slot)].definition.name;
 }
 
+BodyHandle LiveWorld::body_at(int index) const { return revision_->bodies.handle(at(index)); }
+JointHandle LiveWorld::joint_at(int index) const { return revision_->joint_handles[at(index)]; }
+CableHandle LiveWorld::cable_at(int index) const { return revision_->cable_handles[at(index)]; }
+
 std::string LiveWorld::fault_of(BodyHandle body) const {
   return revision_->bodies.fault_of(body, "body");
 }

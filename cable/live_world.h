@@ -80,8 +80,8 @@ class LiveSnapshot {
 class LiveWorld {
  public:
   static Result<LiveWorld> create(const Model& model, const std::vector<CableDef>& cables);
-  /// Of a simulation that there is, with its supervisor if it has one.
-  explicit LiveWorld(Simulation simulation);
+  /// Of a simulation that is there, with its supervisor if it has one.
+  static LiveWorld of(Simulation simulation) { return LiveWorld(std::move(simulation)); }
   ~LiveWorld();
   LiveWorld(LiveWorld&&) noexcept;
   LiveWorld& operator=(LiveWorld&&) noexcept;
@@ -90,6 +90,10 @@ class LiveWorld {
   [[nodiscard]] Result<BodyHandle> body(std::string_view name) const;
   [[nodiscard]] Result<JointHandle> joint(std::string_view name) const;
   [[nodiscard]] Result<CableHandle> cable(std::string_view name) const;
+  // By the index in the model's list, or in that of the cables, which must be in it.
+  [[nodiscard]] BodyHandle body_at(int index) const;
+  [[nodiscard]] JointHandle joint_at(int index) const;
+  [[nodiscard]] CableHandle cable_at(int index) const;
 
   // All there are, in the order of their handles.
   [[nodiscard]] std::vector<BodyHandle> bodies() const;
@@ -151,6 +155,9 @@ class LiveWorld {
   [[nodiscard]] Errors set_feed_speed(CableHandle cable, int link, const DriveTarget& target);
   [[nodiscard]] Errors clear_feed_speed(CableHandle cable, int link);
 
+  /// Several controls, all or none: what `set` has set and cleared is as it was if it returns faults.
+  [[nodiscard]] Errors set_together(const std::function<Errors()>& set);
+
   /// Puts a free, planar or slider body that no joint holds elsewhere, with what is mounted on it; it keeps its velocity. The
   /// origin of its frame goes to `position` [m]. Cables follow: wheels take and give the arcs in between. Whether bodies then
   /// overlap nobody asks; the next step takes them apart.
@@ -173,6 +180,7 @@ class LiveWorld {
   [[nodiscard]] const Simulation& simulation() const;
 
  private:
+  explicit LiveWorld(Simulation simulation);
   [[nodiscard]] Errors set_drive_of(BodyHandle body, DriveKind kind, const DriveTarget& target);
   [[nodiscard]] std::string fault_of(BodyHandle body) const;
   [[nodiscard]] std::string fault_of(JointHandle joint) const;

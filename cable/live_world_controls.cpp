@@ -10,6 +10,13 @@ Errors as_errors(std::string fault) { return {{"", std::move(fault)}}; }
 
 }  // namespace
 
+Errors LiveWorld::set_together(const std::function<Errors()>& set) {
+  Controls before = state().controls;
+  Errors errors = set();
+  if (!errors.empty()) simulation_->world.controls_of_features() = std::move(before);
+  return errors;
+}
+
 Errors LiveWorld::set_gravity(const Vector3& gravity) {
   return running().world.set_gravity(gravity);
 }

@@ -1,9 +1,9 @@
-# What a C++ program needs for find_package(sheave) and sheave::engine, sheave::cable, sheave::scenes, sheave::measure.
+# What a C++ program needs for find_package(sheave) and sheave::engine, sheave::cable, sheave::scenes, sheave::live, sheave::measure.
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sheave")
 set(installed)
-foreach(folder IN ITEMS engine cable scenes measure)
+foreach(folder IN ITEMS engine cable scenes live measure)
   if(TARGET sheave_${folder})
     list(APPEND installed sheave_${folder})
     install(

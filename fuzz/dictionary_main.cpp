@@ -1,5 +1,5 @@
-// Prints a dictionary for libFuzzer: the words of scenes, from the field tables, or with the argument "command_line" those of
-// the command line, from its options.
+// Prints a dictionary for libFuzzer: the words of scenes, from the field tables, with the argument "live" those of a live
+// session's requests, or with "command_line" those of the command line, from its options.
 
 #include <algorithm>
 #include <cstdio>
@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "live/request_format.h"
 #include "scenes/format.h"
 #include "tools/command.h"
 
@@ -43,6 +44,14 @@ Words scene_words() {
   Words words{"null", "true", "false", "\"world\"", "1e308", "-1", "[0, 0, 1]", "//", "/*", "*/"};
   std::set<const ObjectFormat*> seen;
   add_format(scene_format(), seen, words);
+  return words;
+}
+
+Words live_words() {
+  Words words{"null",      "true",     "1e308",    "-1",       "\n",
+              "\"start\"", "\"load\"", "\"rope\"", "\"brake\""};
+  std::set<const ObjectFormat*> seen;
+  for (const ObjectFormat& format : live::request_formats()) add_format(format, seen, words);
   return words;
 }
 
@@ -85,8 +94,10 @@ void print(const Words& words) {
 }  // namespace sheave::fuzz
 
 int main(int argc, char** argv) {
-  const bool command_line = argc > 1 && std::string_view(argv[1]) == "command_line";
-  sheave::fuzz::print(command_line ? sheave::fuzz::command_line_words()
-                                   : sheave::fuzz::scene_words());
+  using namespace sheave::fuzz;
+  const std::string_view kind = argc > 1 ? argv[1] : "scene";
+  print(kind == "command_line" ? command_line_words()
+        : kind == "live"       ? live_words()
+                               : scene_words());
   return 0;
 }

@@ -38,16 +38,20 @@ void try_state(Bytes bytes);
 void try_journal(Bytes bytes);
 /// Words of a command line, separated by line breaks: accepted, or refused with a message. Nothing is run.
 void try_command_line(Bytes bytes);
+/// Requests of a live session, separated by line breaks: each is done or refused, and what is refused changes nothing; the log
+/// leads to the same state.
+void try_live(Bytes bytes);
 
 /// A target by its name.
 struct Target {
   std::string_view name;
   void (*run)(Bytes bytes);
 };
-inline constexpr std::array<Target, 5> targets{{{"scene_text", try_scene_text},
+inline constexpr std::array<Target, 6> targets{{{"scene_text", try_scene_text},
                                                 {"machine", try_machine},
                                                 {"state", try_state},
                                                 {"journal", try_journal},
-                                                {"command_line", try_command_line}}};
+                                                {"command_line", try_command_line},
+                                                {"live", try_live}}};
 
 }  // namespace sheave::fuzz

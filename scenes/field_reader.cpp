@@ -75,14 +75,18 @@ void FieldReader::read_table(NodeId node, std::span<const Field> fields, void* o
     if (value != no_node) {
       read_value(document_, faults_, bodies_, field, value, field.slot(object));
     } else if (field.presence == Presence::required) {
-      faults_.add({document_.offset(node),
-                   fmt::format("{}/{}", document_.pointer(node), field.name),
-                   "required key is missing",
-                   {},
-                   describe(field, field.slot(object)),
-                   FaultCode::missing_key});
+      report_missing(node, field.name, describe(field, field.slot(object)));
     }
   }
+}
+
+void FieldReader::report_missing(NodeId node, std::string_view key, std::string allowed) {
+  faults_.add({document_.offset(node),
+               fmt::format("{}/{}", document_.pointer(node), key),
+               "required key is missing",
+               {},
+               std::move(allowed),
+               FaultCode::missing_key});
 }
 
 void FieldReader::check_name(NodeId node) {
@@ -107,12 +111,7 @@ const Variant* FieldReader::read_type(NodeId node, const ObjectFormat& format) {
   }
   const NodeId type = document_.member(node, "type");
   if (type == no_node) {
-    faults_.add({document_.offset(node),
-                 document_.pointer(node) + "/type",
-                 "required key is missing",
-                 {},
-                 allowed,
-                 FaultCode::missing_key});
+    report_missing(node, "type", allowed);
     return nullptr;
   }
   if (document_.kind(type) != Kind::string) {
@@ -131,8 +130,12 @@ const Variant* FieldReader::read_type(NodeId node, const ObjectFormat& format) {
 
 std::span<const NodeId> FieldReader::list(NodeId object, const Member& member) {
   const NodeId node = document_.member(object, member.name);
-  if (node == no_node) return {};
   const std::string wanted = fmt::format("a list of objects ({})", member.meaning);
+  if (node == no_node) {
+    if (member.required && document_.kind(object) == Kind::object)
+      report_missing(object, member.name, wanted);
+    return {};
+  }
   if (document_.kind(node) != Kind::array) {
     fail(node, FaultCode::wrong_type, "must be " + wanted, wanted);
     return {};

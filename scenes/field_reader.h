@@ -26,7 +26,8 @@ class FieldReader {
                    const Variant* variant = nullptr, void* settings = nullptr);
   /// The variant that the key "type" of an object chooses; null, reported, if it chooses none.
   const Variant* read_type(json::NodeId node, const ObjectFormat& format);
-  /// The elements of a list member of an object; none if it is missing, no list or too long.
+  /// The elements of a list member of an object; none if it is missing, which is reported if it is required, no list or too
+  /// long.
   std::span<const json::NodeId> list(json::NodeId object, const Member& member);
 
   /// Declares the bodies that references may name, in the order of their indices; reports names
@@ -44,6 +45,7 @@ class FieldReader {
   void check_keys(json::NodeId node, const ObjectFormat& format, const Variant* variant);
   void read_table(json::NodeId node, std::span<const Field> fields, void* object);
   void check_name(json::NodeId node);
+  void report_missing(json::NodeId node, std::string_view key, std::string allowed);
 
   const json::Document& document_;
   json::Faults& faults_;

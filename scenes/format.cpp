@@ -7,37 +7,11 @@
 #include <fmt/format.h>
 
 #include "engine/field_check.h"
+#include "scenes/format_tables.h"
 #include "scenes/scene.h"
 
 namespace sheave {
 namespace {
-
-/// The table of a plain struct.
-template <class Type>
-TableFormat table_of() {
-  return {Type::field_table(), std::make_shared<const Type>()};
-}
-
-/// The types of a registry.
-template <class Base>
-std::vector<Variant> variants_of(std::span<const TypeEntry<Base>> types) {
-  std::vector<Variant> variants;
-  for (const TypeEntry<Base>& type : types) {
-    const std::shared_ptr<const Base> made = type.make();
-    // Shares ownership of the object but points to it as its own type.
-    const std::shared_ptr<const void> settings(made, made->settings());
-    variants.push_back({type.name, type.meaning, {type.fields(), settings}});
-  }
-  return variants;
-}
-
-/// The table that all types of a registry have in common, with one of them as the default object.
-template <class Base>
-TableFormat common_table(std::span<const TypeEntry<Base>> types) {
-  if (types.empty()) return {Base::common_field_table(), nullptr};
-  const std::shared_ptr<const Base> made = types.front().make();
-  return {Base::common_field_table(), made};
-}
 
 template <class Type>
 ObjectFormat plain_format(std::string_view name, std::string_view meaning) {
@@ -301,6 +275,8 @@ bool is_absent(const FieldSlot& slot) {
       []<class Slot>(const Slot& s) {
         if constexpr (requires { s->has_value(); }) {
           return !s->has_value();
+        } else if constexpr (std::is_same_v<Slot, Quaternion*>) {
+          return s->coeffs().isZero(0.0);
         } else {
           return false;
         }

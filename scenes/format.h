@@ -27,6 +27,7 @@ struct Member {
   std::string_view meaning;
   bool list = false;
   const ObjectFormat* format = nullptr;
+  bool required = false;
 };
 
 /// One of several types of an object, chosen by its key "type".
@@ -86,7 +87,7 @@ inline constexpr double quaternion_tolerance = 1e-6;
 [[nodiscard]] bool same_value(const Field& field, const void* a, const void* b);
 /// Gives `to` the value of a field of `from`; both are objects of a table's type.
 void copy_value(const Field& field, const void* from, void* to);
-/// Whether an optional slot holds no value; false for slots that always do.
+/// Whether an optional slot holds no value; false for slots that always do. A quaternion of zeros is none.
 [[nodiscard]] bool is_absent(const FieldSlot& slot);
 
 /// What a field accepts, for messages and documentation: "a number > 0 [kg]".

@@ -1,5 +1,7 @@
 // Reference documentation of the format, from the tables.
 
+#include "scenes/reference.h"
+
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -113,24 +115,6 @@ void add_fields(const TableFormat& table, std::string& text) {
   }
 }
 
-void add_format(const ObjectFormat& format, std::string& text) {
-  text += fmt::format("\n## {}\n\n{}.\n", format.name, format.meaning);
-  add_table_head(text);
-  if (!format.variants.empty()) text += "| `type` | one of the types below | required | |\n";
-  for (const TableFormat& table : format.tables) add_fields(table, text);
-  for (const Member& member : format.members) {
-    text += fmt::format("| `{}` | {} [{}](#{}) | | {} |\n", member.name,
-                        member.list ? "a list of" : "a", member.format->name, member.format->name,
-                        cell(member.meaning));
-  }
-  for (const Variant& variant : format.variants) {
-    text += fmt::format("\n### {} `\"{}\"`\n\n{}.\n", format.name, variant.name, variant.meaning);
-    if (variant.table.fields.empty()) continue;
-    add_table_head(text);
-    add_fields(variant.table, text);
-  }
-}
-
 /// The formats in the order in which they are first mentioned.
 void collect(const ObjectFormat& format, std::vector<const ObjectFormat*>& formats) {
   if (std::find(formats.begin(), formats.end(), &format) != formats.end()) return;
@@ -140,13 +124,35 @@ void collect(const ObjectFormat& format, std::vector<const ObjectFormat*>& forma
 
 }  // namespace
 
+void append_reference(const ObjectFormat& format, std::string& text) {
+  text += fmt::format("\n## {}\n\n{}.\n", format.name, format.meaning);
+  const auto has_fields = [](const TableFormat& table) { return !table.fields.empty(); };
+  if (!format.variants.empty() || !format.members.empty() ||
+      std::any_of(format.tables.begin(), format.tables.end(), has_fields)) {
+    add_table_head(text);
+  }
+  if (!format.variants.empty()) text += "| `type` | one of the types below | required | |\n";
+  for (const TableFormat& table : format.tables) add_fields(table, text);
+  for (const Member& member : format.members) {
+    text += fmt::format("| `{}` | {} [{}](#{}) | {}| {} |\n", member.name,
+                        member.list ? "a list of" : "a", member.format->name, member.format->name,
+                        member.required ? "required " : "", cell(member.meaning));
+  }
+  for (const Variant& variant : format.variants) {
+    text += fmt::format("\n### {} `\"{}\"`\n\n{}.\n", format.name, variant.name, variant.meaning);
+    if (variant.table.fields.empty()) continue;
+    add_table_head(text);
+    add_fields(variant.table, text);
+  }
+}
+
 std::string scene_reference() {
   std::string text(introduction);
   text += name_rule;
   text += ".\n";
   std::vector<const ObjectFormat*> formats;
   collect(scene_format(), formats);
-  for (const ObjectFormat* format : formats) add_format(*format, text);
+  for (const ObjectFormat* format : formats) append_reference(*format, text);
   text += quantities;
   append_quantities(quantity_groups(), text);
   text += requested_quantities;

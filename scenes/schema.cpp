@@ -1,5 +1,7 @@
 // JSON Schema (draft-07) of the format, from the tables.
 
+#include "scenes/schema.h"
+
 #include <cmath>
 
 #include <fmt/format.h>
@@ -103,6 +105,7 @@ Json object_schema(const ObjectFormat& format, const Variant* variant) {
         member.list ? list_schema(std::move(reference))
                     : Json{{"allOf", Json::array({std::move(reference)})}};
     properties[std::string(member.name)]["description"] = member.meaning;
+    if (member.required) required.push_back(member.name);
   }
   Json schema{{"type", "object"},
               {"description", variant != nullptr ? variant->meaning : format.meaning},
@@ -114,6 +117,8 @@ Json object_schema(const ObjectFormat& format, const Variant* variant) {
   }
   return schema;
 }
+
+}  // namespace
 
 Json format_schema(const ObjectFormat& format) {
   if (format.variants.empty()) return object_schema(format, nullptr);
@@ -130,8 +135,6 @@ void add_definitions(const ObjectFormat& format, Json& definitions) {
     add_definitions(*member.format, definitions);
   }
 }
-
-}  // namespace
 
 std::string scene_schema() {
   Json schema{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "Sheave scene"}};

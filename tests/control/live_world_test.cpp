@@ -6,6 +6,7 @@
 #include "engine/joint_report.h"
 #include "engine/joints/gear.h"
 #include "engine/joints/hinge.h"
+#include "scenes/control/scene_supervisor.h"
 #include "scenes/load_world.h"
 #include "tests/control/allocation_count.h"
 #include "tests/support/builders.h"
@@ -193,6 +194,43 @@ TEST(LiveWorld, LoadsScenes) {
   const Result<LiveWorld> none = load(machines + "no-such-crane.json");
   ASSERT_FALSE(none.ok());
   EXPECT_NE(none.errors()[0].message.find("no-such-crane.json"), std::string::npos);
+}
+
+TEST(LiveWorld, SetsTogetherAllOrNothing) {
+  LiveWorld world = live(workshop());
+  ASSERT_TRUE(world.set_speed(*world.body("drum"), 0.2).empty());
+  const std::uint64_t before = hash(world.state());
+  const auto change = [&](double compliance) {
+    return world.set_together([&] {
+      Errors errors = world.set_gravity({0.0, -1.0, 0.0});
+      for (Error& error : world.set_speed(*world.body("drum"), 1.0)) errors.push_back(error);
+      for (Error& error : world.set_compliance(*world.cable("rope"), compliance)) {
+        errors.push_back(error);
+      }
+      return errors;
+    });
+  };
+  EXPECT_EQ(change(-1.0).size(), 1U);
+  EXPECT_EQ(hash(world.state()), before);
+  EXPECT_TRUE(change(1e-6).empty());
+  EXPECT_NE(hash(world.state()), before);
+}
+
+TEST(LiveWorld, ControllersAndTriggersOfScenesAct) {
+  const std::string path =
+      std::string(SHEAVE_SOURCE_DIR) + "/scenes/machines/constant-tension-winch.json";
+  Result<LiveWorld> world = load(path);
+  ASSERT_TRUE(world.ok());
+  const SceneResult scene = load_scene(path);
+  Result<Simulation> simulation = create_simulation(*scene);
+  int calls = 0;
+  for (int i = 0; i < 50; ++i) {
+    ASSERT_TRUE(world->step({}, [&] { ++calls; }).ok());
+    ASSERT_TRUE(simulation->step().ok());
+  }
+  EXPECT_EQ(hash(world->state()), hash(simulation->world.state()));
+  EXPECT_EQ(calls, 50 * scene->model.step.substeps);
+  EXPECT_FALSE(world->state().controls.empty()) << "the controller has set the drive";
 }
 
 // What is set is no fault: every balance of the certificate closes with it.

@@ -27,7 +27,7 @@ TEST(ExitCode, HelpAndVersionSucceed) {
   EXPECT_EQ(run_sheave({"--version"}).exit_code, 0);
   EXPECT_THAT(run_sheave({"--help"}).out, HasSubstr("validate"));
   for (const char* name :
-       {"run", "render", "bench", "validate", "generate", "schema", "reference"}) {
+       {"run", "live", "render", "bench", "validate", "generate", "schema", "reference"}) {
     const ProcessResult result = run_sheave({name, "--help"});
     EXPECT_EQ(result.exit_code, 0) << name;
     EXPECT_THAT(result.out, HasSubstr("Example")) << name;

@@ -1,0 +1,50 @@
+#pragma once
+// Bodies, joints and cables by the names that requests use.
+
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "cable/live_world.h"
+
+namespace sheave::live {
+
+/// The names of a world, found at once. A fault is told at `pointer`, and says which name may have been meant.
+class Names {
+ public:
+  /// `world` must outlive this.
+  explicit Names(const LiveWorld& world);
+  Names(const Names&) = delete;
+  Names& operator=(const Names&) = delete;
+
+  [[nodiscard]] Result<BodyHandle> body(const std::string& name,
+                                        const std::string& pointer = "/body") const;
+  [[nodiscard]] Result<JointHandle> joint(const std::string& name,
+                                          const std::string& pointer = "/joint") const;
+  [[nodiscard]] Result<CableHandle> cable(const std::string& name,
+                                          const std::string& pointer = "/cable") const;
+  /// Index of a coordinate of a joint; an empty name is the first.
+  [[nodiscard]] Result<int> coordinate(JointHandle joint, const std::string& name) const;
+
+ private:
+  /// The names of one kind, in their order, and their places.
+  struct Index {
+    std::vector<std::string_view> names;
+    std::unordered_map<std::string_view, int> places;
+    void add(std::string_view name);
+    /// The place of a name, or -1.
+    [[nodiscard]] int find(std::string_view name) const;
+  };
+
+  const LiveWorld& world_;
+  Index bodies_;
+  Index joints_;
+  Index cables_;
+};
+
+/// What is wrong with a name that none of `names` is: there is no body "drun", did you mean "drum"?
+[[nodiscard]] Error no_such(const std::string& what, const std::string& name,
+                            const std::vector<std::string_view>& names, const std::string& pointer);
+
+}  // namespace sheave::live

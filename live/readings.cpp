@@ -1,0 +1,103 @@
+#include "live/readings.h"
+
+#include <cmath>
+#include <unordered_set>
+
+#include <fmt/format.h>
+
+#include "engine/index.h"
+#include "live/names.h"
+
+namespace sheave::live {
+namespace {
+
+/// Appends a member without looking whether it is there: Json's own way takes time in proportion to their number.
+void append(Json& object, std::string_view key, Json value) {
+  using Members = std::vector<std::pair<const std::string, Json>>;
+  static_cast<Members&>(object.get_ref<Json::object_t&>())
+      .emplace_back(std::string(key), std::move(value));
+}
+
+Json vector_json(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+Json pose_json(const BodyPose& pose) {
+  const Quaternion& q = pose.orientation;
+  return {{"position", vector_json(pose.position)},
+          {"orientation", {q.w(), q.x(), q.y(), q.z()}},
+          {"velocity", vector_json(pose.velocity)},
+          {"angular_velocity", vector_json(pose.angular_velocity)}};
+}
+
+/// Faults of names that are given twice.
+void check_twice(const std::vector<std::string>& names, const char* list, Errors& errors) {
+  std::unordered_set<std::string_view> known;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (known.insert(names[i]).second) continue;
+    errors.push_back({fmt::format("/{}/{}", list, i), "is in the list already"});
+  }
+}
+
+}  // namespace
+
+QuantityIndex::QuantityIndex(const Simulation& simulation) : set_(simulation) {
+  const std::vector<std::string>& names = set_.names();
+  indices_.reserve(names.size());
+  for (std::size_t i = 0; i < names.size(); ++i) indices_.emplace(names[i], static_cast<int>(i));
+}
+
+Result<int> QuantityIndex::find(const std::string& name) const {
+  const auto found = indices_.find(name);
+  if (found != indices_.end()) return found->second;
+  constexpr std::size_t longest = 300;  // two names of 128 characters and what is between
+  if (name.size() > longest) return Error{"", "there is no quantity of this name"};
+  return set_.index_of(name);
+}
+
+Result<Readings> Readings::create(const QuantityIndex& index, const Names& names,
+                                  const std::vector<std::string>& quantities,
+                                  const std::vector<std::string>& poses) {
+  Readings readings;
+  Errors errors;
+  check_twice(quantities, "quantities", errors);
+  check_twice(poses, "poses", errors);
+  constexpr std::size_t enough = 20;  // suggestions take time
+  for (std::size_t i = 0; i < quantities.size() && errors.size() < enough; ++i) {
+    const Result<int> found = index.find(quantities[i]);
+    if (found) readings.indices_.push_back(*found);
+    if (!found) {
+      errors.push_back({fmt::format("/quantities/{}", i), found.errors().front().message});
+    }
+  }
+  for (std::size_t i = 0; i < poses.size() && errors.size() < enough; ++i) {
+    const Result<BodyHandle> body = names.body(poses[i], fmt::format("/poses/{}", i));
+    if (body) readings.handles_.push_back(*body);
+    if (!body) errors.push_back(body.errors().front());
+  }
+  readings.bodies_ = poses;
+  if (!errors.empty()) return errors;
+  return readings;
+}
+
+void Readings::read(const QuantityIndex& index, const LiveWorld& world, Json& answer) const {
+  if (!indices_.empty()) {
+    std::vector<double> values(indices_.size());
+    index.set().sample(world.simulation(), indices_, values);
+    const bool at_start = world.state().steps == 0;
+    Json object = Json::object();
+    for (std::size_t i = 0; i < indices_.size(); ++i) {
+      const bool known =
+          std::isfinite(values[i]) && (!at_start || index.set().known_at_start(indices_[i]));
+      append(object, index.set().names()[at(indices_[i])], known ? Json(values[i]) : Json());
+    }
+    answer["values"] = std::move(object);
+  }
+  if (!handles_.empty()) {
+    Json object = Json::object();
+    for (std::size_t i = 0; i < handles_.size(); ++i) {
+      append(object, bodies_[i], pose_json(*world.pose(handles_[i])));
+    }
+    answer["poses"] = std::move(object);
+  }
+}
+
+}  // namespace sheave::live

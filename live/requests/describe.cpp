@@ -1,0 +1,172 @@
+// What there is in the world, and what of it can be set.
+
+#include <algorithm>
+#include <array>
+
+#include "engine/index.h"
+#include "live/request.h"
+#include "live/session_state.h"
+
+namespace sheave::live {
+namespace {
+
+class Describe final : public Request {
+ public:
+  bool quantities = false;
+
+  static constexpr std::string_view type_name = "describe";
+  static constexpr std::string_view type_meaning =
+      "what there is in the world, and which controls can be set";
+  static std::span<const Field> field_table() {
+    static const std::array table{
+        field<&Describe::quantities>("quantities", "", {}, optional,
+                                     "whether the names of all quantities are told, too"),
+    };
+    return table;
+  }
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] Errors run(SessionState& session, Json& answer) const override;
+};
+
+std::string name_of(const Model& model, BodyId body) {
+  return body.is_world() ? "world" : model.bodies[at(body.index)].name;
+}
+
+Json bodies_json(const Model& model) {
+  Json list = Json::array();
+  for (const BodyDef& body : model.bodies) {
+    Json& told = list.emplace_back(Json{{"name", body.name}});
+    told["mobility"] = mobility_names[static_cast<std::size_t>(body.mobility)];
+    if (body.drive != DriveKind::none) {
+      told["drive"] = drive_names[static_cast<std::size_t>(body.drive)];
+    }
+  }
+  return list;
+}
+
+Json joints_json(const Model& model) {
+  Json list = Json::array();
+  for (const auto& joint : model.joints) {
+    Json& told = list.emplace_back(Json{{"name", joint->name}, {"type", joint->type()}});
+    told["bodies"] = {name_of(model, joint->body_a), name_of(model, joint->body_b)};
+    told["coordinates"] = Json::array();
+    for (const JointCoordinateInfo& coordinate : joint->coordinates()) {
+      told["coordinates"].push_back(coordinate.name);
+    }
+  }
+  return list;
+}
+
+Json cables_json(const Model& model, const std::vector<CableDef>& cables) {
+  Json list = Json::array();
+  for (const CableDef& cable : cables) {
+    Json& told = list.emplace_back(Json{{"name", cable.name}, {"closed", cable.closed}});
+    told["spans"] = cable.span_count();
+    told["links"] = Json::array();
+    for (const auto& link : cable.links) {
+      told["links"].push_back({{"type", link->type()}, {"body", name_of(model, link->body)}});
+    }
+  }
+  return list;
+}
+
+/// Finds out what can be set by setting it.
+class Settable {
+ public:
+  explicit Settable(LiveWorld& world) : world_(world) {}
+
+  /// The controls as they stand in the request "set", without their values.
+  Json list() {
+    list_ = Json::array();
+    // In the end all of it is as it was.
+    static_cast<void>(world_.set_together([&] {
+      bodies();
+      joints();
+      cables();
+      return Errors{{"", "only tried"}};
+    }));
+    list_.push_back({{"type", "gravity"}});
+    return std::move(list_);
+  }
+
+ private:
+  void note(const Errors& errors, Json control) {
+    if (errors.empty()) list_.push_back(std::move(control));
+  }
+  void bodies() {
+    const std::vector<BodyDef>& all = world_.simulation().world.model().bodies;
+    for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+      const BodyDef& body = all[at(i)];
+      const BodyHandle handle = world_.body_at(i);
+      const auto told = [&](const char* type) { return Json{{"type", type}, {"body", body.name}}; };
+      const DriveTarget soon(0.0, 1.0);
+      note(world_.set_speed(handle, soon), told("speed"));
+      note(world_.set_angle(handle, soon), told("angle"));
+      note(world_.set_torque(handle, soon), told("torque"));
+      note(world_.set_force(handle, {}), told("force"));
+      MotionTarget stay;
+      stay.position = world_.pose(handle)->position;
+      note(world_.set_motion(handle, stay), told("motion"));
+    }
+  }
+  void joints() {
+    const auto& all = world_.simulation().world.model().joints;
+    for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+      const auto& joint = all[at(i)];
+      const JointHandle handle = world_.joint_at(i);
+      const auto coordinates = joint->coordinates();
+      for (int k = 0; k < static_cast<int>(coordinates.size()); ++k) {
+        const auto told = [&](const char* type) {
+          return Json{
+              {"type", type}, {"joint", joint->name}, {"coordinate", coordinates[at(k)].name}};
+        };
+        note(world_.set_drive(handle, {0.0, 1.0}, k), told("joint_drive"));
+        note(world_.set_drive_limit(handle, 1.0, k), told("joint_drive_limit"));
+      }
+    }
+  }
+  void cables() {
+    const std::vector<CableDef>& all = *world_.simulation().cable_definitions;
+    for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+      const CableDef& cable = all[at(i)];
+      const CableHandle handle = world_.cable_at(i);
+      const auto told = [&](const char* type) {
+        return Json{{"type", type}, {"cable", cable.name}};
+      };
+      note(world_.set_compliance(handle, 1.0), told("compliance"));
+      note(world_.set_breaking_tension(handle, 1.0), told("breaking_tension"));
+      note(world_.set_wrap_friction(handle, 1.0), told("wrap_friction"));
+      for (int k = 0; k < static_cast<int>(cable.links.size()); ++k) {
+        const auto told_of_link = [&](const char* type) {
+          Json control = told(type);
+          control["link"] = k;
+          return control;
+        };
+        note(world_.set_friction(handle, k, 1.0), told_of_link("friction"));
+        note(world_.set_feed_speed(handle, k, 0.0), told_of_link("feed_speed"));
+      }
+    }
+  }
+
+  LiveWorld& world_;
+  Json list_;
+};
+
+Errors Describe::run(SessionState& session, Json& answer) const {
+  const Model& model = session.world.simulation().world.model();
+  answer["bodies"] = bodies_json(model);
+  answer["joints"] = joints_json(model);
+  answer["cables"] = cables_json(model, *session.world.simulation().cable_definitions);
+  answer["controllers"] = session.about.controllers;
+  answer["triggers"] = session.about.triggers;
+  answer["controls"] = Settable(session.world).list();
+  if (quantities) answer["quantities"] = session.quantities().set().names();
+  return {};
+}
+
+}  // namespace
+
+TypeEntry<Request> describe_request() { return request_entry<Describe>(); }
+
+}  // namespace sheave::live

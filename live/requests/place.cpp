@@ -1,0 +1,66 @@
+// A body that is put elsewhere.
+
+#include <array>
+
+#include "engine/index.h"
+#include "live/names.h"
+#include "live/request.h"
+#include "live/session_state.h"
+
+namespace sheave::live {
+namespace {
+
+constexpr std::array<std::string_view, 2> keep_names{"length", "tension"};
+
+class Place final : public Request {
+ public:
+  std::string body;
+  Vector3 position = Vector3::Zero();
+  Quaternion orientation{0.0, 0.0, 0.0, 0.0};  // of zeros: as it is
+  Keep keep = Keep::length;
+
+  static constexpr std::string_view type_name = "place";
+  static constexpr std::string_view type_meaning =
+      "puts a free, planar or slider body that no joint holds elsewhere, with what is mounted on "
+      "it; the answer tells what that does to energy and to the lengths of cables";
+  static std::span<const Field> field_table() {
+    static const std::array table{
+        field<&Place::body>("body", "", {}, required, "name of the body"),
+        field<&Place::position>("position", "m", any_number(), required,
+                                "where its origin is to be"),
+        field<&Place::orientation>("orientation", "", {}, optional,
+                                   "how it is to stand there; default: as it does"),
+        choice_field<&Place::keep>("keep", keep_names, optional,
+                                   "what cables keep: their lengths, or their tensions and slack"),
+    };
+    return table;
+  }
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] Errors run(SessionState& session, Json& answer) const override {
+    const Result<BodyHandle> handle = session.names.body(body);
+    if (!handle) return handle.errors();
+    const std::optional<Quaternion> turned =
+        orientation.coeffs().isZero(0.0) ? std::nullopt : std::optional(orientation);
+    const Result<Placement> placed = session.world.place(*handle, position, turned, keep);
+    if (!placed) {
+      Errors errors = placed.errors();
+      for (Error& error : errors) error.path.clear();
+      return errors;
+    }
+    answer["energy"] = placed->energy;
+    Json cables = Json::array();
+    const auto& definitions = *session.world.simulation().cable_definitions;
+    for (const Placement::Cable& cable : placed->cables) {
+      cables.push_back({{"cable", definitions[at(cable.cable.slot)].name}, {"added", cable.added}});
+    }
+    answer["cables"] = std::move(cables);
+    return {};
+  }
+};
+
+}  // namespace
+
+TypeEntry<Request> place_request() { return request_entry<Place>(); }
+
+}  // namespace sheave::live
