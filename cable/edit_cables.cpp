@@ -250,6 +250,7 @@ void Edit::attach(CableHandle cable, CableEnd end, BodyId body, const Vector3& p
     return draft_.fail("the " + std::string(name_of(end)) + " end of " + who +
                        " is attached already; detach it first");
   }
+  if (!point.allFinite()) return draft_.fail(who + ": the point it is attached to must be finite");
   auto link = std::make_shared<AttachmentLink>();
   link->body = body;
   link->point = point;

@@ -219,7 +219,9 @@ LiveReport LiveWorld::step(const StopRequest& stop, const std::function<void()>&
     };
   }
   LiveReport report;
+  is_busy_ = true;
   static_cast<StepReport&>(report) = running().world.step(stop, set ? set : before_substep);
+  is_busy_ = false;
   note_events(report);
   for (const int joint : intact) {
     if (is_broken(joint)) {
@@ -304,7 +306,12 @@ Result<Wrench> LiveWorld::force(JointHandle joint) const {
   return because("joint \"" + definition.name + "\" does nothing");
 }
 
+std::string LiveWorld::busy_fault() const {
+  return is_busy_ ? "this cannot be done from within a step or an edit; do it after that" : "";
+}
+
 Errors LiveWorld::restore(const State& state) {
+  if (is_busy_) return {because(busy_fault())};
   Errors errors = running().world.restore(state);
   if (errors.empty() && revision_->system() != nullptr) {
     static_cast<void>(revision_->system()->take_events());

@@ -165,7 +165,7 @@ class LiveWorld {
                                         std::optional<Quaternion> orientation, Keep keep);
 
   /// Changes what the world is made of, all or nothing: cable/edit.h. Scenes' controllers and triggers find what they refer to by
-  /// name; an edit that takes it away fails.
+  /// name; an edit that takes it away fails. Not from within a step or another edit, as place() and restore() are not.
   [[nodiscard]] Result<EditReport> edit(const std::function<void(Edit&)>& changes);
 
   /// The state, to hash, to keep and to go back to as long as nothing is edited.
@@ -198,9 +198,12 @@ class LiveWorld {
   void note_events(LiveReport& report) const;
   [[nodiscard]] bool is_broken(int joint) const;
   [[nodiscard]] Simulation& running();
+  /// Why what there is cannot be exchanged now; empty if it can.
+  [[nodiscard]] std::string busy_fault() const;
 
   std::shared_ptr<LiveRevision> revision_;
   std::uint32_t next_generation_ = 2;
+  bool is_busy_ = false;                 // in a step, or in an edit
   std::shared_ptr<const int> identity_;  // its address tells this world from others
 };
 

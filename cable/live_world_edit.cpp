@@ -28,7 +28,9 @@ class EditMaker {
   };
 
   void check_references();
-  void refer(BodyId body, const std::string& who);
+  void check_cable_references();
+  /// `is_new`: what refers to the body comes with this edit.
+  void refer(BodyId body, bool is_new, const std::string& who);
   void list_joints();
   void place_rotors();
   [[nodiscard]] BodyState state_of(int body, const State& initial) const;
@@ -54,28 +56,56 @@ class EditMaker {
   SlotTable<JointTag> joints_;
 };
 
-void EditMaker::refer(BodyId body, const std::string& who) {
+void EditMaker::refer(BodyId body, bool is_new, const std::string& who) {
   if (body.is_world()) return;
   const auto& slots = draft_.bodies.slots();
-  const bool there =
-      body.index >= 0 && at(body.index) < slots.size() && slots[at(body.index)].generation != 0;
-  if (!there) fail(who + " is on a body that is not there, number " + std::to_string(body.index));
+  const bool known = body.index >= 0 && at(body.index) < slots.size();
+  if (known && !is_new && draft_.is_new[at(body.index)] != 0) {
+    // Another one may have its place by now.
+    fail(who + " is on body \"" + slots[at(body.index)].last_name + "\", which is removed");
+  } else if (!known || slots[at(body.index)].generation == 0) {
+    fail(who + " is on a body that is not there, number " + std::to_string(body.index));
+  }
 }
 
 void EditMaker::check_references() {
-  for (const BodyDef& body : draft_.model.bodies) {
-    if (body.mount) refer(*body.mount, "body \"" + body.name + "\"");
+  for (std::size_t i = 0; i < draft_.model.bodies.size(); ++i) {
+    const BodyDef& body = draft_.model.bodies[i];
+    if (body.mount) refer(*body.mount, draft_.is_new[i] != 0, "body \"" + body.name + "\"");
   }
   for (const DraftJoint& joint : draft_.own_joints) {
     const std::string who = "joint \"" + joint.definition->name + "\"";
-    refer(joint.definition->body_a, who);
-    refer(joint.definition->body_b, who);
-    refer(joint.definition->carrier_body(), who);
+    const JointDef& own = *joint.definition;
+    for (const BodyId body : {own.body_a, own.body_b, own.carrier_body()}) {
+      refer(body, joint.added != nullptr, who);
+    }
   }
-  for (const CableDef& cable : definitions_) {
-    for (const auto& link : cable.links) refer(link->body, "cable \"" + cable.name + "\"");
+  for (const ColliderDef& collider : draft_.model.colliders) {
+    refer(collider.body, true, "a collider");
   }
-  for (const ColliderDef& collider : draft_.model.colliders) refer(collider.body, "a collider");
+  check_cable_references();
+}
+
+void EditMaker::check_cable_references() {
+  std::set<const LinkDef*> known;
+  for (const CableRecord& record : draft_.before.records) {
+    for (const auto& link : record.definition.links) known.insert(link.get());
+  }
+  std::set<std::string> names;
+  const auto& slots = draft_.cables.slots();
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (slots[i].generation == 0) continue;
+    const auto own = draft_.own_cables.find(static_cast<int>(i));
+    const CableDef& cable = own != draft_.own_cables.end() ? own->second.definition
+                                                           : draft_.before.records[i].definition;
+    const std::string who = "cable \"" + cable.name + "\"";
+    if (cable.name.empty()) fail("a cable needs a name that is not empty");
+    if (!names.insert(cable.name).second)
+      fail(who + ": two cables have this name; names must differ");
+    for (const auto& link : cable.links) {
+      if (link != nullptr) refer(link->body, !known.contains(link.get()), who);
+    }
+  }
 }
 
 void EditMaker::list_joints() {
@@ -372,9 +402,12 @@ Result<double> LiveWorld::length(CableHandle cable) const {
 }
 
 Result<EditReport> LiveWorld::edit(const std::function<void(Edit&)>& changes) {
+  if (is_busy_) return Error{"", busy_fault()};
   EditDraft draft(*revision_, next_generation_);
   Edit edit(draft);
+  is_busy_ = true;
   changes(edit);
+  is_busy_ = false;
   if (!draft.errors.empty()) return draft.errors;
   Result<std::shared_ptr<LiveRevision>> made = EditMaker(draft, state()).make();
   if (!made) return made.errors();
@@ -405,6 +438,7 @@ Result<EditReport> LiveWorld::edit(const std::function<void(Edit&)>& changes) {
 LiveSnapshot LiveWorld::snapshot() const { return {state(), revision_, identity_}; }
 
 Errors LiveWorld::restore(const LiveSnapshot& snapshot) {
+  if (is_busy_) return {{"", busy_fault()}};
   if (snapshot.identity_ != identity_) {
     return {{"", "the snapshot is one of another world"}};
   }

@@ -78,7 +78,8 @@ std::string LiveWorld::place_fault(int body, const BodyState& there) const {
 
 Result<Placement> LiveWorld::place(BodyHandle body, const Vector3& position,
                                    std::optional<Quaternion> orientation, Keep keep) {
-  std::string fault = fault_of(body);
+  std::string fault = busy_fault();
+  if (fault.empty()) fault = fault_of(body);
   if (fault.empty()) fault = place_fault(body.slot);
   constexpr double unit_slop = 1e-6;
   const bool unit = !orientation || std::abs(orientation->norm() - 1.0) < unit_slop;

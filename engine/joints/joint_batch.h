@@ -219,7 +219,8 @@ class JointBatch final : public JointFeature {
     for (std::size_t k = 0; k < other->joints_.size(); ++k) places[other->definitions_[k]] = k;
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       const auto found = places.find(definitions_[j]);
-      if (found != places.end()) adopt(j, *other, found->second, from, own);
+      if (found == places.end()) continue;
+      layout_.adopt(own, part(j), other->layout_, from, other->part(found->second));
     }
   }
   void number_coordinates(std::span<const int> first) override {
@@ -249,24 +250,10 @@ class JointBatch final : public JointFeature {
     std::optional<double> torque;
   };
 
-  /// Takes over the joint at `place` of another batch for that at `index`.
-  void adopt(std::size_t index, const JointBatch& other, std::size_t place,
-             const FeatureState& from, FeatureState& own) const {
-    const Joint& now = joints_[index];
-    const Joint& then = other.joints_[place];
-    if (now.lock_count == then.lock_count) {
-      std::copy_n(from.reals.begin() + then.first_row, now.lock_count + now.effect_count,
-                  own.reals.begin() + now.first_row);
-    }
-    if (now.first_coordinate >= 0) {
-      const auto rows = static_cast<std::ptrdiff_t>(layout_.rows);
-      std::copy_n(other.layout_.coordinates_of(from).begin() + then.first_coordinate,
-                  coordinate_count, own.reals.begin() + rows + now.first_coordinate);
-    }
-    layout_.set_broken(own, index, other.layout_.broken_at(from, place));
-    if (other.layout_.has_holds(from)) {
-      layout_.set_hold(own, index, other.layout_.hold(from, place));
-    }
+  [[nodiscard]] JointStateLayout::Part part(std::size_t index) const {
+    const Joint& joint = joints_[index];
+    return {index, joint.first_row, joint.lock_count + joint.effect_count, joint.first_coordinate,
+            coordinate_count};
   }
   static bool is_restricted(const BodySet& bodies, BodyId body) {
     if (body.is_world()) return false;

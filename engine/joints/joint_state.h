@@ -57,6 +57,29 @@ struct JointStateLayout {
     hold.write(place_of(state, joint));
   }
 
+  /// Where a joint's numbers are.
+  struct Part {
+    std::size_t joint = 0;
+    int first_row = 0;
+    int row_count = 0;
+    int first_coordinate = -1;  ///< < 0: none are counted
+    int coordinate_count = 0;
+  };
+  /// Takes over a joint of a state with another layout.
+  void adopt(FeatureState& own, const Part& now, const JointStateLayout& other,
+             const FeatureState& from, const Part& then) const {
+    if (now.row_count == then.row_count) {
+      std::copy_n(from.reals.begin() + then.first_row, now.row_count,
+                  own.reals.begin() + now.first_row);
+    }
+    if (now.first_coordinate >= 0 && then.first_coordinate >= 0) {
+      std::copy_n(other.coordinates_of(from).begin() + then.first_coordinate, now.coordinate_count,
+                  own.reals.begin() + static_cast<std::ptrdiff_t>(rows) + now.first_coordinate);
+    }
+    set_broken(own, now.joint, other.broken_at(from, then.joint));
+    if (other.has_holds(from)) set_hold(own, now.joint, other.hold(from, then.joint));
+  }
+
  private:
   [[nodiscard]] std::size_t first_hold() const { return rows + coordinates + joints; }
   [[nodiscard]] std::span<double> place_of(FeatureState& state, std::size_t joint) const {

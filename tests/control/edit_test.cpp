@@ -321,7 +321,13 @@ TEST(Edit, AllFaultsAreToldAndNothingIsDone) {
   const CableHandle rope = *world.cable("rope");
   std::string faults = refused(world, [&](Edit& e) { e.remove(wheel); });
   EXPECT_THAT(faults, HasSubstr("cable \"rope\""));
-  EXPECT_THAT(faults, HasSubstr("not there"));
+  EXPECT_THAT(faults, HasSubstr("on body \"wheel\", which is removed"));
+  // Also if another one has its place.
+  faults = refused(world, [&](Edit& e) {
+    e.remove(wheel);
+    e.add(test::wheel("other wheel", {0.0, 0.0, 0.0}, 0.25, 0.05));
+  });
+  EXPECT_THAT(faults, HasSubstr("on body \"wheel\", which is removed"));
   faults = refused(world, [&](Edit& e) {
     e.remove(BodyHandle{});
     e.remove(JointHandle{3, 7});
@@ -357,6 +363,37 @@ TEST(Edit, AllFaultsAreToldAndNothingIsDone) {
   faults = refused(world, [&](Edit& e) { e.pay_out(rope, 0, -0.5); });
   EXPECT_THAT(faults, HasSubstr("too short"));
   advance(world, 5);
+}
+
+TEST(Edit, NotFromWithinAStepOrAnEdit) {
+  LiveWorld world = test::live(test::Atwood{}.machine());
+  const LiveSnapshot snapshot = world.snapshot();
+  int calls = 0;
+  ASSERT_TRUE(
+      world
+          .step({},
+                [&] {
+                  ++calls;
+                  EXPECT_FALSE(world.edit([](Edit&) {}).ok());
+                  EXPECT_FALSE(world.restore(snapshot).empty());
+                  EXPECT_FALSE(world.restore(snapshot.state()).empty());
+                  EXPECT_FALSE(
+                      world.place(*world.body("left"), {0.0, 0.0, 0.0}, {}, Keep::length).ok());
+                })
+          .ok());
+  EXPECT_GT(calls, 0);
+  edit(world, [&](Edit&) {
+    EXPECT_THAT(test::text(world.edit([](Edit&) {}).errors()), HasSubstr("from within"));
+  });
+  EXPECT_TRUE(world.restore(snapshot).empty());
+}
+
+TEST(Edit, NamesDiffer) {
+  LiveWorld world = test::live(test::Atwood{}.machine());
+  const CableHandle rope = world.cables()[0];
+  EXPECT_THAT(refused(world, [&](Edit& e) { e.split(rope, 0, 0.5, *world.name(rope)); }),
+              HasSubstr("names must differ"));
+  EXPECT_THAT(refused(world, [&](Edit& e) { e.split(rope, 0, 0.5, ""); }), HasSubstr("not empty"));
 }
 
 TEST(Edit, SnapshotGoesBackAcrossEdits) {
