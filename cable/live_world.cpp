@@ -39,6 +39,15 @@ std::string handle_fault(Handle<Tag> handle, std::string_view kind, std::size_t 
          " of this world";
 }
 
+template <class Tag>
+std::vector<Handle<Tag>> all(std::size_t count) {
+  std::vector<Handle<Tag>> handles;
+  for (std::size_t i = 0; i < count; ++i) {
+    handles.push_back({static_cast<std::int32_t>(i), first_generation});
+  }
+  return handles;
+}
+
 Error because(std::string fault) { return {"", std::move(fault)}; }
 
 }  // namespace
@@ -80,9 +89,31 @@ Result<CableHandle> LiveWorld::cable(std::string_view name) const {
                         [&](std::size_t i) -> std::string_view { return cables[i].name; });
 }
 
-BodyHandle LiveWorld::body_at(int index) const { return {index, first_generation}; }
-JointHandle LiveWorld::joint_at(int index) const { return {index, first_generation}; }
-CableHandle LiveWorld::cable_at(int index) const { return {index, first_generation}; }
+std::vector<BodyHandle> LiveWorld::bodies() const {
+  return all<BodyTag>(simulation_->world.model().bodies.size());
+}
+std::vector<JointHandle> LiveWorld::joints() const { return all<JointTag>(joints_.size()); }
+std::vector<CableHandle> LiveWorld::cables() const {
+  return all<CableTag>(simulation_->cable_definitions->size());
+}
+
+Result<std::string> LiveWorld::name(BodyHandle body) const {
+  std::string fault = fault_of(body);
+  if (!fault.empty()) return because(std::move(fault));
+  return simulation_->world.model().bodies[at(body.slot)].name;
+}
+
+Result<std::string> LiveWorld::name(JointHandle joint) const {
+  std::string fault = fault_of(joint);
+  if (!fault.empty()) return because(std::move(fault));
+  return simulation_->world.model().joints[at(joint.slot)]->name;
+}
+
+Result<std::string> LiveWorld::name(CableHandle cable) const {
+  std::string fault = fault_of(cable);
+  if (!fault.empty()) return because(std::move(fault));
+  return (*simulation_->cable_definitions)[at(cable.slot)].name;
+}
 
 std::string LiveWorld::fault_of(BodyHandle body) const {
   return handle_fault(body, "body", simulation_->world.model().bodies.size());

@@ -63,24 +63,28 @@ struct LiveReport : StepReport {
 class LiveWorld {
  public:
   static Result<LiveWorld> create(const Model& model, const std::vector<CableDef>& cables);
-  /// Of a simulation that is there, with its supervisor if it has one.
-  static LiveWorld of(Simulation simulation) { return LiveWorld(std::move(simulation)); }
+  /// Of a simulation that there is, with its supervisor if it has one.
+  explicit LiveWorld(Simulation simulation);
 
   // By name; the error says which names are like it.
   [[nodiscard]] Result<BodyHandle> body(std::string_view name) const;
   [[nodiscard]] Result<JointHandle> joint(std::string_view name) const;
   [[nodiscard]] Result<CableHandle> cable(std::string_view name) const;
-  // By the index in the model's list, or in that of the cables, which must be in it.
-  [[nodiscard]] BodyHandle body_at(int index) const;
-  [[nodiscard]] JointHandle joint_at(int index) const;
-  [[nodiscard]] CableHandle cable_at(int index) const;
 
-  /// As World::step(), with what happened. A supervisor acts before `before_substep`.
+  // All there are, in the order of their handles.
+  [[nodiscard]] std::vector<BodyHandle> bodies() const;
+  [[nodiscard]] std::vector<JointHandle> joints() const;
+  [[nodiscard]] std::vector<CableHandle> cables() const;
+
+  /// As Simulation::step(), with what happened. `before_substep` is called after controllers and triggers, and may set controls.
   [[nodiscard]] LiveReport step(const StopRequest& stop = {},
                                 const std::function<void()>& before_substep = {});
 
   // Readers.
   [[nodiscard]] double time() const { return simulation_->world.state().time; }
+  [[nodiscard]] Result<std::string> name(BodyHandle body) const;
+  [[nodiscard]] Result<std::string> name(JointHandle joint) const;
+  [[nodiscard]] Result<std::string> name(CableHandle cable) const;
   [[nodiscard]] Result<BodyPose> pose(BodyHandle body) const;
   /// Of the body-frame point `local` [m], in the world.
   [[nodiscard]] Result<Vector3> point(BodyHandle body, const Vector3& local) const;
@@ -138,7 +142,6 @@ class LiveWorld {
   [[nodiscard]] const Simulation& simulation() const { return *simulation_; }
 
  private:
-  explicit LiveWorld(Simulation simulation);
   [[nodiscard]] Errors set_drive_of(BodyHandle body, DriveKind kind, const DriveTarget& target);
   [[nodiscard]] std::string fault_of(BodyHandle body) const;
   [[nodiscard]] std::string fault_of(JointHandle joint) const;
