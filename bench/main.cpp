@@ -4,6 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "bench/control_bench.h"
 #include "bench/step_bench.h"
 
 int main(int argc, char** argv) {
@@ -15,6 +16,7 @@ int main(int argc, char** argv) {
 #else
   benchmark::AddCustomContext("assertions", "ON: these times mean nothing");
 #endif
+  sheave::bench::register_control_benchmarks();
   sheave::bench::register_step_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

@@ -1,6 +1,7 @@
 // Which spans are affine: cable/affine_span.h.
 
 #include <cmath>
+#include <optional>
 
 #include "cable/cable_system.h"
 #include "engine/index.h"
@@ -55,6 +56,15 @@ Place place_of(const Substep& start, const LinkGeometry& link, double signed_rad
   return place;
 }
 
+/// Bodies as they were when a cable was defined.
+struct StartView {
+  BodyFrames frames;
+  State state;
+  Substep now;
+  StartView(const BodySet& bodies, const BodyFrames& in)
+      : frames(in), state(bodies.state_in(in)), now(bodies, state, 1.0, 1) {}
+};
+
 }  // namespace
 
 bool AffineSpan::lasts(const Substep& substep) const {
@@ -80,8 +90,7 @@ void CableSystem::begin_affine_spans(const Substep& substep) {
 
 std::vector<AffineSpan> CableSystem::affine_spans(const BodySet& bodies, bool ends_stay) const {
   std::vector<AffineSpan> spans(spans_.size());
-  const State initial = bodies.initial_state();
-  const Substep start(bodies, initial, 1.0, 1);
+  std::optional<StartView> start;
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const SpanSetup& setup = spans_[k];
     const CompiledCable& cable = cables_[at(setup.cable)];
@@ -90,7 +99,8 @@ std::vector<AffineSpan> CableSystem::affine_spans(const BodySet& bodies, bool en
         cable.tangent_update != TangentUpdate::iteration) {
       continue;
     }
-    spans[k] = affine_span(start, setup, ends_stay);
+    if (!start || start->frames != cable.defined_in) start.emplace(bodies, cable.defined_in);
+    spans[k] = affine_span(start->now, setup, ends_stay);
     spans[k].row.lower = 0.0;
     spans[k].row.damping = cable.damping;
     spans[k].row.compliance = cable.compliance;

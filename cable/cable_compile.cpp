@@ -6,13 +6,23 @@
 
 namespace sheave {
 
-void CableCompiler::add(const CableDef& def) {
+void CableCompiler::go_to(const BodyFrames& frames) {
+  if (now_ && frames == frames_) return;
+  frames_ = frames;
+  state_ = bodies_.state_in(frames);
+  now_.emplace(bodies_, state_, 1.0, 1);
+}
+
+void CableCompiler::add(const CableDef& def, const CableStart& start) {
+  go_to(start.defined_in);
+  runs_ = start.same_as >= 0 || start.running != nullptr;
   path_ = "/cables/" + std::to_string(index_++);
   name_ = def.name;
   const std::size_t before = errors_.size();
   check_settings(def);
   compile_links(def);
   if (errors_.size() > before) return;
+  if (start.running != nullptr) lift_links(*start.running);
   const auto lifted = std::count_if(links_.begin(), links_.end(),
                                     [](const LinkGeometry& link) { return link.starts_lifted; });
   if (static_cast<int>(links_.size()) - lifted < 2) {
@@ -21,7 +31,7 @@ void CableCompiler::add(const CableDef& def) {
   }
   compile_spans(def);
   if (errors_.size() > before) return;
-  find_wrong_windings(def);
+  if (!runs_) find_wrong_windings(def);
   store(def);
 }
 
@@ -48,7 +58,7 @@ Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
     const auto link = static_cast<int>(i);
     s.initial_.integers[s.next_index(link)] = next_links_[i];
     if (s.links_[i].starts_lifted) {
-      s.initial_.integers[s.mode_index(link)] = CableSystem::lifted_mode;
+      s.initial_.integers[s.mode_index(link)] = RunningLink::lifted_mode;
     }
     if (s.links_[i].changes()) s.changing_links_.push_back(link);
     s.has_layers_ = s.has_layers_ || s.links_[i].layer_pitch > 0.0;
@@ -142,9 +152,12 @@ void CableCompiler::check_settings(const CableDef& def) {
 }
 
 Result<std::unique_ptr<CableSystem>> CableSystem::create(const std::vector<CableDef>& cables,
-                                                         const BodySet& bodies) {
+                                                         const BodySet& bodies,
+                                                         std::span<const CableStart> starts) {
   CableCompiler compiler(bodies);
-  for (const CableDef& cable : cables) compiler.add(cable);
+  for (std::size_t c = 0; c < cables.size(); ++c) {
+    compiler.add(cables[c], starts.empty() ? CableStart{} : starts[c]);
+  }
   return compiler.finish();
 }
 

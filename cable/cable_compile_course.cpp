@@ -9,10 +9,10 @@
 namespace sheave {
 
 bool CableCompiler::lies_in_plane(const Vector3& normal) const {
-  const Vector3 origin = link_center(now_, links_.front());
+  const Vector3 origin = link_center(*now_, links_.front());
   return std::all_of(links_.begin(), links_.end(), [&](const LinkGeometry& link) {
-    const double along = normal.dot(circle_of(now_, link).normal);
-    const double offset = normal.dot(link_center(now_, link) - origin);
+    const double along = normal.dot(circle_of(*now_, link).normal);
+    const double offset = normal.dot(link_center(*now_, link) - origin);
     const bool parallel = !link.wraps() || std::abs(along) >= 1.0 - 1e-15;
     return parallel && std::abs(offset) <= 1e-9 * bodies_.scale() &&
            bodies_.stays_in_plane(link.carrier, normal);
@@ -23,20 +23,20 @@ void CableCompiler::find_plane(CompiledCable& cable) const {
   const auto wheel = std::find_if(links_.begin(), links_.end(),
                                   [](const LinkGeometry& link) { return link.wraps(); });
   if (wheel != links_.end()) {
-    cable.normal = circle_of(now_, *wheel).normal;
+    cable.normal = circle_of(*now_, *wheel).normal;
     cable.planar = lies_in_plane(cable.normal);
   } else {
     // Points alone have no plane of their own; those of wrappable bodies are the ones that matter.
     for (const WrapCandidate& candidate : cable.candidates) {
       for (const WrapAxis& axis : candidate.axes) {
         if (cable.planar) break;
-        cable.normal = now_.orientation(candidate.body) * axis.direction;
+        cable.normal = now_->orientation(candidate.body) * axis.direction;
         cable.planar = lies_in_plane(cable.normal);
       }
     }
   }
   for (const LinkGeometry& link : links_) {
-    const double along = cable.normal.dot(circle_of(now_, link).normal);
+    const double along = cable.normal.dot(circle_of(*now_, link).normal);
     cable.senses.push_back(link.wraps() && along < 0.0 ? -1.0 : 1.0);
   }
 }
@@ -63,9 +63,9 @@ bool CableCompiler::any_wrappable() const {
 
 bool CableCompiler::place_candidate(const CompiledCable& cable, WrapCandidate& candidate) const {
   if (!cable.planar || !bodies_.stays_in_plane(candidate.body, cable.normal)) return true;
-  const Quaternion to_own = now_.orientation(candidate.body).conjugate();
-  const Vector3 center = now_.point(candidate.body, candidate.center);
-  const double offset = cable.normal.dot(link_center(now_, links_.front()) - center);
+  const Quaternion to_own = now_->orientation(candidate.body).conjugate();
+  const Vector3 center = now_->point(candidate.body, candidate.center);
+  const double offset = cable.normal.dot(link_center(*now_, links_.front()) - center);
   const std::optional<LinkGeometry> link =
       wrap_link(bodies_, candidate,
                 {candidate.center + to_own * (offset * cable.normal), to_own * cable.normal});
@@ -85,17 +85,17 @@ void CableCompiler::check_candidates(const CompiledCable& cable) {
       if (links_[at(k)].body == candidate.body || links_[at(second)].body == candidate.body) {
         continue;
       }
-      const WrapSide side = wrap_side(now_, candidate, span);
+      const WrapSide side = wrap_side(*now_, candidate, span);
       if (side.distance > candidate.reach) continue;
       std::optional<LinkGeometry> link = candidate.link;
       if (!candidate.planar) {
-        const std::optional<WrapPlane> plane = wrap_plane(now_, candidate, span);
+        const std::optional<WrapPlane> plane = wrap_plane(*now_, candidate, span);
         link = plane ? wrap_link(bodies_, candidate, *plane) : std::nullopt;
       }
       if (!link) continue;
-      const Vector3 normal = now_.orientation(link->carrier) * link->normal;
+      const Vector3 normal = now_->orientation(link->carrier) * link->normal;
       link->side = dot(normal, side.moment) >= 0.0 ? 1 : -1;
-      if (!clearance(now_, *link, span).cuts(*link)) continue;
+      if (!clearance(*now_, *link, span).cuts(*link)) continue;
       fail("/links/" + std::to_string(second),
            "the span between " + link_name(k) + " and " + link_name(second) +
                " runs through the wrappable body \"" + bodies_.name(candidate.body) +
@@ -162,6 +162,7 @@ void CableCompiler::store(const CableDef& def) {
   CompiledCable cable;
   cable.name = def.name;
   cable.closed = def.closed;
+  cable.defined_in = frames_;
   cable.first_link = static_cast<int>(s.links_.size());
   cable.listed_links = cable.link_count = static_cast<int>(links_.size());
   cable.first_span = static_cast<int>(s.spans_.size());
@@ -178,7 +179,7 @@ void CableCompiler::store(const CableDef& def) {
   find_candidates(def, cable);
   find_plane(cable);
   std::erase_if(cable.candidates, [&](WrapCandidate& c) { return !place_candidate(cable, c); });
-  check_candidates(cable);
+  if (!runs_) check_candidates(cable);
   if (!cable.candidates.empty()) {
     cable.link_count = cable.span_count = cable.listed_links + def.most_wraps;
     cable.first_plane = planes_;

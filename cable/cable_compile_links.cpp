@@ -44,6 +44,13 @@ void CableCompiler::compile_links(const CableDef& def) {
   }
 }
 
+void CableCompiler::lift_links(const RunningCable& running) {
+  std::size_t i = 0;
+  for (const RunningLink& link : running.links) {
+    if (link.is_listed()) links_[i++].starts_lifted = link.mode >= RunningLink::lifted_mode;
+  }
+}
+
 void CableCompiler::check_passage(const LinkGeometry& link, bool end, const std::string& field) {
   if (end && link.slides) fail(field, "a cable cannot end in a pinhole; attach it");
   if (end && link.wraps() && !std::isnan(link.friction)) {

@@ -36,8 +36,8 @@ void CableCompiler::compile_spans(const CableDef& def) {
     }
     const int reached = next_touched(k);
     choose_kind(setup, a, links_[at(reached)]);
-    geometry_.push_back(span_geometry(now_, setup, a, links_[at(reached)]));
-    check_span(def, k, reached);
+    geometry_.push_back(span_geometry(*now_, setup, a, links_[at(reached)]));
+    if (!runs_) check_span(def, k, reached);
   }
 }
 
@@ -54,8 +54,8 @@ void CableCompiler::choose_kind(SpanSetup& setup, const LinkGeometry& a,
     setup.kind = SpanKind::straight;
     return;
   }
-  const LinkCircle circle_a = circle_of(now_, a);
-  const LinkCircle circle_b = circle_of(now_, b);
+  const LinkCircle circle_a = circle_of(*now_, a);
+  const LinkCircle circle_b = circle_of(*now_, b);
   setup.outlined = a.outline || b.outline;
   setup.normal = a.wraps() ? circle_a.normal : circle_b.normal;
   setup.first_radius = a.signed_radius;
@@ -89,6 +89,11 @@ void CableCompiler::check_span(const CableDef& def, int first, int second) {
                       "would do nothing");
     return check_rest_length(def, first, span);
   }
+  if (on_one_outline(a, b)) {
+    return fail(field, pair +
+                           " run over one outline, one behind the other: no span can be between "
+                           "them; use \"turns\" for more of it");
+  }
   if (span.has_tangent) return check_rest_length(def, first, span);
   explain_missing_tangent(first, second);
 }
@@ -100,7 +105,7 @@ void CableCompiler::explain_missing_tangent(int first, int second) {
   const std::string pair = link_name(first) + " and " + link_name(second);
   const double ra = std::abs(a.signed_radius);
   const double rb = std::abs(b.signed_radius);
-  const double distance = (link_center(now_, b) - link_center(now_, a)).norm();
+  const double distance = (link_center(*now_, b) - link_center(*now_, a)).norm();
   if (a.outline || b.outline) {
     fail(field, "no tangent joins " + pair +
                     ": one of them lies inside the other's outline, or the outlines overlap");
@@ -138,18 +143,18 @@ double CableCompiler::arc(int link, const SpanGeometry& incoming,
   const LinkGeometry& wheel = links_[at(link)];
   double angle = 0.0;
   if (wheel.outline) {
-    angle = wheel.side * (normal_angle(now_, wheel, outgoing.direction) -
-                          normal_angle(now_, wheel, incoming.direction));
+    angle = wheel.side * (normal_angle(*now_, wheel, outgoing.direction) -
+                          normal_angle(*now_, wheel, incoming.direction));
     angle -= 2.0 * pi * std::floor((angle + touch) / (2.0 * pi));
   } else {
-    const LinkCircle circle = circle_of(now_, wheel);
+    const LinkCircle circle = circle_of(*now_, wheel);
     const double radius = std::abs(wheel.signed_radius);
     angle = wheel.side * angle_between((incoming.end - circle.center) / radius,
                                        (outgoing.start - circle.center) / radius, circle.normal);
     if (angle < -touch) angle += 2.0 * pi;
     angle = std::max(angle, 0.0);
   }
-  return arc_between(now_, wheel, incoming, outgoing, angle) +
+  return arc_between(*now_, wheel, incoming, outgoing, angle) +
          wheel.extra_turns * wheel.perimeter();
 }
 

@@ -45,15 +45,15 @@ void CableCompiler::find_wrong_windings(const CableDef& def) {
     choose_kind(in, links_[at(before)], wheel);
     choose_kind(out, wheel, links_[at(after)]);
     if (in.kind != SpanKind::planar || out.kind != SpanKind::planar) continue;
-    const Vector3 normal = now_.orientation(wheel.carrier) * wheel.normal;
+    const Vector3 normal = now_->orientation(wheel.carrier) * wheel.normal;
     if (!cross_each_other(geometry_[at(before)], geometry_[at(i)], normal)) continue;
     LinkGeometry other = wheel;
     other.side = -wheel.side;
     other.signed_radius = -wheel.signed_radius;
     choose_kind(in, links_[at(before)], other);
     choose_kind(out, other, links_[at(after)]);
-    const SpanGeometry to = span_geometry(now_, in, links_[at(before)], other);
-    const SpanGeometry from = span_geometry(now_, out, other, links_[at(after)]);
+    const SpanGeometry to = span_geometry(*now_, in, links_[at(before)], other);
+    const SpanGeometry from = span_geometry(*now_, out, other, links_[at(after)]);
     if (!to.has_tangent || !from.has_tangent || cross_each_other(to, from, normal)) continue;
     const Winding better = other.side > 0 ? Winding::counter_clockwise : Winding::clockwise;
     std::string body = wheel.body == bodies_.count() ? "world" : bodies_.name(wheel.body);

@@ -15,18 +15,21 @@ namespace sheave {
 /// Builds a CableSystem cable by cable and collects all faults.
 class CableCompiler {
  public:
-  explicit CableCompiler(const BodySet& bodies)
-      : bodies_(bodies), state_(bodies.initial_state()), now_(bodies, state_, 1.0, 1) {}
+  explicit CableCompiler(const BodySet& bodies) : bodies_(bodies) { go_to(nullptr); }
 
-  void add(const CableDef& def);
+  void add(const CableDef& def, const CableStart& start = {});
   Result<std::unique_ptr<CableSystem>> finish();
 
  private:
+  /// Looks at bodies as they were then.
+  void go_to(const BodyFrames& frames);
   void fail(const std::string& field, const std::string& message);
   void check_settings(const CableDef& def);
 
   // Links: cable/cable_compile_links.cpp.
   void compile_links(const CableDef& def);
+  /// Those that the cable has left are off it, and no others.
+  void lift_links(const RunningCable& running);
   /// What depends on where in the cable a link stands.
   void check_passage(const LinkGeometry& link, bool end, const std::string& field);
   void check_massless(const LinkGeometry& link, bool end, const std::string& field);
@@ -71,7 +74,7 @@ class CableCompiler {
 
   const BodySet& bodies_;
   State state_;
-  Substep now_;
+  std::optional<Substep> now_;
   std::unique_ptr<CableSystem> system_{new CableSystem};
   Errors errors_;
   std::set<std::string> names_;
@@ -84,6 +87,9 @@ class CableCompiler {
   std::vector<std::int64_t> next_links_;
   int planes_ = 0;  ///< places for wraps of all cables
   // Of the cable that is being added.
+  BodyFrames frames_;
+  /// It has run before: where it is now is not where it began, and is checked when its state is known.
+  bool runs_ = false;
   int index_ = 0;
   std::string path_;
   std::string name_;

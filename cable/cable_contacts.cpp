@@ -67,7 +67,8 @@ bool CableSystem::keeps_course(const CompiledCable& cable, const FeatureState& n
     return false;
   }
   for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
-    if (next.reals[stored_length_index(i)] < 0.0 || next.integers[mode_index(i)] >= lifted_mode) {
+    if (next.reals[stored_length_index(i)] < 0.0 ||
+        next.integers[mode_index(i)] >= RunningLink::lifted_mode) {
       return false;
     }
   }
@@ -123,7 +124,7 @@ bool CableSystem::touch_on_span(const Substep& substep, int cable_index, int spa
   int link = listed_before(cable, span);
   for (int walked = 1; walked <= cable.listed_links; ++walked) {
     link = link == cable.last_listed_link() ? cable.first_link : link + 1;
-    if (next.integers[mode_index(link)] < lifted_mode) break;
+    if (next.integers[mode_index(link)] < RunningLink::lifted_mode) break;
     if (changed_links_[at(link)] == 0 && touch_listed(substep, cable, span, link, next))
       return true;
   }
@@ -170,7 +171,7 @@ bool CableSystem::leave(const Substep& substep, const CompiledCable& cable, int 
   changed_links_[at(link)] = 1;
   record(substep, cable, link, CableEvent::Kind::leave);
   if (link <= cable.last_listed_link()) {
-    next.integers[mode_index(link)] = lifted_mode;
+    next.integers[mode_index(link)] = RunningLink::lifted_mode;
   } else {
     left_bodies_.push_back(links_[at(link)].body);
     forget_plane(cable, link, next);
@@ -201,18 +202,18 @@ bool CableSystem::touch_listed(const Substep& substep, const CompiledCable& cabl
                          spans_[at(span)].second <= cable.last_listed_link();
   if (!only_span && !clear.between) return false;
   std::int64_t& mode = next.integers[mode_index(link)];
-  if (mode == passed_mode) {
-    if (clear.distance >= 0.0) mode = lifted_mode;
+  if (mode == RunningLink::passed_mode) {
+    if (clear.distance >= 0.0) mode = RunningLink::lifted_mode;
     return false;
   }
   if (clear.center_distance < 0.0) {
-    mode = passed_mode;
+    mode = RunningLink::passed_mode;
     return false;
   }
   if (!clear.cuts(wheel)) return false;
   mode = 0;
   if (split(substep, cable, span, link, next)) return true;
-  mode = lifted_mode;
+  mode = RunningLink::lifted_mode;
   return false;
 }
 

@@ -136,12 +136,12 @@ bool CableSystem::accepts(const FeatureState& state) const {
       const std::int64_t slip = integer(slip_state_index(link));
       const bool last = !cable.closed && link == cable.last_listed_link();
       if (next < -1 || next >= cable.link_count || (last && next >= 0)) return false;
-      if (mode < 0 || mode > passed_mode || slip < -1 || slip > 1) return false;
+      if (mode < 0 || mode > RunningLink::passed_mode || slip < -1 || slip > 1) return false;
       if (wrap < -candidates || wrap > candidates) return false;
       const bool place = i >= cable.listed_links;
       if (place ? (wrap != 0) != (next >= 0) : wrap != 0) return false;
-      if (!place && !last && (mode >= lifted_mode) != (next < 0)) return false;
-      if (mode >= lifted_mode && !definitions_[at(link)].lifts) return false;
+      if (!place && !last && (mode >= RunningLink::lifted_mode) != (next < 0)) return false;
+      if (mode >= RunningLink::lifted_mode && !definitions_[at(link)].lifts) return false;
       if (next < 0 && !last) continue;
       ++on_course;
       if (first < 0) first = i;

@@ -86,7 +86,7 @@ LinkReport CableSystem::link_report(const CableView& view, int index, int incomi
   const double passed = own.reals[slip_index(index)];
   report.stalled = stalls_[at(index)].now;
   (definitions_[at(index)].feeds ? report.fed : report.slip) = passed;
-  const bool lifted = own.integers[mode_index(index)] >= lifted_mode;
+  const bool lifted = own.integers[mode_index(index)] >= RunningLink::lifted_mode;
   if (lifted || (incoming < 0 && outgoing < 0)) {
     report.touched = !lifted && !link.wraps();
     if (lifted) report.winding = 0;

@@ -17,6 +17,7 @@
 #include "cable/cable_report.h"
 #include "cable/cable_state_layout.h"
 #include "cable/compiled_cable.h"
+#include "cable/running_cable.h"
 #include "cable/span_row.h"
 #include "cable/stored_strain.h"
 #include "engine/constraint_batch.h"
@@ -27,9 +28,10 @@ namespace sheave {
 /// The feature "cables" of a world; its state is laid out as cable/cable_state_layout.h says.
 class CableSystem final : public ConstraintBatch, public CableStateLayout {
  public:
-  /// Checks and compiles the cables. Errors have paths "/cables/i/...".
+  /// Checks and compiles the cables. Errors have paths "/cables/i/...". `starts`, per cable: see CableTransfer.
   static Result<std::unique_ptr<CableSystem>> create(const std::vector<CableDef>& cables,
-                                                     const BodySet& bodies);
+                                                     const BodySet& bodies,
+                                                     std::span<const CableStart> starts = {});
 
   [[nodiscard]] const std::vector<CompiledCable>& cables() const { return cables_; }
   /// One report per cable for a state of the world this system is a feature of; `own` is the
@@ -110,6 +112,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
 
  private:
   friend class CableCompiler;
+  friend class CableTransfer;  // between two worlds
   CableSystem() = default;
   using StretchedSpan = cable_parts::StretchedSpan;
   /// The row of a span; of a material what it was made of, too, if `kept` is not null.
@@ -174,8 +177,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   double weigh_run(const CompiledCable& cable, std::size_t count, double heaviest, double h,
                    RunValue& value);
   double solve_run(Substep& substep, const CompiledCable& cable, Run run);
-  /// Puts the rest lengths that spans of the run have before anything passes their links into run_spare_, and those that go
-  /// with their tensions into run_lengths_ [m]. Whether any of them has one.
+  /// Into run_spare_ the rest lengths before anything passes the links, into run_lengths_ those with the tensions [m]; whether any has one.
   bool shorten_run(const Substep& substep, const CompiledCable& cable, Run run);
   /// The same of a material.
   bool stretch_run(const Substep& substep, const CompiledCable& cable, Run run);
@@ -277,8 +279,6 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   void change_end(const Substep& substep, const CompiledCable& cable, int index, int span,
                   bool first, FeatureState& next);
   // The order in which a cable runs over its links: cable/cable_course.cpp.
-  static constexpr std::int64_t lifted_mode = 3;
-  static constexpr std::int64_t passed_mode = 4;
   [[nodiscard]] static int span_before(const CompiledCable& cable, int link,
                                        const std::vector<SpanSetup>& spans);
   [[nodiscard]] static int span_after(const CompiledCable& cable, int link) {
@@ -308,8 +308,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   /// Lets the span touch the first body that it cuts; false if there is none.
   bool touch_on_span(const Substep& substep, int cable, int span, FeatureState& next);
   [[nodiscard]] int listed_before(const CompiledCable& cable, int span) const;
-  /// Winds on or off the cable by which a span's end moves along its link, of a material with `strain`; returns what the
-  /// span gains [m].
+  /// Winds on or off what a span's end moves along its link, of a material with `strain`; what the span gains [m].
   double shift_contact(const Substep& substep, const CompiledCable& cable, int link,
                        const SpanGeometry& from, const SpanGeometry& to, bool first, double strain,
                        FeatureState& next) const;

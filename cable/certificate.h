@@ -2,7 +2,7 @@
 // A run that checks its own numbers: whether what is reported of a substep belongs together.
 //
 //   sheave::Certificate all;
-//   while (...) { simulation->world.step(); if (auto one = simulation->certificate()) all.merge(*one); }
+//   while (simulation->step().ok() && ...) if (auto one = simulation->certificate()) all.merge(*one);
 //   if (!all.clean()) std::cerr << all.worst()->sentence();
 //
 // From the states at both ends of the substep and the reported forces alone, by code that shares nothing with the solvers

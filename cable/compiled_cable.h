@@ -8,6 +8,7 @@
 
 #include "cable/cable.h"
 #include "cable/wrap_candidate.h"
+#include "engine/body_frames.h"
 #include "engine/vector.h"
 
 namespace sheave {
@@ -45,6 +46,7 @@ struct CompiledCable {
   bool has_friction = false;  ///< and at one of them with friction
   TangentUpdate tangent_update = TangentUpdate::iteration;
   double start_length = 0.0;  ///< rest and stored lengths at time 0 [m]
+  BodyFrames defined_in;      ///< where bodies were when it was defined
   /// Power of two that all rest and stored lengths are multiples of [m], about 1e-15 of the cable.
   /// Sums and differences of such numbers are exact, so moving cable from span to wheel to span
   /// cannot lose any: the length invariant holds to the last bit, for ever.

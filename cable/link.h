@@ -80,6 +80,9 @@ struct LinkGeometry {
   }
 };
 
+/// Whether both are outlines of one body in one plane: no span can be between them.
+[[nodiscard]] bool on_one_outline(const LinkGeometry& a, const LinkGeometry& b);
+
 /// Settings of one link of a cable; derived types add their own.
 class LinkDef {
  public:

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 
+#include "cable/live_revision.h"
 #include "engine/index.h"
-#include "engine/joints/gear.h"
-#include "engine/joints/rack.h"
 
 namespace sheave {
 namespace {
@@ -12,17 +11,27 @@ namespace {
 /// What handles of things that are there from the start have; default ones have 0.
 constexpr std::uint32_t first_generation = 1;
 
-/// The handle of the thing with this name among `count`, or an error that tells the names there are.
+/// Slots for things that are there from the start.
+template <class Tag>
+SlotTable<Tag> first_slots(std::size_t count) {
+  SlotTable<Tag> slots;
+  for (std::size_t i = 0; i < count; ++i) slots.add(static_cast<int>(i), first_generation);
+  return slots;
+}
+
+/// The handle of the thing with this name, or an error that tells the names there are.
 template <class Tag, class NameOf>
-Result<Handle<Tag>> find(std::string_view kind, std::string_view name, std::size_t count,
+Result<Handle<Tag>> find(const SlotTable<Tag>& slots, std::string_view kind, std::string_view name,
                          const NameOf& name_of) {
   std::string names;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (name_of(i) == name) return Handle<Tag>{static_cast<std::int32_t>(i), first_generation};
+  for (std::size_t i = 0; i < slots.slots().size(); ++i) {
+    if (slots.slots()[i].generation == 0) continue;
+    const std::string& own = name_of(i);
+    if (own == name) return slots.handle(i);
     constexpr std::size_t enough = 200;
     if (names.size() > enough) continue;
     if (!names.empty()) names += ", ";
-    names += name_of(i);
+    names += own;
   }
   const std::string start =
       "there is no " + std::string(kind) + " \"" + std::string(name) + "\"; there ";
@@ -30,20 +39,10 @@ Result<Handle<Tag>> find(std::string_view kind, std::string_view name, std::size
 }
 
 template <class Tag>
-std::string handle_fault(Handle<Tag> handle, std::string_view kind, std::size_t count) {
-  const bool there = handle.slot >= 0 && handle.slot < static_cast<std::int32_t>(count) &&
-                     handle.generation == first_generation;
-  if (there) return {};
-  if (handle.generation == 0) return "this handle refers to no " + std::string(kind);
-  return "handle " + std::to_string(handle.slot) + " refers to no " + std::string(kind) +
-         " of this world";
-}
-
-template <class Tag>
-std::vector<Handle<Tag>> all(std::size_t count) {
+std::vector<Handle<Tag>> all(const SlotTable<Tag>& slots) {
   std::vector<Handle<Tag>> handles;
-  for (std::size_t i = 0; i < count; ++i) {
-    handles.push_back({static_cast<std::int32_t>(i), first_generation});
+  for (std::size_t i = 0; i < slots.slots().size(); ++i) {
+    if (slots.slots()[i].generation != 0) handles.push_back(slots.handle(i));
   }
   return handles;
 }
@@ -52,18 +51,56 @@ Error because(std::string fault) { return {"", std::move(fault)}; }
 
 }  // namespace
 
-LiveWorld::LiveWorld(Simulation simulation)
-    : simulation_(std::make_unique<Simulation>(std::move(simulation))) {
-  const World& world = simulation_->world;
-  view_ = std::make_unique<Substep>(world.bodies(), world.state(), world.model().step.dt, 1);
-  joints_ = number_joints(world.model(), world.features());
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    const JointDef& joint = *world.model().joints[j];
+LiveRevision::LiveRevision(Simulation made, SlotTable<BodyTag> body_slots,
+                           SlotTable<JointTag> joint_slots, SlotTable<CableTag> cable_slots,
+                           std::vector<CableRecord> cable_records)
+    : simulation(std::move(made)),
+      bodies(std::move(body_slots)),
+      joints(std::move(joint_slots)),
+      cables(std::move(cable_slots)),
+      records(std::move(cable_records)),
+      view(simulation.world.bodies(), simulation.world.state(), simulation.world.model().step.dt,
+           1),
+      joint_places(number_joints(simulation.world.model(), simulation.world.features())) {
+  for (std::size_t j = 0; j < joint_places.size(); ++j) {
+    const JointDef& joint = *simulation.world.model().joints[j];
     if (joint.breaking_force || joint.breaking_torque) {
-      breakable_joints_.push_back(static_cast<int>(j));
+      breakable_joints.push_back(static_cast<int>(j));
     }
   }
+  joint_handles.resize(joint_places.size());
+  for (const JointHandle joint : all(joints)) joint_handles[at(joints.index(joint))] = joint;
+  cable_handles.resize(simulation.cable_definitions->size());
+  for (const CableHandle cable : all(cables)) {
+    const int place = records[at(cable.slot)].place;
+    if (place >= 0) cable_handles[at(place)] = cable;
+  }
 }
+
+CableSystem* LiveRevision::system() const {
+  if (simulation.cables == nullptr) return nullptr;
+  return static_cast<CableSystem*>(simulation.world.features().back().get());
+}
+
+LiveWorld::LiveWorld(Simulation simulation) : identity_(std::make_shared<const int>(0)) {
+  const Model& model = simulation.world.model();
+  std::vector<CableRecord> records;
+  for (const CableDef& cable : *simulation.cable_definitions) {
+    CableRecord& record = records.emplace_back();
+    record.definition = cable;
+    record.place = static_cast<int>(records.size()) - 1;
+  }
+  const std::size_t bodies = model.bodies.size();
+  const std::size_t joints = model.joints.size();
+  const std::size_t cables = records.size();
+  revision_ = std::make_shared<LiveRevision>(std::move(simulation), first_slots<BodyTag>(bodies),
+                                             first_slots<JointTag>(joints),
+                                             first_slots<CableTag>(cables), std::move(records));
+}
+
+LiveWorld::~LiveWorld() = default;
+LiveWorld::LiveWorld(LiveWorld&&) noexcept = default;
+LiveWorld& LiveWorld::operator=(LiveWorld&&) noexcept = default;
 
 Result<LiveWorld> LiveWorld::create(const Model& model, const std::vector<CableDef>& cables) {
   Result<Simulation> simulation = Simulation::create(model, cables);
@@ -71,77 +108,88 @@ Result<LiveWorld> LiveWorld::create(const Model& model, const std::vector<CableD
   return LiveWorld(std::move(*simulation));
 }
 
+const Simulation& LiveWorld::simulation() const { return revision_->simulation; }
+Simulation& LiveWorld::running() { return revision_->simulation; }
+
+std::vector<BodyHandle> LiveWorld::bodies() const { return all(revision_->bodies); }
+std::vector<JointHandle> LiveWorld::joints() const { return all(revision_->joints); }
+std::vector<CableHandle> LiveWorld::cables() const { return all(revision_->cables); }
+
 Result<BodyHandle> LiveWorld::body(std::string_view name) const {
-  const auto& bodies = simulation_->world.model().bodies;
-  return find<BodyTag>("body", name, bodies.size(),
-                       [&](std::size_t i) -> std::string_view { return bodies[i].name; });
+  const auto& bodies = simulation().world.model().bodies;
+  return find(revision_->bodies, "body", name,
+              [&](std::size_t slot) -> const std::string& { return bodies[slot].name; });
 }
 
 Result<JointHandle> LiveWorld::joint(std::string_view name) const {
-  const auto& joints = simulation_->world.model().joints;
-  return find<JointTag>("joint", name, joints.size(),
-                        [&](std::size_t i) -> std::string_view { return joints[i]->name; });
+  const auto& joints = simulation().world.model().joints;
+  const auto& slots = revision_->joints.slots();
+  return find(revision_->joints, "joint", name, [&](std::size_t slot) -> const std::string& {
+    return joints[at(slots[slot].index)]->name;
+  });
 }
 
 Result<CableHandle> LiveWorld::cable(std::string_view name) const {
-  const auto& cables = *simulation_->cable_definitions;
-  return find<CableTag>("cable", name, cables.size(),
-                        [&](std::size_t i) -> std::string_view { return cables[i].name; });
-}
-
-std::vector<BodyHandle> LiveWorld::bodies() const {
-  return all<BodyTag>(simulation_->world.model().bodies.size());
-}
-std::vector<JointHandle> LiveWorld::joints() const { return all<JointTag>(joints_.size()); }
-std::vector<CableHandle> LiveWorld::cables() const {
-  return all<CableTag>(simulation_->cable_definitions->size());
+  return find(revision_->cables, "cable", name, [&](std::size_t slot) -> const std::string& {
+    return revision_->records[slot].definition.name;
+  });
 }
 
 Result<std::string> LiveWorld::name(BodyHandle body) const {
   std::string fault = fault_of(body);
   if (!fault.empty()) return because(std::move(fault));
-  return simulation_->world.model().bodies[at(body.slot)].name;
+  return simulation().world.model().bodies[at(body.slot)].name;
 }
 
 Result<std::string> LiveWorld::name(JointHandle joint) const {
   std::string fault = fault_of(joint);
   if (!fault.empty()) return because(std::move(fault));
-  return simulation_->world.model().joints[at(joint.slot)]->name;
+  return simulation().world.model().joints[at(index_of(joint))]->name;
 }
 
 Result<std::string> LiveWorld::name(CableHandle cable) const {
   std::string fault = fault_of(cable);
   if (!fault.empty()) return because(std::move(fault));
-  return (*simulation_->cable_definitions)[at(cable.slot)].name;
+  return revision_->records[at(cable.slot)].definition.name;
 }
 
+BodyHandle LiveWorld::body_at(int index) const { return revision_->bodies.handle(at(index)); }
+JointHandle LiveWorld::joint_at(int index) const { return revision_->joint_handles[at(index)]; }
+CableHandle LiveWorld::cable_at(int index) const { return revision_->cable_handles[at(index)]; }
+
 std::string LiveWorld::fault_of(BodyHandle body) const {
-  return handle_fault(body, "body", simulation_->world.model().bodies.size());
+  return revision_->bodies.fault_of(body, "body");
 }
 std::string LiveWorld::fault_of(JointHandle joint) const {
-  return handle_fault(joint, "joint", joints_.size());
+  return revision_->joints.fault_of(joint, "joint");
 }
 std::string LiveWorld::fault_of(CableHandle cable) const {
-  return handle_fault(cable, "cable", simulation_->cable_definitions->size());
+  return revision_->cables.fault_of(cable, "cable");
+}
+int LiveWorld::index_of(JointHandle joint) const { return revision_->joints.index(joint); }
+int LiveWorld::index_of(CableHandle cable) const {
+  return revision_->records[at(cable.slot)].place;
+}
+
+std::string LiveWorld::pull_fault(CableHandle cable) const {
+  std::string fault = fault_of(cable);
+  if (!fault.empty() || index_of(cable) >= 0) return fault;
+  return "cable \"" + revision_->records[at(cable.slot)].definition.name +
+         "\" hangs loose and pulls at nothing; attach it first";
 }
 
 std::string LiveWorld::span_fault(CableHandle cable, int span) const {
-  std::string fault = fault_of(cable);
+  std::string fault = pull_fault(cable);
   if (!fault.empty()) return fault;
-  const CompiledCable& own = simulation_->cables->cables()[at(cable.slot)];
+  const CompiledCable& own = simulation().cables->cables()[at(index_of(cable))];
   if (span >= 0 && span < own.listed_spans) return {};
   return "cable \"" + own.name + "\" has no span number " + std::to_string(span) + "; it has " +
          std::to_string(own.listed_spans);
 }
 
-CableSystem* LiveWorld::cable_system() const {
-  if (simulation_->cables == nullptr) return nullptr;
-  return static_cast<CableSystem*>(simulation_->world.features().back().get());
-}
-
 bool LiveWorld::is_broken(int joint) const {
-  const World& world = simulation_->world;
-  const JointPlace& place = joints_[at(joint)];
+  const World& world = simulation().world;
+  const JointPlace& place = revision_->joint_places[at(joint)];
   for (std::size_t f = 0; f < world.features().size(); ++f) {
     if (world.features()[f].get() != place.feature) continue;
     return place.feature->is_broken(place.index, world.feature_state(f));
@@ -150,7 +198,7 @@ bool LiveWorld::is_broken(int joint) const {
 }
 
 void LiveWorld::note_events(LiveReport& report) const {
-  CableSystem* cables = cable_system();
+  CableSystem* cables = revision_->system();
   if (cables == nullptr) return;
   report.events = cables->take_events();
   if (report.events.size() <= LiveReport::most_events) return;
@@ -160,21 +208,23 @@ void LiveWorld::note_events(LiveReport& report) const {
 
 LiveReport LiveWorld::step(const StopRequest& stop, const std::function<void()>& before_substep) {
   std::vector<int> intact;
-  for (const int joint : breakable_joints_) {
+  for (const int joint : revision_->breakable_joints) {
     if (!is_broken(joint)) intact.push_back(joint);
   }
+  std::function<void()> set;
+  if (const Supervisor* supervisor = running().supervisor.get(); supervisor != nullptr) {
+    set = [&, supervisor] {
+      supervisor->supervise(running());
+      if (before_substep) before_substep();
+    };
+  }
   LiveReport report;
-  Simulation& own = *simulation_;
-  // Without anything to do before substeps the world may take them together.
-  const auto supervise = [&] {
-    own.supervisor->supervise(own);
-    if (before_substep) before_substep();
-  };
-  static_cast<StepReport&>(report) =
-      own.world.step(stop, own.supervisor != nullptr ? supervise : before_substep);
+  static_cast<StepReport&>(report) = running().world.step(stop, set ? set : before_substep);
   note_events(report);
   for (const int joint : intact) {
-    if (is_broken(joint)) report.broken_joints.push_back({joint, first_generation});
+    if (is_broken(joint)) {
+      report.broken_joints.push_back(revision_->joint_handles[at(joint)]);
+    }
   }
   return report;
 }
@@ -182,7 +232,7 @@ LiveReport LiveWorld::step(const StopRequest& stop, const std::function<void()>&
 Result<BodyPose> LiveWorld::pose(BodyHandle body) const {
   std::string fault = fault_of(body);
   if (!fault.empty()) return because(std::move(fault));
-  const World& world = simulation_->world;
+  const World& world = simulation().world;
   const BodyId id{body.slot};
   return BodyPose{world.position(id), world.orientation(id), world.velocity(id),
                   world.angular_velocity(id)};
@@ -191,30 +241,30 @@ Result<BodyPose> LiveWorld::pose(BodyHandle body) const {
 Result<Vector3> LiveWorld::point(BodyHandle body, const Vector3& local) const {
   std::string fault = fault_of(body);
   if (!fault.empty()) return because(std::move(fault));
-  return simulation_->world.point({body.slot}, local);
+  return simulation().world.point({body.slot}, local);
 }
 
 Result<double> LiveWorld::tension(CableHandle cable, int span) const {
   std::string fault = span_fault(cable, span);
   if (!fault.empty()) return because(std::move(fault));
-  const CableSystem& system = *simulation_->cables;
-  const CompiledCable& own = system.cables()[at(cable.slot)];
+  const CableSystem& system = *simulation().cables;
+  const CompiledCable& own = system.cables()[at(index_of(cable))];
   return state().features.back().reals[system.tension_index(own.first_span + span)];
 }
 
 Result<double> LiveWorld::rest_length(CableHandle cable, int span) const {
   std::string fault = span_fault(cable, span);
   if (!fault.empty()) return because(std::move(fault));
-  const CableSystem& system = *simulation_->cables;
-  const CompiledCable& own = system.cables()[at(cable.slot)];
+  const CableSystem& system = *simulation().cables;
+  const CompiledCable& own = system.cables()[at(index_of(cable))];
   return state().features.back().reals[system.rest_length_index(own.first_span + span)];
 }
 
 Result<double> LiveWorld::stored_length(CableHandle cable, int link) const {
-  std::string fault = fault_of(cable);
+  std::string fault = pull_fault(cable);
   if (!fault.empty()) return because(std::move(fault));
-  const CableSystem& system = *simulation_->cables;
-  const CompiledCable& own = system.cables()[at(cable.slot)];
+  const CableSystem& system = *simulation().cables;
+  const CompiledCable& own = system.cables()[at(index_of(cable))];
   if (link < 0 || link >= own.listed_links) {
     return because("cable \"" + own.name + "\" has no link number " + std::to_string(link) +
                    "; it has " + std::to_string(own.listed_links));
@@ -222,36 +272,43 @@ Result<double> LiveWorld::stored_length(CableHandle cable, int link) const {
   return state().features.back().reals[system.stored_length_index(own.first_link + link)];
 }
 
+Result<std::optional<double>> LiveWorld::loose_length(CableHandle cable, CableEnd end) const {
+  std::string fault = fault_of(cable);
+  if (!fault.empty()) return because(std::move(fault));
+  return revision_->records[at(cable.slot)].loose[end == CableEnd::first ? 0 : 1];
+}
+
 Result<Wrench> LiveWorld::force(JointHandle joint) const {
   std::string fault = fault_of(joint);
   if (!fault.empty()) return because(std::move(fault));
-  const World& world = simulation_->world;
-  const JointPlace& place = joints_[at(joint.slot)];
-  const JointDef& definition = *world.model().joints[at(joint.slot)];
+  const World& world = simulation().world;
+  const JointPlace& place = revision_->joint_places[at(index_of(joint))];
+  const JointDef& definition = *world.model().joints[at(index_of(joint))];
   const auto look_at = [&](BodyId id) {
     if (id.is_world()) return;
     for (const int body : {id.index, world.bodies()[id.index].mount}) {
       if (body < 0) continue;
       const BodyState& now = state().bodies[at(body)];
-      MovingBody& moving = view_->moving[at(body)];
+      MovingBody& moving = revision_->view.moving[at(body)];
       moving.position = now.position;
       moving.orientation = now.orientation;
     }
   };
   look_at(definition.body_a);
   look_at(definition.body_b);
-  if (const auto* gear = dynamic_cast<const GearJoint*>(&definition)) look_at(gear->carrier);
-  if (const auto* rack = dynamic_cast<const RackJoint*>(&definition)) look_at(rack->carrier);
+  look_at(definition.carrier_body());
   for (std::size_t f = 0; f < world.features().size(); ++f) {
     if (world.features()[f].get() != place.feature) continue;
-    return place.feature->wrench_of(place.index, *view_, world.feature_state(f));
+    return place.feature->wrench_of(place.index, revision_->view, world.feature_state(f));
   }
   return because("joint \"" + definition.name + "\" does nothing");
 }
 
 Errors LiveWorld::restore(const State& state) {
-  Errors errors = simulation_->world.restore(state);
-  if (errors.empty() && cable_system() != nullptr) static_cast<void>(cable_system()->take_events());
+  Errors errors = running().world.restore(state);
+  if (errors.empty() && revision_->system() != nullptr) {
+    static_cast<void>(revision_->system()->take_events());
+  }
   return errors;
 }
 

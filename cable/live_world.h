@@ -20,9 +20,9 @@
 #include <string_view>
 #include <vector>
 
+#include "cable/edit.h"
 #include "cable/handle.h"
 #include "cable/simulation.h"
-#include "engine/control_check.h"
 #include "engine/wrench.h"
 
 namespace sheave {
@@ -60,16 +60,40 @@ struct LiveReport : StepReport {
   std::size_t omitted = 0;                 ///< events beyond those
 };
 
+struct LiveRevision;
+
+/// A state of a LiveWorld with all that it is a state of, so that it can be gone back to across edits.
+class LiveSnapshot {
+ public:
+  [[nodiscard]] const State& state() const { return state_; }
+
+ private:
+  friend class LiveWorld;
+  LiveSnapshot(State state, std::shared_ptr<LiveRevision> revision,
+               std::shared_ptr<const int> identity)
+      : state_(std::move(state)), revision_(std::move(revision)), identity_(std::move(identity)) {}
+  State state_;
+  std::shared_ptr<LiveRevision> revision_;
+  std::shared_ptr<const int> identity_;
+};
+
 class LiveWorld {
  public:
   static Result<LiveWorld> create(const Model& model, const std::vector<CableDef>& cables);
-  /// Of a simulation that there is, with its supervisor if it has one.
-  explicit LiveWorld(Simulation simulation);
+  /// Of a simulation that is there, with its supervisor if it has one.
+  static LiveWorld of(Simulation simulation) { return LiveWorld(std::move(simulation)); }
+  ~LiveWorld();
+  LiveWorld(LiveWorld&&) noexcept;
+  LiveWorld& operator=(LiveWorld&&) noexcept;
 
   // By name; the error says which names are like it.
   [[nodiscard]] Result<BodyHandle> body(std::string_view name) const;
   [[nodiscard]] Result<JointHandle> joint(std::string_view name) const;
   [[nodiscard]] Result<CableHandle> cable(std::string_view name) const;
+  // By the index in the model's list, or in that of the cables, which must be in it.
+  [[nodiscard]] BodyHandle body_at(int index) const;
+  [[nodiscard]] JointHandle joint_at(int index) const;
+  [[nodiscard]] CableHandle cable_at(int index) const;
 
   // All there are, in the order of their handles.
   [[nodiscard]] std::vector<BodyHandle> bodies() const;
@@ -81,7 +105,7 @@ class LiveWorld {
                                 const std::function<void()>& before_substep = {});
 
   // Readers.
-  [[nodiscard]] double time() const { return simulation_->world.state().time; }
+  [[nodiscard]] double time() const { return state().time; }
   [[nodiscard]] Result<std::string> name(BodyHandle body) const;
   [[nodiscard]] Result<std::string> name(JointHandle joint) const;
   [[nodiscard]] Result<std::string> name(CableHandle cable) const;
@@ -93,10 +117,14 @@ class LiveWorld {
   /// Unstretched length of a span, and of what lies on a listed link [m].
   [[nodiscard]] Result<double> rest_length(CableHandle cable, int span) const;
   [[nodiscard]] Result<double> stored_length(CableHandle cable, int link) const;
+  /// All of it, loose ends too [m]; of one without a loose end this is what its report calls total length. Allocates.
+  [[nodiscard]] Result<double> length(CableHandle cable) const;
+  /// Length beyond the link that holds a loose end [m]; nothing if the end is not loose.
+  [[nodiscard]] Result<std::optional<double>> loose_length(CableHandle cable, CableEnd end) const;
   /// What the joint did to its body_b in the last substep, as JointReport tells it.
   [[nodiscard]] Result<Wrench> force(JointHandle joint) const;
   /// Of everything; takes time in proportion to what there is.
-  [[nodiscard]] Energy energy() const { return simulation_->world.energy(); }
+  [[nodiscard]] Energy energy() const { return simulation().world.energy(); }
 
   // Controls, as World and Simulation have them (engine/world.h, cable/simulation.h).
   [[nodiscard]] Errors set_gravity(const Vector3& gravity);
@@ -114,6 +142,8 @@ class LiveWorld {
   [[nodiscard]] Errors set_drive(JointHandle joint, const DriveTarget& target, int coordinate = 0);
   [[nodiscard]] Errors set_drive_limit(JointHandle joint, double limit, int coordinate = 0);
   [[nodiscard]] Errors clear_drive(JointHandle joint, int coordinate = 0);
+  [[nodiscard]] Errors release_joint(JointHandle joint);
+  [[nodiscard]] Errors lock_joint(JointHandle joint);
   [[nodiscard]] Errors set_compliance(CableHandle cable, double compliance);
   [[nodiscard]] Errors clear_compliance(CableHandle cable);
   [[nodiscard]] Errors set_breaking_tension(CableHandle cable, double tension);
@@ -134,32 +164,44 @@ class LiveWorld {
   [[nodiscard]] Result<Placement> place(BodyHandle body, const Vector3& position,
                                         std::optional<Quaternion> orientation, Keep keep);
 
-  /// The state, to hash, to keep and to go back to.
-  [[nodiscard]] const State& state() const { return simulation_->world.state(); }
-  [[nodiscard]] Errors restore(const State& state);
+  /// Changes what the world is made of, all or nothing: cable/edit.h. Scenes' controllers and triggers find what they refer to by
+  /// name; an edit that takes it away fails.
+  [[nodiscard]] Result<EditReport> edit(const std::function<void(Edit&)>& changes);
 
-  /// Everything else that can be asked of it: reports, certificates.
-  [[nodiscard]] const Simulation& simulation() const { return *simulation_; }
+  /// The state, to hash, to keep and to go back to as long as nothing is edited.
+  [[nodiscard]] const State& state() const { return simulation().world.state(); }
+  [[nodiscard]] Errors restore(const State& state);
+  /// The same across edits: handles of what there was then are good again.
+  [[nodiscard]] LiveSnapshot snapshot() const;
+  [[nodiscard]] Errors restore(const LiveSnapshot& snapshot);
+
+  /// Everything else that can be asked of it: reports, certificates. An edit or restoring a snapshot makes another one. Bodies that
+  /// have been removed stand in its model as static ones without a shape.
+  [[nodiscard]] const Simulation& simulation() const;
 
  private:
+  explicit LiveWorld(Simulation simulation);
   [[nodiscard]] Errors set_drive_of(BodyHandle body, DriveKind kind, const DriveTarget& target);
   [[nodiscard]] std::string fault_of(BodyHandle body) const;
   [[nodiscard]] std::string fault_of(JointHandle joint) const;
   [[nodiscard]] std::string fault_of(CableHandle cable) const;
+  /// Of a joint or cable that is there: its index in the simulation; of a cable of which nothing pulls -1.
+  [[nodiscard]] int index_of(JointHandle joint) const;
+  [[nodiscard]] int index_of(CableHandle cable) const;
+  /// The fault of a cable that is not between holds.
+  [[nodiscard]] std::string pull_fault(CableHandle cable) const;
   /// The fault of a span or link of that cable.
   [[nodiscard]] std::string span_fault(CableHandle cable, int span) const;
-  [[nodiscard]] CableSystem* cable_system() const;
   /// Why the body cannot be put anywhere else, or there.
   [[nodiscard]] std::string place_fault(int body) const;
   [[nodiscard]] std::string place_fault(int body, const BodyState& there) const;
   void note_events(LiveReport& report) const;
   [[nodiscard]] bool is_broken(int joint) const;
+  [[nodiscard]] Simulation& running();
 
-  // Its address stays, for what reads from it.
-  std::unique_ptr<Simulation> simulation_;
-  std::unique_ptr<Substep> view_;   // for readers of joints: where their bodies are
-  std::vector<JointPlace> joints_;  // in the order of the model
-  std::vector<int> breakable_joints_;
+  std::shared_ptr<LiveRevision> revision_;
+  std::uint32_t next_generation_ = 2;
+  std::shared_ptr<const int> identity_;  // its address tells this world from others
 };
 
 }  // namespace sheave

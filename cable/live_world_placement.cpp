@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "cable/live_revision.h"
 #include "cable/live_world.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
@@ -36,13 +37,13 @@ void carry_rotors(const BodySet& bodies, int carrier, const BodyState& before, S
 }  // namespace
 
 std::string LiveWorld::place_fault(int body) const {
-  const World& world = simulation_->world;
+  const World& world = simulation().world;
   const std::string name = "body \"" + world.bodies().name(body) + "\"";
   const Mobility mobility = world.bodies()[body].mobility;
   if (mobility == Mobility::kinematic) return name + " is kinematic; tell it where to go instead";
   if (mobility == Mobility::fixed) return name + " is static; it stays where it is";
   if (mobility == Mobility::rotor) return name + " is a rotor; it stays on its axle";
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
+  for (std::size_t j = 0; j < world.model().joints.size(); ++j) {
     const JointDef& joint = *world.model().joints[j];
     for (const BodyId held : {joint.body_a, joint.body_b}) {
       const bool its =
@@ -56,7 +57,7 @@ std::string LiveWorld::place_fault(int body) const {
 }
 
 std::string LiveWorld::place_fault(int body, const BodyState& there) const {
-  const BodySet& bodies = simulation_->world.bodies();
+  const BodySet& bodies = simulation().world.bodies();
   const BodyProperties& own = bodies[body];
   const BodyState& now = state().bodies[at(body)];
   const Vector3 way = there.position - now.position;
@@ -85,7 +86,7 @@ Result<Placement> LiveWorld::place(BodyHandle body, const Vector3& position,
     fault = "a position must be finite, and an orientation have length 1";
   }
   if (!fault.empty()) return Error{"", std::move(fault)};
-  World& world = simulation_->world;
+  World& world = running().world;
   const BodySet& bodies = world.bodies();
   State next = state();
   BodyState& there = next.bodies[at(body.slot)];
@@ -99,7 +100,7 @@ Result<Placement> LiveWorld::place(BodyHandle body, const Vector3& position,
   }
   carry_rotors(bodies, body.slot, before, next);
   Placement placement;
-  if (CableSystem* cables = cable_system()) {
+  if (CableSystem* cables = revision_->system()) {
     CableSystem::Placed placed =
         cables->place(bodies, state(), next, state().features.back(), keep == Keep::tension);
     if (!placed.fault.empty()) return Error{"", std::move(placed.fault)};
@@ -107,7 +108,7 @@ Result<Placement> LiveWorld::place(BodyHandle body, const Vector3& position,
     for (std::size_t c = 0; c < placed.added.size(); ++c) {
       if (placed.added[c] == 0.0) continue;
       const auto index = static_cast<int>(c);
-      placement.cables.push_back({{index, 1}, placed.added[c]});
+      placement.cables.push_back({revision_->cable_handles[c], placed.added[c]});
       const CableControl* set = next.controls.cables.find(index);
       CableControl control = set != nullptr ? *set : CableControl{};
       control.added_length += placed.added[c];

@@ -3,7 +3,7 @@
 //
 //   sheave::Model model;  std::vector<sheave::CableDef> cables;
 //   auto simulation = sheave::Simulation::create(model, cables);
-//   simulation->world.step();
+//   if (!simulation->step().ok()) return;  // the state is the last good one
 //   double tension = simulation->cable_reports()[0].spans[2].tension;
 
 #include <memory>
@@ -33,6 +33,9 @@ class Supervisor {
   [[nodiscard]] virtual std::vector<double> initial_memory() const = 0;
   /// Called before each substep.
   virtual void supervise(Simulation& simulation) const = 0;
+  /// The same for a simulation that has been edited, in which it finds what it controls by name; its memory stays as it is.
+  [[nodiscard]] virtual Result<std::shared_ptr<const Supervisor>> again(
+      const Simulation& simulation) const = 0;
   /// Whether the run shall end with this state.
   [[nodiscard]] virtual bool has_stopped(const State& state) const = 0;
 };
@@ -52,7 +55,7 @@ struct Simulation {
   std::shared_ptr<const Supervisor> supervisor = nullptr;
 
   /// World::step(), with the supervisor if there is one.
-  StepReport step(const StopRequest& stop = {});
+  [[nodiscard]] StepReport step(const StopRequest& stop = {});
 
   /// All faults of bodies, joints and cables are reported together.
   static Result<Simulation> create(const Model& model, const std::vector<CableDef>& cables);

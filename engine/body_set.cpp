@@ -201,6 +201,24 @@ State BodySet::initial_state() const {
   return state;
 }
 
+BodyFrame BodySet::frame(int index, const BodyFrames& frames) const {
+  if (index == count()) return {};
+  if (frames != nullptr && at(index) < frames->size()) return (*frames)[at(index)];
+  return {definition(index).position, initial_orientation(index)};
+}
+
+State BodySet::state_in(const BodyFrames& frames) const {
+  State state = initial_state();
+  if (frames == nullptr) return state;
+  for (int i = 0; i < count() && at(i) < frames->size(); ++i) {
+    const BodyFrame& frame = (*frames)[at(i)];
+    BodyState& body = state.bodies[at(i)];
+    body.orientation = frame.orientation;
+    body.position = frame.position + frame.orientation * (*this)[i].center_of_mass;
+  }
+  return state;
+}
+
 Quaternion BodySet::initial_orientation(int index) const {
   if (index == count()) return Quaternion::Identity();
   return definition(index).orientation.normalized();
@@ -209,11 +227,6 @@ Quaternion BodySet::initial_orientation(int index) const {
 Vector3 BodySet::initial_point(int index, const Vector3& local) const {
   if (index == count()) return local;
   return definition(index).position + initial_orientation(index) * local;
-}
-
-Vector3 BodySet::initial_local(int index, const Vector3& point) const {
-  if (index == count()) return point;
-  return initial_orientation(index).conjugate() * (point - definition(index).position);
 }
 
 bool BodySet::stays_in_plane(int index, const Vector3& normal) const {

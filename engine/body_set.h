@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/body.h"
+#include "engine/body_frames.h"
 #include "engine/dynamics/coordinates.h"
 #include "engine/result.h"
 #include "engine/state.h"
@@ -81,10 +82,12 @@ class BodySet {
 
   /// The state at time 0, without features.
   [[nodiscard]] State initial_state() const;
+  /// The same with bodies in these frames; those that have none there are where they are at time 0.
+  [[nodiscard]] State state_in(const BodyFrames& frames) const;
+  /// That of a body, or of the world.
+  [[nodiscard]] BodyFrame frame(int index, const BodyFrames& frames) const;
   /// Pose at time 0 of the body frame's point `local` [m] of body `index`, or of the world.
   [[nodiscard]] Vector3 initial_point(int index, const Vector3& local) const;
-  /// The body-frame coordinates of a world point at time 0.
-  [[nodiscard]] Vector3 initial_local(int index, const Vector3& point) const;
   [[nodiscard]] Quaternion initial_orientation(int index) const;
   /// Whether the body keeps every point of it in a plane with this normal (world frame at time 0).
   [[nodiscard]] bool stays_in_plane(int index, const Vector3& normal) const;

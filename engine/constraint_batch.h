@@ -99,6 +99,11 @@ class ConstraintBatch {
     return false;
   }
 
+  /// Takes over from a state of a feature of another world what is the same in both: `own` is that of initial_state(). Called
+  /// when a running world is edited.
+  virtual void adopt(const ConstraintBatch& /*before*/, const FeatureState& /*from*/,
+                     FeatureState& /*own*/) const {}
+
   /// Elastic energy stored in the feature [J], between substeps.
   [[nodiscard]] virtual double elastic_energy(const BodySet& bodies, const State& state,
                                               const FeatureState& own) const = 0;

@@ -23,7 +23,7 @@ bool is_ramp(const RampOf<Value>& ramp) {
 }
 
 bool is_drive(const DriveControl& control) {
-  return is_ramp(control.target) && (std::isnan(control.limit) || control.limit > 0.0);
+  return is_ramp(control.target) && (std::isnan(control.limit) || control.limit >= 0.0);
 }
 
 constexpr double unit_slop = 1e-6;
@@ -128,6 +128,12 @@ std::string ControlCheck::motion_fault(int body) const {
          "; only kinematic bodies go where they are told to";
 }
 
+bool ControlCheck::keeps_to_a_way(int body) const {
+  const BodyDef& def = bodies_.definition(body);
+  return def.axis.has_value() || !is_zero(def.velocity) || !is_zero(def.oscillation) ||
+         !is_zero(def.angular_velocity);
+}
+
 std::string ControlCheck::way_fault(int body, const BodyState& state) const {
   const BodyDef& def = bodies_.definition(body);
   const Quaternion& start = bodies_[body].start_orientation;
@@ -185,11 +191,15 @@ std::string ControlCheck::way_fault(int body, const BodyState& state) const {
   return {};
 }
 
+std::string ControlCheck::fault_of_joint(int joint) const {
+  if (joint >= 0 && joint < static_cast<int>(joints_.size())) return {};
+  return "there is no joint number " + std::to_string(joint) + "; there are " +
+         std::to_string(joints_.size());
+}
+
 std::string ControlCheck::joint_fault(int joint, int coordinate) const {
-  if (joint < 0 || joint >= static_cast<int>(joints_.size())) {
-    return "there is no joint number " + std::to_string(joint) + "; there are " +
-           std::to_string(joints_.size());
-  }
+  std::string fault = fault_of_joint(joint);
+  if (!fault.empty()) return fault;
   const auto coordinates = model_.joints[at(joint)]->coordinates();
   if (coordinate < 0 || coordinate >= static_cast<int>(coordinates.size())) {
     return joint_name(joint) + " has no coordinate number " + std::to_string(coordinate) +
@@ -210,8 +220,8 @@ std::string ControlCheck::limit_fault(int joint, int coordinate, double limit) c
   if (drive_of(joint, coordinate).kind == JointEffect::Kind::force) {
     return joint_name(joint) + ": the drive's force is what its target says; it has no limit";
   }
-  if (limit > 0.0 && std::isfinite(limit)) return {};
-  return joint_name(joint) + ": the limit of a drive must be finite and above 0, not " +
+  if (limit >= 0.0 && std::isfinite(limit)) return {};
+  return joint_name(joint) + ": the limit of a drive must be finite and at least 0, not " +
          number_text(limit);
 }
 

@@ -60,8 +60,12 @@ class ControlCheck {
   [[nodiscard]] std::string drive_fault(int body) const;
   [[nodiscard]] std::string force_fault(int body) const;
   [[nodiscard]] std::string motion_fault(int body) const;
-  /// Whether a kinematic body may be in this pose and move so.
+  /// Whether a kinematic body cannot be in any pose and move anyhow.
+  [[nodiscard]] bool keeps_to_a_way(int body) const;
+  /// Whether it may be in this pose and move so.
   [[nodiscard]] std::string way_fault(int body, const BodyState& state) const;
+  /// Whether there is such a joint.
+  [[nodiscard]] std::string fault_of_joint(int joint) const;
   [[nodiscard]] std::string joint_fault(int joint, int coordinate) const;
   /// The drive of a coordinate without such a fault.
   [[nodiscard]] const JointEffect& drive_of(int joint, int coordinate) const;

@@ -36,7 +36,7 @@ struct DriveControl {
   /// N], as its kind says. Of a body's angle only the change counts, as of its table.
   Ramp target;
   double limit =
-      not_set;  ///< of a joint's drive: the largest force or torque it has [N or N m], > 0
+      not_set;  ///< of a joint's drive: the largest force or torque it has [N or N m], >= 0
 
   [[nodiscard]] bool is_set() const { return has_target || !std::isnan(limit); }
 };

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/body_frames.h"
 #include "engine/body_id.h"
 #include "engine/constraint_batch.h"
 #include "engine/field.h"
@@ -40,6 +41,8 @@ class JointDef {
   /// these; it then does nothing any more.
   std::optional<double> breaking_force;   ///< [N], > 0
   std::optional<double> breaking_torque;  ///< [N m], > 0
+  /// Where bodies were when anchors and axes were told. LiveWorld::edit() sets it for a joint that comes into a running world.
+  BodyFrames defined_in;
 
   /// What all joints have.
   static std::span<const Field> common_field_table();
@@ -47,6 +50,8 @@ class JointDef {
   [[nodiscard]] virtual const void* settings() const = 0;   ///< this, as its own type
   /// The coordinates that reports tell, in their order.
   [[nodiscard]] virtual std::span<const JointCoordinateInfo> coordinates() const = 0;
+  /// The body that carries what it joins, beside these two; the world of types that have none.
+  [[nodiscard]] virtual BodyId carrier_body() const { return BodyId::world(); }
   /// Faults beyond the ranges of the field tables; `path` is prepended to theirs.
   [[nodiscard]] virtual Errors validate(const BodySet& bodies, const std::string& path) const;
   /// One batch for all `joints`, which are of this type.

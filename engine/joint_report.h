@@ -14,6 +14,7 @@ namespace sheave {
 
 class World;
 struct JointEffect;
+struct JointHold;
 
 /// A free coordinate of a joint.
 struct JointCoordinateReport {
@@ -62,6 +63,14 @@ class JointFeature : public ConstraintBatch {
   [[nodiscard]] virtual bool is_broken(int index, const FeatureState& own) const = 0;
   /// Makes it one that broke at `time`, if it has not broken before.
   virtual void release(int index, double time, FeatureState& own) const = 0;
+  /// What its joint at `index` must hold so that it holds its bodies where they are `now`; an error if there are stops or drives
+  /// that would not let it.
+  [[nodiscard]] virtual Result<JointHold> hold_here(int index, const Substep& now,
+                                                    const FeatureState& own) const = 0;
+  /// Makes it one that has not broken and holds that.
+  virtual void lock(int index, const JointHold& hold, FeatureState& own) const = 0;
+  /// What it holds, or did before it was released.
+  [[nodiscard]] virtual JointHold hold(int index, const FeatureState& own) const = 0;
   /// What drives a coordinate of its joint at `index`; null if nothing does.
   [[nodiscard]] virtual const JointEffect* drive(int index, int coordinate) const = 0;
   /// Tells where the coordinates of its joints begin among those of all joints of the model, for Controls::joint_drives.

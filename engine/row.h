@@ -139,6 +139,10 @@ struct Row {
     assert(term_count < max_terms);
     terms[static_cast<std::size_t>(term_count++)] = {body, linear, angular, reach};
   }
+  /// Whether it is one-sided and on its free side.
+  [[nodiscard]] bool is_free() const {
+    return (lower == 0.0 && value > 0.0) || (upper == 0.0 && value < 0.0);
+  }
   [[nodiscard]] std::span<const RowTerm> active_terms() const {
     return {terms.data(), static_cast<std::size_t>(term_count)};
   }

@@ -158,6 +158,7 @@ StepReport World::step(const StopRequest& stop, const std::function<void()>& bef
 
 const Model& World::model() const { return content_->model; }
 const BodySet& World::bodies() const { return *content_->bodies; }
+std::shared_ptr<const BodySet> World::shared_bodies() const { return content_->bodies; }
 const State& World::state() const { return content_->state; }
 const std::vector<Stage>& World::stages() const { return content_->stages; }
 std::span<const std::unique_ptr<ConstraintBatch>> World::features() const {

@@ -4,7 +4,7 @@
 //   sheave::Model model;                          // bodies, joints, gravity, step settings
 //   auto world = sheave::World::create(model);    // or with features: cables
 //   if (!world) report(world.errors());
-//   while (world->state().time < 2.0) world->step();
+//   while (world->state().time < 2.0 && world->step().ok()) show(world->state());
 //
 // A step takes as long as its scene is hard. A program that cannot wait sets it a limit; what it says ends the step, which then
 // has not been:
@@ -82,10 +82,11 @@ class World {
   /// the constraints (once for substeps that need neither, engine/solvers/affine_motion.h): mostly some ten times per step, more often where a step is hard. Once it says true the step ends, as
   /// soon as nothing but that one piece of work is done, and the world is as if the step had not been begun, but for
   /// last_substep(), of which there is nothing. Another step() then comes to the same end as one that was never stopped.
-  StepReport step(const StopRequest& stop = {});
+  [[nodiscard]] StepReport step(const StopRequest& stop = {});
   /// The same with `before_substep`, which is called before each substep of the settings, not before the parts of one that is
   /// cut. It may set controls.
-  StepReport step(const StopRequest& stop, const std::function<void()>& before_substep);
+  [[nodiscard]] StepReport step(const StopRequest& stop,
+                                const std::function<void()>& before_substep);
 
   // Controls: set between steps or before substeps, in force from the next substep on until they are set anew or cleared, and
   // part of the state (engine/controls.h). Where a request cannot be met nothing changes, and the error says what is allowed.
@@ -110,7 +111,7 @@ class World {
   /// Of the drive along a coordinate of a joint, by their indices in Model::joints and JointDef::coordinates(), in place of its
   /// table and sine.
   [[nodiscard]] Errors set_joint_drive(int joint, int coordinate, const DriveTarget& target);
-  /// The largest force or torque that it has [N or N m], > 0; not of drives of a force.
+  /// The largest force or torque that it has [N or N m], >= 0; not of drives of a force.
   [[nodiscard]] Errors set_joint_drive_limit(int joint, int coordinate, double limit);
   /// Target and limit are those of the definition again. (A drive to a position then asks for where its table is, at once.)
   [[nodiscard]] Errors clear_joint_drive(int joint, int coordinate);
@@ -118,6 +119,12 @@ class World {
   [[nodiscard]] double control_interval() const;
   /// The joint holds nothing any more, as if it had broken now.
   [[nodiscard]] Errors release_joint(int joint);
+  /// A joint that was released or has broken holds again what its type holds, from where its bodies are now: no position jumps
+  /// and its coordinates go on (engine/joints/joint_hold.h). What speed the bodies have against it ends as in an inelastic
+  /// impact, which keeps momentum. An error if a rigid stop or a drive to a position without a limit would move them by a blow.
+  /// One that holds goes on to do so. (To hold a coordinate of such a joint is what a brake does: a drive to the speed 0 with
+  /// a limit.)
+  [[nodiscard]] Errors lock_joint(int joint);
   /// State::memory, to be read and written by whoever sets controls. States with another size do not belong to this world.
   [[nodiscard]] std::vector<double>& memory();
   /// Unchecked: for functions that check what they set for a feature (Simulation::set_...()).
@@ -125,6 +132,8 @@ class World {
 
   [[nodiscard]] const Model& model() const;
   [[nodiscard]] const BodySet& bodies() const;
+  /// The same, for another world of the same bodies.
+  [[nodiscard]] std::shared_ptr<const BodySet> shared_bodies() const;
   [[nodiscard]] const State& state() const;
   [[nodiscard]] const std::vector<Stage>& stages() const;  ///< of one substep
   [[nodiscard]] std::span<const std::unique_ptr<ConstraintBatch>> features() const;

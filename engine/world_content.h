@@ -34,6 +34,12 @@ struct World::Content {
     substep.next = state;
   }
 
+  /// Index of the feature that the joint is in.
+  [[nodiscard]] std::size_t feature_of(const JointPlace& place) const {
+    std::size_t i = 0;
+    while (features[i].get() != place.feature) ++i;
+    return i;
+  }
   void mark_notes() {
     for (const auto& feature : features) feature->mark_notes(NoteMark::step);
   }

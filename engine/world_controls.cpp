@@ -6,6 +6,7 @@
 #include "engine/field_check.h"
 #include "engine/index.h"
 #include "engine/joints/joint_effect.h"
+#include "engine/joints/joint_hold.h"
 #include "engine/world_content.h"
 
 namespace sheave {
@@ -15,7 +16,9 @@ std::string path_of(BodyId body, const char* key) {
   return "/bodies/" + std::to_string(body.index) + "/" + key;
 }
 
-std::string joint_path(int joint) { return "/joints/" + std::to_string(joint) + "/drive"; }
+std::string joint_path(int joint, const char* key = "/drive") {
+  return "/joints/" + std::to_string(joint) + key;
+}
 
 DriveMeaning meaning_of(DriveKind kind) {
   if (kind == DriveKind::speed) return DriveMeaning::speed;
@@ -36,10 +39,9 @@ Vector3 turn_to(const Quaternion& from, const Quaternion& to) {
   return change.vec() * (2.0 * std::atan2(sine, change.w()) / sine);
 }
 
-/// A motion from `from` to `to` within `over` seconds from `time` on; smooth or straight.
-MotionControl way_between(const BodyState& from, const BodyState& to, double time, double over,
-                          bool smooth) {
-  MotionControl motion;
+/// A motion from `from` to `to`, turned by `turn`, within `over` seconds from `time` on; smooth or straight.
+void set_way(const BodyState& from, const BodyState& to, const Vector3& turned_by, double time,
+             double over, bool smooth, MotionControl& motion) {
   motion.moves = true;
   motion.start_orientation = from.orientation;
   RampOf<Vector3>& way = motion.position;
@@ -48,18 +50,18 @@ MotionControl way_between(const BodyState& from, const BodyState& to, double tim
   way.to = turn.to = time + over;
   way.start = from.position;
   way.end = to.position;
-  turn.end = turn_to(from.orientation, to.orientation);
+  turn.end = turned_by;
   if (smooth) {
     way.start_rate = from.velocity;
     way.end_rate = way.rate_after = to.velocity;
     turn.start_rate = from.angular_velocity;
-    turn.end_rate = turn_rate(turn.end, to.angular_velocity);
+    turn.end_rate =
+        is_zero(turned_by) ? to.angular_velocity : turn_rate(turned_by, to.angular_velocity);
     turn.rate_after = to.angular_velocity;
   } else {
     way.start_rate = way.end_rate = (way.end - way.start) / over;
-    turn.start_rate = turn.end_rate = turn.end / over;
+    turn.start_rate = turn.end_rate = turned_by / over;
   }
-  return motion;
 }
 
 std::string fault_of(const MotionTarget& target, double over) {
@@ -100,16 +102,31 @@ std::vector<double>& World::memory() { return content_->state.memory; }
 
 Errors World::release_joint(int joint) {
   Content& c = *content_;
-  if (joint < 0 || joint >= static_cast<int>(c.joints.size())) {
-    return {{"/joints/" + std::to_string(joint), "there is no joint number " +
-                                                     std::to_string(joint) + "; there are " +
-                                                     std::to_string(c.joints.size())}};
-  }
+  const ControlCheck check(c.model, *c.bodies, c.joints);
+  std::string fault = check.fault_of_joint(joint);
+  if (!fault.empty()) return {{joint_path(joint, ""), std::move(fault)}};
   const JointPlace& place = c.joints[at(joint)];
-  for (std::size_t i = 0; i < c.features.size(); ++i) {
-    if (c.features[i].get() != place.feature) continue;
-    place.feature->release(place.index, c.state.time, c.state.features[i]);
-    place.feature->release(place.index, c.state.time, c.substep.next.features[i]);
+  const std::size_t feature = c.feature_of(place);
+  for (State* state : {&c.state, &c.substep.next}) {
+    place.feature->release(place.index, c.state.time, state->features[feature]);
+  }
+  return {};
+}
+
+Errors World::lock_joint(int joint) {
+  Content& c = *content_;
+  const ControlCheck check(c.model, *c.bodies, c.joints);
+  std::string fault = check.fault_of_joint(joint);
+  if (!fault.empty()) return {{joint_path(joint, ""), std::move(fault)}};
+  const JointPlace& place = c.joints[at(joint)];
+  const std::size_t feature = c.feature_of(place);
+  const FeatureState& own = c.state.features[feature];
+  if (!place.feature->is_broken(place.index, own)) return {};
+  const Substep now(*c.bodies, c.state, c.substep.h, 1);
+  const Result<JointHold> hold = place.feature->hold_here(place.index, now, own);
+  if (!hold) return {{joint_path(joint, ""), hold.errors().front().message}};
+  for (State* state : {&c.state, &c.substep.next}) {
+    place.feature->lock(place.index, *hold, state->features[feature]);
   }
   return {};
 }
@@ -186,29 +203,37 @@ Errors World::set_motion(BodyId body, const MotionTarget& target) {
   const Content& c = *content_;
   const ControlCheck check(c.model, *c.bodies, c.joints);
   const double over = target.over.value_or(c.control_interval);
-  std::string fault = check.fault_of(body);
-  if (fault.empty()) fault = check.motion_fault(body.index);
-  if (fault.empty()) {
-    fault = sheave::fault_of(target, over);
-    if (!fault.empty()) fault = "body \"" + c.bodies->name(body.index) + "\": " + fault;
+  // Programs set motions every frame: texts are made for faults alone.
+  const auto refuse = [&](std::string fault) -> Errors {
+    return {{path_of(body, "position"), std::move(fault)}};
+  };
+  const auto name = [&] { return "body \"" + c.bodies->name(body.index) + "\""; };
+  if (!check.is_body(body)) return refuse(check.fault_of(body));
+  if ((*c.bodies)[body.index].mobility != Mobility::kinematic) {
+    return refuse(check.motion_fault(body.index));
+  }
+  std::string fault = sheave::fault_of(target, over);
+  if (!fault.empty()) return refuse(name() + ": " + fault);
+  const BodyState& from = c.state.bodies[at(body.index)];
+  BodyState to;
+  to.position = target.position;
+  Vector3 turn = Vector3::Zero();
+  to.orientation = from.orientation;
+  if (target.orientation) {
+    to.orientation = target.orientation->normalized();
+    turn = turn_to(from.orientation, to.orientation);
+  }
+  if (target.velocity) to.velocity = *target.velocity;
+  if (target.angular_velocity) to.angular_velocity = *target.angular_velocity;
+  if (check.keeps_to_a_way(body.index)) {
+    fault = check.way_fault(body.index, to);
+    if (!fault.empty()) return refuse(std::move(fault));
   }
   MotionControl motion;
-  if (fault.empty()) {
-    const BodyState& from = c.state.bodies[at(body.index)];
-    BodyState to;
-    to.position = target.position;
-    to.orientation =
-        target.orientation ? Quaternion(target.orientation->normalized()) : from.orientation;
-    to.velocity = target.velocity.value_or(Vector3(Vector3::Zero()));
-    to.angular_velocity = target.angular_velocity.value_or(Vector3(Vector3::Zero()));
-    fault = check.way_fault(body.index, to);
-    motion = way_between(from, to, c.state.time, over, target.velocity.has_value());
-    if (fault.empty() && !motion.position.start_rate.allFinite()) {
-      fault = "body \"" + c.bodies->name(body.index) + "\" cannot get there in " +
-              number_text(over) + " s";
-    }
+  set_way(from, to, turn, c.state.time, over, target.velocity.has_value(), motion);
+  if (!motion.position.start_rate.allFinite()) {
+    return refuse(name() + " cannot get there in " + number_text(over) + " s");
   }
-  if (!fault.empty()) return {{path_of(body, "position"), fault}};
   controls_of_features().motions.put(body.index, at(c.bodies->count()), motion);
   return {};
 }
@@ -226,7 +251,9 @@ Errors World::clear_motion(BodyId body, std::optional<double> over) {
   const MotionControl* set = c.state.controls.motions.find(body.index);
   if (set == nullptr || set->returns) return {};
   const BodyState to = c.bodies->kinematic_state(body.index, c.state.time + time);
-  MotionControl motion = way_between(c.state.bodies[at(body.index)], to, c.state.time, time, true);
+  const BodyState& from = c.state.bodies[at(body.index)];
+  MotionControl motion;
+  set_way(from, to, turn_to(from.orientation, to.orientation), c.state.time, time, true, motion);
   motion.returns = true;
   controls_of_features().motions.put(body.index, at(c.bodies->count()), motion);
   return {};
@@ -258,7 +285,7 @@ Errors World::set_joint_drive_limit(int joint, int coordinate, double limit) {
   const ControlCheck check(c.model, *c.bodies, c.joints);
   std::string fault = check.joint_fault(joint, coordinate);
   if (fault.empty()) fault = check.limit_fault(joint, coordinate, limit);
-  if (!fault.empty()) return {{joint_path(joint) + "_limit", fault}};
+  if (!fault.empty()) return {{joint_path(joint, "/drive_limit"), fault}};
   const int place = check.drive_of(joint, coordinate).control;
   const DriveControl* before = c.state.controls.joint_drives.find(place);
   DriveControl control = before != nullptr ? *before : DriveControl{};

@@ -33,35 +33,39 @@ Error no_such(const std::string& what, const std::string& name,
                                names.size() > enough ? ", ..." : "")};
 }
 
-Names::Names(const LiveWorld& world) : world_(world) {
-  for (const BodyHandle body : world.bodies()) bodies_.emplace(*world.name(body), body);
-  for (const JointHandle joint : world.joints()) joints_.emplace(*world.name(joint), joint);
-  for (const CableHandle cable : world.cables()) cables_.emplace(*world.name(cable), cable);
+void Names::Index::add(std::string_view name) {
+  places.emplace(name, static_cast<int>(names.size()));
+  names.push_back(name);
 }
 
-template <class Tag>
-Result<Handle<Tag>> Names::find(const Index<Tag>& index, const char* kind, const std::string& name,
-                                const std::string& pointer) {
-  const auto found = index.find(name);
-  if (found != index.end()) return found->second;
-  std::vector<std::string_view> names;
-  names.reserve(index.size());
-  for (const auto& [known, handle] : index) names.push_back(known);
-  // Which of equally good suggestions is made must not depend on how names are kept.
-  std::sort(names.begin(), names.end());
-  return no_such(kind, name, names, pointer);
+int Names::Index::find(std::string_view name) const {
+  const auto found = places.find(name);
+  return found == places.end() ? -1 : found->second;
+}
+
+Names::Names(const LiveWorld& world) : world_(world) {
+  const Model& model = world.simulation().world.model();
+  for (const BodyDef& body : model.bodies) bodies_.add(body.name);
+  for (const auto& joint : model.joints) joints_.add(joint->name);
+  for (const CableDef& cable : *world.simulation().cable_definitions) cables_.add(cable.name);
 }
 
 Result<BodyHandle> Names::body(const std::string& name, const std::string& pointer) const {
-  return find(bodies_, "body", name, pointer);
+  const int place = bodies_.find(name);
+  if (place >= 0) return world_.body_at(place);
+  return no_such("body", name, bodies_.names, pointer);
 }
 
 Result<JointHandle> Names::joint(const std::string& name, const std::string& pointer) const {
-  return find(joints_, "joint", name, pointer);
+  const int place = joints_.find(name);
+  if (place >= 0) return world_.joint_at(place);
+  return no_such("joint", name, joints_.names, pointer);
 }
 
 Result<CableHandle> Names::cable(const std::string& name, const std::string& pointer) const {
-  return find(cables_, "cable", name, pointer);
+  const int place = cables_.find(name);
+  if (place >= 0) return world_.cable_at(place);
+  return no_such("cable", name, cables_.names, pointer);
 }
 
 Result<int> Names::coordinate(JointHandle joint, const std::string& name) const {

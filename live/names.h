@@ -28,16 +28,19 @@ class Names {
   [[nodiscard]] Result<int> coordinate(JointHandle joint, const std::string& name) const;
 
  private:
-  template <class Tag>
-  using Index = std::unordered_map<std::string, Handle<Tag>>;
-  template <class Tag>
-  static Result<Handle<Tag>> find(const Index<Tag>& index, const char* kind,
-                                  const std::string& name, const std::string& pointer);
+  /// The names of one kind, in their order, and their places.
+  struct Index {
+    std::vector<std::string_view> names;
+    std::unordered_map<std::string_view, int> places;
+    void add(std::string_view name);
+    /// The place of a name, or -1.
+    [[nodiscard]] int find(std::string_view name) const;
+  };
 
   const LiveWorld& world_;
-  Index<BodyTag> bodies_;
-  Index<JointTag> joints_;
-  Index<CableTag> cables_;
+  Index bodies_;
+  Index joints_;
+  Index cables_;
 };
 
 /// What is wrong with a name that none of `names` is: there is no body "drun", did you mean "drum"?

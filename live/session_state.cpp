@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/index.h"
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/format.h"
 #include "scenes/json/document.h"
@@ -26,7 +27,7 @@ Errors check_name(const std::string& name) {
 SessionState::SessionState(const Scene& scene, Simulation simulation, Hooks called,
                            const Limits& bounds)
     : about{scene.name, scene.duration, {}, {}},
-      world(std::move(simulation)),
+      world(LiveWorld::of(std::move(simulation))),
       names(world),
       hooks(std::move(called)),
       limits(bounds) {
@@ -117,7 +118,7 @@ void SessionState::tell_events(const std::string& name, const LiveReport& report
   for (const JointHandle joint : report.broken_joints) {
     Json line = event("joint");
     line["subscription"] = name;
-    line["joint"] = *world.name(joint);
+    line["joint"] = world.simulation().world.model().joints[at(joint.slot)]->name;
     line["kind"] = "break";
     send(line, false);
   }

@@ -7,7 +7,7 @@
 // one.
 //
 //   auto estimator = *ErrorEstimator::create(scene, simulation.world.state());
-//   while (...) { simulation.world.step(); estimator.observe(simulation); }
+//   while (simulation.step().ok() && ...) estimator.observe(simulation);
 //   const ErrorEstimate estimate = estimator.estimate();
 
 #include <array>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "engine/joint_report.h"
 #include "render/catenary.h"
@@ -110,10 +109,11 @@ void add_piece(const JointView::Piece& piece, const World& world, double unit, D
 }  // namespace
 
 void add_joints(const JointView& view, const World& world, DrawList& list) {
-  std::optional<JointReader> reader;
-  if (view.breakable) reader.emplace(world);
+  if (view.pieces.empty()) return;
+  // Any joint may have been released.
+  const JointReader reader(world);
   for (const JointView::Piece& piece : view.pieces) {
-    if (reader && reader->report(piece.joint).broken_at) continue;
+    if (reader.report(piece.joint).broken_at) continue;
     add_piece(piece, world, view.unit, list);
   }
 }

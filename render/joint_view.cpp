@@ -73,9 +73,9 @@ class JointViewBuilder {
     view_.unit = unit;
     const auto& joints = world.model().joints;
     for (std::size_t i = 0; i < joints.size(); ++i) {
-      view_.breakable = view_.breakable || joints[i]->breaking_force || joints[i]->breaking_torque;
       piece_ = {};
       piece_.joint = static_cast<int>(i);
+      defined_in_ = joints[i]->defined_in;
       add(*joints[i]);
       if (piece_.parts.empty() && piece_.bars.empty() && piece_.lines.empty()) continue;
       view_.pieces.push_back(std::move(piece_));
@@ -94,10 +94,12 @@ class JointViewBuilder {
   }
 
   [[nodiscard]] Vector3 local_point(BodyId body, const Vector3& point) const {
-    return bodies_.initial_local(bodies_.index(body), point);
+    const BodyFrame frame = bodies_.frame(bodies_.index(body), defined_in_);
+    return frame.orientation.conjugate() * (point - frame.position);
   }
   [[nodiscard]] Vector3 local_direction(BodyId body, const Vector3& direction) const {
-    return bodies_.initial_orientation(bodies_.index(body)).conjugate() * direction;
+    const BodyFrame frame = bodies_.frame(bodies_.index(body), defined_in_);
+    return frame.orientation.conjugate() * direction;
   }
   [[nodiscard]] bool is_fixed(BodyId body) const {
     return body.is_world() || bodies_.definition(bodies_.index(body)).mobility == Mobility::fixed;
@@ -254,6 +256,7 @@ class JointViewBuilder {
   const BodySet& bodies_;
   JointView view_;
   JointView::Piece piece_;
+  BodyFrames defined_in_;  // of its joint
 };
 
 }  // namespace

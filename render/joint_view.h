@@ -52,8 +52,7 @@ struct JointView {
     std::vector<JointLine> lines;
   };
   std::vector<Piece> pieces;
-  double unit = 0.01;      ///< the radius of rods [m], > 0
-  bool breakable = false;  ///< whether a joint can break
+  double unit = 0.01;  ///< the radius of rods [m], > 0
 };
 
 /// Decides how the joints of a world look, from its model. Pins suit the bodies

@@ -10,7 +10,7 @@ Result<LiveWorld> load(const std::string& path) {
   if (scene) {
     Result<Simulation> simulation = create_simulation(*scene);
     if (!simulation) return simulation.errors();
-    return LiveWorld(std::move(*simulation));
+    return LiveWorld::of(std::move(*simulation));
   }
   Errors errors;
   for (const SceneError& error : scene.errors) errors.push_back({error.pointer, to_string(error)});

@@ -1,6 +1,7 @@
 #pragma once
 // All of Sheave that a program needs to build worlds, to load them, and to hold them while they live.
 
+#include "cable/edit.h"
 #include "cable/links/attachment.h"
 #include "cable/links/hybrid.h"
 #include "cable/links/pinhole.h"

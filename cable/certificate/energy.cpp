@@ -155,11 +155,11 @@ class EnergyCheck {
   }
 
   void check_joint(const JointEvidence& joint) {
-    const JointFrame frame = frame_of(e_.bodies, *joint.definition);
+    const JointFrame frame = frame_of(e_.bodies, joint);
     if (frame.compliance > 0.0 || frame.kind.coupling || frame.kind.distance) return;
     const auto gap = [&](const Moment& now) -> Vector3 {
       const Vector3 apart = frame.anchor_b(now) - frame.anchor_a(now);
-      const Vector3 axis = JointFrame::turned_by(now, frame.body_a) * frame.axis_a;
+      const Vector3 axis = frame.turned_a(now) * frame.axis_a;
       if (frame.kind.on_axis) return apart - axis * axis.dot(apart);
       if (frame.kind.in_plane) return axis * axis.dot(apart);
       return apart;

@@ -381,6 +381,7 @@ void Evidence::collect_joints(const LastSubstep& last) {
       found.start = course.batch->report(index, at_start, start.features[course.feature]);
       found.end = course.batch->report(index, after, end.features[course.feature]);
       found.broken = found.start.broken_at.has_value();
+      found.hold = course.batch->hold(index, start.features[course.feature]);
       break;
     }
   }

@@ -15,6 +15,7 @@
 #include "cable/simulation.h"
 #include "engine/index.h"
 #include "engine/joint_report.h"
+#include "engine/joints/joint_hold.h"
 
 namespace sheave::certify {
 
@@ -112,6 +113,7 @@ struct JointEvidence {
   JointReport start;
   JointReport end;
   bool broken = false;  ///< before the substep
+  JointHold hold;       ///< of one that has been locked again
 };
 
 /// A force at a point of contact, of bodies with each other or with the floor (body_b is the world).

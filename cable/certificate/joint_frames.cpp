@@ -104,7 +104,8 @@ class FrameMaker {
 
  private:
   [[nodiscard]] Vector3 own(int body, const Vector3& point) const {
-    return bodies_.initial_local(body, point) - bodies_[body].center_of_mass;
+    const BodyFrame frame = bodies_.frame(body, frame_.defined_in);
+    return frame.orientation.conjugate() * (point - frame.position) - bodies_[body].center_of_mass;
   }
   void anchor(const Vector3& point) const {
     frame_.own_anchor_a = own(frame_.body_a, point);
@@ -147,11 +148,15 @@ struct CoordinateLister {
 
 }  // namespace
 
-JointFrame frame_of(const BodySet& bodies, const JointDef& joint) {
+JointFrame frame_of(const BodySet& bodies, const JointEvidence& joint) {
   JointFrame frame;
-  frame.body_a = bodies.index(joint.body_a);
-  frame.body_b = bodies.index(joint.body_b);
-  visit_joint(joint, FrameMaker(bodies, frame));
+  frame.body_a = bodies.index(joint.definition->body_a);
+  frame.body_b = bodies.index(joint.definition->body_b);
+  frame.defined_in = joint.definition->defined_in;
+  visit_joint(*joint.definition, FrameMaker(bodies, frame));
+  (frame.kind.coupling ? frame.mesh : frame.length) += joint.hold.offset;
+  frame.own_anchor_a += joint.hold.shift;
+  frame.relocked = joint.hold.turn;
   return frame;
 }
 

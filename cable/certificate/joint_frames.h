@@ -25,19 +25,30 @@ struct JointFrame {
   int carrier = -1;
   Vector3 own_anchor_a = Vector3::Zero();  ///< own frames
   Vector3 own_anchor_b = Vector3::Zero();
-  Vector3 axis_a = Vector3::UnitZ();  ///< world frame at time 0; of gears that of body_a's rotation
+  Vector3 axis_a =
+      Vector3::UnitZ();  ///< world frame when defined; of gears that of body_a's rotation
   Vector3 axis_b = Vector3::UnitZ();
   double compliance = 0.0;
   double angular_compliance = 0.0;
   double ratio = 0.0;  ///< of couplings
   double length = 0.0;
+  double mesh = 0.0;   ///< of couplings: by how much their teeth mesh elsewhere [m or rad]
   double lower = 0.0;  ///< of the distance over the length, 0 or -infinity
   double upper = 0.0;
   double damping = 0.0;
 
-  /// Rotation of a body since time 0.
-  [[nodiscard]] static Quaternion turned_by(const Moment& now, int body) {
-    return now.orientation(body) * now.bodies->initial_orientation(body).conjugate();
+  BodyFrames defined_in;  ///< of the joint
+  /// Of a joint that has been locked again: of its axes on body_a against those defined, own frame.
+  Quaternion relocked = Quaternion::Identity();
+
+  /// Rotation of a body since the joint was defined.
+  [[nodiscard]] Quaternion turned_by(const Moment& now, int body) const {
+    return now.orientation(body) * now.bodies->frame(body, defined_in).orientation.conjugate();
+  }
+  /// Rotation of what the joint has fixed to body_a since then.
+  [[nodiscard]] Quaternion turned_a(const Moment& now) const {
+    return now.orientation(body_a) * relocked *
+           now.bodies->frame(body_a, defined_in).orientation.conjugate();
   }
   [[nodiscard]] Vector3 anchor_a(const Moment& now) const {
     return now.point(body_a, own_anchor_a);
@@ -47,7 +58,7 @@ struct JointFrame {
   }
 };
 
-[[nodiscard]] JointFrame frame_of(const BodySet& bodies, const JointDef& joint);
+[[nodiscard]] JointFrame frame_of(const BodySet& bodies, const JointEvidence& joint);
 
 /// A coordinate that reports tell, in their order.
 struct CoordinateSettings {

@@ -50,7 +50,7 @@ class JointCheck {
       : e_(evidence),
         joint_(joint),
         findings_(findings),
-        frame_(frame_of(evidence.bodies, *joint.definition)),
+        frame_(frame_of(evidence.bodies, joint)),
         size_(size()) {
     force_ = joint.acting[0].force + joint.acting[1].force;
     torque_ = joint.acting[0].torque + joint.acting[1].torque;
@@ -107,7 +107,7 @@ class JointCheck {
     const double a = frame_.compliance;
     const double b = frame_.angular_compliance;
     const auto axis_of = [&](const Moment& now) -> Vector3 {
-      return JointFrame::turned_by(now, frame_.body_a) * frame_.axis_a;
+      return frame_.turned_a(now) * frame_.axis_a;
     };
     const auto gap = [&](const Moment& now) -> Vector3 {
       const Vector3 apart = frame_.anchor_a(now) - frame_.anchor_b(now);
@@ -132,7 +132,7 @@ class JointCheck {
   template <class Axis>
   void check_angles(double b, const Axis& axis_of) {
     const auto other_axis = [&](const Moment& now) -> Vector3 {
-      return JointFrame::turned_by(now, frame_.body_b) * frame_.axis_b;
+      return frame_.turned_by(now, frame_.body_b) * frame_.axis_b;
     };
     if (frame_.kind.parallel) {
       const auto tilt = [&](const Moment& now) -> Vector3 {
@@ -149,8 +149,7 @@ class JointCheck {
     }
     if (frame_.kind.no_turn) {
       const auto turn = [&](const Moment& now) -> Vector3 {
-        Quaternion error = JointFrame::turned_by(now, frame_.body_a) *
-                           JointFrame::turned_by(now, frame_.body_b).conjugate();
+        Quaternion error = frame_.turned_a(now) * frame_.turned_by(now, frame_.body_b).conjugate();
         if (error.w() < 0.0) error.coeffs() = -error.coeffs();
         return 2.0 * error.w() * error.vec();
       };
@@ -215,7 +214,7 @@ class JointCheck {
     double give = 0.0;
     const bool gear = joint_.definition->type() == GearJoint::type_name;
     double held = 0.0;
-    const Quaternion carried = JointFrame::turned_by(e_.moments[last_end], frame_.carrier);
+    const Quaternion carried = frame_.turned_by(e_.moments[last_end], frame_.carrier);
     if (gear) {
       const auto& own = static_cast<const GearJoint&>(*joint_.definition);
       play = own.backlash;
@@ -228,7 +227,7 @@ class JointCheck {
       held = force_.dot(carried * frame_.axis_b);
     }
     const auto off_at = [&](const JointReport& report) {
-      return report.coordinates[1].value - frame_.ratio * report.coordinates[0].value;
+      return report.coordinates[1].value - frame_.ratio * report.coordinates[0].value - frame_.mesh;
     };
     const double now = off_at(joint_.end);
     double open = std::max(std::abs(now) - 0.5 * play, 0.0);
@@ -314,7 +313,7 @@ class JointCheck {
     for (const End when : {first_end, last_end}) {
       const Moment& moment = e_.moments[at(when)];
       const JointReport& part = joint_.acting[at(when)];
-      const Vector3 axis = JointFrame::turned_by(moment, frame_.body_a) * frame_.axis_a;
+      const Vector3 axis = frame_.turned_a(moment) * frame_.axis_a;
       if (entry.along == 1) acting += part.force.dot(axis);
       if (entry.along == 2) acting += part.torque.dot(axis);
       if (entry.along == 3) {

@@ -66,7 +66,7 @@ JointPushes pushes_of(const Evidence& evidence, const JointEvidence& joint, End 
   const JointReport& report = joint.acting[at(when)];
   if (is_zero(report.force) && is_zero(report.torque)) return result;
   const Moment& now = evidence.moments[at(when)];
-  const JointFrame frame = frame_of(evidence.bodies, *joint.definition);
+  const JointFrame frame = frame_of(evidence.bodies, joint);
   const Vector3 at_b = frame.anchor_b(now);
   if (!frame.kind.coupling) {
     result.push_back({frame.body_b, at_b, report.force, report.torque});
@@ -78,7 +78,7 @@ JointPushes pushes_of(const Evidence& evidence, const JointEvidence& joint, End 
   }
   // The factor of the coupling from what it does to body_b; virtual work gives the rest:
   // C = c_b - ratio c_a, so body_a gets -ratio times it about its axis, and the carrier what is left of both.
-  const Quaternion carried = JointFrame::turned_by(now, frame.carrier);
+  const Quaternion carried = frame.turned_by(now, frame.carrier);
   const Vector3 axis_a = carried * frame.axis_a;
   const Vector3 axis_b = carried * frame.axis_b;
   const bool gear = joint.definition->type() == "gear";

@@ -7,6 +7,7 @@
 #include "engine/contacts/contact_batch.h"
 
 #include <algorithm>
+#include <map>
 
 #include "engine/contacts/contact_state.h"
 #include "engine/contacts/planar_contact.h"
@@ -53,6 +54,18 @@ class ContactBatch final : public ConstraintBatch {
     int rows = 0;
     for (const Contact& contact : contacts_) rows += contact.rows;
     return rows;
+  }
+
+  void adopt(const ConstraintBatch& before, const FeatureState& from,
+             FeatureState& own) const override {
+    const auto* other = dynamic_cast<const ContactBatch*>(&before);
+    if (other == nullptr) return;
+    const std::vector<int> places = places_of(other->finder_.forms());
+    for (std::size_t i = 0; i < contact_count(from); ++i) {
+      ContactRecord record = read_contact(from, i);
+      record.forms = {places[at(record.forms.a)], places[at(record.forms.b)]};
+      if (record.forms.a >= 0 && record.forms.b >= 0) append_contact(record, own);
+    }
   }
 
   void begin(const Substep& substep, const FeatureState& state) override {
@@ -177,6 +190,23 @@ class ContactBatch final : public ConstraintBatch {
   }
 
  private:
+  /// Of the forms of another world, their places among those of this one; -1: it does not have it.
+  [[nodiscard]] std::vector<int> places_of(std::span<const ContactForm> others) const {
+    const std::span<const ContactForm> own = finder_.forms();
+    std::map<int, std::size_t> first_of;  // per body, as they follow each other
+    for (std::size_t i = own.size(); i-- > 0;) first_of[own[i].body] = i;
+    std::vector<int> places;
+    std::size_t within = 0;
+    for (std::size_t i = 0; i < others.size(); ++i) {
+      within = i > 0 && others[i].body == others[i - 1].body ? within + 1 : 0;
+      const auto found = first_of.find(others[i].body);
+      const std::size_t place = found == first_of.end() ? own.size() : found->second + within;
+      const bool same = place < own.size() && own[place].body == others[i].body &&
+                        own[place].shape == others[i].shape;
+      places.push_back(same ? static_cast<int>(place) : -1);
+    }
+    return places;
+  }
   /// Appends the points of one pair. `old` is the first record of the state that is not of an earlier pair.
   void add_manifold(const Substep& substep, const FeatureState& state, const FormPair& pair,
                     Manifold& manifold, std::size_t& old) {

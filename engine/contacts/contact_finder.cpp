@@ -57,6 +57,7 @@ void ContactFinder::add_forms(const Model& model, const BodySet& bodies) {
       ContactForm form;
       form.body = body;
       form.collider = static_cast<int>(c);
+      form.shape = placed.shape.get();
       form.solid = placed.shape->solid();
       form.position = placed.position - bodies[body].center_of_mass;
       form.orientation = placed.orientation.normalized();

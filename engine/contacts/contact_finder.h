@@ -16,7 +16,8 @@ struct Model;
 /// One shape of a collider.
 struct ContactForm {
   int body = 0;
-  int collider = 0;  ///< index into Model::colliders
+  int collider = 0;              ///< index into Model::colliders
+  const Shape* shape = nullptr;  ///< which it is known by, in all worlds that have it
   ConvexSolid solid;
   Vector3 position = Vector3::Zero();  ///< of the shape's origin, the body's own frame [m]
   Quaternion orientation = Quaternion::Identity();  ///< shape frame to own frame

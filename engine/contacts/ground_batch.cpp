@@ -95,6 +95,22 @@ class GroundBatch final : public ConstraintBatch {
     }
   }
 
+  void adopt(const ConstraintBatch& before, const FeatureState& from,
+             FeatureState& own) const override {
+    const auto* other = dynamic_cast<const GroundBatch*>(&before);
+    if (other == nullptr) return;
+    for (const Owner& owner : owners_) {
+      const auto same = [&](const Owner& then) {
+        return then.body == owner.body && then.shape->shape == owner.shape->shape &&
+               then.count == owner.count;
+      };
+      const auto then = std::find_if(other->owners_.begin(), other->owners_.end(), same);
+      if (then == other->owners_.end()) continue;
+      std::copy_n(from.reals.begin() + static_cast<std::ptrdiff_t>(then->first), owner.count,
+                  own.reals.begin() + static_cast<std::ptrdiff_t>(owner.first));
+    }
+  }
+
   // None of its rows has a force as long as everything ends a substep above the floor.
   bool append_affine(const AffineBodies& bodies, AffineRows& /*rows*/) override {
     sliding_.clear();

@@ -8,6 +8,8 @@
 
 #include "engine/dynamics/mounted_drive.h"
 
+#include <algorithm>
+
 #include "engine/body_drive.h"
 #include "engine/index.h"
 #include "engine/substep.h"
@@ -58,6 +60,16 @@ class MountedDrives final : public ConstraintBatch {
     }
   }
   [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
+  void adopt(const ConstraintBatch& before, const FeatureState& from,
+             FeatureState& own) const override {
+    const auto* other = dynamic_cast<const MountedDrives*>(&before);
+    if (other == nullptr) return;
+    for (std::size_t i = 0; i < drives_.size(); ++i) {
+      const auto then = std::find(other->drives_.begin(), other->drives_.end(), drives_[i]);
+      if (then == other->drives_.end()) continue;
+      own.reals[i] = from.reals[at(static_cast<int>(then - other->drives_.begin()))];
+    }
+  }
 
   void finish(Substep& substep, FeatureState& next) override {
     for (std::size_t i = 0; i < multipliers_.size(); ++i) {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include "engine/joint.h"
 #include "engine/substep.h"
 
 namespace sheave {
+
+struct JointHold;
 
 /// A point of a body and a frame fixed to it, in the body's own frame.
 struct Anchor {
@@ -10,13 +13,16 @@ struct Anchor {
   Vector3 point = Vector3::Zero();            ///< [m]
   Quaternion frame = Quaternion::Identity();  ///< joint frame to own frame
 
-  /// The anchor at the world point `world_point` [m] with the joint frame `world_frame` at time 0.
-  [[nodiscard]] static Anchor at_start(const BodySet& bodies, BodyId body,
+  /// The anchor of `joint` at the world point `world_point` [m] with the joint frame `world_frame`, both told where bodies are
+  /// when it is defined.
+  [[nodiscard]] static Anchor at_start(const BodySet& bodies, const JointDef& joint, BodyId body,
                                        const Vector3& world_point,
                                        const Quaternion& world_frame = Quaternion::Identity()) {
     const int index = bodies.index(body);
-    const Vector3 own = bodies.initial_local(index, world_point) - bodies[index].center_of_mass;
-    return {index, own, bodies.initial_orientation(index).conjugate() * world_frame};
+    const BodyFrame frame = bodies.frame(index, joint.defined_in);
+    const Quaternion to_own = frame.orientation.conjugate();
+    return {index, to_own * (world_point - frame.position) - bodies[index].center_of_mass,
+            to_own * world_frame};
   }
   [[nodiscard]] Vector3 position(const Substep& substep) const {
     return substep.point(body, point);
@@ -31,17 +37,19 @@ struct Anchor {
   return Quaternion(Quaternion::FromTwoVectors(Vector3::UnitZ(), axis.normalized()));
 }
 
-/// The two anchors of a joint: the same point and frame at time 0.
+/// The two anchors of a joint: the same point and frame when it is defined.
 struct AnchorPair {
   Anchor a;
   Anchor b;
 
-  [[nodiscard]] static AnchorPair at_start(const BodySet& bodies, BodyId body_a, BodyId body_b,
-                                           const Vector3& world_point,
+  [[nodiscard]] static AnchorPair at_start(const BodySet& bodies, const JointDef& joint,
+                                           BodyId body_a, BodyId body_b, const Vector3& world_point,
                                            const Quaternion& frame = Quaternion::Identity()) {
-    return {Anchor::at_start(bodies, body_a, world_point, frame),
-            Anchor::at_start(bodies, body_b, world_point, frame)};
+    return {Anchor::at_start(bodies, joint, body_a, world_point, frame),
+            Anchor::at_start(bodies, joint, body_b, world_point, frame)};
   }
+  /// Makes A's anchor, as defined, that of a joint that was locked again (engine/joints/joint_hold.h).
+  void apply(const JointHold& hold);
   [[nodiscard]] int anchor_body() const { return b.body; }
   [[nodiscard]] Vector3 anchor(const Substep& substep) const { return b.position(substep); }
 };

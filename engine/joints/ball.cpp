@@ -50,6 +50,9 @@ struct BallKernel : AnchorPair {
     terms.add_torque(a.body, -normal);
     terms.add_torque(b.body, normal);
   }
+  [[nodiscard]] JointHold hold_here(const BallKernel& defined, const Substep& now) const {
+    return JointHold::of(defined.a, now, b.position(now), a.orientation(now));
+  }
   /// A frame whose x axis is that of the relative rotation at the start of the substep.
   [[nodiscard]] Quaternion turning_frame(const Substep& substep) const {
     const auto velocity = [&](int body) -> Vector3 {
@@ -115,7 +118,7 @@ std::unique_ptr<ConstraintBatch> BallJoint::make_batch(
     const auto& joint = static_cast<const BallJoint&>(*def);
     const Quaternion frame = frame_along(joint.axis.value_or(Vector3::UnitZ()));
     JointParts<BallKernel> part{
-        {AnchorPair::at_start(bodies, joint.body_a, joint.body_b, joint.anchor, frame),
+        {AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b, joint.anchor, frame),
          joint.compliance},
         {}};
     JointCoordinate swing;

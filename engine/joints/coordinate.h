@@ -38,7 +38,7 @@ struct JointCoordinate {
   double drive_amplitude = 0.0;       ///< of a sine that is added to the values
   double drive_frequency = 0.0;       ///< of it [Hz], >= 0
   double drive_phase = 0.0;           ///< of it [rad]
-  std::optional<double> drive_limit;  ///< the largest force the drive has [N], > 0
+  std::optional<double> drive_limit;  ///< the largest force the drive has [N], >= 0
   double drive_compliance = 0.0;      ///< position drives: gives by this much per force [m/N], >= 0
 
   [[nodiscard]] TimeSignal signal() const {
@@ -150,7 +150,8 @@ template <class Class, JointCoordinate Class::*Coordinate>
       row(name[11], "Hz", at_least(0.0), "of the sine", &Slots::template of<&C::drive_frequency>),
       row(name[12], "rad", any_number(), "of the sine at time 0",
           &Slots::template of<&C::drive_phase>),
-      row(name[13], unit.force, above(0.0), "the most the drive can do (default: anything)",
+      row(name[13], unit.force, at_least(0.0),
+          "the most the drive can do (default: anything); 0 is a brake that is open",
           &Slots::template of<&C::drive_limit>),
       row(name[14], unit.compliance, at_least(0.0),
           "how far a drive to a position gives; 0 (default) is rigid",

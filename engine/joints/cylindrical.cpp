@@ -33,6 +33,12 @@ struct CylindricalKernel : AnchorPair {  // z of the frame is the axis
       angle_about(a, b, terms);
     }
   }
+  [[nodiscard]] JointHold hold_here(const CylindricalKernel& defined, const Substep& now) const {
+    const Quaternion frame = b.orientation(now);
+    const Vector3 way = coordinate_of(*this, 0, now) * (frame * Vector3::UnitZ());
+    return JointHold::of(defined.a, now, b.position(now) - way,
+                         turned_about(frame, 2, -coordinate_of(*this, 1, now)));
+  }
 };
 
 }  // namespace
@@ -72,10 +78,11 @@ std::unique_ptr<ConstraintBatch> CylindricalJoint::make_batch(
   std::vector<JointParts<CylindricalKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const CylindricalJoint&>(*def);
-    JointParts<CylindricalKernel> part{{AnchorPair::at_start(bodies, joint.body_a, joint.body_b,
-                                                             joint.anchor, frame_along(joint.axis)),
-                                        joint.compliance, joint.angular_compliance},
-                                       {}};
+    JointParts<CylindricalKernel> part{
+        {AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b, joint.anchor,
+                              frame_along(joint.axis)),
+         joint.compliance, joint.angular_compliance},
+        {}};
     append_effects(joint.travel, 0, part.effects);
     append_effects(joint.angle, 1, part.effects);
     parts.push_back(std::move(part));

@@ -28,6 +28,15 @@ struct DistanceKernel : AnchorPair {
     terms.set_bounds(lower, upper);
   }
   void coordinate(int /*index*/, JointTerms& terms) const { measure(start_length, terms); }
+  void apply(const JointHold& hold) { length += hold.offset; }
+  [[nodiscard]] JointHold hold_here(const DistanceKernel& defined, const Substep& now) const {
+    const double growth = (a.position(now) - b.position(now)).norm() - defined.length;
+    const bool pulls = lower < 0.0;
+    const bool pushes = upper > 0.0;
+    JointHold hold;
+    if ((growth > 0.0 && pulls) || (growth < 0.0 && pushes)) hold.offset = growth;
+    return hold;
+  }
   void measure(double less, JointTerms& terms) const {
     const Vector3 at_a = a.position(terms.substep());
     const Vector3 at_b = b.position(terms.substep());
@@ -102,8 +111,8 @@ std::unique_ptr<ConstraintBatch> DistanceJoint::make_batch(
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const DistanceJoint&>(*def);
     DistanceKernel kernel;
-    kernel.a = Anchor::at_start(bodies, joint.body_a, joint.anchor_a);
-    kernel.b = Anchor::at_start(bodies, joint.body_b, joint.anchor_b);
+    kernel.a = Anchor::at_start(bodies, joint, joint.body_a, joint.anchor_a);
+    kernel.b = Anchor::at_start(bodies, joint, joint.body_b, joint.anchor_b);
     kernel.start_length = (joint.anchor_a - joint.anchor_b).norm();
     kernel.length = joint.length.value_or(kernel.start_length);
     kernel.compliance = joint.compliance;

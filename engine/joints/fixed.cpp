@@ -24,6 +24,9 @@ struct FixedKernel : AnchorPair {
       terms.set_compliance(angular_compliance);
     }
   }
+  [[nodiscard]] JointHold hold_here(const FixedKernel& defined, const Substep& now) const {
+    return JointHold::of(defined.a, now, b.position(now), b.orientation(now));
+  }
 };
 
 }  // namespace
@@ -51,7 +54,7 @@ std::unique_ptr<ConstraintBatch> FixedJoint::make_batch(
   std::vector<JointParts<FixedKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const FixedJoint&>(*def);
-    parts.push_back({{AnchorPair::at_start(bodies, joint.body_a, joint.body_b, joint.anchor),
+    parts.push_back({{AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b, joint.anchor),
                       joint.compliance, joint.angular_compliance},
                      {}});
   }

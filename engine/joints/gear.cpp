@@ -15,10 +15,16 @@ struct GearKernel {
   AnchorPair a;  // of the carrier, and of body_a
   AnchorPair b;
 
+  double mesh = 0.0;  // by how much the teeth mesh elsewhere than as defined
+
   [[nodiscard]] bool elastic() const { return false; }
   [[nodiscard]] int anchor_body() const { return b.anchor_body(); }
   [[nodiscard]] Vector3 anchor(const Substep& substep) const { return b.anchor(substep); }
   void lock(int /*index*/, JointTerms& /*terms*/) const {}
+  void apply(const JointHold& hold) { mesh = hold.offset; }
+  [[nodiscard]] JointHold hold_here(const GearKernel& /*defined*/, const Substep& /*now*/) const {
+    return {};  // all that it holds is the coupling
+  }
   void coordinate(int index, JointTerms& terms) const {
     const AnchorPair& side = index == 0 ? a : b;
     angle_about(side.a, side.b, terms);
@@ -64,8 +70,9 @@ std::unique_ptr<ConstraintBatch> GearJoint::make_batch(
     const auto& joint = static_cast<const GearJoint&>(*def);
     const auto side = [&](BodyId body, const Vector3& axis) {
       const int index = bodies.index(body);
-      const Vector3 center = bodies.initial_state().bodies[at(index)].position;
-      return AnchorPair::at_start(bodies, joint.carrier, body, center, frame_along(axis));
+      const BodyFrame frame = bodies.frame(index, joint.defined_in);
+      const Vector3 center = frame.position + frame.orientation * bodies[index].center_of_mass;
+      return AnchorPair::at_start(bodies, joint, joint.carrier, body, center, frame_along(axis));
     };
     JointParts<GearKernel> part{
         {side(joint.body_a, joint.axis_a), side(joint.body_b, joint.axis_b)}, {}};

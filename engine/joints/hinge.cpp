@@ -33,6 +33,11 @@ struct HingeKernel : AnchorPair {  // z of the frame is the axis
     }
   }
   void coordinate(int /*index*/, JointTerms& terms) const { angle_about(a, b, terms); }
+  [[nodiscard]] JointHold hold_here(const HingeKernel& defined, const Substep& now) const {
+    const double angle = coordinate_of(*this, 0, now);
+    return JointHold::of(defined.a, now, b.position(now),
+                         turned_about(b.orientation(now), 2, -angle));
+  }
 };
 
 }  // namespace
@@ -69,7 +74,7 @@ std::unique_ptr<ConstraintBatch> HingeJoint::make_batch(
   std::vector<JointParts<HingeKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const HingeJoint&>(*def);
-    JointParts<HingeKernel> part{{AnchorPair::at_start(bodies, joint.body_a, joint.body_b,
+    JointParts<HingeKernel> part{{AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b,
                                                        joint.anchor, frame_along(joint.axis)),
                                   joint.compliance, joint.angular_compliance},
                                  {}};

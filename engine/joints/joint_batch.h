@@ -8,11 +8,14 @@
 //     bool elastic() const;                                         // whether a lock has compliance
 //     void lock(int index, JointTerms&) const;                      // C, gradient, compliance, bounds
 //     void coordinate(int index, JointTerms&) const;                // value, gradient; an angle up to whole turns
+//     JointHold hold_here(const Kernel& defined, const Substep&) const;  // what makes all locks 0 and leaves coordinates as
+//     void apply(const JointHold&);                                      // they are; and the defined kernel with it
 //   };
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -20,6 +23,7 @@
 #include "engine/joint.h"
 #include "engine/joint_report.h"
 #include "engine/joints/joint_effect.h"
+#include "engine/joints/joint_state.h"
 #include "engine/joints/joint_terms.h"
 
 namespace sheave {
@@ -33,9 +37,7 @@ struct JointParts {
   int lock_count = Kernel::lock_count;  ///< fewer where mobilities keep bodies from moving, too
 };
 
-/// All joints of one type. State, reals: generalised force per row [N or N m] of the last substep along the row's gradient,
-/// locks and effects joint by joint; then the coordinates [m or rad] of the joints that count them, angles with all
-/// turns; then when each joint broke [s], -1 for one that has not.
+/// All joints of one type. Their state: engine/joints/joint_state.h.
 template <class Kernel>
 class JointBatch final : public JointFeature {
  public:
@@ -59,7 +61,9 @@ class JointBatch final : public JointFeature {
                              [](const JointEffect& e) { return e.elastic(); });
       effects_.insert(effects_.end(), joints[j].effects.begin(), joints[j].effects.end());
       joint.reported = static_cast<int>(definition.coordinates().size());
+      defined_.push_back(joint.kernel);
       names_.push_back(definition.name);
+      definitions_.push_back(&definition);
       limits_.push_back({definition.breaking_force, definition.breaking_torque});
       breakable_ = breakable_ || definition.breaking_force || definition.breaking_torque;
       joints_.push_back(joint);
@@ -67,25 +71,26 @@ class JointBatch final : public JointFeature {
     multipliers_.resize(at(row));
     acted_.resize(multipliers_.size());
     starts_.resize(at(coordinate));
+    layout_ = {multipliers_.size(), starts_.size(), joints_.size()};
     intact_.assign(joints_.size(), 1);
   }
 
   [[nodiscard]] std::string_view name() const override { return name_; }
-  [[nodiscard]] FeatureState initial_state() const override {
-    FeatureState state;
-    state.reals.assign(multipliers_.size() + starts_.size() + joints_.size(), 0.0);
-    std::fill(state.reals.end() - static_cast<std::ptrdiff_t>(joints_.size()), state.reals.end(),
-              -1.0);
-    return state;
+  [[nodiscard]] FeatureState initial_state() const override { return layout_.initial(); }
+  [[nodiscard]] bool has_fixed_size() const override { return false; }
+  [[nodiscard]] bool accepts(const FeatureState& state) const override {
+    return layout_.accepts(state);
   }
   [[nodiscard]] int row_count() const override { return static_cast<int>(multipliers_.size()); }
 
   void begin(const Substep& /*substep*/, const FeatureState& state) override {
     std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
     for (std::size_t i = 0; i < multipliers_.size(); ++i) acted_[i] = state.reals[i] != 0.0 ? 1 : 0;
-    const auto coordinates = state.reals.begin() + static_cast<std::ptrdiff_t>(acted_.size());
-    std::copy_n(coordinates, starts_.size(), starts_.begin());
-    for (std::size_t j = 0; j < joints_.size(); ++j) intact_[j] = broken_at(state, j) < 0.0;
+    std::ranges::copy(layout_.coordinates_of(state), starts_.begin());
+    for (std::size_t j = 0; j < joints_.size(); ++j) intact_[j] = layout_.broken_at(state, j) < 0.0;
+    if (!held_ && !layout_.has_holds(state)) return;
+    held_ = layout_.has_holds(state);
+    for (std::size_t j = 0; j < joints_.size(); ++j) joints_[j].kernel = kernel_of(state, j);
   }
 
   double sweep(Substep& substep) override {
@@ -141,14 +146,13 @@ class JointBatch final : public JointFeature {
     double energy = 0.0;
     Row row;
     for (std::size_t j = 0; j < joints_.size(); ++j) {
-      if (broken_at(own, j) >= 0.0) continue;
-      const Joint& joint = joints_[j];
+      if (layout_.broken_at(own, j) >= 0.0) continue;
+      const Joint joint = joint_of(own, j);
       for (int i = 0; i < joint.lock_count + joint.effect_count; ++i) {
         if (i >= joint.lock_count && !effect(joint, i).elastic()) continue;
         evaluate_at(now, joint, i, coordinates(own), row);
-        const bool slack =
-            (row.value > 0.0 && row.lower == 0.0) || (row.value < 0.0 && row.upper == 0.0);
-        if (row.compliance > 0.0 && !slack) energy += 0.5 * row.value * row.value / row.compliance;
+        if (row.compliance > 0.0 && !row.is_free())
+          energy += 0.5 * row.value * row.value / row.compliance;
       }
     }
     return energy;
@@ -158,11 +162,11 @@ class JointBatch final : public JointFeature {
   [[nodiscard]] JointReport report(int index, const Substep& now,
                                    const FeatureState& own) const override {
     const auto j = static_cast<std::size_t>(index);
-    const Joint& joint = joints_[j];
+    const Joint joint = joint_of(own, j);
     JointReport report;
     report.name = names_[j];
     report.type = type_;
-    if (broken_at(own, j) >= 0.0) report.broken_at = broken_at(own, j);
+    if (is_broken(index, own)) report.broken_at = layout_.broken_at(own, j);
     const Wrench wrench = reaction(now, joint, own);
     report.force = wrench.force;
     report.torque = wrench.torque;
@@ -172,14 +176,32 @@ class JointBatch final : public JointFeature {
   }
   [[nodiscard]] Wrench wrench_of(int index, const Substep& now,
                                  const FeatureState& own) const override {
-    return reaction(now, joints_[at(index)], own);
+    return reaction(now, joint_of(own, at(index)), own);
   }
   void release(int index, double time, FeatureState& own) const override {
-    double& broken = own.reals[multipliers_.size() + starts_.size() + at(index)];
-    if (broken < 0.0) broken = time;
+    if (!is_broken(index, own)) layout_.set_broken(own, at(index), time);
+  }
+  [[nodiscard]] Result<JointHold> hold_here(int index, const Substep& now,
+                                            const FeatureState& own) const override {
+    const std::size_t j = at(index);
+    JointHold hold = joint_of(own, j).kernel.hold_here(defined_[j], now);
+    Joint joint = joints_[j];
+    joint.kernel = defined_[j];
+    hold.offset += coupling_excess(now, joint, own);
+    joint.kernel.apply(hold);
+    const std::string fault = fault_of_hold(now, joint, own);
+    if (fault.empty()) return hold;
+    return Error{"", "joint \"" + names_[j] + "\" cannot be locked where it is: " + fault};
+  }
+  void lock(int index, const JointHold& hold, FeatureState& own) const override {
+    layout_.set_hold(own, at(index), hold);
+    layout_.set_broken(own, at(index), -1.0);
+  }
+  [[nodiscard]] JointHold hold(int index, const FeatureState& own) const override {
+    return layout_.hold(own, at(index));
   }
   [[nodiscard]] bool is_broken(int index, const FeatureState& own) const override {
-    return broken_at(own, at(index)) >= 0.0;
+    return layout_.broken_at(own, at(index)) >= 0.0;
   }
   [[nodiscard]] const JointEffect* drive(int index, int coordinate) const override {
     const Joint& joint = joints_[at(index)];
@@ -188,6 +210,17 @@ class JointBatch final : public JointFeature {
       if (effect.coordinate == coordinate && effect.control >= 0) return &effect;
     }
     return nullptr;
+  }
+  void adopt(const ConstraintBatch& before, const FeatureState& from,
+             FeatureState& own) const override {
+    const auto* other = dynamic_cast<const JointBatch*>(&before);
+    if (other == nullptr) return;
+    std::map<const JointDef*, std::size_t> places;
+    for (std::size_t k = 0; k < other->joints_.size(); ++k) places[other->definitions_[k]] = k;
+    for (std::size_t j = 0; j < joints_.size(); ++j) {
+      const auto found = places.find(definitions_[j]);
+      if (found != places.end()) adopt(j, *other, found->second, from, own);
+    }
   }
   void number_coordinates(std::span<const int> first) override {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
@@ -216,6 +249,25 @@ class JointBatch final : public JointFeature {
     std::optional<double> torque;
   };
 
+  /// Takes over the joint at `place` of another batch for that at `index`.
+  void adopt(std::size_t index, const JointBatch& other, std::size_t place,
+             const FeatureState& from, FeatureState& own) const {
+    const Joint& now = joints_[index];
+    const Joint& then = other.joints_[place];
+    if (now.lock_count == then.lock_count) {
+      std::copy_n(from.reals.begin() + then.first_row, now.lock_count + now.effect_count,
+                  own.reals.begin() + now.first_row);
+    }
+    if (now.first_coordinate >= 0) {
+      const auto rows = static_cast<std::ptrdiff_t>(layout_.rows);
+      std::copy_n(other.layout_.coordinates_of(from).begin() + then.first_coordinate,
+                  coordinate_count, own.reals.begin() + rows + now.first_coordinate);
+    }
+    layout_.set_broken(own, index, other.layout_.broken_at(from, place));
+    if (other.layout_.has_holds(from)) {
+      layout_.set_hold(own, index, other.layout_.hold(from, place));
+    }
+  }
   static bool is_restricted(const BodySet& bodies, BodyId body) {
     if (body.is_world()) return false;
     const Mobility mobility = bodies[bodies.index(body)].mobility;
@@ -226,10 +278,43 @@ class JointBatch final : public JointFeature {
     return effects_[at(joint.first_effect + row - joint.lock_count)];
   }
   [[nodiscard]] std::span<const double> coordinates(const FeatureState& state) const {
-    return std::span(state.reals).subspan(multipliers_.size(), starts_.size());
+    return layout_.coordinates_of(state);
   }
-  [[nodiscard]] double broken_at(const FeatureState& state, std::size_t joint) const {
-    return state.reals[multipliers_.size() + starts_.size() + joint];
+
+  /// As defined, or as it has been locked again.
+  [[nodiscard]] Kernel kernel_of(const FeatureState& state, std::size_t joint) const {
+    Kernel kernel = defined_[joint];
+    if (layout_.has_holds(state)) kernel.apply(layout_.hold(state, joint));
+    return kernel;
+  }
+  /// With the kernel of that state; `joints_` have those of the last begin().
+  [[nodiscard]] Joint joint_of(const FeatureState& state, std::size_t joint) const {
+    Joint result = joints_[joint];
+    if (held_ || layout_.has_holds(state)) result.kernel = kernel_of(state, joint);
+    return result;
+  }
+  /// How far a coupling is out of mesh, or its play [m or rad].
+  double coupling_excess(const Substep& now, const Joint& joint, const FeatureState& own) const {
+    double excess = 0.0;
+    Row row;
+    for (int i = joint.lock_count; i < joint.lock_count + joint.effect_count; ++i) {
+      if (effect(joint, i).second < 0) continue;
+      evaluate_at(now, joint, i, coordinates(own), row);
+      if (!row.is_free()) excess += row.value;
+    }
+    return excess;
+  }
+  /// What would not let the joint be locked; empty if nothing.
+  std::string fault_of_hold(const Substep& now, const Joint& joint, const FeatureState& own) const {
+    Row row;
+    for (int i = joint.lock_count; i < joint.lock_count + joint.effect_count; ++i) {
+      evaluate_at(now, joint, i, coordinates(own), row);
+      const JointEffect& acting = effect(joint, i);
+      std::string fault =
+          hold_fault(acting, Kernel::coordinates[at(acting.coordinate)], row, now.bodies.scale());
+      if (!fault.empty()) return fault;
+    }
+    return {};
   }
 
   /// Value of a coordinate, and its gradient into `row`; `starts` are the values at the start of the substep.
@@ -294,7 +379,9 @@ class JointBatch final : public JointFeature {
     for (const RowTerm& term : other.active_terms()) {
       row.add(term.body, acting.second_factor * term.linear, acting.second_factor * term.angular);
     }
-    return acting.factor * first + acting.second_factor * second;
+    double sum = acting.factor * first + acting.second_factor * second;
+    if constexpr (requires { joint.kernel.mesh; }) sum -= joint.kernel.mesh;
+    return sum;
   }
   void evaluate(const Substep& substep, const Joint& joint, int i, Row& row) const {
     evaluate_at(substep, joint, i, starts_, row);
@@ -335,7 +422,7 @@ class JointBatch final : public JointFeature {
       const Wrench wrench = reaction(substep, joints_[j], next);
       if ((limit.force && wrench.force.norm() > *limit.force) ||
           (limit.torque && wrench.torque.norm() > *limit.torque)) {
-        next.reals[multipliers_.size() + starts_.size() + j] = substep.next.time;
+        layout_.set_broken(next, j, substep.next.time);
       }
     }
   }
@@ -379,9 +466,7 @@ class JointBatch final : public JointFeature {
       if (!lock && !effect(joint, i).holds()) continue;
       evaluate_at(now, joint, i, coordinates(own), row);
       if (row.compliance > 0.0) continue;
-      const bool meets = (row.lower == 0.0 && row.value > 0.0) ||  // one-sided, on its free side
-                         (row.upper == 0.0 && row.value < 0.0);
-      if (meets) continue;
+      if (row.is_free()) continue;
       const double error = std::abs(row.value);
       const bool angle = std::all_of(row.terms.begin(), row.terms.begin() + row.term_count,
                                      [](const RowTerm& term) { return is_zero(term.linear); });
@@ -398,9 +483,13 @@ class JointBatch final : public JointFeature {
 
   std::string name_;
   std::string_view type_;
-  std::vector<Joint> joints_;
+  std::vector<Joint> joints_;  // their kernels are scratch of a substep
+  JointStateLayout layout_;
+  std::vector<Kernel> defined_;  // the kernels without what locked joints hold
   std::vector<JointEffect> effects_;
   std::vector<std::string> names_;
+  std::vector<const JointDef*>
+      definitions_;  // which a joint is known by, in all worlds that have it
   std::vector<BreakingLimits> limits_;
   bool breakable_ = false;
   bool elastic_ = false;
@@ -409,6 +498,7 @@ class JointBatch final : public JointFeature {
   std::vector<char> acted_;     // whether the row had a force in the last substep
   std::vector<double> starts_;  // of the coordinates
   std::vector<char> intact_;
+  bool held_ = false;  // whether a joint has been locked again
 };
 
 }  // namespace sheave

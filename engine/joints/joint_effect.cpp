@@ -1,5 +1,10 @@
 #include "engine/joints/joint_effect.h"
 
+#include <cmath>
+
+#include "engine/field_check.h"
+#include "engine/joint.h"
+
 namespace sheave {
 
 void append_effects(const JointCoordinate& settings, int coordinate,
@@ -52,6 +57,21 @@ double drive_error(const JointEffect& drive, const DriveDemand& demand, double t
   if (drive.kind == JointEffect::Kind::position) return value - demand.at(time);
   if (drive.kind == JointEffect::Kind::speed) return rate - demand.at(time);
   return 0.0;
+}
+
+std::string hold_fault(const JointEffect& effect, const JointCoordinateInfo& info, const Row& row,
+                       double scale) {
+  // What a run leaves of stops that it rests at.
+  constexpr double slop = 1e-6;
+  const bool rigid =
+      row.compliance == 0.0 && (row.lower == -Row::unbounded || row.upper == Row::unbounded);
+  const bool asks = effect.holds() || effect.kind == JointEffect::Kind::position;
+  if (!asks || !rigid || row.is_free()) return {};
+  const double off = std::abs(row.value);
+  if (off <= slop * (info.angle ? 1.0 : scale)) return {};
+  return "its " + std::string(info.name) + " is " + number_text(off) +
+         (info.angle ? " rad" : " m") +
+         (effect.is_drive() ? " off what its drive asks for" : " beyond a stop");
 }
 
 void set_effect(const JointEffect& effect, const Substep& substep, double now, double start,

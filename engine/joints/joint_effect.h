@@ -25,6 +25,8 @@
 
 namespace sheave {
 
+struct JointCoordinateInfo;
+
 struct JointEffect {
   enum class Kind { lower, upper, spring, damper, friction, position, speed, force, coupling };
   Kind kind = Kind::lower;
@@ -91,6 +93,11 @@ void append_effects(const JointCoordinate& settings, int coordinate,
 /// it asks for nothing (JointCoordinateReport::drive_error).
 [[nodiscard]] double drive_error(const JointEffect& drive, const DriveDemand& demand, double time,
                                  double force, double value, double rate);
+
+/// Why a joint cannot be locked with `row` of this effect as it is: a rigid stop that is passed, or a drive without limits that
+/// asks for another position, would be there with a blow. Empty if nothing. `scale` is the size of the scene [m].
+[[nodiscard]] std::string hold_fault(const JointEffect& effect, const JointCoordinateInfo& info,
+                                     const Row& row, double scale);
 
 /// Completes `row`, which has the gradient of c, whose value is `now` and was `start` at the start.
 void set_effect(const JointEffect& effect, const Substep& substep, double now, double start,

@@ -45,6 +45,12 @@ struct PlaneKernel : AnchorPair {  // z of the frame is the normal
     terms.add_force(a.body, at_b, -direction);
     terms.add_force(b.body, at_b, direction);
   }
+  [[nodiscard]] JointHold hold_here(const PlaneKernel& defined, const Substep& now) const {
+    const Quaternion frame = turned_about(b.orientation(now), 2, -coordinate_of(*this, 0, now));
+    const Vector3 normal = frame * Vector3::UnitZ();
+    const Vector3 at_a = a.position(now);
+    return JointHold::of(defined.a, now, at_a + normal.dot(b.position(now) - at_a) * normal, frame);
+  }
   /// Velocity of B's anchor against A at the start of the substep.
   [[nodiscard]] Vector3 sliding(const Substep& substep) const {
     const Vector3 point = b.position(substep);
@@ -95,7 +101,7 @@ std::unique_ptr<ConstraintBatch> PlaneJoint::make_batch(
   std::vector<JointParts<PlaneKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const PlaneJoint&>(*def);
-    JointParts<PlaneKernel> part{{AnchorPair::at_start(bodies, joint.body_a, joint.body_b,
+    JointParts<PlaneKernel> part{{AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b,
                                                        joint.anchor, frame_along(joint.normal)),
                                   joint.compliance, joint.angular_compliance},
                                  {}};

@@ -15,10 +15,16 @@ struct RackKernel {
   AnchorPair pinion;  // of the carrier, and of body_a
   AnchorPair rack;    // of the carrier, and of body_b
 
+  double mesh = 0.0;  // by how much the teeth mesh elsewhere than as defined
+
   [[nodiscard]] bool elastic() const { return false; }
   [[nodiscard]] int anchor_body() const { return rack.anchor_body(); }
   [[nodiscard]] Vector3 anchor(const Substep& substep) const { return rack.anchor(substep); }
   void lock(int /*index*/, JointTerms& /*terms*/) const {}
+  void apply(const JointHold& hold) { mesh = hold.offset; }
+  [[nodiscard]] JointHold hold_here(const RackKernel& /*defined*/, const Substep& /*now*/) const {
+    return {};  // all that it holds is the coupling
+  }
   void coordinate(int index, JointTerms& terms) const {
     if (index == 0) {
       angle_about(pinion.a, pinion.b, terms);
@@ -66,9 +72,9 @@ std::unique_ptr<ConstraintBatch> RackJoint::make_batch(
   std::vector<JointParts<RackKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const RackJoint&>(*def);
-    JointParts<RackKernel> part{{AnchorPair::at_start(bodies, joint.carrier, joint.body_a,
+    JointParts<RackKernel> part{{AnchorPair::at_start(bodies, joint, joint.carrier, joint.body_a,
                                                       joint.anchor, frame_along(joint.axis)),
-                                 AnchorPair::at_start(bodies, joint.carrier, joint.body_b,
+                                 AnchorPair::at_start(bodies, joint, joint.carrier, joint.body_b,
                                                       joint.anchor, frame_along(joint.direction))},
                                 {}};
     append_coupling(joint.radius, joint.compliance, joint.backlash, part.effects);

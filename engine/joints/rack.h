@@ -25,6 +25,7 @@ class RackJoint final : public JointDef {
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] std::span<const JointCoordinateInfo> coordinates() const override;
+  [[nodiscard]] BodyId carrier_body() const override { return carrier; }
   [[nodiscard]] Errors validate(const BodySet& bodies, const std::string& path) const override;
   [[nodiscard]] std::unique_ptr<ConstraintBatch> make_batch(
       const BodySet& bodies, std::span<const JointDef* const> joints) const override;

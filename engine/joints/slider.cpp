@@ -26,6 +26,11 @@ struct SliderKernel : AnchorPair {  // z of the frame is the axis
     }
   }
   void coordinate(int /*index*/, JointTerms& terms) const { offset_along(a, b, 2, terms); }
+  [[nodiscard]] JointHold hold_here(const SliderKernel& defined, const Substep& now) const {
+    const Quaternion frame = b.orientation(now);
+    const Vector3 way = coordinate_of(*this, 0, now) * (frame * Vector3::UnitZ());
+    return JointHold::of(defined.a, now, b.position(now) - way, frame);
+  }
 };
 
 }  // namespace
@@ -62,7 +67,7 @@ std::unique_ptr<ConstraintBatch> SliderJoint::make_batch(
   std::vector<JointParts<SliderKernel>> parts;
   for (const JointDef* def : joints) {
     const auto& joint = static_cast<const SliderJoint&>(*def);
-    JointParts<SliderKernel> part{{AnchorPair::at_start(bodies, joint.body_a, joint.body_b,
+    JointParts<SliderKernel> part{{AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b,
                                                         joint.anchor, frame_along(joint.axis)),
                                    joint.compliance, joint.angular_compliance},
                                   {}};

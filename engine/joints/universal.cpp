@@ -55,6 +55,12 @@ struct UniversalKernel : AnchorPair {  // x of the frames is axis_a, y is axis_b
       turn_of_axis(b, 1, a, 0, -1.0, terms);
     }
   }
+  [[nodiscard]] JointHold hold_here(const UniversalKernel& defined, const Substep& now) const {
+    // From A's frame to B's it is a turn about x, and then one about y.
+    const Quaternion across = turned_about(b.orientation(now), 1, -coordinate_of(*this, 1, now));
+    return JointHold::of(defined.a, now, b.position(now),
+                         turned_about(across, 0, -coordinate_of(*this, 0, now)));
+  }
 };
 
 }  // namespace
@@ -108,7 +114,8 @@ std::unique_ptr<ConstraintBatch> UniversalJoint::make_batch(
     axes.col(2) = axes.col(0).cross(joint.axis_b).normalized();
     axes.col(1) = axes.col(2).cross(axes.col(0));
     JointParts<UniversalKernel> part{
-        {AnchorPair::at_start(bodies, joint.body_a, joint.body_b, joint.anchor, Quaternion(axes)),
+        {AnchorPair::at_start(bodies, joint, joint.body_a, joint.body_b, joint.anchor,
+                              Quaternion(axes)),
          joint.compliance, joint.angular_compliance},
         {}};
     append_effects(joint.angle_a, 0, part.effects);

@@ -95,9 +95,11 @@ class Settable {
     if (errors.empty()) list_.push_back(std::move(control));
   }
   void bodies() {
-    for (const BodyHandle handle : world_.bodies()) {
-      const std::string name = *world_.name(handle);
-      const auto told = [&](const char* type) { return Json{{"type", type}, {"body", name}}; };
+    const std::vector<BodyDef>& all = world_.simulation().world.model().bodies;
+    for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+      const BodyDef& body = all[at(i)];
+      const BodyHandle handle = world_.body_at(i);
+      const auto told = [&](const char* type) { return Json{{"type", type}, {"body", body.name}}; };
       const DriveTarget soon(0.0, 1.0);
       note(world_.set_speed(handle, soon), told("speed"));
       note(world_.set_angle(handle, soon), told("angle"));
@@ -109,13 +111,15 @@ class Settable {
     }
   }
   void joints() {
-    for (const JointHandle handle : world_.joints()) {
-      const std::string name = *world_.name(handle);
-      const auto coordinates =
-          world_.simulation().world.model().joints[at(handle.slot)]->coordinates();
+    const auto& all = world_.simulation().world.model().joints;
+    for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+      const auto& joint = all[at(i)];
+      const JointHandle handle = world_.joint_at(i);
+      const auto coordinates = joint->coordinates();
       for (int k = 0; k < static_cast<int>(coordinates.size()); ++k) {
         const auto told = [&](const char* type) {
-          return Json{{"type", type}, {"joint", name}, {"coordinate", coordinates[at(k)].name}};
+          return Json{
+              {"type", type}, {"joint", joint->name}, {"coordinate", coordinates[at(k)].name}};
         };
         note(world_.set_drive(handle, {0.0, 1.0}, k), told("joint_drive"));
         note(world_.set_drive_limit(handle, 1.0, k), told("joint_drive_limit"));
@@ -123,8 +127,10 @@ class Settable {
     }
   }
   void cables() {
-    for (const CableHandle handle : world_.cables()) {
-      const CableDef& cable = (*world_.simulation().cable_definitions)[at(handle.slot)];
+    const std::vector<CableDef>& all = *world_.simulation().cable_definitions;
+    for (int i = 0; i < static_cast<int>(all.size()); ++i) {
+      const CableDef& cable = all[at(i)];
+      const CableHandle handle = world_.cable_at(i);
       const auto told = [&](const char* type) {
         return Json{{"type", type}, {"cable", cable.name}};
       };

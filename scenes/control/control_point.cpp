@@ -25,9 +25,8 @@ constexpr std::array<Quantity, 2> joint_controls{{
     {"drive", "m, m/s, N, rad, rad/s, N m",
      "what its drive asks for; <coordinate>_drive where a joint has two coordinates"},
     {"drive_limit", "N, N m",
-     "the most that its drive can do, > 0; <coordinate>_drive_limit likewise. A brake is a drive "
-     "to "
-     "the speed 0 whose limit is set"},
+     "the most that its drive can do, >= 0; <coordinate>_drive_limit likewise. A brake is a drive "
+     "to the speed 0 whose limit is set, 0 where it is open"},
 }};
 constexpr std::array<Quantity, 2> cable_controls{{
     {"compliance", "m/N", "of a cable that has one, > 0"},

@@ -71,6 +71,18 @@ Result<std::shared_ptr<const SceneSupervisor>> SceneSupervisor::create(
   return std::shared_ptr<const SceneSupervisor>(std::move(made));
 }
 
+Result<std::shared_ptr<const Supervisor>> SceneSupervisor::again(
+    const Simulation& simulation) const {
+  Scene scene;
+  scene.model = simulation.world.model();
+  scene.cables = *simulation.cable_definitions;
+  for (const TriggerAtWork& trigger : triggers_) scene.triggers.push_back(trigger.definition);
+  for (const auto& controller : controllers_) scene.controllers.push_back(controller.definition);
+  Result<std::shared_ptr<const SceneSupervisor>> made = create(scene, simulation);
+  if (!made) return made.errors();
+  return std::shared_ptr<const Supervisor>(std::move(*made));
+}
+
 Result<std::size_t> SceneSupervisor::sampled(const std::string& quantity, const std::string& path) {
   const Result<int> index = observables_.index_of(quantity);
   if (!index) return at_path(index.errors(), path);
@@ -114,6 +126,7 @@ Errors SceneSupervisor::add_trigger(const Scene& scene, std::size_t index) {
       break;
     }
     case TriggerAction::release:
+    case TriggerAction::lock:
       target = index_of(scene.model.joints, definition.target, "joint",
                         [](const auto& joint) -> const std::string& { return joint->name; });
       break;
@@ -247,6 +260,9 @@ void SceneSupervisor::act(const TriggerAtWork& trigger, Simulation& simulation) 
       break;
     case TriggerAction::release:
       note(simulation.world.release_joint(trigger.target), simulation);
+      break;
+    case TriggerAction::lock:
+      note(simulation.world.lock_joint(trigger.target), simulation);
       break;
     case TriggerAction::cut:
       note(simulation.set_breaking_tension(trigger.target, no_tension), simulation);

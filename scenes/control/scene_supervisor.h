@@ -25,6 +25,8 @@ class SceneSupervisor final : public Supervisor {
 
   [[nodiscard]] std::vector<double> initial_memory() const override;
   void supervise(Simulation& simulation) const override;
+  [[nodiscard]] Result<std::shared_ptr<const Supervisor>> again(
+      const Simulation& simulation) const override;
   [[nodiscard]] bool has_stopped(const State& state) const override;
 
   /// When each trigger has acted last [s], in the order of the scene.

@@ -17,13 +17,14 @@ enum class TriggerAction {
   set,      ///< a control (scenes/control/control_point.h) to a value
   clear,    ///< the control is again what the scene says
   release,  ///< a joint holds nothing any more, as if it had broken
+  lock,     ///< such a joint holds again, from where its bodies are (World::lock_joint())
   cut,      ///< a cable parts, as soon as it pulls
   on,       ///< a controller acts from now on, as if it were new
   off,      ///< a controller acts no more; what it has set stays
   stop,     ///< the run ends
 };
-inline constexpr std::array<std::string_view, 7> trigger_action_names{
-    "set", "clear", "release", "cut", "on", "off", "stop"};
+inline constexpr std::array<std::string_view, 8> trigger_action_names{
+    "set", "clear", "release", "lock", "cut", "on", "off", "stop"};
 
 /// Looks before each substep, at what the state then is.
 struct TriggerDef {

@@ -3,12 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "cable/links/pinhole.h"
+#include "engine/joint_report.h"
 #include "engine/joints/gear.h"
 #include "engine/joints/hinge.h"
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/load_world.h"
 #include "tests/control/allocation_count.h"
 #include "tests/support/builders.h"
+#include "tests/support/live.h"
 
 namespace sheave {
 namespace {
@@ -19,12 +21,6 @@ using test::cable;
 using test::g;
 using test::right;
 using test::roll;
-
-LiveWorld live(const test::Machine& machine) {
-  Result<LiveWorld> world = LiveWorld::create(machine.model, machine.cables);
-  EXPECT_TRUE(world.ok()) << test::text(world.errors());
-  return std::move(*world);
-}
 
 /// A drum (speed) that lifts a load; a bar on a hinge with a drive; two wheels in gear; a hand.
 test::Machine workshop() {
@@ -68,7 +64,7 @@ test::Machine workshop() {
 }
 
 TEST(LiveWorld, ReadsWhatReportsTell) {
-  LiveWorld world = live(workshop());
+  LiveWorld world = test::live(workshop());
   const BodyHandle drum = *world.body("drum");
   const BodyHandle bar = *world.body("bar");
   const CableHandle rope = *world.cable("rope");
@@ -100,7 +96,7 @@ TEST(LiveWorld, ReadsWhatReportsTell) {
 }
 
 TEST(LiveWorld, NeitherReadingNorSettingAgainAllocates) {
-  LiveWorld world = live(workshop());
+  LiveWorld world = test::live(workshop());
   const BodyHandle drum = *world.body("drum");
   const BodyHandle load = *world.body("load");
   const BodyHandle hand = *world.body("hand");
@@ -136,7 +132,7 @@ TEST(LiveWorld, NeitherReadingNorSettingAgainAllocates) {
 }
 
 TEST(LiveWorld, NamesAndHandlesThatAreWrongAreTold) {
-  LiveWorld world = live(workshop());
+  LiveWorld world = test::live(workshop());
   const std::uint64_t before = hash(world.state());
   const auto none = world.body("drun");
   ASSERT_FALSE(none.ok());
@@ -161,7 +157,7 @@ TEST(LiveWorld, NamesAndHandlesThatAreWrongAreTold) {
 }
 
 TEST(LiveWorld, AStepTellsWhatHappened) {
-  LiveWorld world = live(workshop());
+  LiveWorld world = test::live(workshop());
   ASSERT_TRUE(world.set_breaking_tension(*world.cable("rope"), 35.0).empty());
   LiveReport report = world.step();
   EXPECT_TRUE(report.events.empty());
@@ -260,7 +256,7 @@ TEST(LiveWorld, CertificatesKnowWhatIsSet) {
     auto mouth = attach(BodyId::world(), {-2.8, -3.0, 0.0});
     mouth->feed_speed = 0.0;
     machine.cables.push_back(cable("line", {attach(weight), over, mouth}));
-    LiveWorld world = live(machine);
+    LiveWorld world = test::live(machine);
     Certificate all;
     for (int i = 0; i < 60; ++i) {
       const double phase = 0.1 * i;

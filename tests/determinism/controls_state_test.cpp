@@ -240,7 +240,7 @@ TEST(ControlsState, BadRequestsAreToldAndChangeNothing) {
       {s.world.set_joint_drive(3, 0, 1.0), "no joint number 3; there are 1"},
       {s.world.set_joint_drive(0, 2, 1.0), "\"hinge\" has no coordinate number 2; it has 1"},
       {s.world.set_joint_drive(0, 0, infinite), "\"hinge\" must go to a finite value"},
-      {s.world.set_joint_drive_limit(0, 0, 0.0), "above 0, not 0"},
+      {s.world.set_joint_drive_limit(0, 0, -1.0), "at least 0, not -1"},
       {s.set_compliance(1, 1e-5), "\"line\" is rigid"},
       {s.set_compliance(0, 0.0), "above 0, not 0"},
       {s.set_compliance(2, 1e-5), "no cable number 2; there are 2"},

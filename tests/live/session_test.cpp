@@ -47,7 +47,7 @@ TEST(LiveSession, SetsAllThatAWorldHas) {
   live::Session session = session_of(live_scene);
   Scene scene = scene_of(live_scene);
   Result<Simulation> simulation = create_simulation(scene);
-  LiveWorld world(std::move(*simulation));
+  LiveWorld world = LiveWorld::of(std::move(*simulation));
   const BodyHandle hand = *world.body("hand");
   const JointHandle hinge = *world.joint("hinge");
   const CableHandle rope = *world.cable("rope");

@@ -99,6 +99,7 @@ std::vector<double> sensitivity(const Machine& machine, int steps, double change
   std::vector<double> result;
   double largest = change;
   for (int i = 0; i < steps; ++i) {
+    // What diverges stays where it is, and so does the difference.
     static_cast<void>(s.world.step());
     static_cast<void>(other.world.step());
     const double h = machine.model.step.dt;

@@ -207,6 +207,7 @@ TEST(Property, WideMachinesGoOnFromTheMiddleToTheLastBit) {
     }
     const State middle = s.world.state();
     const auto run_on = [&](Simulation& simulation) {
+      // One that diverges does so again.
       for (int i = 0; i < half; ++i) static_cast<void>(simulation.world.step());
       return hash(simulation.world.state());
     };

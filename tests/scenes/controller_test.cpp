@@ -232,6 +232,57 @@ TEST(Triggers, ReleaseAJoint) {
   EXPECT_NEAR(again.world.position(BodyId{1}).y(), -5.0, 1e-9);
 }
 
+// Released at 0.5 s, locked again 0.3 s later, 0.45 m lower, and once more; there it stays each time.
+TEST(Triggers, LockAJointAgain) {
+  const std::string scene = hanging_scene(
+      R"({"name": "let go", "at": 0.5, "action": "release", "target": "clamp"},
+         {"name": "catch", "at": 0.8, "action": "lock", "target": "clamp"},
+         {"name": "again", "at": 1.1, "action": "release", "target": "clamp"},
+         {"name": "deep", "quantity": "bar.y", "below": -0.9, "action": "lock", "target": "clamp"})");
+  Simulation simulation = start(scene);
+  run(simulation, 0.7);
+  const Result<State> flying = state_from_bytes(to_bytes(simulation.world.state()));
+  run(simulation, 1.0);
+  EXPECT_NEAR(simulation.world.position(BodyId{1}).y(), -0.45, 1e-9);
+  EXPECT_NEAR(simulation.world.velocity(BodyId{1}).y(), 0.0, 1e-9);
+  const Result<State> caught = state_from_bytes(to_bytes(simulation.world.state()));
+  run(simulation, 2.0);
+  // From -0.45 to -0.9 m it takes 0.3 s, at 3 m/s; it is looked at every 10 ms.
+  const double depth = simulation.world.position(BodyId{1}).y();
+  EXPECT_NEAR(depth, -0.915, 0.0151);
+  EXPECT_NEAR(simulation.world.velocity(BodyId{1}).y(), 0.0, 1e-9);
+  const auto* supervisor = dynamic_cast<const SceneSupervisor*>(simulation.supervisor.get());
+  ASSERT_NE(supervisor, nullptr);
+  EXPECT_EQ(supervisor->refusals(simulation.world.state()), 0);
+  // To the last bit from any state on the way.
+  for (const Result<State>& state : {flying, caught}) {
+    Simulation rest = start(scene);
+    ASSERT_TRUE(state);
+    ASSERT_THAT(rest.world.restore(*state), IsEmpty());
+    run(rest, 2.0);
+    EXPECT_EQ(hash(rest.world.state()), hash(simulation.world.state()));
+  }
+}
+
+// A brake is a drive to the speed 0 whose limit is set: 0 where it is open.
+TEST(Triggers, ApplyABrake) {
+  // J = 2 kg m2 at 3 rad/s against 4 N m for a second: 2 rad/s less.
+  Simulation simulation = start(R"({"format": "sheave-scene/1", "duration": 3,
+    "step": {"dt": 0.01, "substeps": 1, "solver": "direct", "integrator": "rattle"},
+    "bodies": [{"name": "drum", "mass": 1, "inertia": [2, 2, 2], "angular_velocity": [0, 0, 3]}],
+    "joints": [{"type": "hinge", "name": "brake", "body_b": "drum", "anchor": [0, 0, 0],
+      "axis": [0, 0, 1], "drive": "speed", "drive_values": [0], "drive_limit": 0}],
+    "triggers": [
+      {"name": "apply", "at": 1, "action": "set", "target": "brake.drive_limit", "value": 4},
+      {"name": "open", "at": 2, "action": "set", "target": "brake.drive_limit", "value": 0}]})");
+  run(simulation, 1.0);
+  EXPECT_NEAR(simulation.world.angular_velocity(BodyId{0}).z(), 3.0, 1e-12);
+  run(simulation, 2.0);
+  EXPECT_NEAR(simulation.world.angular_velocity(BodyId{0}).z(), 3.0 - 4.0 / 2.0, 1e-9);
+  run(simulation, 3.0);
+  EXPECT_NEAR(simulation.world.angular_velocity(BodyId{0}).z(), 1.0, 1e-9);
+}
+
 TEST(Triggers, CutACable) {
   Simulation simulation =
       start(hanging_scene(R"({"name": "snip", "at": 1, "action": "cut", "target": "rope"})"));
@@ -324,6 +375,9 @@ TEST(Triggers, FaultsAreLocated) {
   EXPECT_THAT(
       with(R"("at": 1, "action": "release", "target": "clmp")"),
       ElementsAre(AllOf(HasSubstr("/triggers/0/target"), HasSubstr("near it are \"clamp\""))));
+  EXPECT_THAT(with(R"("at": 1, "action": "lock", "target": "rope")"),
+              ElementsAre(AllOf(HasSubstr("/triggers/0/target"), HasSubstr("no joint \"rope\""))));
+  EXPECT_THAT(with(R"("at": 1, "action": "lock")"), ElementsAre(HasSubstr("it needs a target")));
   EXPECT_THAT(with(R"("at": 1, "action": "explode")"),
               ElementsAre(HasSubstr("/triggers/0/action")));
   EXPECT_THAT(with(R"("action": "stop")"), ElementsAre(HasSubstr("either at or a quantity")));

@@ -1,0 +1,328 @@
+// Cables taken apart and put together.
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/cable_transfer.h"
+#include "cable/edit_draft.h"
+#include "cable/links/attachment.h"
+#include "engine/field_check.h"
+#include "engine/index.h"
+
+namespace sheave {
+namespace {
+
+/// Nearest multiple of the quantum.
+double quantised(double length, double quantum) {
+  return CompiledCable::quantised(length, quantum, 1.0 / quantum);
+}
+
+bool same_settings(const CableDef& a, const CableDef& b) {
+  return a.compliance == b.compliance && a.axial_stiffness == b.axial_stiffness &&
+         a.damping == b.damping && a.tangent_update == b.tangent_update &&
+         a.wrap_friction == b.wrap_friction && a.most_wraps == b.most_wraps &&
+         a.breaking_tension == b.breaking_tension;
+}
+
+/// Place of the listed link at an end.
+std::size_t end_of(const RunningCable& cable, CableEnd end) {
+  return cable.place_of(end == CableEnd::first ? 0 : cable.listed_count() - 1);
+}
+
+std::size_t number(CableEnd end) { return end == CableEnd::first ? 0 : 1; }
+std::string_view name_of(CableEnd end) { return end == CableEnd::first ? "first" : "last"; }
+
+/// The last element before `end` that the cable touches.
+std::size_t last_touched(const std::vector<RunningLink>& links, std::size_t end) {
+  std::size_t place = end - 1;
+  while (place > 0 && !links[place].is_on_course()) --place;
+  return place;
+}
+
+/// Takes the last link off with the span before it, wraps and all; how long that was.
+double take_last(RunningCable& cable) {
+  std::vector<RunningLink>& links = cable.links;
+  double length = links.back().stored_length;
+  const bool touched = links.back().is_on_course();
+  links.pop_back();
+  if (!touched || links.empty()) return length;
+  std::size_t place = last_touched(links, links.size());
+  while (links[place].is_wrap()) {
+    length += links[place].stored_length + links[place].span.value_or(RunningSpan{}).rest_length;
+    links.erase(links.begin() + static_cast<std::ptrdiff_t>(place));
+    place = last_touched(links, place);
+  }
+  length += links[place].span.value_or(RunningSpan{}).rest_length;
+  links[place].span.reset();
+  return length;
+}
+
+double take_first(RunningCable& cable) {
+  double length = 0.0;
+  do {
+    const RunningLink& link = cable.links.front();
+    length += link.stored_length + link.span.value_or(RunningSpan{}).rest_length;
+    cable.links.erase(cable.links.begin());
+  } while (!cable.links.empty() && cable.links.front().is_wrap());
+  return length;
+}
+
+double take_end(RunningCable& cable, CableEnd end) {
+  return end == CableEnd::first ? take_first(cable) : take_last(cable);
+}
+
+}  // namespace
+
+bool holds_by_itself(const RunningLink& link) {
+  return link.is_listed() && link.link->type() == AttachmentLink::type_name;
+}
+
+void run_off(DraftCable& cable) {
+  for (const CableEnd end : {CableEnd::first, CableEnd::last}) {
+    std::optional<double>& loose = cable.loose[number(end)];
+    while (loose && !cable.running.links.empty()) {
+      const std::size_t place = end_of(cable.running, end);
+      const bool other_end = cable.running.listed_count() == 1 && !cable.loose[1 - number(end)];
+      if (holds_by_itself(cable.running.links[place]) || other_end) break;
+      *loose += take_end(cable.running, end);
+    }
+  }
+  if (cable.running.links.empty()) {
+    // One piece of cable that lies about.
+    cable.loose[0] = cable.loose[0].value_or(0.0) + cable.loose[1].value_or(0.0);
+    cable.loose[1] = 0.0;
+  }
+}
+
+std::string EditDraft::cable_name(CableHandle handle) const {
+  const auto own = own_cables.find(handle.slot);
+  return own != own_cables.end() ? own->second.definition.name
+                                 : before.records[at(handle.slot)].definition.name;
+}
+
+DraftCable* EditDraft::running(CableHandle handle, bool may_be_cut) {
+  if (!check(cables, handle, "cable")) return nullptr;
+  const std::string name = "cable \"" + cable_name(handle) + "\"";
+  auto found = own_cables.find(handle.slot);
+  if (found == own_cables.end()) {
+    const CableRecord& record = before.records[at(handle.slot)];
+    DraftCable own;
+    own.definition = record.definition;
+    own.loose = record.loose;
+    own.running = record.running;
+    if (record.place >= 0) {
+      const State& state = before.world().state();
+      own.running = CableTransfer(*before.system())
+                        .running_cable(record.place, record.definition, state.features.back(),
+                                       state.controls);
+      own.running.control.added_length = 0.0;
+      const Substep now(before.world().bodies(), state, model.step.dt, 1);
+      own.excess =
+          CableTransfer(*before.system()).missing_length(now, state.features.back(), record.place);
+    }
+    own.runs = true;
+    own.definition.rest_lengths.clear();
+    found = own_cables.emplace(handle.slot, std::move(own)).first;
+  }
+  DraftCable& cable = found->second;
+  if (!cable.runs) {
+    fail(name + " is being added by this edit; define it as it shall be");
+    return nullptr;
+  }
+  if (cable.running.is_cut && !may_be_cut) {
+    fail(name + " is cut; split it, which makes two of it");
+    return nullptr;
+  }
+  return &cable;
+}
+
+CableHandle Edit::split(CableHandle cable, int span, double share, std::string name) {
+  DraftCable* whole = draft_.running(cable, true);
+  if (whole == nullptr) return {};
+  const std::string who = "cable \"" + whole->definition.name + "\"";
+  if (whole->definition.closed) {
+    draft_.fail(who + " is closed; only an open one can be split in two");
+    return {};
+  }
+  if (!(share >= 0.0 && share <= 1.0)) {
+    draft_.fail(who + ": the share of the span at which it is split must be from 0 to 1, not " +
+                number_text(share));
+    return {};
+  }
+  RunningCable& running = whole->running;
+  if (running.is_cut) span = running.cut_span;
+  const int listed = running.listed_count();
+  const bool there = span >= 0 && span + 1 < listed && running.links[running.place_of(span)].span;
+  if (!there) {
+    draft_.fail(who + " has no span number " + std::to_string(span) + " that it could be split in");
+    return {};
+  }
+  const std::size_t place = running.place_of(span);
+  DraftCable rest;
+  rest.runs = true;
+  rest.excess = whole->excess;
+  rest.definition = whole->definition;
+  rest.definition.name = std::move(name);
+  rest.definition.cut_time.reset();
+  rest.running.quantum = running.quantum;
+  rest.running.control = running.control;
+  rest.running.links.assign(running.links.begin() + static_cast<std::ptrdiff_t>(place) + 1,
+                            running.links.end());
+  running.links.resize(place + 1);
+  const double length = running.links[place].span->rest_length;
+  running.links[place].span.reset();
+  const double first = quantised(share * length, running.quantum);
+  // Wraps right behind the split belong to the piece that comes off them.
+  double second = length - first;
+  while (!rest.running.links.empty() && rest.running.links.front().is_wrap()) {
+    second += take_first(rest.running);
+  }
+  rest.loose = {second, whole->loose[1]};
+  whole->loose[1] = first;
+  whole->definition.cut_time.reset();
+  running.is_cut = false;
+  const CableHandle handle = draft_.cables.add(-1, draft_.next_generation++);
+  draft_.cables.set_index(at(handle.slot), handle.slot);
+  draft_.own_cables[handle.slot] = std::move(rest);
+  return handle;
+}
+
+void Edit::join(CableHandle cable, CableHandle next) {
+  DraftCable* first = draft_.running(cable);
+  DraftCable* second = draft_.running(next);
+  if (first == nullptr || second == nullptr) return;
+  const std::string names =
+      "cables \"" + first->definition.name + "\" and \"" + second->definition.name + "\"";
+  if (first == second) return draft_.fail(names + " are one; it cannot be joined to itself");
+  if (!first->loose[1] || !second->loose[0]) {
+    return draft_.fail(names +
+                       " cannot be joined: the last end of the one and the first end of the "
+                       "other must be loose; detach them first");
+  }
+  if (!same_settings(first->definition, second->definition)) {
+    return draft_.fail(names +
+                       " have different settings; only cables that are alike can be joined");
+  }
+  if (first->running.links.empty() || second->running.links.empty()) {
+    return draft_.fail(names +
+                       " cannot be joined: one of them is fixed to nothing; attach it first");
+  }
+  RunningCable& one = first->running;
+  RunningCable& other = second->running;
+  // Both lengths are multiples of the finer quantum; what is too long for it is rounded.
+  constexpr double most = 4503599627370496.0;  // 2^52
+  const double finer = std::min(one.quantum, other.quantum);
+  const bool fits =
+      one.length() + other.length() + *first->loose[1] + *second->loose[0] < most * finer;
+  one.quantum = fits ? finer : std::max(one.quantum, other.quantum);
+  RunningSpan span;
+  span.rest_length = quantised(*first->loose[1] + *second->loose[0], one.quantum);
+  one.links[last_touched(one.links, one.links.size())].span = span;
+  for (RunningLink& link : other.links) {
+    if (link.span) link.span->rest_length = quantised(link.span->rest_length, one.quantum);
+    link.stored_length = quantised(link.stored_length, one.quantum);
+    one.links.push_back(std::move(link));
+  }
+  first->loose[1] = second->loose[1];
+  first->excess += second->excess;
+  const std::string name = second->definition.name;
+  draft_.cables.remove(next, name);
+  draft_.own_cables.erase(next.slot);
+}
+
+void Edit::detach(CableHandle cable, CableEnd end) {
+  DraftCable* own = draft_.running(cable);
+  if (own == nullptr) return;
+  const std::string who = "cable \"" + own->definition.name + "\"";
+  if (own->definition.closed) return draft_.fail(who + " is closed and has no ends");
+  if (own->loose[number(end)]) {
+    return draft_.fail("the " + std::string(name_of(end)) + " end of " + who + " is loose already");
+  }
+  own->loose[number(end)] = take_end(own->running, end);
+}
+
+void Edit::attach(CableHandle cable, CableEnd end, BodyId body, const Vector3& point) {
+  DraftCable* own = draft_.running(cable);
+  if (own == nullptr) return;
+  const std::string who = "cable \"" + own->definition.name + "\"";
+  std::optional<double>& loose = own->loose[number(end)];
+  if (!loose) {
+    return draft_.fail("the " + std::string(name_of(end)) + " end of " + who +
+                       " is attached already; detach it first");
+  }
+  auto link = std::make_shared<AttachmentLink>();
+  link->body = body;
+  link->point = point;
+  RunningLink running;
+  running.link = std::move(link);
+  std::vector<RunningLink>& links = own->running.links;
+  if (links.empty()) {
+    // A piece that lay about hangs from here now.
+    std::optional<double>& other = own->loose[1 - number(end)];
+    other = other.value_or(0.0) + *loose;
+    links.push_back(std::move(running));
+  } else if (end == CableEnd::first) {
+    running.span = RunningSpan{*loose, 0.0, {}};
+    links.insert(links.begin(), std::move(running));
+  } else {
+    links[last_touched(links, links.size())].span = RunningSpan{*loose, 0.0, {}};
+    links.push_back(std::move(running));
+  }
+  loose.reset();
+}
+
+void Edit::pay_out(CableHandle cable, int span, double length) {
+  DraftCable* own = draft_.running(cable);
+  if (own == nullptr) return;
+  const std::string who = "cable \"" + own->definition.name + "\"";
+  RunningCable& running = own->running;
+  const bool there = span >= 0 && span < running.listed_count() &&
+                     running.links[running.place_of(span)].span.has_value();
+  if (!there) return draft_.fail(who + " has no span number " + std::to_string(span) + " now");
+  double& rest_length = running.links[running.place_of(span)].span->rest_length;
+  const double longer = rest_length + quantised(length, running.quantum);
+  if (!std::isfinite(length) || !(longer >= 0.0)) {
+    return draft_.fail(who + " cannot give " + number_text(-length) + " m out of span " +
+                       std::to_string(span) + ", which has " + number_text(rest_length) + " m");
+  }
+  rest_length = longer;
+}
+
+void Edit::insert(CableHandle cable, int span, std::shared_ptr<const LinkDef> link) {
+  DraftCable* own = draft_.running(cable);
+  if (own == nullptr) return;
+  const std::string who = "cable \"" + own->definition.name + "\"";
+  if (link == nullptr) return draft_.fail(who + ": a link that is inserted must not be null");
+  RunningCable& running = own->running;
+  const bool there = span >= 0 && span < running.listed_count() &&
+                     running.links[running.place_of(span)].span.has_value();
+  if (!there) return draft_.fail(who + " has no span number " + std::to_string(span) + " now");
+  const std::size_t place = running.place_of(span);
+  RunningLink inserted;
+  inserted.link = std::move(link);
+  inserted.is_fresh = true;
+  // The span before it keeps all of the length until it is known how far it is.
+  inserted.span = RunningSpan{0.0, running.links[place].span->tension, {}};
+  running.links.insert(running.links.begin() + static_cast<std::ptrdiff_t>(place) + 1,
+                       std::move(inserted));
+}
+
+void Edit::remove_link(CableHandle cable, int link) {
+  DraftCable* own = draft_.running(cable);
+  if (own == nullptr) return;
+  const std::string who = "cable \"" + own->definition.name + "\"";
+  RunningCable& running = own->running;
+  if (link <= 0 || link + 1 >= running.listed_count()) {
+    return draft_.fail(who + " has no link number " + std::to_string(link) +
+                       " between its ends; an end is detached");
+  }
+  const std::size_t place = running.place_of(link);
+  const RunningLink& gone = running.links[place];
+  if (gone.is_on_course()) {
+    running.links[last_touched(running.links, place)].span->rest_length +=
+        gone.stored_length + gone.span.value_or(RunningSpan{}).rest_length;
+  }
+  running.links.erase(running.links.begin() + static_cast<std::ptrdiff_t>(place));
+}
+
+}  // namespace sheave

@@ -1,0 +1,114 @@
+#pragma once
+// What a LiveWorld consists of between two edits; internal to the cable library.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cable/handle.h"
+#include "cable/running_cable.h"
+#include "cable/simulation.h"
+#include "engine/control_check.h"
+#include "engine/substep.h"
+
+namespace sheave {
+
+/// A place that handles refer to.
+struct Slot {
+  std::uint32_t generation = 0;  ///< of what is there; 0: nothing
+  int index = -1;                ///< in the model's or the cables' list
+  std::string last_name;         ///< of what was there last, and is no more
+};
+
+/// The slots of one kind of things.
+template <class Tag>
+class SlotTable {
+ public:
+  [[nodiscard]] const std::vector<Slot>& slots() const { return slots_; }
+  [[nodiscard]] bool has(Handle<Tag> handle) const {
+    return handle.slot >= 0 && static_cast<std::size_t>(handle.slot) < slots_.size() &&
+           handle.generation != 0 &&
+           slots_[static_cast<std::size_t>(handle.slot)].generation == handle.generation;
+  }
+  /// Of one that has() it.
+  [[nodiscard]] int index(Handle<Tag> handle) const {
+    return slots_[static_cast<std::size_t>(handle.slot)].index;
+  }
+  [[nodiscard]] Handle<Tag> handle(std::size_t slot) const {
+    return {static_cast<std::int32_t>(slot), slots_[slot].generation};
+  }
+  [[nodiscard]] Handle<Tag> handle_of_index(int index) const {
+    for (std::size_t i = 0; i < slots_.size(); ++i) {
+      if (slots_[i].generation != 0 && slots_[i].index == index) return handle(i);
+    }
+    return {};
+  }
+  /// In the first place that is free.
+  Handle<Tag> add(int index, std::uint32_t generation) {
+    std::size_t i = 0;
+    while (i < slots_.size() && slots_[i].generation != 0) ++i;
+    if (i == slots_.size()) slots_.emplace_back();
+    slots_[i].generation = generation;
+    slots_[i].index = index;
+    return handle(i);
+  }
+  void remove(Handle<Tag> handle, std::string name) {
+    Slot& slot = slots_[static_cast<std::size_t>(handle.slot)];
+    slot.generation = 0;
+    slot.index = -1;
+    slot.last_name = std::move(name);
+  }
+  void set_index(std::size_t slot, int index) { slots_[slot].index = index; }
+  /// Why a handle refers to nothing; empty if it does.
+  [[nodiscard]] std::string fault_of(Handle<Tag> handle, std::string_view kind) const {
+    if (has(handle)) return {};
+    const std::string what(kind);
+    if (handle.generation == 0) return "this handle refers to no " + what;
+    const auto slot = static_cast<std::size_t>(handle.slot);
+    if (handle.slot < 0 || slot >= slots_.size()) {
+      return "handle " + std::to_string(handle.slot) + " refers to no " + what + " of this world";
+    }
+    std::string fault = "the " + what + " of handle " + std::to_string(handle.slot) + " is no more";
+    if (!slots_[slot].last_name.empty()) {
+      fault += "; the last one there was \"" + slots_[slot].last_name + "\"";
+    }
+    return fault;
+  }
+
+ private:
+  std::vector<Slot> slots_;
+};
+
+/// A cable as its handle knows it.
+struct CableRecord {
+  CableDef definition;  ///< of what is between its holds
+  std::array<std::optional<double>, 2>
+      loose;             ///< length beyond its first and its last link [m], if that end is loose
+  int place = -1;        ///< among the world's cables; -1: nothing of it pulls
+  RunningCable running;  ///< if so: what is left of it
+};
+
+struct LiveRevision {
+  LiveRevision(Simulation made, SlotTable<BodyTag> body_slots, SlotTable<JointTag> joint_slots,
+               SlotTable<CableTag> cable_slots, std::vector<CableRecord> cable_records);
+
+  Simulation simulation;
+  SlotTable<BodyTag> bodies;             ///< a body's index is its slot
+  SlotTable<JointTag> joints;            ///< index among Model::joints
+  SlotTable<CableTag> cables;            ///< index is the slot
+  std::vector<CableRecord> records;      ///< per slot
+  Substep view;                          ///< for readers of joints: where their bodies are
+  std::vector<JointPlace> joint_places;  ///< in the order of the model
+  std::vector<int> breakable_joints;
+  std::vector<JointHandle> joint_handles;  ///< in the order of the model
+  std::vector<CableHandle> cable_handles;  ///< in the order of the world's cables
+
+  [[nodiscard]] const World& world() const { return simulation.world; }
+  [[nodiscard]] CableSystem* system() const;
+};
+
+}  // namespace sheave

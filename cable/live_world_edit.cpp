@@ -1,0 +1,415 @@
+// An edit at work: a new world is made beside the old one, what stays takes its state along, and if nothing is wrong the new one
+// takes the place of the old one.
+
+#include <algorithm>
+#include <set>
+
+#include "cable/cable_transfer.h"
+#include "cable/edit_draft.h"
+#include "cable/live_world.h"
+#include "engine/field_check.h"
+#include "engine/index.h"
+
+namespace sheave {
+namespace {
+
+class EditMaker {
+ public:
+  EditMaker(EditDraft& draft, State before)
+      : draft_(draft), old_(draft.before.world()), then_(std::move(before)) {}
+
+  Result<std::shared_ptr<LiveRevision>> make();
+
+ private:
+  struct Kept {  // a cable of the new world
+    int slot = 0;
+    CableStart start;
+    double allowed = 0.0;
+  };
+
+  void check_references();
+  void refer(BodyId body, const std::string& who);
+  void list_joints();
+  void place_rotors();
+  [[nodiscard]] BodyState state_of(int body, const State& initial) const;
+  void move_bodies();
+  void list_cables();
+  [[nodiscard]] std::unique_ptr<CableSystem> make_cables();
+  void check_cables();
+  [[nodiscard]] Controls controls() const;
+  void map_cable_controls(Controls& controls) const;
+  void map_joint_controls(Controls& controls, std::span<const JointPlace> places) const;
+  [[nodiscard]] std::vector<CableRecord> records() const;
+  void fail(std::string message) { draft_.fail(std::move(message)); }
+
+  EditDraft& draft_;
+  const World& old_;
+  State then_;
+  std::shared_ptr<const BodySet> bodies_;
+  State now_;  // of bodies
+  BodyFrames frames_;
+  std::vector<Kept> kept_;
+  std::vector<CableDef> definitions_;
+  CableSystem* system_ = nullptr;
+  SlotTable<JointTag> joints_;
+};
+
+void EditMaker::refer(BodyId body, const std::string& who) {
+  if (body.is_world()) return;
+  const auto& slots = draft_.bodies.slots();
+  const bool there =
+      body.index >= 0 && at(body.index) < slots.size() && slots[at(body.index)].generation != 0;
+  if (!there) fail(who + " is on a body that is not there, number " + std::to_string(body.index));
+}
+
+void EditMaker::check_references() {
+  for (const BodyDef& body : draft_.model.bodies) {
+    if (body.mount) refer(*body.mount, "body \"" + body.name + "\"");
+  }
+  for (const DraftJoint& joint : draft_.own_joints) {
+    const std::string who = "joint \"" + joint.definition->name + "\"";
+    refer(joint.definition->body_a, who);
+    refer(joint.definition->body_b, who);
+    refer(joint.definition->carrier_body(), who);
+  }
+  for (const CableDef& cable : definitions_) {
+    for (const auto& link : cable.links) refer(link->body, "cable \"" + cable.name + "\"");
+  }
+  for (const ColliderDef& collider : draft_.model.colliders) refer(collider.body, "a collider");
+}
+
+void EditMaker::list_joints() {
+  draft_.model.joints.clear();
+  joints_ = draft_.joints;
+  for (const DraftJoint& joint : draft_.own_joints) {
+    joints_.set_index(joint.slot, static_cast<int>(draft_.model.joints.size()));
+    draft_.model.joints.push_back(joint.definition);
+  }
+}
+
+/// Mounted rotors are told where they are now; a model tells them where they are when their carrier is as at time 0.
+void EditMaker::place_rotors() {
+  for (std::size_t i = 0; i < draft_.model.bodies.size(); ++i) {
+    BodyDef& body = draft_.model.bodies[i];
+    if (draft_.is_new[i] == 0 || !body.mount || body.mount->is_world()) continue;
+    const std::size_t carrier = at(body.mount->index);
+    if (carrier >= draft_.is_new.size() || draft_.is_new[carrier] != 0) continue;
+    const BodyDef& on = draft_.model.bodies[carrier];
+    const Quaternion first = on.orientation.normalized();
+    const Quaternion back = first * old_.orientation(*body.mount).conjugate();
+    body.position = on.position + back * (body.position - old_.position(*body.mount));
+    body.orientation = back * body.orientation;
+    if (body.axis) body.axis = Vector3(back * *body.axis);
+  }
+}
+
+BodyState EditMaker::state_of(int body, const State& initial) const {
+  const BodyProperties& own = (*bodies_)[body];
+  const bool is_new = draft_.is_new[at(body)] != 0;
+  if (is_new && own.mobility == Mobility::kinematic) {
+    return bodies_->kinematic_state(body, then_.time);
+  }
+  if (is_new) return initial.bodies[at(body)];
+  BodyState state = then_.bodies[at(body)];
+  const Vector3& before = old_.bodies()[body].center_of_mass;
+  if (own.center_of_mass == before) return state;
+  // Its frame stays where it is, whatever has become of its centre of mass.
+  const Vector3 way = state.orientation * (own.center_of_mass - before);
+  state.position += way;
+  state.velocity += state.angular_velocity.cross(way);
+  return state;
+}
+
+void EditMaker::move_bodies() {
+  const State initial = bodies_->initial_state();
+  now_.steps = then_.steps;
+  now_.time = then_.time;
+  now_.memory = then_.memory;
+  for (int i = 0; i < bodies_->count(); ++i) now_.bodies.push_back(state_of(i, initial));
+  for (int i = 0; i < bodies_->count(); ++i) {
+    const BodyProperties& rotor = (*bodies_)[i];
+    if (rotor.mount < 0 || draft_.is_new[at(i)] == 0 || draft_.is_new[at(rotor.mount)] != 0)
+      continue;
+    const BodyState& carrier = now_.bodies[at(rotor.mount)];
+    BodyState& state = now_.bodies[at(i)];
+    const Vector3 axis = carrier.orientation * rotor.axis;
+    const Vector3 offset = carrier.orientation * rotor.mount_position;
+    const Vector3 spin = draft_.model.bodies[at(i)].angular_velocity - carrier.angular_velocity;
+    state.position = carrier.position + offset;
+    state.orientation = carrier.orientation * rotor.start_orientation;
+    state.velocity = carrier.velocity + carrier.angular_velocity.cross(offset);
+    state.angular_velocity = carrier.angular_velocity + axis * axis.dot(spin);
+  }
+  auto frames = std::make_shared<std::vector<BodyFrame>>();
+  for (int i = 0; i < bodies_->count(); ++i) {
+    const BodyState& state = now_.bodies[at(i)];
+    frames->push_back(
+        {state.position - state.orientation * (*bodies_)[i].center_of_mass, state.orientation});
+  }
+  frames_ = frames;
+}
+
+void EditMaker::list_cables() {
+  const auto& slots = draft_.cables.slots();
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (slots[i].generation == 0) continue;
+    const auto slot = static_cast<int>(i);
+    const auto own = draft_.own_cables.find(slot);
+    Kept kept;
+    kept.slot = slot;
+    if (own == draft_.own_cables.end()) {
+      const CableRecord& record = draft_.before.records[i];
+      if (record.place < 0) continue;
+      kept.start.same_as = record.place;
+      kept.start.defined_in = draft_.before.system()->cables()[at(record.place)].defined_in;
+      definitions_.push_back(record.definition);
+    } else if (!own->second.runs) {
+      definitions_.push_back(own->second.definition);
+    } else {
+      DraftCable& cable = own->second;
+      run_off(cable);
+      cable.definition.links.clear();
+      for (const RunningLink& link : cable.running.links) {
+        if (link.is_listed()) cable.definition.links.push_back(link.link);
+      }
+      if (cable.definition.links.size() < 2) continue;
+      kept.start.running = &cable.running;
+      kept.allowed = cable.excess;
+      definitions_.push_back(cable.definition);
+    }
+    kept_.push_back(kept);
+  }
+}
+
+std::unique_ptr<CableSystem> EditMaker::make_cables() {
+  std::vector<CableStart> starts;
+  for (Kept& kept : kept_) {
+    if (kept.start.same_as < 0) kept.start.defined_in = frames_;
+    starts.push_back(kept.start);
+  }
+  Result<std::unique_ptr<CableSystem>> made = CableSystem::create(definitions_, *bodies_, starts);
+  if (!made) {
+    for (const Error& error : made.errors()) draft_.errors.push_back(error);
+    return nullptr;
+  }
+  const FeatureState* from = draft_.before.system() != nullptr ? &then_.features.back() : nullptr;
+  for (Error& error : CableTransfer(**made).continue_from(draft_.before.system(), from, starts)) {
+    draft_.errors.push_back(std::move(error));
+  }
+  return std::move(*made);
+}
+
+void EditMaker::check_cables() {
+  const Substep now(*bodies_, now_, draft_.model.step.dt, 1);
+  for (std::size_t c = 0; c < kept_.size(); ++c) {
+    if (kept_[c].start.running == nullptr) continue;
+    std::string fault =
+        CableTransfer(*system_).start_fault(now, static_cast<int>(c), kept_[c].allowed);
+    if (!fault.empty()) fail(std::move(fault));
+  }
+}
+
+void EditMaker::map_cable_controls(Controls& controls) const {
+  for (std::size_t c = 0; c < kept_.size(); ++c) {
+    const CableStart& start = kept_[c].start;
+    const CompiledCable& own = system_->cables()[c];
+    const auto put_link = [&](int link, const LinkControl& control) {
+      if (control.is_set()) {
+        controls.links.put(own.first_link + link, at(system_->link_count()), control);
+      }
+    };
+    CableControl whole;
+    if (start.running != nullptr) {
+      whole = start.running->control;
+      int listed = 0;
+      for (const RunningLink& link : start.running->links) {
+        if (link.is_listed()) put_link(listed++, link.control);
+      }
+    } else if (start.same_as >= 0) {
+      if (const CableControl* set = then_.controls.cables.find(start.same_as)) whole = *set;
+      const int first = draft_.before.system()->cables()[at(start.same_as)].first_link;
+      for (int i = 0; i < own.listed_links; ++i) {
+        if (const LinkControl* set = then_.controls.links.find(first + i)) put_link(i, *set);
+      }
+    }
+    if (whole.is_set()) controls.cables.put(static_cast<int>(c), kept_.size(), whole);
+  }
+}
+
+void EditMaker::map_joint_controls(Controls& controls, std::span<const JointPlace> places) const {
+  if (!then_.controls.joint_drives.any()) return;
+  std::map<const JointDef*, int> first;
+  for (std::size_t j = 0; j < old_.model().joints.size(); ++j) {
+    first[old_.model().joints[j].get()] = draft_.before.joint_places[j].first_coordinate;
+  }
+  std::size_t count = 0;
+  for (const auto& joint : draft_.model.joints) count += joint->coordinates().size();
+  for (std::size_t j = 0; j < draft_.model.joints.size(); ++j) {
+    const JointDef& joint = *draft_.model.joints[j];
+    const auto found = first.find(&joint);
+    if (found == first.end()) continue;
+    for (int k = 0; k < static_cast<int>(joint.coordinates().size()); ++k) {
+      const DriveControl* set = then_.controls.joint_drives.find(found->second + k);
+      if (set != nullptr) controls.joint_drives.put(places[j].first_coordinate + k, count, *set);
+    }
+  }
+}
+
+Controls EditMaker::controls() const {
+  Controls controls;
+  controls.has_gravity = then_.controls.has_gravity;
+  controls.gravity = then_.controls.gravity;
+  const std::size_t count = at(bodies_->count());
+  for (int i = 0; i < bodies_->count(); ++i) {
+    if (draft_.is_new[at(i)] != 0) continue;
+    if (const auto* set = then_.controls.body_drives.find(i)) {
+      controls.body_drives.put(i, count, *set);
+    }
+    if (const auto* set = then_.controls.forces.find(i)) controls.forces.put(i, count, *set);
+    if (const auto* set = then_.controls.motions.find(i)) controls.motions.put(i, count, *set);
+  }
+  if (system_ != nullptr) map_cable_controls(controls);
+  return controls;
+}
+
+std::vector<CableRecord> EditMaker::records() const {
+  const auto& slots = draft_.cables.slots();
+  std::vector<CableRecord> records(slots.size());
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    if (slots[i].generation == 0) continue;
+    const auto own = draft_.own_cables.find(static_cast<int>(i));
+    if (own == draft_.own_cables.end()) {
+      records[i] = draft_.before.records[i];
+      records[i].place = -1;
+      continue;
+    }
+    records[i].definition = own->second.definition;
+    records[i].loose = own->second.loose;
+    if (own->second.definition.links.size() < 2) records[i].running = own->second.running;
+  }
+  for (std::size_t c = 0; c < kept_.size(); ++c) {
+    records[at(kept_[c].slot)].place = static_cast<int>(c);
+  }
+  return records;
+}
+
+Result<std::shared_ptr<LiveRevision>> EditMaker::make() {
+  list_cables();
+  list_joints();
+  check_references();
+  if (!draft_.errors.empty()) return draft_.errors;
+  if (draft_.has_other_bodies) {
+    place_rotors();
+    Result<BodySet> bodies = BodySet::create(draft_.model);
+    if (!bodies) return bodies.errors();
+    bodies_ = std::make_shared<const BodySet>(std::move(*bodies));
+  } else {
+    bodies_ = old_.shared_bodies();
+  }
+  move_bodies();
+  for (const DraftJoint& joint : draft_.own_joints) {
+    if (joint.added != nullptr) joint.added->defined_in = frames_;
+  }
+  std::vector<std::unique_ptr<ConstraintBatch>> features;
+  if (!definitions_.empty()) {
+    std::unique_ptr<CableSystem> made = make_cables();
+    system_ = made.get();
+    if (made != nullptr) features.push_back(std::move(made));
+  }
+  if (draft_.errors.empty() && system_ != nullptr) check_cables();
+  Result<World> world = World::create(draft_.model, bodies_, std::move(features));
+  if (!world) {
+    for (const Error& error : world.errors()) draft_.errors.push_back(error);
+  }
+  if (!draft_.errors.empty()) return draft_.errors;
+  now_.features = world->state().features;
+  for (std::size_t f = 0; f < world->features().size(); ++f) {
+    const ConstraintBatch& feature = *world->features()[f];
+    if (&feature == system_) continue;
+    for (std::size_t k = 0; k < old_.features().size(); ++k) {
+      if (old_.features()[k]->name() != feature.name()) continue;
+      feature.adopt(*old_.features()[k], then_.features[k], now_.features[f]);
+    }
+  }
+  now_.controls = controls();
+  world->memory().assign(now_.memory.size(), 0.0);
+  map_joint_controls(now_.controls, number_joints(world->model(), world->features()));
+  Errors errors = world->restore(now_);
+  if (!errors.empty()) return errors;
+  Simulation simulation(std::move(*world), system_,
+                        std::make_shared<const std::vector<CableDef>>(definitions_));
+  if (const auto& supervisor = draft_.before.simulation.supervisor) {
+    auto again = supervisor->again(simulation);
+    if (!again) return again.errors();
+    simulation.supervisor = std::move(*again);
+  }
+  return std::make_shared<LiveRevision>(std::move(simulation), draft_.bodies, joints_,
+                                        draft_.cables, records());
+}
+
+/// Length of what a handle stands for [m].
+double length_of(const LiveRevision& revision, std::size_t slot) {
+  const CableRecord& record = revision.records[slot];
+  double length = record.loose[0].value_or(0.0) + record.loose[1].value_or(0.0);
+  if (record.place < 0) return length + record.running.length();
+  const State& state = revision.world().state();
+  return length +
+         CableTransfer(*revision.system())
+             .running_cable(record.place, record.definition, state.features.back(), state.controls)
+             .length();
+}
+
+double length_of(const LiveRevision& revision, CableHandle handle) {
+  return revision.cables.has(handle) ? length_of(revision, at(handle.slot)) : 0.0;
+}
+
+}  // namespace
+
+Result<double> LiveWorld::length(CableHandle cable) const {
+  std::string fault = fault_of(cable);
+  if (!fault.empty()) return Error{"", std::move(fault)};
+  return length_of(*revision_, cable);
+}
+
+Result<EditReport> LiveWorld::edit(const std::function<void(Edit&)>& changes) {
+  EditDraft draft(*revision_, next_generation_);
+  Edit edit(draft);
+  changes(edit);
+  if (!draft.errors.empty()) return draft.errors;
+  Result<std::shared_ptr<LiveRevision>> made = EditMaker(draft, state()).make();
+  if (!made) return made.errors();
+  EditReport report;
+  const Energy before = energy();
+  std::set<std::pair<std::int32_t, std::uint32_t>> changed;
+  for (const LiveRevision* revision : {revision_.get(), made->get()}) {
+    const auto& slots = revision->cables.slots();
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      const bool same = draft.own_cables.count(static_cast<int>(i)) == 0 &&
+                        made->get()->cables.has(revision->cables.handle(i));
+      if (slots[i].generation == 0 || same) continue;
+      changed.emplace(static_cast<std::int32_t>(i), slots[i].generation);
+    }
+  }
+  for (const auto& [slot, generation] : changed) {
+    const CableHandle handle{slot, generation};
+    const double added = length_of(**made, handle) - length_of(*revision_, handle);
+    if (added != 0.0) report.cables.push_back({handle, added});
+  }
+  revision_ = std::move(*made);
+  const Energy after = energy();
+  report.energy = {after.kinetic - before.kinetic, after.potential - before.potential,
+                   after.elastic - before.elastic};
+  return report;
+}
+
+LiveSnapshot LiveWorld::snapshot() const { return {state(), revision_, identity_}; }
+
+Errors LiveWorld::restore(const LiveSnapshot& snapshot) {
+  if (snapshot.identity_ != identity_) {
+    return {{"", "the snapshot is one of another world"}};
+  }
+  revision_ = snapshot.revision_;
+  return restore(snapshot.state_);
+}
+
+}  // namespace sheave

@@ -1,0 +1,208 @@
+// Any edits in any order: length is kept to the last bit, what is refused changes nothing, and the machine goes on.
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "cable/edit.h"
+#include "cable/links/pinhole.h"
+#include "cable/live_world.h"
+#include "tests/support/builders.h"
+
+namespace sheave {
+namespace {
+
+/// Lengths as whole numbers of 2^-55 m: sums of these are exact.
+std::int64_t units(double length) {
+  const double scaled = std::ldexp(length, 55);
+  EXPECT_EQ(std::round(scaled), scaled) << "finer than any quantum here";
+  return static_cast<std::int64_t>(scaled);
+}
+
+class Editor {
+ public:
+  explicit Editor(std::uint64_t seed) : random_(seed), world_(start()) {}
+
+  /// Does or is refused one edit; then lengths must add up.
+  void edit() {
+    const std::int64_t before = total();
+    const std::uint64_t state = hash(world_.state());
+    std::int64_t told = 0;
+    const Result<EditReport> done = world_.edit([&](Edit& e) { change(e); });
+    ++edits_;
+    if (done) {
+      ++done_;
+      for (const EditReport::Cable& cable : done->cables) told += units(cable.added);
+    } else {
+      ASSERT_EQ(hash(world_.state()), state) << done.errors()[0].message;
+    }
+    ASSERT_EQ(total(), before + told);
+  }
+  void step() {
+    const std::int64_t before = total();
+    for (int i = 0; i < 3; ++i) ASSERT_TRUE(world_.step().ok());
+    ASSERT_EQ(total(), before);
+    const std::optional<Certificate> certificate = world_.simulation().certificate();
+    ASSERT_TRUE(certificate.has_value());
+    if (!certificate->clean()) {
+      ++doubtful_;
+      last_doubt_ = certificate->worst()->sentence();
+    }
+  }
+  [[nodiscard]] int done() const { return done_; }
+  [[nodiscard]] int doubtful() const { return doubtful_; }
+  [[nodiscard]] const std::string& last_doubt() const { return last_doubt_; }
+
+ private:
+  static LiveWorld start() {
+    test::Machine machine;
+    machine.model.gravity = test::down;
+    machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
+    machine.model.bodies = {test::wheel("left", {-1.0, 0.0, 0.0}, 0.2, 0.02),
+                            test::wheel("right", {1.0, 0.3, 0.0}, 0.3, 0.03),
+                            test::lump("a", {-1.5, -2.0, 0.0}, 1.0),
+                            test::lump("b", {1.6, -2.0, 0.0}, 2.0)};
+    for (int i = 2; i < 4; ++i) machine.model.bodies[at(i)].damping = 3.0;
+    CableDef rope = test::cable(
+        "rope",
+        {test::attach(BodyId{2}), test::roll(BodyId{0}, test::right), test::attach(BodyId{3})});
+    rope.rest_lengths = {2.5, 4.5};
+    machine.cables = {rope};
+    Result<LiveWorld> world = LiveWorld::create(machine.model, machine.cables);
+    EXPECT_TRUE(world.ok());
+    return std::move(*world);
+  }
+  int pick(int count) { return std::uniform_int_distribution<int>(0, count - 1)(random_); }
+  double between(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random_);
+  }
+  Vector3 somewhere() { return {between(-2.0, 2.0), between(-2.0, 1.0), between(-0.5, 0.5)}; }
+  CableHandle some_cable() {
+    const std::vector<CableHandle> all = world_.cables();
+    return all.empty() ? CableHandle{} : all[at(pick(static_cast<int>(all.size())))];
+  }
+  BodyId some_body() {
+    const std::vector<BodyHandle> all = world_.bodies();
+    const int which = pick(static_cast<int>(all.size()) + 2);
+    return which < static_cast<int>(all.size()) ? Edit::id(all[at(which)]) : BodyId::world();
+  }
+  CableEnd some_end() { return pick(2) == 0 ? CableEnd::first : CableEnd::last; }
+  std::string new_name() { return "thing " + std::to_string(++names_); }
+  Vector3 place_on(BodyId body) {
+    if (body.is_world()) return somewhere();
+    return {between(-0.1, 0.1), between(-0.1, 0.1), between(-0.1, 0.1)};
+  }
+
+  void change(Edit& e) {
+    const int several = pick(4) == 0 ? 1 + pick(3) : 1;
+    for (int i = 0; i < several; ++i) one_change(e);
+  }
+  void one_change(Edit& e) {
+    const CableHandle cable = some_cable();
+    switch (pick(18)) {
+      case 0:
+      case 1:
+        if (world_.cables().size() < 8) e.split(cable, pick(3), between(0.0, 1.0), new_name());
+        return;
+      case 2:
+      case 3:
+        return e.join(cable, some_cable());
+      case 4:
+        return e.detach(cable, some_end());
+      case 5:
+      case 6:
+      case 7: {
+        const BodyId body = some_body();
+        return e.attach(cable, some_end(), body, place_on(body));
+      }
+      case 8:
+        return e.pay_out(cable, pick(3), between(-0.2, 0.4));
+      case 9:
+        return insert(e, cable);
+      case 10:
+        return e.remove_link(cable, 1 + pick(2));
+      case 11:
+      case 12: {  // an end goes elsewhere
+        const CableEnd end = some_end();
+        const BodyId body = some_body();
+        e.detach(cable, end);
+        return e.attach(cable, end, body, place_on(body));
+      }
+      case 13:
+      case 14:  // led over something, with enough for the way
+        e.pay_out(cable, 0, between(1.0, 3.0));
+        return insert(e, cable);
+      case 15: {  // cut out of the middle, and spliced
+        const CableHandle rest = e.split(cable, pick(2), between(0.0, 1.0), new_name());
+        return e.join(cable, rest);
+      }
+      case 16:  // hauled in
+        return e.pay_out(cable, pick(2), -between(0.0, 2.0));
+      default:
+        return come_or_go(e, cable);
+    }
+  }
+  void insert(Edit& e, CableHandle cable) {
+    if (pick(2) == 0) {
+      const int wheel = pick(2);
+      return e.insert(cable, pick(2),
+                      test::roll(BodyId{wheel}, pick(2) == 0 ? test::left : test::right));
+    }
+    auto eyelet = std::make_shared<PinholeLink>();
+    eyelet->body = some_body();
+    eyelet->point = place_on(eyelet->body);
+    e.insert(cable, pick(2), eyelet);
+  }
+  void come_or_go(Edit& e, CableHandle cable) {
+    const int which = pick(5);
+    if (which == 0 && world_.cables().size() > 4) return e.remove(cable);
+    if (which == 1 && world_.cables().size() < 8) {
+      CableDef rope = test::cable(
+          new_name(), {test::attach(BodyId::world(), somewhere()), test::attach(some_body())});
+      rope.rest_lengths = {between(4.0, 6.0)};
+      e.add(rope);
+    }
+    if (which == 2 && world_.bodies().size() < 8) {
+      BodyDef body = test::lump(new_name(), somewhere(), 0.5);
+      body.damping = 3.0;
+      e.add(body);
+    }
+    if (which == 3 && world_.bodies().size() > 4) {
+      const std::vector<BodyHandle> all = world_.bodies();
+      e.remove(all[at(pick(static_cast<int>(all.size())))]);
+    }
+  }
+  [[nodiscard]] std::int64_t total() const {
+    std::int64_t sum = 0;
+    for (const CableHandle cable : world_.cables()) sum += units(*world_.length(cable));
+    return sum;
+  }
+
+  std::mt19937_64 random_;
+  LiveWorld world_;
+  int names_ = 0;
+  int edits_ = 0;
+  int done_ = 0;
+  int doubtful_ = 0;
+  std::string last_doubt_;
+};
+
+class EditProperty : public testing::TestWithParam<int> {};
+
+TEST_P(EditProperty, LengthIsKeptToTheLastBit) {
+  Editor editor(static_cast<std::uint64_t>(GetParam()));
+  for (int i = 0; i < 10000; ++i) {
+    editor.edit();
+    if (i % 10 == 9) editor.step();
+    if (HasFatalFailure()) FAIL() << "at edit " << i;
+  }
+  EXPECT_GT(editor.done(), 1500);
+  EXPECT_EQ(editor.doubtful(), 0) << editor.last_doubt();
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, EditProperty, testing::Range(1, 11));
+
+}  // namespace
+}  // namespace sheave
