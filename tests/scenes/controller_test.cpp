@@ -267,7 +267,8 @@ TEST(Triggers, LockAJointAgain) {
 // A brake is a drive to the speed 0 whose limit is set: 0 where it is open.
 TEST(Triggers, ApplyABrake) {
   // J = 2 kg m2 at 3 rad/s against 4 N m for a second: 2 rad/s less.
-  Simulation simulation = start(R"({"format": "sheave-scene/1", "duration": 3,
+  Simulation simulation =
+      start(R"({"format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 3,
     "step": {"dt": 0.01, "substeps": 1, "solver": "direct", "integrator": "rattle"},
     "bodies": [{"name": "drum", "mass": 1, "inertia": [2, 2, 2], "angular_velocity": [0, 0, 3]}],
     "joints": [{"type": "hinge", "name": "brake", "body_b": "drum", "anchor": [0, 0, 0],
