@@ -73,6 +73,7 @@ template <class Type>
 [[nodiscard]] TypeEntry<Request> set_request();
 [[nodiscard]] TypeEntry<Request> clear_request();
 [[nodiscard]] TypeEntry<Request> place_request();
+[[nodiscard]] TypeEntry<Request> edit_request();
 [[nodiscard]] TypeEntry<Request> observe_request();
 [[nodiscard]] TypeEntry<Request> subscribe_request();
 [[nodiscard]] TypeEntry<Request> unsubscribe_request();
