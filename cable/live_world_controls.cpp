@@ -13,7 +13,7 @@ Errors as_errors(std::string fault) { return {{"", std::move(fault)}}; }
 Errors LiveWorld::set_together(const std::function<Errors()>& set) {
   Controls before = state().controls;
   Errors errors = set();
-  if (!errors.empty()) simulation_->world.controls_of_features() = std::move(before);
+  if (!errors.empty()) running().world.controls_of_features() = std::move(before);
   return errors;
 }
 
@@ -94,12 +94,13 @@ Errors LiveWorld::clear_drive(JointHandle joint, int coordinate) {
 
 Errors LiveWorld::release_joint(JointHandle joint) {
   std::string fault = fault_of(joint);
-  return fault.empty() ? simulation_->world.release_joint(joint.slot) : as_errors(std::move(fault));
+  return fault.empty() ? running().world.release_joint(index_of(joint))
+                       : as_errors(std::move(fault));
 }
 
 Errors LiveWorld::lock_joint(JointHandle joint) {
   std::string fault = fault_of(joint);
-  return fault.empty() ? simulation_->world.lock_joint(joint.slot) : as_errors(std::move(fault));
+  return fault.empty() ? running().world.lock_joint(index_of(joint)) : as_errors(std::move(fault));
 }
 
 Errors LiveWorld::set_compliance(CableHandle cable, double compliance) {
