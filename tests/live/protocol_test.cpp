@@ -7,6 +7,7 @@
 
 #include <gmock/gmock.h>
 
+#include "live/change.h"
 #include "live/control.h"
 #include "live/request.h"
 #include "tests/live/live_scenes.h"
@@ -33,6 +34,7 @@ TEST(LiveSchema, KnowsEveryRequestAndControl) {
   expect_types(schema["oneOf"], live::request_types());
   expect_types(schema["definitions"]["control"]["oneOf"], live::set_types());
   expect_types(schema["definitions"]["cleared control"]["oneOf"], live::clear_types());
+  expect_types(schema["definitions"]["change"]["oneOf"], live::change_types());
   for (const json& request : schema["oneOf"]) {
     EXPECT_TRUE(request["properties"].contains("id"));
     const bool changes = request["properties"]["type"]["const"] == "set" ||

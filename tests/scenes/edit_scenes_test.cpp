@@ -16,7 +16,7 @@ namespace {
 std::optional<LiveWorld> running(const std::filesystem::path& file, int steps) {
   const SceneResult scene = load_scene(file.string());
   EXPECT_TRUE(scene) << to_string(scene.errors.front());
-  if (!scene || scene->model.bodies.size() > 400) return std::nullopt;
+  if (!scene || scene->model.bodies.size() > 5000) return std::nullopt;
   Result<Simulation> simulation = create_simulation(*scene);
   EXPECT_TRUE(simulation.ok());
   if (!simulation) return std::nullopt;
