@@ -29,6 +29,9 @@ EditDraft::EditDraft(LiveRevision& from, std::uint32_t& generation)
   }
 }
 
+const Errors& Edit::errors() const { return draft_.errors; }
+void Edit::fail(std::string message) { draft_.fail(std::move(message)); }
+
 BodyHandle Edit::add(BodyDef body) {
   const BodyHandle handle = draft_.bodies.add(-1, draft_.next_generation++);
   const std::size_t slot = at(handle.slot);

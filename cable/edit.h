@@ -94,6 +94,11 @@ class Edit {
   /// Takes a listed link that is not at an end off a cable; what lies on it comes to the span.
   void remove_link(CableHandle cable, int link);
 
+  /// What cannot be so far; with any of them nothing will be done.
+  [[nodiscard]] const Errors& errors() const;
+  /// Lets the edit fail.
+  void fail(std::string message);
+
  private:
   EditDraft& draft_;
 };

@@ -135,6 +135,11 @@ Result<CableHandle> LiveWorld::cable(std::string_view name) const {
   });
 }
 
+const JointDef* LiveWorld::definition(JointHandle joint) const {
+  if (!revision_->joints.has(joint)) return nullptr;
+  return simulation().world.model().joints[at(index_of(joint))].get();
+}
+
 Result<std::string> LiveWorld::name(BodyHandle body) const {
   std::string fault = fault_of(body);
   if (!fault.empty()) return because(std::move(fault));
@@ -169,6 +174,10 @@ std::string LiveWorld::fault_of(CableHandle cable) const {
 int LiveWorld::index_of(JointHandle joint) const { return revision_->joints.index(joint); }
 int LiveWorld::index_of(CableHandle cable) const {
   return revision_->records[at(cable.slot)].place;
+}
+
+bool LiveWorld::pulls(CableHandle cable) const {
+  return revision_->cables.has(cable) && index_of(cable) >= 0;
 }
 
 std::string LiveWorld::pull_fault(CableHandle cable) const {

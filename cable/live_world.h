@@ -95,6 +95,8 @@ class LiveWorld {
   [[nodiscard]] JointHandle joint_at(int index) const;
   [[nodiscard]] CableHandle cable_at(int index) const;
 
+  /// What it is defined by; null if the handle refers to nothing.
+  [[nodiscard]] const JointDef* definition(JointHandle joint) const;
   // All there are, in the order of their handles.
   [[nodiscard]] std::vector<BodyHandle> bodies() const;
   [[nodiscard]] std::vector<JointHandle> joints() const;
@@ -117,6 +119,8 @@ class LiveWorld {
   /// Unstretched length of a span, and of what lies on a listed link [m].
   [[nodiscard]] Result<double> rest_length(CableHandle cable, int span) const;
   [[nodiscard]] Result<double> stored_length(CableHandle cable, int link) const;
+  /// Whether something of the cable is between two holds; otherwise it lies or hangs loose. False if the handle refers to nothing.
+  [[nodiscard]] bool pulls(CableHandle cable) const;
   /// All of it, loose ends too [m]; of one without a loose end this is what its report calls total length. Allocates.
   [[nodiscard]] Result<double> length(CableHandle cable) const;
   /// Length beyond the link that holds a loose end [m]; nothing if the end is not loose.

@@ -33,44 +33,40 @@ Error no_such(const std::string& what, const std::string& name,
                                names.size() > enough ? ", ..." : "")};
 }
 
-void Names::Index::add(std::string_view name) {
-  places.emplace(name, static_cast<int>(names.size()));
-  names.push_back(name);
+template <class Handle>
+Result<Handle> Names::Index<Handle>::find(const char* what, const std::string& name,
+                                          const std::string& pointer) const {
+  const auto found = handles.find(name);
+  if (found != handles.end()) return found->second;
+  return no_such(what, name, {names.begin(), names.end()}, pointer);
 }
 
-int Names::Index::find(std::string_view name) const {
-  const auto found = places.find(name);
-  return found == places.end() ? -1 : found->second;
-}
+Names::Names(const LiveWorld& world) : world_(world) { refresh(); }
 
-Names::Names(const LiveWorld& world) : world_(world) {
-  const Model& model = world.simulation().world.model();
-  for (const BodyDef& body : model.bodies) bodies_.add(body.name);
-  for (const auto& joint : model.joints) joints_.add(joint->name);
-  for (const CableDef& cable : *world.simulation().cable_definitions) cables_.add(cable.name);
+void Names::refresh() {
+  bodies_ = {};
+  joints_ = {};
+  cables_ = {};
+  for (const BodyHandle body : world_.bodies()) bodies_.add(*world_.name(body), body);
+  for (const JointHandle joint : world_.joints()) joints_.add(*world_.name(joint), joint);
+  for (const CableHandle cable : world_.cables()) cables_.add(*world_.name(cable), cable);
 }
 
 Result<BodyHandle> Names::body(const std::string& name, const std::string& pointer) const {
-  const int place = bodies_.find(name);
-  if (place >= 0) return world_.body_at(place);
-  return no_such("body", name, bodies_.names, pointer);
+  return bodies_.find("body", name, pointer);
 }
 
 Result<JointHandle> Names::joint(const std::string& name, const std::string& pointer) const {
-  const int place = joints_.find(name);
-  if (place >= 0) return world_.joint_at(place);
-  return no_such("joint", name, joints_.names, pointer);
+  return joints_.find("joint", name, pointer);
 }
 
 Result<CableHandle> Names::cable(const std::string& name, const std::string& pointer) const {
-  const int place = cables_.find(name);
-  if (place >= 0) return world_.cable_at(place);
-  return no_such("cable", name, cables_.names, pointer);
+  return cables_.find("cable", name, pointer);
 }
 
 Result<int> Names::coordinate(JointHandle joint, const std::string& name) const {
   if (name.empty()) return 0;
-  const auto coordinates = world_.simulation().world.model().joints[at(joint.slot)]->coordinates();
+  const auto coordinates = world_.definition(joint)->coordinates();
   std::vector<std::string_view> names;
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     if (coordinates[i].name == name) return static_cast<int>(i);

@@ -15,6 +15,8 @@ class Names {
  public:
   /// `world` must outlive this.
   explicit Names(const LiveWorld& world);
+  /// Those of the world as it is now.
+  void refresh();
   Names(const Names&) = delete;
   Names& operator=(const Names&) = delete;
 
@@ -28,19 +30,23 @@ class Names {
   [[nodiscard]] Result<int> coordinate(JointHandle joint, const std::string& name) const;
 
  private:
-  /// The names of one kind, in their order, and their places.
+  /// The names of one kind, in their order, and what they are of.
+  template <class Handle>
   struct Index {
-    std::vector<std::string_view> names;
-    std::unordered_map<std::string_view, int> places;
-    void add(std::string_view name);
-    /// The place of a name, or -1.
-    [[nodiscard]] int find(std::string_view name) const;
+    std::vector<std::string> names;
+    std::unordered_map<std::string, Handle> handles;
+    void add(std::string name, Handle handle) {
+      handles.emplace(name, handle);
+      names.push_back(std::move(name));
+    }
+    [[nodiscard]] Result<Handle> find(const char* what, const std::string& name,
+                                      const std::string& pointer) const;
   };
 
   const LiveWorld& world_;
-  Index bodies_;
-  Index joints_;
-  Index cables_;
+  Index<BodyHandle> bodies_;
+  Index<JointHandle> joints_;
+  Index<CableHandle> cables_;
 };
 
 /// What is wrong with a name that none of `names` is: there is no body "drun", did you mean "drum"?

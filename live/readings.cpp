@@ -73,28 +73,47 @@ Result<Readings> Readings::create(const QuantityIndex& index, const Names& names
     if (body) readings.handles_.push_back(*body);
     if (!body) errors.push_back(body.errors().front());
   }
+  readings.quantities_ = quantities;
   readings.bodies_ = poses;
   if (!errors.empty()) return errors;
   return readings;
 }
 
+void Readings::find_again(const QuantityIndex& index, const Names& names) {
+  for (std::size_t i = 0; i < indices_.size(); ++i) {
+    const Result<int> found = index.find(quantities_[i]);
+    indices_[i] = found ? *found : -1;
+  }
+  for (std::size_t i = 0; i < handles_.size(); ++i) {
+    const Result<BodyHandle> found = names.body(bodies_[i]);
+    handles_[i] = found ? *found : BodyHandle{};
+  }
+}
+
 void Readings::read(const QuantityIndex& index, const LiveWorld& world, Json& answer) const {
   if (!indices_.empty()) {
-    std::vector<double> values(indices_.size());
-    index.set().sample(world.simulation(), indices_, values);
+    std::vector<int> known;
+    for (const int quantity : indices_) {
+      if (quantity >= 0) known.push_back(quantity);
+    }
+    std::vector<double> values(known.size());
+    index.set().sample(world.simulation(), known, values);
     const bool at_start = world.state().steps == 0;
     Json object = Json::object();
+    std::size_t next = 0;
     for (std::size_t i = 0; i < indices_.size(); ++i) {
-      const bool known =
-          std::isfinite(values[i]) && (!at_start || index.set().known_at_start(indices_[i]));
-      append(object, index.set().names()[at(indices_[i])], known ? Json(values[i]) : Json());
+      const double value = indices_[i] >= 0 ? values[next++] : std::nan("");
+      const bool told =
+          std::isfinite(value) && (!at_start || index.set().known_at_start(indices_[i]));
+      append(object, quantities_[i], told ? Json(value) : Json());
     }
     answer["values"] = std::move(object);
   }
   if (!handles_.empty()) {
     Json object = Json::object();
     for (std::size_t i = 0; i < handles_.size(); ++i) {
-      append(object, bodies_[i], pose_json(*world.pose(handles_[i])));
+      const Result<BodyPose> pose = world.pose(handles_[i]);
+      append(object, bodies_[i], pose ? pose_json(*pose) : Json());
     }
     answer["poses"] = std::move(object);
   }

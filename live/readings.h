@@ -36,11 +36,14 @@ class Readings {
                                  const std::vector<std::string>& quantities,
                                  const std::vector<std::string>& poses);
   [[nodiscard]] bool empty() const { return indices_.empty() && bodies_.empty(); }
+  /// The same of a world that has been edited: what is no more is null from now on.
+  void find_again(const QuantityIndex& index, const Names& names);
   /// Appends "values" and "poses", as far as there are any. What is not known, as forces before the first step, is null.
   void read(const QuantityIndex& index, const LiveWorld& world, Json& answer) const;
 
  private:
-  std::vector<int> indices_;
+  std::vector<std::string> quantities_;
+  std::vector<int> indices_;  // -1: is no more
   std::vector<std::string> bodies_;
   std::vector<BodyHandle> handles_;
 };

@@ -88,7 +88,7 @@ std::string logged_text(const Document& document, std::string_view line, std::in
 Session::Session(const Scene& scene, Simulation simulation, Hooks hooks, const Limits& limits)
     : state_(
           std::make_unique<SessionState>(scene, std::move(simulation), std::move(hooks), limits)) {
-  state_->snapshots.emplace("start", state_->world.state());
+  state_->snapshots.emplace("start", state_->world.snapshot());
   state_->logged_to = state_->world.state().steps;
 }
 

@@ -40,6 +40,14 @@ const QuantityIndex& SessionState::quantities() {
   return *quantities_;
 }
 
+void SessionState::refresh() {
+  names.refresh();
+  quantities_.reset();
+  for (auto& [name, subscription] : subscriptions) {
+    if (!subscription.readings.empty()) subscription.readings.find_again(quantities(), names);
+  }
+}
+
 std::optional<std::string> SessionState::stopped_by() const {
   const Supervisor* own = world.simulation().supervisor.get();
   if (own == nullptr || !own->has_stopped(world.state())) return {};
@@ -118,7 +126,7 @@ void SessionState::tell_events(const std::string& name, const LiveReport& report
   for (const JointHandle joint : report.broken_joints) {
     Json line = event("joint");
     line["subscription"] = name;
-    line["joint"] = world.simulation().world.model().joints[at(joint.slot)]->name;
+    line["joint"] = *world.name(joint);
     line["kind"] = "break";
     send(line, false);
   }

@@ -51,6 +51,8 @@ struct SessionState {
   /// Those of the world, named when they are first asked for: that takes time and memory.
   [[nodiscard]] const QuantityIndex& quantities();
 
+  /// To be called when the world has been edited.
+  void refresh();
   /// Steps once, and tells subscribers. `reason` is why it ended, if it did.
   [[nodiscard]] Ending step(std::string& reason);
   /// The name of the trigger that has stopped the run, if one has.
@@ -67,10 +69,10 @@ struct SessionState {
   };
   About about;
   LiveWorld world;
-  const Names names;
+  Names names;
   const Hooks hooks;
   const Limits limits;
-  std::map<std::string, State> snapshots;
+  std::map<std::string, LiveSnapshot> snapshots;
   std::map<std::string, Subscription> subscriptions;
   bool running = false;        ///< steps by itself
   std::optional<double> pace;  ///< of a run, the world's seconds per second; none: the program's

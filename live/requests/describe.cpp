@@ -33,9 +33,10 @@ std::string name_of(const Model& model, BodyId body) {
   return body.is_world() ? "world" : model.bodies[at(body.index)].name;
 }
 
-Json bodies_json(const Model& model) {
+Json bodies_json(const LiveWorld& world) {
   Json list = Json::array();
-  for (const BodyDef& body : model.bodies) {
+  for (const BodyHandle handle : world.bodies()) {
+    const BodyDef& body = world.simulation().world.model().bodies[at(handle.slot)];
     Json& told = list.emplace_back(Json{{"name", body.name}});
     told["mobility"] = mobility_names[static_cast<std::size_t>(body.mobility)];
     if (body.drive != DriveKind::none) {
@@ -71,6 +72,16 @@ Json cables_json(const Model& model, const std::vector<CableDef>& cables) {
   return list;
 }
 
+/// Cables of which nothing pulls, with their lengths.
+Json loose_json(const LiveWorld& world) {
+  Json list = Json::array();
+  for (const CableHandle cable : world.cables()) {
+    if (world.pulls(cable)) continue;
+    list.push_back({{"name", *world.name(cable)}, {"length", *world.length(cable)}});
+  }
+  return list;
+}
+
 /// Finds out what can be set by setting it.
 class Settable {
  public:
@@ -95,10 +106,8 @@ class Settable {
     if (errors.empty()) list_.push_back(std::move(control));
   }
   void bodies() {
-    const std::vector<BodyDef>& all = world_.simulation().world.model().bodies;
-    for (int i = 0; i < static_cast<int>(all.size()); ++i) {
-      const BodyDef& body = all[at(i)];
-      const BodyHandle handle = world_.body_at(i);
+    for (const BodyHandle handle : world_.bodies()) {
+      const BodyDef& body = world_.simulation().world.model().bodies[at(handle.slot)];
       const auto told = [&](const char* type) { return Json{{"type", type}, {"body", body.name}}; };
       const DriveTarget soon(0.0, 1.0);
       note(world_.set_speed(handle, soon), told("speed"));
@@ -155,9 +164,10 @@ class Settable {
 
 Errors Describe::run(SessionState& session, Json& answer) const {
   const Model& model = session.world.simulation().world.model();
-  answer["bodies"] = bodies_json(model);
+  answer["bodies"] = bodies_json(session.world);
   answer["joints"] = joints_json(model);
   answer["cables"] = cables_json(model, *session.world.simulation().cable_definitions);
+  answer["loose_cables"] = loose_json(session.world);
   answer["controllers"] = session.about.controllers;
   answer["triggers"] = session.about.triggers;
   answer["controls"] = Settable(session.world).list();

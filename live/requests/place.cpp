@@ -50,9 +50,8 @@ class Place final : public Request {
     }
     answer["energy"] = placed->energy;
     Json cables = Json::array();
-    const auto& definitions = *session.world.simulation().cable_definitions;
     for (const Placement::Cable& cable : placed->cables) {
-      cables.push_back({{"cable", definitions[at(cable.cable.slot)].name}, {"added", cable.added}});
+      cables.push_back({{"cable", *session.world.name(cable.cable)}, {"added", cable.added}});
     }
     answer["cables"] = std::move(cables);
     return {};

@@ -63,14 +63,14 @@ class Snapshot final : public Request {
     }
     std::size_t bytes = bytes_of(session.world.state());
     for (const auto& [known, state] : session.snapshots) {
-      if (known != name) bytes += bytes_of(state);
+      if (known != name) bytes += bytes_of(state.state());
     }
     if (bytes > session.limits.snapshot_bytes) {
       errors.push_back({"", fmt::format("all snapshots would have {} bytes; at most {} are "
                                         "allowed; forget one",
                                         bytes, session.limits.snapshot_bytes)});
     }
-    if (errors.empty()) session.snapshots[name] = session.world.state();
+    if (errors.empty()) session.snapshots.insert_or_assign(name, session.world.snapshot());
     return errors;
   }
 };
@@ -94,7 +94,9 @@ class Restore final : public Request {
   [[nodiscard]] Errors run(SessionState& session, Json& /*answer*/) const override {
     const auto found = session.snapshots.find(name);
     if (found == session.snapshots.end()) return {no_such_snapshot(session, name)};
-    return session.world.restore(found->second);
+    Errors errors = session.world.restore(found->second);
+    if (errors.empty()) session.refresh();
+    return errors;
   }
 };
 

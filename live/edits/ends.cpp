@@ -1,0 +1,145 @@
+// Ends of cables: made loose, tied to something, split and joined.
+
+#include <array>
+
+#include "live/change.h"
+#include "live/session_state.h"
+
+namespace sheave::live {
+namespace {
+
+constexpr std::array<std::string_view, 2> end_names{"first", "last"};
+constexpr std::string_view cable_meaning = "name of the cable";
+
+class Detach final : public EditChange {
+ public:
+  std::string cable;
+  CableEnd end = CableEnd::last;
+
+  static constexpr std::string_view type_name = "detach";
+  static constexpr std::string_view type_meaning =
+      "takes an end off what it is fixed to; by the end of the edit a loose end has run off all "
+      "that "
+      "does not hold it";
+  static std::span<const Field> field_table() {
+    static const std::array table{
+        field<&Detach::cable>("cable", "", {}, required, cable_meaning),
+        choice_field<&Detach::end>("end", end_names, required, "which of its ends"),
+    };
+    return table;
+  }
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
+    const Result<CableHandle> handle = names.cable(cable);
+    if (!handle) return handle.errors();
+    edit.detach(*handle, end);
+    return {};
+  }
+};
+
+class Attach final : public EditChange {
+ public:
+  std::string cable;
+  CableEnd end = CableEnd::last;
+  std::string body;
+  Vector3 point = Vector3::Zero();
+
+  static constexpr std::string_view type_name = "attach";
+  static constexpr std::string_view type_meaning = "fixes a loose end to a point of a body";
+  static std::span<const Field> field_table() {
+    static const std::array table{
+        field<&Attach::cable>("cable", "", {}, required, cable_meaning),
+        choice_field<&Attach::end>("end", end_names, required, "which of its ends"),
+        field<&Attach::body>("body", "", {}, required, "name of the body, or \"world\""),
+        field<&Attach::point>("point", "m", any_number(), optional, "in the body's frame"),
+    };
+    return table;
+  }
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
+    const Result<CableHandle> handle = names.cable(cable);
+    if (!handle) return handle.errors();
+    BodyId id = BodyId::world();
+    if (body != "world") {
+      const Result<BodyHandle> found = names.names.body(body);
+      if (!found) return found.errors();
+      id = Edit::id(*found);
+    }
+    edit.attach(*handle, end, id, point);
+    return {};
+  }
+};
+
+class Split final : public EditChange {
+ public:
+  std::string cable;
+  int span = 0;
+  double share = 0.5;
+  std::string name;
+
+  static constexpr std::string_view type_name = "split";
+  static constexpr std::string_view type_meaning =
+      "makes two of a cable; one that is cut splits where it was cut";
+  static std::span<const Field> field_table() {
+    static const std::array table{
+        field<&Split::cable>("cable", "", {}, required,
+                             "name of the cable; the piece from its first link on keeps it"),
+        field<&Split::span>("span", "", at_least(0.0), required,
+                            "the span it is split in: that behind this link, counted from 0"),
+        field<&Split::share>("share", "", between(0.0, 1.0), optional,
+                             "of that span it is split at; default: 0.5"),
+        field<&Split::name>("name", "", {}, required, "of the other piece"),
+    };
+    return table;
+  }
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
+    const Result<CableHandle> handle = names.cable(cable);
+    if (!handle) return handle.errors();
+    Errors errors = check_name(name);
+    if (!errors.empty()) return errors;
+    names.new_cables[name] = edit.split(*handle, span, share, name);
+    return {};
+  }
+};
+
+class Join final : public EditChange {
+ public:
+  std::string cable;
+  std::string next;
+
+  static constexpr std::string_view type_name = "join";
+  static constexpr std::string_view type_meaning =
+      "joins the loose last end of a cable to the loose first end of another, which is then part "
+      "of "
+      "it";
+  static std::span<const Field> field_table() {
+    static const std::array table{
+        field<&Join::cable>("cable", "", {}, required, cable_meaning),
+        field<&Join::next>("next", "", {}, required, "name of the other cable"),
+    };
+    return table;
+  }
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
+    const Result<CableHandle> first = names.cable(cable);
+    if (!first) return first.errors();
+    const Result<CableHandle> second = names.cable(next, "/next");
+    if (!second) return second.errors();
+    edit.join(*first, *second);
+    return {};
+  }
+};
+
+}  // namespace
+
+TypeEntry<EditChange> detach_change() { return change_entry<Detach>(); }
+TypeEntry<EditChange> attach_change() { return change_entry<Attach>(); }
+TypeEntry<EditChange> split_change() { return change_entry<Split>(); }
+TypeEntry<EditChange> join_change() { return change_entry<Join>(); }
+
+}  // namespace sheave::live

@@ -1,0 +1,69 @@
+// How much cable there is, and what it runs over.
+
+#include <array>
+
+#include "live/change.h"
+
+namespace sheave::live {
+namespace {
+
+class PayOut final : public EditChange {
+ public:
+  std::string cable;
+  int span = 0;
+  double length = 0.0;
+
+  static constexpr std::string_view type_name = "pay_out";
+  static constexpr std::string_view type_meaning = "puts cable into a span, or takes it out";
+  static std::span<const Field> field_table() {
+    static const std::array table{
+        field<&PayOut::cable>("cable", "", {}, required, "name of the cable"),
+        field<&PayOut::span>("span", "", at_least(0.0), required,
+                             "the span: that behind this link, counted from 0"),
+        field<&PayOut::length>("length", "m", any_number(), required,
+                               "how much comes; below 0: goes"),
+    };
+    return table;
+  }
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
+    const Result<CableHandle> handle = names.cable(cable);
+    if (!handle) return handle.errors();
+    edit.pay_out(*handle, span, length);
+    return {};
+  }
+};
+
+class RemoveLink final : public EditChange {
+ public:
+  std::string cable;
+  int link = 0;
+
+  static constexpr std::string_view type_name = "remove_link";
+  static constexpr std::string_view type_meaning =
+      "takes a link between the ends off a cable; what lies on it comes to the span";
+  static std::span<const Field> field_table() {
+    static const std::array table{
+        field<&RemoveLink::cable>("cable", "", {}, required, "name of the cable"),
+        field<&RemoveLink::link>("link", "", at_least(0.0), required,
+                                 "which of its links, counted from 0"),
+    };
+    return table;
+  }
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
+    const Result<CableHandle> handle = names.cable(cable);
+    if (!handle) return handle.errors();
+    edit.remove_link(*handle, link);
+    return {};
+  }
+};
+
+}  // namespace
+
+TypeEntry<EditChange> pay_out_change() { return change_entry<PayOut>(); }
+TypeEntry<EditChange> remove_link_change() { return change_entry<RemoveLink>(); }
+
+}  // namespace sheave::live
