@@ -36,7 +36,6 @@ const std::vector<Bad>& bad_requests() {
       {"{}", "missing-key", "/type", "required key"},
       {R"({"type":3})", "wrong-type", "/type", "must be one of"},
       {R"({"type":"setp"})", "unknown-choice", "/type", "did you mean \"step\"?"},
-      {R"({"type":"edit"})", "unknown-choice", "/type", "unknown type of request"},
       {R"({"type":"step","cuont":3})", "unknown-key", "/cuont", "did you mean \"count\"?"},
       {R"({"type":"step","count":3,"count":4})", "duplicate-key", "/count", "first given"},
       {R"({"type":"step","count":3,"controls":[]})", "unknown-key", "/controls", "unknown key"},
