@@ -90,14 +90,15 @@ void print(const Words& words) {
   std::fputs(text.c_str(), stdout);
 }
 
+Words words_of(std::string_view kind) {
+  if (kind == "command_line") return command_line_words();
+  return kind == "live" ? live_words() : scene_words();
+}
+
 }  // namespace
 }  // namespace sheave::fuzz
 
 int main(int argc, char** argv) {
-  using namespace sheave::fuzz;
-  const std::string_view kind = argc > 1 ? argv[1] : "scene";
-  print(kind == "command_line" ? command_line_words()
-        : kind == "live"       ? live_words()
-                               : scene_words());
+  sheave::fuzz::print(sheave::fuzz::words_of(argc > 1 ? argv[1] : "scene"));
   return 0;
 }

@@ -73,6 +73,8 @@ template <class Type>
 [[nodiscard]] TypeEntry<Request> set_request();
 [[nodiscard]] TypeEntry<Request> clear_request();
 [[nodiscard]] TypeEntry<Request> place_request();
+[[nodiscard]] TypeEntry<Request> release_request();
+[[nodiscard]] TypeEntry<Request> lock_request();
 [[nodiscard]] TypeEntry<Request> edit_request();
 [[nodiscard]] TypeEntry<Request> observe_request();
 [[nodiscard]] TypeEntry<Request> subscribe_request();

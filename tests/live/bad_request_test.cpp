@@ -119,6 +119,8 @@ const std::vector<Bad>& bad_requests() {
       {R"({"type":"place","body":"drum","position":[0,0,1]})", "meaning", "", "rotor"},
       {R"({"type":"place","body":"load","position":[0,0,0],"keep":"slack"})", "unknown-choice",
        "/keep", "tension"},
+      {R"({"type":"release","joint":"hnige"})", "meaning", "/joint", "did you mean \"hinge\"?"},
+      {R"({"type":"lock"})", "missing-key", "/joint", "required"},
       {R"({"type":"observe"})", "meaning", "", "nothing is asked for"},
       {R"({"type":"observe","quantities":"load.y"})", "wrong-type", "/quantities", "strings"},
       {R"({"type":"observe","quantities":["load.yy"]})", "meaning", "/quantities/0",

@@ -232,6 +232,25 @@ TEST(LiveSession, PutsBodiesElsewhere) {
   EXPECT_EQ(hash_of(session), before);
 }
 
+TEST(LiveSession, ReleasesAndLocksJoints) {
+  live::Session session = session_of(live_scene);
+  Result<Simulation> simulation = create_simulation(scene_of(live_scene));
+  LiveWorld world = LiveWorld::of(std::move(*simulation));
+  const JointHandle hinge = *world.joint("hinge");
+  const std::uint64_t start = hash_of(session);
+  done(session, R"({"type":"release","joint":"hinge"})");
+  EXPECT_NE(hash_of(session), start);
+  ASSERT_TRUE(world.release_joint(hinge).empty());
+  done(session, R"({"type":"step","count":10})");
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(world.step().ok());
+  EXPECT_LT(world.pose(*world.body("bar"))->velocity.y(), -0.9) << "it falls";
+  done(session, R"({"type":"lock","joint":"hinge"})");
+  ASSERT_TRUE(world.lock_joint(hinge).empty());
+  done(session, R"({"type":"step","count":10})");
+  for (int i = 0; i < 10; ++i) ASSERT_TRUE(world.step().ok());
+  EXPECT_EQ(hash_of(session), hash(world.state()));
+}
+
 TEST(LiveSession, TellsWhyTheWorldGoesNoFurther) {
   live::Session session = session_of(live_scene);
   // 5 rad are passed after half of the 10 rad.
