@@ -46,7 +46,7 @@ BodyHandle Edit::add(BodyDef body) {
   return handle;
 }
 
-JointHandle Edit::add(std::shared_ptr<JointDef> joint) {
+JointHandle Edit::add(const std::shared_ptr<JointDef>& joint) {
   if (joint == nullptr) {
     draft_.fail("a joint that is added must not be null");
     return {};

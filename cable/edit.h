@@ -60,7 +60,7 @@ class Edit {
   /// A body at the place and with the velocity of its definition.
   BodyHandle add(BodyDef body);
   /// A joint of the bodies as they are now, at its coordinates' zero.
-  JointHandle add(std::shared_ptr<JointDef> joint);
+  JointHandle add(const std::shared_ptr<JointDef>& joint);
   CableHandle add(CableDef cable);
   /// Makes a body touch others.
   void add(const ColliderDef& collider);

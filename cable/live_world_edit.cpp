@@ -417,7 +417,7 @@ Result<EditReport> LiveWorld::edit(const std::function<void(Edit&)>& changes) {
   for (const LiveRevision* revision : {revision_.get(), made->get()}) {
     const auto& slots = revision->cables.slots();
     for (std::size_t i = 0; i < slots.size(); ++i) {
-      const bool same = draft.own_cables.count(static_cast<int>(i)) == 0 &&
+      const bool same = !draft.own_cables.contains(static_cast<int>(i)) &&
                         made->get()->cables.has(revision->cables.handle(i));
       if (slots[i].generation == 0 || same) continue;
       changed.emplace(static_cast<std::int32_t>(i), slots[i].generation);

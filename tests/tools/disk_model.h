@@ -14,12 +14,9 @@ namespace sheave::test {
 class DiskModel {
  public:
   /// Files that are on the disk at the start, by their paths.
-  explicit DiskModel(const std::map<std::string, std::string>& files) {
-    for (const auto& [path, content] : files) {
-      names_[path] = files_.size();
-      files_.push_back({content, content});
-    }
-    durable_names_ = names_;
+  explicit DiskModel(const std::map<std::string, std::string>& files)
+      : names_(numbered(files)), durable_names_(names_) {
+    for (const auto& [path, content] : files) files_.push_back({content, content});
   }
 
   void apply(const RecordedCall& call) {
@@ -69,6 +66,11 @@ class DiskModel {
   };
   using Names = std::map<std::string, std::size_t>;
 
+  static Names numbered(const std::map<std::string, std::string>& files) {
+    Names names;
+    for (const auto& [path, content] : files) names.emplace(path, names.size());
+    return names;
+  }
   static void change(File& file, const RecordedCall& call) {
     const auto offset = static_cast<std::size_t>(call.offset);
     if (call.name == "fsync") file.durable = file.content;

@@ -13,12 +13,12 @@
 
 namespace sheave::test {
 
-PipedProcess::PipedProcess(const std::vector<std::string>& arguments) {
+PipedProcess::PipedProcess(const std::vector<std::string>& arguments)
+    : err_(::memfd_create("test", MFD_CLOEXEC)) {
   // A command that has ended must not take the test with it.
   ::signal(SIGPIPE, SIG_IGN);
   std::array<int, 2> in{};
   std::array<int, 2> out{};
-  err_ = ::memfd_create("test", MFD_CLOEXEC);
   if (err_ < 0 || ::pipe2(in.data(), O_CLOEXEC) != 0 || ::pipe2(out.data(), O_CLOEXEC) != 0) {
     throw std::runtime_error("no pipes");
   }
@@ -53,7 +53,7 @@ PipedProcess::~PipedProcess() {
   ::close(err_);
 }
 
-bool PipedProcess::write(const std::string& text) {
+bool PipedProcess::write(const std::string& text) const {
   std::size_t done = 0;
   while (done < text.size()) {
     const ssize_t count = ::write(in_, text.data() + done, text.size() - done);

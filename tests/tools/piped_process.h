@@ -16,7 +16,7 @@ class PipedProcess {
   PipedProcess& operator=(const PipedProcess&) = delete;
 
   /// Writes all of it, however long that takes; false if nobody reads it.
-  bool write(const std::string& text);
+  bool write(const std::string& text) const;
   /// The next line of its output, without its end; empty when there is none any more.
   std::string read_line();
   /// All that it still writes until it ends.
