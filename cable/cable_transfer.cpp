@@ -56,8 +56,9 @@ RunningCable CableTransfer::running_cable(int cable, const CableDef& definition,
   const auto next_of = [&](int link) {
     return static_cast<int>(own.integers[system_.next_index(compiled.first_link + link)]);
   };
-  const auto append_wraps = [&](int first) {
+  const auto append_wraps = [&](int first, int behind) {
     for (int link = first; link >= compiled.listed_links; link = next_of(link)) {
+      if (cut == 1 + link) running.cut_span = behind;
       running.links.push_back(running_link(cable, link, own, controls));
       if (next_of(link) == first) break;
     }
@@ -69,13 +70,13 @@ RunningCable CableTransfer::running_cable(int cable, const CableDef& definition,
     if (cut == 1 + link) running.cut_span = link;
     const bool last = !compiled.closed && link + 1 == compiled.listed_links;
     touches_listed = touches_listed || last || next_of(link) >= 0;
-    append_wraps(next_of(link));
+    append_wraps(next_of(link), link);
   }
   if (touches_listed) return running;
   // A belt that has left all its listed links.
   for (int place = compiled.listed_links; place < compiled.link_count; ++place) {
     if (next_of(place) < 0) continue;
-    append_wraps(place);
+    append_wraps(place, 0);
     break;
   }
   return running;
@@ -155,7 +156,7 @@ std::string CableTransfer::share_with_fresh(int cable, RunningCable& running) co
       link.stored_strain = strained ? 1.0 / on_links - 1.0 : 0.0;
       left -= link.stored_length;
     }
-    if (!(left > 0.0)) {
+    if (!(left > 0.0) || !(spans > 0.0)) {
       return name + " has " + number_text(whole) + " m in its span " + std::to_string(first) +
              ", too little to lie on that";
     }
@@ -298,7 +299,7 @@ std::string CableTransfer::start_fault(const Substep& now, int cable, double all
     if (!system_.spans_[at(k)].active) continue;
     const std::string span = " at its span " + std::to_string(k - own.first_span);
     const SpanSetup& setup = system_.spans_[at(k)];
-    if (system_.initial_.reals[system_.rest_length_index(k)] < 0.0)
+    if (!(system_.initial_.reals[system_.rest_length_index(k)] >= 0.0))
       return name + " has not so much to give" + span;
     if (!system_.geometry_of(now, k).has_tangent) return name + " would run through a wheel" + span;
     const LinkGeometry& a = system_.links_[at(setup.first)];

@@ -24,6 +24,15 @@ bool same_settings(const CableDef& a, const CableDef& b) {
          a.breaking_tension == b.breaking_tension;
 }
 
+bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+/// What has been set of them.
+bool same_controls(const CableControl& a, const CableControl& b) {
+  return same_number(a.compliance, b.compliance) &&
+         same_number(a.breaking_tension, b.breaking_tension) &&
+         same_number(a.wrap_friction, b.wrap_friction);
+}
+
 /// Place of the listed link at an end.
 std::size_t end_of(const RunningCable& cable, CableEnd end) {
   return cable.place_of(end == CableEnd::first ? 0 : cable.listed_count() - 1);
@@ -199,7 +208,8 @@ void Edit::join(CableHandle cable, CableHandle next) {
                        " cannot be joined: the last end of the one and the first end of the "
                        "other must be loose; detach them first");
   }
-  if (!same_settings(first->definition, second->definition)) {
+  if (!same_settings(first->definition, second->definition) ||
+      !same_controls(first->running.control, second->running.control)) {
     return draft_.fail(names +
                        " have different settings; only cables that are alike can be joined");
   }
@@ -320,7 +330,12 @@ void Edit::remove_link(CableHandle cable, int link) {
   const std::size_t place = running.place_of(link);
   const RunningLink& gone = running.links[place];
   if (gone.is_on_course()) {
-    running.links[last_touched(running.links, place)].span->rest_length +=
+    std::size_t before = last_touched(running.links, place);
+    // A belt that has left its first links comes from its last one.
+    if (!running.links[before].is_on_course()) {
+      before = last_touched(running.links, running.links.size());
+    }
+    running.links[before].span->rest_length +=
         gone.stored_length + gone.span.value_or(RunningSpan{}).rest_length;
   }
   running.links.erase(running.links.begin() + static_cast<std::ptrdiff_t>(place));

@@ -44,6 +44,21 @@ class EditChange {
   EditChange() = default;
 };
 
+/// One of a cable.
+class CableChange : public EditChange {
+ public:
+  std::string cable;
+
+  static constexpr std::string_view cable_meaning = "name of the cable";
+  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const final {
+    const Result<CableHandle> handle = names.cable(cable);
+    return handle ? change(edit, *handle, names) : handle.errors();
+  }
+
+ protected:
+  [[nodiscard]] virtual Errors change(Edit& edit, CableHandle handle, EditNames& names) const = 0;
+};
+
 /// All of them, in the order of the documentation.
 [[nodiscard]] std::span<const TypeEntry<EditChange>> change_types();
 /// The format of the objects in the list "changes".

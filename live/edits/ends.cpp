@@ -9,11 +9,9 @@ namespace sheave::live {
 namespace {
 
 constexpr std::array<std::string_view, 2> end_names{"first", "last"};
-constexpr std::string_view cable_meaning = "name of the cable";
 
-class Detach final : public EditChange {
+class Detach final : public CableChange {
  public:
-  std::string cable;
   CableEnd end = CableEnd::last;
 
   static constexpr std::string_view type_name = "detach";
@@ -23,24 +21,23 @@ class Detach final : public EditChange {
       "does not hold it";
   static std::span<const Field> field_table() {
     static const std::array table{
-        field<&Detach::cable>("cable", "", {}, required, cable_meaning),
+        field<&Detach::cable, Detach>("cable", "", {}, required, cable_meaning),
         choice_field<&Detach::end>("end", end_names, required, "which of its ends"),
     };
     return table;
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
-    const Result<CableHandle> handle = names.cable(cable);
-    if (!handle) return handle.errors();
-    edit.detach(*handle, end);
+
+ protected:
+  [[nodiscard]] Errors change(Edit& edit, CableHandle handle, EditNames& /*names*/) const override {
+    edit.detach(handle, end);
     return {};
   }
 };
 
-class Attach final : public EditChange {
+class Attach final : public CableChange {
  public:
-  std::string cable;
   CableEnd end = CableEnd::last;
   std::string body;
   Vector3 point = Vector3::Zero();
@@ -49,7 +46,7 @@ class Attach final : public EditChange {
   static constexpr std::string_view type_meaning = "fixes a loose end to a point of a body";
   static std::span<const Field> field_table() {
     static const std::array table{
-        field<&Attach::cable>("cable", "", {}, required, cable_meaning),
+        field<&Attach::cable, Attach>("cable", "", {}, required, cable_meaning),
         choice_field<&Attach::end>("end", end_names, required, "which of its ends"),
         field<&Attach::body>("body", "", {}, required, "name of the body, or \"world\""),
         field<&Attach::point>("point", "m", any_number(), optional, "in the body's frame"),
@@ -58,23 +55,22 @@ class Attach final : public EditChange {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
-    const Result<CableHandle> handle = names.cable(cable);
-    if (!handle) return handle.errors();
+
+ protected:
+  [[nodiscard]] Errors change(Edit& edit, CableHandle handle, EditNames& names) const override {
     BodyId id = BodyId::world();
     if (body != "world") {
       const Result<BodyHandle> found = names.names.body(body);
       if (!found) return found.errors();
       id = Edit::id(*found);
     }
-    edit.attach(*handle, end, id, point);
+    edit.attach(handle, end, id, point);
     return {};
   }
 };
 
-class Split final : public EditChange {
+class Split final : public CableChange {
  public:
-  std::string cable;
   int span = 0;
   double share = 0.5;
   std::string name;
@@ -84,8 +80,8 @@ class Split final : public EditChange {
       "makes two of a cable; one that is cut splits where it was cut";
   static std::span<const Field> field_table() {
     static const std::array table{
-        field<&Split::cable>("cable", "", {}, required,
-                             "name of the cable; the piece from its first link on keeps it"),
+        field<&Split::cable, Split>("cable", "", {}, required,
+                                    "name of the cable; the piece from its first link on keeps it"),
         field<&Split::span>("span", "", at_least(0.0), required,
                             "the span it is split in: that behind this link, counted from 0"),
         field<&Split::share>("share", "", between(0.0, 1.0), optional,
@@ -96,19 +92,18 @@ class Split final : public EditChange {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
-    const Result<CableHandle> handle = names.cable(cable);
-    if (!handle) return handle.errors();
+
+ protected:
+  [[nodiscard]] Errors change(Edit& edit, CableHandle handle, EditNames& names) const override {
     Errors errors = check_name(name);
     if (!errors.empty()) return errors;
-    names.new_cables[name] = edit.split(*handle, span, share, name);
+    names.new_cables[name] = edit.split(handle, span, share, name);
     return {};
   }
 };
 
-class Join final : public EditChange {
+class Join final : public CableChange {
  public:
-  std::string cable;
   std::string next;
 
   static constexpr std::string_view type_name = "join";
@@ -118,19 +113,19 @@ class Join final : public EditChange {
       "it";
   static std::span<const Field> field_table() {
     static const std::array table{
-        field<&Join::cable>("cable", "", {}, required, cable_meaning),
+        field<&Join::cable, Join>("cable", "", {}, required, cable_meaning),
         field<&Join::next>("next", "", {}, required, "name of the other cable"),
     };
     return table;
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
-    const Result<CableHandle> first = names.cable(cable);
-    if (!first) return first.errors();
+
+ protected:
+  [[nodiscard]] Errors change(Edit& edit, CableHandle handle, EditNames& names) const override {
     const Result<CableHandle> second = names.cable(next, "/next");
     if (!second) return second.errors();
-    edit.join(*first, *second);
+    edit.join(handle, *second);
     return {};
   }
 };

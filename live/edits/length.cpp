@@ -7,9 +7,8 @@
 namespace sheave::live {
 namespace {
 
-class PayOut final : public EditChange {
+class PayOut final : public CableChange {
  public:
-  std::string cable;
   int span = 0;
   double length = 0.0;
 
@@ -17,7 +16,7 @@ class PayOut final : public EditChange {
   static constexpr std::string_view type_meaning = "puts cable into a span, or takes it out";
   static std::span<const Field> field_table() {
     static const std::array table{
-        field<&PayOut::cable>("cable", "", {}, required, "name of the cable"),
+        field<&PayOut::cable, PayOut>("cable", "", {}, required, cable_meaning),
         field<&PayOut::span>("span", "", at_least(0.0), required,
                              "the span: that behind this link, counted from 0"),
         field<&PayOut::length>("length", "m", any_number(), required,
@@ -27,17 +26,16 @@ class PayOut final : public EditChange {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
-    const Result<CableHandle> handle = names.cable(cable);
-    if (!handle) return handle.errors();
-    edit.pay_out(*handle, span, length);
+
+ protected:
+  [[nodiscard]] Errors change(Edit& edit, CableHandle handle, EditNames& /*names*/) const override {
+    edit.pay_out(handle, span, length);
     return {};
   }
 };
 
-class RemoveLink final : public EditChange {
+class RemoveLink final : public CableChange {
  public:
-  std::string cable;
   int link = 0;
 
   static constexpr std::string_view type_name = "remove_link";
@@ -45,7 +43,7 @@ class RemoveLink final : public EditChange {
       "takes a link between the ends off a cable; what lies on it comes to the span";
   static std::span<const Field> field_table() {
     static const std::array table{
-        field<&RemoveLink::cable>("cable", "", {}, required, "name of the cable"),
+        field<&RemoveLink::cable, RemoveLink>("cable", "", {}, required, cable_meaning),
         field<&RemoveLink::link>("link", "", at_least(0.0), required,
                                  "which of its links, counted from 0"),
     };
@@ -53,10 +51,10 @@ class RemoveLink final : public EditChange {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
-    const Result<CableHandle> handle = names.cable(cable);
-    if (!handle) return handle.errors();
-    edit.remove_link(*handle, link);
+
+ protected:
+  [[nodiscard]] Errors change(Edit& edit, CableHandle handle, EditNames& /*names*/) const override {
+    edit.remove_link(handle, link);
     return {};
   }
 };

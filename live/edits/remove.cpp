@@ -53,24 +53,22 @@ class RemoveJoint final : public EditChange {
   }
 };
 
-class RemoveCable final : public EditChange {
+class RemoveCable final : public CableChange {
  public:
-  std::string cable;
-
   static constexpr std::string_view type_name = "remove_cable";
   static constexpr std::string_view type_meaning = "takes a cable away";
   static std::span<const Field> field_table() {
     static const std::array table{
-        field<&RemoveCable::cable>("cable", "", {}, required, "name of the cable"),
+        field<&RemoveCable::cable, RemoveCable>("cable", "", {}, required, cable_meaning),
     };
     return table;
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
-  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
-    const Result<CableHandle> handle = names.cable(cable);
-    if (!handle) return handle.errors();
-    edit.remove(*handle);
+
+ protected:
+  [[nodiscard]] Errors change(Edit& edit, CableHandle handle, EditNames& /*names*/) const override {
+    edit.remove(handle);
     return {};
   }
 };

@@ -248,6 +248,68 @@ TEST(EditCables, WhatIsTooShortIsRefused) {
   EXPECT_EQ(hash(world.state()), before);
 }
 
+// Where there is no way, there is nothing to share the length by.
+TEST(EditCables, NothingIsSharedWithoutAWay) {
+  test::Machine machine;
+  machine.model.bodies = {test::weight("load", {0.0, 0.0, 0.0}, 1.0)};
+  machine.cables = {cable("rope", {attach(BodyId::world()), attach(BodyId{0})})};
+  machine.cables[0].rest_lengths = {1.0};
+  LiveWorld world = live(machine);
+  const Result<EditReport> done =
+      world.edit([&](Edit& e) { e.insert(world.cables()[0], 0, std::make_shared<PinholeLink>()); });
+  ASSERT_FALSE(done.ok());
+  EXPECT_THAT(done.errors()[0].message, HasSubstr("too little to lie on that"));
+}
+
+// Also of what has been set.
+TEST(EditCables, OnlyWhatIsAlikeIsJoined) {
+  test::Machine machine;
+  machine.model.bodies = {test::weight("load", {0.0, -2.0, 0.0}, 1.0)};
+  machine.cables = {cable("a", {attach(BodyId::world()), attach(BodyId{0})}),
+                    cable("b", {attach(BodyId::world()), attach(BodyId{0})})};
+  for (const bool set : {false, true}) {
+    if (!set) machine.cables[1].breaking_tension = 1e3;
+    LiveWorld world = live(machine);
+    machine.cables[1].breaking_tension.reset();
+    const CableHandle a = *world.cable("a");
+    const CableHandle b = *world.cable("b");
+    if (set) ASSERT_TRUE(world.set_breaking_tension(b, 1e3).empty());
+    const Result<EditReport> done = world.edit([&](Edit& e) {
+      e.detach(a, CableEnd::last);
+      e.detach(b, CableEnd::first);
+      e.join(a, b);
+    });
+    ASSERT_FALSE(done.ok());
+    EXPECT_THAT(done.errors()[0].message, HasSubstr("different settings"));
+  }
+}
+
+// A belt that has left its first wheel goes on over the others when one of these is taken out.
+TEST(EditCables, WheelsAreTakenOutOfBelts) {
+  test::Machine machine;
+  machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
+  machine.model.bodies = {
+      test::wheel("off", {0.0, -3.0, 0.0}, 0.2, 0.01), test::wheel("a", {0.0, 0.0, 0.0}, 0.2, 0.01),
+      test::wheel("b", {2.0, 0.5, 0.0}, 0.3, 0.01), test::wheel("c", {1.0, 2.0, 0.0}, 0.25, 0.01)};
+  auto off = std::make_shared<RollingLink>();
+  off->body = BodyId{0};
+  off->winding = left;
+  off->lifted = true;
+  CableDef belt =
+      cable("belt", {off, roll(BodyId{1}, left), roll(BodyId{2}, left), roll(BodyId{3}, left)});
+  belt.closed = true;
+  machine.cables = {belt};
+  LiveWorld world = live(machine);
+  advance(world, 3);
+  const CableHandle handle = world.cables()[0];
+  const double whole = *world.length(handle);
+  edit(world, [&](Edit& e) { e.remove_link(handle, 1); });
+  EXPECT_EQ(*world.length(handle), whole);
+  advance(world, 20);
+  EXPECT_EQ(*world.length(handle), whole);
+  EXPECT_LT(worst_figure(world), 1e-6);
+}
+
 // A drum pays out into a piece that is tied to something else.
 TEST(EditCables, RopeOfADrumIsTiedElsewhere) {
   test::Machine machine;
