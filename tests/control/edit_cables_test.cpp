@@ -273,7 +273,9 @@ TEST(EditCables, OnlyWhatIsAlikeIsJoined) {
     machine.cables[1].breaking_tension.reset();
     const CableHandle a = *world.cable("a");
     const CableHandle b = *world.cable("b");
-    if (set) ASSERT_TRUE(world.set_breaking_tension(b, 1e3).empty());
+    if (set) {
+      ASSERT_TRUE(world.set_breaking_tension(b, 1e3).empty());
+    }
     const Result<EditReport> done = world.edit([&](Edit& e) {
       e.detach(a, CableEnd::last);
       e.detach(b, CableEnd::first);
