@@ -15,7 +15,8 @@ void CableCompiler::go_to(const BodyFrames& frames) {
 
 void CableCompiler::add(const CableDef& def, const CableStart& start) {
   go_to(start.defined_in);
-  runs_ = start.same_as >= 0 || start.running != nullptr;
+  same_ = start.same_as >= 0;
+  runs_ = same_ || start.running != nullptr;
   path_ = "/cables/" + std::to_string(index_++);
   name_ = def.name;
   const std::size_t before = errors_.size();
@@ -130,7 +131,7 @@ void CableCompiler::fail(const std::string& field, const std::string& message) {
 }
 
 void CableCompiler::check_settings(const CableDef& def) {
-  check_fields(CableDef::field_table(), &def, path_, errors_);
+  if (!same_) check_fields(CableDef::field_table(), &def, path_, errors_);
   if (def.name.empty()) fail("/name", "a cable needs a name that is not empty");
   if (!names_.insert(def.name).second)
     fail("/name", "two cables have this name; names must differ");

@@ -17,7 +17,9 @@ void CableCompiler::compile_links(const CableDef& def) {
            "there is no body number " + std::to_string(link.body.index));
       continue;
     }
+    // Those of a cable that runs have been read before.
     for (const auto& entry : link_types()) {
+      if (same_) break;
       if (entry.name == link.type()) check_fields(entry.fields(), link.settings(), path, errors_);
     }
     if (errors_.size() > before) continue;

@@ -90,6 +90,7 @@ class CableCompiler {
   BodyFrames frames_;
   /// It has run before: where it is now is not where it began, and is checked when its state is known.
   bool runs_ = false;
+  bool same_ = false;  ///< and has not been changed
   int index_ = 0;
   std::string path_;
   std::string name_;

@@ -272,7 +272,7 @@ Errors CableTransfer::continue_from(CableSystem* before, const FeatureState* fro
 }
 
 double CableTransfer::missing_length(const Substep& now, const FeatureState& own, int cable) {
-  system_.begin(now, own);
+  system_.follow_state(now, own);
   double most = 0.0;
   system_.for_each_run(system_.cables_[at(cable)], [&](CableSystem::Run run) {
     double missing = 0.0;
