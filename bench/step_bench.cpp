@@ -93,7 +93,8 @@ void measure(benchmark::State& state, const Scene& scene) {
   const StepSettings& step = scene.model.step;
   const double step_ns = 1e9 * total / (samples * steps_per_sample);
   const double span_substeps = static_cast<double>(span_count(scene)) * step.substeps;
-  // Of Google Benchmark's columns, "Time" is the same per sample; "CPU" includes restoring the start.
+  // Of Google Benchmark's columns, "Time" is the same per sample; "CPU" includes restoring the
+  // start.
   state.counters["spans"] = span_count(scene);
   state.counters["us_per_step"] = 1e-3 * step_ns;
   state.counters["ns_per_span_substep"] = step_ns / span_substeps;

@@ -1,14 +1,17 @@
 #pragma once
 // Spans whose row is affine; internal to the cable library.
 //
-// The value of a span's row (cable/span_row.h) bends only where the span's direction turns. Between wheels on fixed axles it
-// never does, in whatever planes they lie, nor between these and what slides along the span: a weight on its rails below a
-// sheave, or the sheaves of a block that slides. Then, with the length l along the direction u,
+// The value of a span's row (cable/span_row.h) bends only where the span's direction turns. Between
+// wheels on fixed axles it never does, in whatever planes they lie, nor between these and what
+// slides along the span: a weight on its rails below a sheave, or the sheaves of a block that
+// slides. Then, with the length l along the direction u,
 //   C = L + q1 n1.b1 - q2 n2.b2 - l,   l = l0 + u.(x2 - x1),
-// exactly, with the turns b of the wheels since the start of the substep and the places x of what slides, and the gradient is a
-// constant. So there is no geometry to find, neither for the row nor at the end of the substep.
+// exactly, with the turns b of the wheels since the start of the substep and the places x of what
+// slides, and the gradient is a constant. So there is no geometry to find, neither for the row nor
+// at the end of the substep.
 //
-// It holds while the length is above 0. What can slide so far within a substep that it might end is left to the general row.
+// It holds while the length is above 0. What can slide so far within a substep that it might end is
+// left to the general row.
 
 #include <array>
 
@@ -17,8 +20,8 @@
 
 namespace sheave {
 
-/// Follows from the course of the cable and from where bodies are at time 0 alone, so that a run does not depend on when it
-/// was found.
+/// Follows from the course of the cable and from where bodies are at time 0 alone, so that a run
+/// does not depend on when it was found.
 struct AffineSpan {
   /// One end of the span.
   struct End {

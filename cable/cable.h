@@ -21,12 +21,14 @@ inline constexpr std::array<std::string_view, 2> tangent_update_names{"iteration
 struct CableDef {
   std::string name;     ///< unique among the cables
   bool closed = false;  ///< a last span joins the last link and the first: a belt
-  /// Of each span [m/N], >= 0, 0 is rigid. Excludes axial_stiffness. As in the paper a span has it whatever its length,
-  /// so a cable that touches a body and is divided becomes softer; a material's does not.
+  /// Of each span [m/N], >= 0, 0 is rigid. Excludes axial_stiffness. As in the paper a span has it
+  /// whatever its length, so a cable that touches a body and is divided becomes softer; a
+  /// material's does not.
   std::optional<double> compliance;
-  /// Of the cable's material, EA [N], > 0: a span then has the compliance rest length / EA, and what comes onto a wheel keeps
-  /// its strain there, so that a belt creeps (cable/cable_material.cpp). At time 0 what lies on a wheel has the strain of
-  /// the spans beside it, of two their mean. Rest lengths and stored lengths are unstretched.
+  /// Of the cable's material, EA [N], > 0: a span then has the compliance rest length / EA, and
+  /// what comes onto a wheel keeps its strain there, so that a belt creeps
+  /// (cable/cable_material.cpp). At time 0 what lies on a wheel has the strain of the spans beside
+  /// it, of two their mean. Rest lengths and stored lengths are unstretched.
   std::optional<double> axial_stiffness;
   double damping = 0.0;  ///< of each span [N s/m], >= 0; needs an elastic cable
   TangentUpdate tangent_update = TangentUpdate::iteration;

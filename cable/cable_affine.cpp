@@ -17,7 +17,8 @@ struct Place {
   AffineSpan::End end;
 };
 
-/// How the end of a span with this direction at a link moves, if that is one of the ways that keep it affine.
+/// How the end of a span with this direction at a link moves, if that is one of the ways that keep
+/// it affine.
 Place place_of(const Substep& start, const LinkGeometry& link, double signed_radius,
                const Vector3& direction, bool ends_stay) {
   Place place;
@@ -94,7 +95,8 @@ std::vector<AffineSpan> CableSystem::affine_spans(const BodySet& bodies, bool en
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const SpanSetup& setup = spans_[k];
     const CompiledCable& cable = cables_[at(setup.cable)];
-    // Cable that passes its links asks for where the spans are, and a material for how long they are.
+    // Cable that passes its links asks for where the spans are, and a material for how long they
+    // are.
     if (!setup.active || cable.shares || cable.inverse_stiffness > 0.0 ||
         cable.tangent_update != TangentUpdate::iteration) {
       continue;

@@ -1,4 +1,5 @@
-// The course of a cable at time 0: its plane, the bodies that it can come to touch, and its part of the state.
+// The course of a cable at time 0: its plane, the bodies that it can come to touch, and its part of
+// the state.
 
 #include <algorithm>
 #include <cmath>

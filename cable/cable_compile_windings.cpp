@@ -1,9 +1,10 @@
 // Windings that look as if they were entered the wrong way round.
 //
-// A cable that comes to a wheel and leaves it with both spans in the wheel's plane cannot pass through itself, but rows know
-// nothing of that: with the wrong winding the two spans cross beside the wheel, and everything runs. Some machines mean
-// it: a belt that is crossed between two wheels, a rope with whole turns, a figure of eight. So a link is named only if its
-// two spans cross, if they would not with the other winding, if it has no whole turns, and if the spans do not join the
+// A cable that comes to a wheel and leaves it with both spans in the wheel's plane cannot pass
+// through itself, but rows know nothing of that: with the wrong winding the two spans cross beside
+// the wheel, and everything runs. Some machines mean it: a belt that is crossed between two wheels,
+// a rope with whole turns, a figure of eight. So a link is named only if its two spans cross, if
+// they would not with the other winding, if it has no whole turns, and if the spans do not join the
 // same two wheels.
 
 #include <cmath>

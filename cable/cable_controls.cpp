@@ -1,7 +1,8 @@
 // What has been set of cables while the world runs (engine/controls.h).
 //
-// The compiled cables that a substep reads are made anew from what was compiled and from the controls of its state, so what
-// happens depends on the state alone. A world in which nothing is set never comes here.
+// The compiled cables that a substep reads are made anew from what was compiled and from the
+// controls of its state, so what happens depends on the state alone. A world in which nothing is
+// set never comes here.
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
-// The order in which a cable runs over its links. Links that it does not touch are left out: each link names the next one,
-// so putting in and taking out are local, any number of times in a substep. Span k always begins at link k; where that link
-// is not touched there is no such span.
+// The order in which a cable runs over its links. Links that it does not touch are left out: each
+// link names the next one, so putting in and taking out are local, any number of times in a
+// substep. Span k always begins at link k; where that link is not touched there is no such span.
 
 #include <algorithm>
 
@@ -124,7 +124,8 @@ bool CableSystem::accepts(const FeatureState& state) const {
     const CompiledCable& cable = cables_[c];
     const std::int64_t cut = integer(cut_index(static_cast<int>(c)));
     if (cut < 0 || cut > cable.span_count) return false;
-    // The course names every link that is touched once, and from the first one it comes to the end of the cable.
+    // The course names every link that is touched once, and from the first one it comes to the end
+    // of the cable.
     int on_course = 0;
     int first = -1;
     const auto candidates = static_cast<std::int64_t>(cable.candidates.size());

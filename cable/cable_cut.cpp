@@ -1,9 +1,10 @@
 // Cutting a cable, at a given time or when a tension passes what it bears.
 //
-// Each of the two pieces has a free end, where the tension is 0. Whatever a piece is wrapped round, no more than
-// e^(m a) 0 = 0 can hold behind it, so neither piece pulls at anything any more: the spans are gone, and with them all of
-// the cable's rows. (A wheel without slip is taken to let the free end run off as well.) A breaking cable acts in full
-// until the end of the substep in which it breaks: the tension that counts is the mean over that substep.
+// Each of the two pieces has a free end, where the tension is 0. Whatever a piece is wrapped round,
+// no more than e^(m a) 0 = 0 can hold behind it, so neither piece pulls at anything any more: the
+// spans are gone, and with them all of the cable's rows. (A wheel without slip is taken to let the
+// free end run off as well.) A breaking cable acts in full until the end of the substep in which it
+// breaks: the tension that counts is the mean over that substep.
 
 #include "cable/cable_system.h"
 #include "engine/index.h"

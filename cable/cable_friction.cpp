@@ -1,30 +1,35 @@
 // Links with friction: where does cable slide?
 //
-// A link holds while the tensions on both sides differ by no more than the factor e^(m a) (Euler-Eytelwein; a: wrap
-// angle); if they differ by more, cable slides over it towards the larger one, and the two are tied
-// (cable/cable_runs.cpp). It holds again when cable would have to slide against the pull.
+// A link holds while the tensions on both sides differ by no more than the factor e^(m a)
+// (Euler-Eytelwein; a: wrap angle); if they differ by more, cable slides over it towards the larger
+// one, and the two are tied (cable/cable_runs.cpp). It holds again when cable would have to slide
+// against the pull.
 //
-// A rigid span that no body can lengthen (between two posts, two holes of one body, a driven drum and an eyelet) has no
-// tension of its own: its row has no gradient, so a multiplier would do nothing. With the links at its ends it is part of
-// ONE capstan whose exponent is the sum of theirs. So links are judged from one tension that bodies decide to the next
-// one, over all such spans in between:
+// A rigid span that no body can lengthen (between two posts, two holes of one body, a driven drum
+// and an eyelet) has no tension of its own: its row has no gradient, so a multiplier would do
+// nothing. With the links at its ends it is part of ONE capstan whose exponent is the sum of
+// theirs. So links are judged from one tension that bodies decide to the next one, over all such
+// spans in between:
 //
 //   all hold      |ln T_b - ln T_a| <= sum of m a
 //   all slide     otherwise, towards the larger one
 //
-// What prescribed motion (a drum's drive, a feed) makes of such a span decides more. One that has become too short takes
-// cable from that side which gives it at the lower tension, T e^(sum) on the way there; one that has become too long
-// gives it to the side that pulls harder, T e^(-sum). It has that tension then, and is judged by like a body's.
+// What prescribed motion (a drum's drive, a feed) makes of such a span decides more. One that has
+// become too short takes cable from that side which gives it at the lower tension, T e^(sum) on the
+// way there; one that has become too long gives it to the side that pulls harder, T e^(-sum). It
+// has that tension then, and is judged by like a body's.
 //
-// A span of constant compliance c can be stretched by all of its length. Then no cable is left in it that could slide out, so
-// the links at its ends hold whatever the tensions: it has its length / c, the next span what its own stretch gives.
+// A span of constant compliance c can be stretched by all of its length. Then no cable is left in
+// it that could slide out, so the links at its ends hold whatever the tensions: it has its length /
+// c, the next span what its own stretch gives.
 //
-// Round a ring the tension comes back to itself, so not all of its links slide (unless their exponents cancel): where they
-// would, the one holds over which the least has passed, of those that slide as there is too much of it.
+// Round a ring the tension comes back to itself, so not all of its links slide (unless their
+// exponents cancel): where they would, the one holds over which the least has passed, of those that
+// slide as there is too much of it.
 //
-// While its links hold, statics leaves the tension of such a span open within the cones of its neighbours, and so beside a
-// dead end. It keeps what it had, which is what the last slip left, if that is inside, or takes the nearest value that
-// is.
+// While its links hold, statics leaves the tension of such a span open within the cones of its
+// neighbours, and so beside a dead end. It keeps what it had, which is what the last slip left, if
+// that is inside, or takes the nearest value that is.
 
 #include <algorithm>
 #include <cmath>
@@ -37,13 +42,15 @@
 namespace sheave {
 namespace {
 
-/// More changes of a link between sticking and sliding in one substep are rounding or a solver far from convergence.
+/// More changes of a link between sticking and sliding in one substep are rounding or a solver far
+/// from convergence.
 constexpr int most_flips = 4;
 
 /// A link that slid by nothing has been made to hold, and did not.
 constexpr int resting_flips = 2;
 
-/// What rounding leaves of the length that a span lacks or has to spare, relative to the scene's size.
+/// What rounding leaves of the length that a span lacks or has to spare, relative to the scene's
+/// size.
 constexpr double length_rounding = 1e-13;
 
 /// What rounding leaves of sums of exponents.
@@ -145,7 +152,8 @@ void CableSystem::collect_pieces(const Substep& substep, const CompiledCable& ca
     pieces_.push_back(piece);
   });
   if (pieces_.empty()) return;
-  // A ring begins, and ends, with a piece whose tension bodies decide, unless a link that does not pass cable opens it.
+  // A ring begins, and ends, with a piece whose tension bodies decide, unless a link that does not
+  // pass cable opens it.
   const bool ring = cable.closed && pieces_.back().link >= 0;
   if (!ring || pieces_.size() == 1) {
     pieces_.back().link = -1;
@@ -199,7 +207,8 @@ void CableSystem::serve_pieces(const Substep& substep, std::size_t first, std::s
                    pieces_.begin() + static_cast<std::ptrdiff_t>(last) + 1, serves)) {
     return;
   }
-  // What each of them would have from either side alone, NaN if that side is a dead end, and from where.
+  // What each of them would have from either side alone, NaN if that side is a dead end, and from
+  // where.
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const auto offer = [](Piece::Kind kind, double pull, double held) {
     return kind == Piece::Kind::too_short ? pull + held : pull - held;
@@ -320,7 +329,8 @@ double CableSystem::hold_ring(const Substep& substep, const CompiledCable& cable
     before = span;
   }
   if (std::abs(rise) <= exponent_rounding) return 0.0;
-  // Of those that slide the way in which there is too much of it, the one over which the least has passed.
+  // Of those that slide the way in which there is too much of it, the one over which the least has
+  // passed.
   const int way = rise > 0.0 ? 1 : -1;
   double passed = 0.0;
   double least = std::numeric_limits<double>::infinity();

@@ -14,7 +14,8 @@ bool CableSystem::gauge(const FeatureState& own, std::vector<CableGauge>& gauges
     const CompiledCable& cable = cables_[c];
     const bool rigid = cable.compliance == 0.0 && cable.inverse_stiffness == 0.0;
     const bool cut = own.integers[cut_index(static_cast<int>(c))] != 0;
-    // Of a span that is all but used up there is no stretch worth the name; it counts against this share of the cable.
+    // Of a span that is all but used up there is no stretch worth the name; it counts against this
+    // share of the cable.
     const double shortest = 1e-6 * cable.start_length;
     CableGauge gauge;
     double fed = cable.added_length;

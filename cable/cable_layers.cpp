@@ -1,14 +1,17 @@
 // Drums with layers: the radius belongs to the value of the row.
 //
-// With the pitch p a drum of radius r0 that holds s has the radius q = sqrt(r0^2 + p s / pi), because s is the integral of
-// q = r0 + p angle / 2 pi over the angle. Where the span leaves the drum depends on q, and what is wound on by then, hence q,
-// on where the span leaves it. Taken at the start of a substep, q would jump at its end, and the span's length with it by
-// T dq per substep: energy of first order in dq, however small the step. So q is found for the positions at hand, by the
-// secant method, since it hardly depends on itself (by p / 2 pi over the span's length and by p angle / 2 pi q).
+// With the pitch p a drum of radius r0 that holds s has the radius q = sqrt(r0^2 + p s / pi),
+// because s is the integral of q = r0 + p angle / 2 pi over the angle. Where the span leaves the
+// drum depends on q, and what is wound on by then, hence q, on where the span leaves it. Taken at
+// the start of a substep, q would jump at its end, and the span's length with it by T dq per
+// substep: energy of first order in dq, however small the step. So q is found for the positions at
+// hand, by the secant method, since it hardly depends on itself (by p / 2 pi over the span's length
+// and by p angle / 2 pi q).
 //
-// In one plane the row's gradient is exact. In skew planes, with the span's direction u and the wheel's tangent t, a radius that
-// grows by dq moves the tangent point along the rim, and the row misses (1 - u.t) q dpsi of that: 3e-5 of a torque at a tilt
-// of 0.3 rad and a pitch of a fifth of the radius.
+// In one plane the row's gradient is exact. In skew planes, with the span's direction u and the
+// wheel's tangent t, a radius that grows by dq moves the tangent point along the rim, and the row
+// misses (1 - u.t) q dpsi of that: 3e-5 of a torque at a tilt of 0.3 rad and a pitch of a fifth of
+// the radius.
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +33,8 @@ class LayerRadius {
         radius_(start_) {}
 
   [[nodiscard]] bool changes() const { return pitch_ > 0.0; }
-  /// Takes what the drum has taken on with the radius so far [m], and finds a better one. Whether there was one.
+  /// Takes what the drum has taken on with the radius so far [m], and finds a better one. Whether
+  /// there was one.
   bool improve(double taken_on) {
     if (!changes()) return false;
     const double found = std::sqrt(std::max(start_ * start_ + pitch_ * taken_on / pi, 0.0));

@@ -1,9 +1,10 @@
 // Bodies that are put elsewhere between two steps.
 //
-// It is done as a substep of no time in which nothing acts: wheels that the cable now meets elsewhere have taken or given the
-// arcs in between, as they do when bodies move there, so lengths are conserved to the last bit. What the spans are then longer
-// or shorter than before stays as it is, if the cable's length is to be kept, or else is made up for: a span keeps the stretch,
-// or the slack, that it had.
+// It is done as a substep of no time in which nothing acts: wheels that the cable now meets
+// elsewhere have taken or given the arcs in between, as they do when bodies move there, so lengths
+// are conserved to the last bit. What the spans are then longer or shorter than before stays as it
+// is, if the cable's length is to be kept, or else is made up for: a span keeps the stretch, or the
+// slack, that it had.
 
 #include <algorithm>
 #include <cmath>

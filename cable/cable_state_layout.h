@@ -6,20 +6,23 @@
 
 namespace sheave {
 
-/// Where in the state of the feature "cables" the parts are, with the spans and links of all cables in order:
+/// Where in the state of the feature "cables" the parts are, with the spans and links of all cables
+/// in order:
 ///
-/// reals: rest length per span [m], stored length per link [m], tension per span [N], transport below the quantum per
-/// span end (first, second) [m], which rows count as rest length, slip per link [m]: cable that has slid over it towards the
-/// next span, of an attachment cable that was fed, angle of a hybrid end's attachment per link [rad], plane per place for a
-/// wrap: centre [m] and normal, own frame of the body. Then per link on which cable of a material can lie what
+/// reals: rest length per span [m], stored length per link [m], tension per span [N], transport
+/// below the quantum per span end (first, second) [m], which rows count as rest length, slip per
+/// link [m]: cable that has slid over it towards the next span, of an attachment cable that was
+/// fed, angle of a hybrid end's attachment per link [rad], plane per place for a wrap: centre [m]
+/// and normal, own frame of the body. Then per link on which cable of a material can lie what
 /// StoredStrain saves, and what has been lost there by creep since time 0 [J].
 ///
-/// integers: per link with friction which way the cable slides: +1 towards the next span, -1 towards the last, 0 not at
-/// all; per link its mode: 0 as defined, 1 wound the other way round, 2 attached (hybrid ends), 3 left by the cable,
-/// 4 left and passed to the other side; per link the next one along the cable, counted within it, -1 at its end and where
-/// the cable does not touch; per place for a wrap +-(candidate + 1), the sign being its winding, 0 unused; per cable 0, or
-/// 1 + the span where it is cut; if a cable has driven links, per link which way its drive has stalled because all cable was
-/// drawn: the sign of the drive's turn about its axis, 0 it has not.
+/// integers: per link with friction which way the cable slides: +1 towards the next span, -1
+/// towards the last, 0 not at all; per link its mode: 0 as defined, 1 wound the other way round, 2
+/// attached (hybrid ends), 3 left by the cable, 4 left and passed to the other side; per link the
+/// next one along the cable, counted within it, -1 at its end and where the cable does not touch;
+/// per place for a wrap +-(candidate + 1), the sign being its winding, 0 unused; per cable 0, or 1
+/// + the span where it is cut; if a cable has driven links, per link which way its drive has
+/// stalled because all cable was drawn: the sign of the drive's turn about its axis, 0 it has not.
 class CableStateLayout {
  public:
   // Where the parts of the state begin in FeatureState::reals.

@@ -144,8 +144,9 @@ std::optional<Certificate> Simulation::certificate() const {
   return certificate;
 }
 
-// Costs in instructions, fitted to callgrind's counts for 34 scenes of the repository with three pairs of solver and
-// integrator: what a check costs at most there, and what a substep costs at least (docs/certificate.md).
+// Costs in instructions, fitted to callgrind's counts for 34 scenes of the repository with three
+// pairs of solver and integrator: what a check costs at most there, and what a substep costs at
+// least (docs/certificate.md).
 CertificateSchedule::CertificateSchedule(const Simulation& simulation, double share) {
   const World& world = simulation.world;
   const Model& model = world.model();
@@ -157,7 +158,8 @@ CertificateSchedule::CertificateSchedule(const Simulation& simulation, double sh
   if (simulation.cable_definitions) {
     for (const CableDef& cable : *simulation.cable_definitions) spans += cable.span_count();
   }
-  // Of joints and spans; what else has rows (the floor, places for wraps) costs little as long as nothing is there.
+  // Of joints and spans; what else has rows (the floor, places for wraps) costs little as long as
+  // nothing is there.
   double rows = spans;
   for (const auto& feature : world.features()) {
     if (dynamic_cast<const JointFeature*>(feature.get()) != nullptr) rows += feature->row_count();

@@ -5,10 +5,11 @@
 //   while (simulation->step().ok() && ...) if (auto one = simulation->certificate()) all.merge(*one);
 //   if (!all.clean()) std::cerr << all.worst()->sentence();
 //
-// From the states at both ends of the substep and the reported forces alone, by code that shares nothing with the solvers
-// but the model (cable/certificate/): the balances of momentum, the distance of every constraint from what it asks for, the
-// laws of friction, the balance of energy, the length of the cables. Each figure is relative to its own scale, so that
-// neither units nor sizes count. What it cannot see is the error of the time step itself (docs/certificate.md).
+// From the states at both ends of the substep and the reported forces alone, by code that shares
+// nothing with the solvers but the model (cable/certificate/): the balances of momentum, the
+// distance of every constraint from what it asks for, the laws of friction, the balance of energy,
+// the length of the cables. Each figure is relative to its own scale, so that neither units nor
+// sizes count. What it cannot see is the error of the time step itself (docs/certificate.md).
 
 #include <array>
 #include <cstdint>
@@ -71,16 +72,17 @@ struct Certificate {
   void merge(const Certificate& other);
 };
 
-/// Which steps of a run are checked: the first, the last, those with events, and every n-th, with n such that all of it costs
-/// no more than a given share of the run, in instructions; of a run of fewer steps than n, first and last cost more. Counts only, no clock: the same run is checked in the same
-/// steps everywhere.
+/// Which steps of a run are checked: the first, the last, those with events, and every n-th, with n
+/// such that all of it costs no more than a given share of the run, in instructions; of a run of
+/// fewer steps than n, first and last cost more. Counts only, no clock: the same run is checked in
+/// the same steps everywhere.
 class CertificateSchedule {
  public:
   /// For runs of `simulation`. `share` of its cost, > 0.
   explicit CertificateSchedule(const Simulation& simulation, double share = 0.02);
 
-  /// To be called after every step: whether to check it. `is_last`: no step follows. `events`: how many there have been
-  /// (CableSystem::events()), ever.
+  /// To be called after every step: whether to check it. `is_last`: no step follows. `events`: how
+  /// many there have been (CableSystem::events()), ever.
   [[nodiscard]] bool is_due(bool is_last = false, std::size_t events = 0);
   /// A step in this many is checked anyway.
   [[nodiscard]] std::int64_t stride() const { return stride_; }

@@ -17,8 +17,8 @@ namespace sheave {
 struct CompiledCable {
   std::string name;
   bool closed = false;
-  /// Its links and spans within those of all cables. Span k begins at link k; behind the links that the user listed there
-  /// are places for wraps on bodies that the cable comes to touch.
+  /// Its links and spans within those of all cables. Span k begins at link k; behind the links that
+  /// the user listed there are places for wraps on bodies that the cable comes to touch.
   int first_link = 0;
   int listed_links = 0;
   int link_count = 0;

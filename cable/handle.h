@@ -5,8 +5,9 @@
 
 namespace sheave {
 
-/// A body, joint or cable of a LiveWorld, for as long as it is there: where it is kept, and which of those that have been kept
-/// there it is. One that is no more is told as such. Compare them, copy them; a default one refers to nothing.
+/// A body, joint or cable of a LiveWorld, for as long as it is there: where it is kept, and which
+/// of those that have been kept there it is. One that is no more is told as such. Compare them,
+/// copy them; a default one refers to nothing.
 template <class Tag>
 struct Handle {
   std::int32_t slot = -1;

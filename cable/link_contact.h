@@ -16,8 +16,8 @@ namespace sheave {
   return substep.point(link.carrier, link.center);
 }
 
-/// Whether both ends of a span move with one rigid body, so that nothing changes its length. What rounding leaves of its
-/// gradient would have to pull with 1e16 times its error.
+/// Whether both ends of a span move with one rigid body, so that nothing changes its length. What
+/// rounding leaves of its gradient would have to pull with 1e16 times its error.
 [[gnu::always_inline]] inline bool on_one_body(const LinkGeometry& first,
                                                const LinkGeometry& second) {
   return first.body == second.body && first.carrier == first.body && second.carrier == second.body;
@@ -49,8 +49,8 @@ inline Vector3 radial(const LinkCircle& circle, const Vector3& point) {
   return (point - circle.center) / std::abs(circle.signed_radius);
 }
 
-/// Outward unit normal at the contact of a span with its link, in the link's plane. On a circle the tangent point tells
-/// it; a corner of an outline may have no radius, but there the direction does.
+/// Outward unit normal at the contact of a span with its link, in the link's plane. On a circle the
+/// tangent point tells it; a corner of an outline may have no radius, but there the direction does.
 inline Vector3 contact_normal(const Substep& substep, const LinkGeometry& link, int corner,
                               const Vector3& point, const Vector3& direction) {
   if (!link.outline) return radial(circle_of(substep, link), point);
@@ -61,13 +61,15 @@ inline Vector3 contact_normal(const Substep& substep, const LinkGeometry& link, 
                       : radial({center_of(substep, link, corner), normal, 1.0}, point);
 }
 
-/// By how much less than the radius at the end times the angle a drum takes on when it is wound by `angle` [rad], because it
-/// gets thicker: the integral of pitch angle / 2 pi. (It gives as much more than that when it is unwound.)
+/// By how much less than the radius at the end times the angle a drum takes on when it is wound by
+/// `angle` [rad], because it gets thicker: the integral of pitch angle / 2 pi. (It gives as much
+/// more than that when it is unwound.)
 inline double layer_gain(const LinkGeometry& link, double angle) {
   return link.layer_pitch * angle * angle / (4.0 * pi);
 }
 
-/// Cable that a relative turn of the tangent point puts onto a circle, or the way along an outline, counter-clockwise.
+/// Cable that a relative turn of the tangent point puts onto a circle, or the way along an outline,
+/// counter-clockwise.
 inline double way_along(const LinkGeometry& link, double relative_turn, int start_corner,
                         double start_angle, int corner) {
   if (!link.outline) return std::abs(link.signed_radius) * relative_turn;

@@ -1,4 +1,5 @@
-// Putting a body elsewhere, all or nothing: a new state is made beside the old one and restored if it is right.
+// Putting a body elsewhere, all or nothing: a new state is made beside the old one and restored if
+// it is right.
 
 #include <cmath>
 

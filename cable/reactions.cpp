@@ -1,7 +1,8 @@
-// A rotor of mass m and angular momentum L moves by all that acts on it, F and T of cables, joints, contacts and loads among it,
-// so what is missing from m (v1 - v0) / h and (L1 - L0) / h comes from its bearings and its drive: the force, the torque across
-// the axle, and about the axle the drive's. With `rattle` the parts of F and T act where bodies were at the start and are at the
-// end (cable/certificate/evidence.h), which makes the balance exact for the states that it joins.
+// A rotor of mass m and angular momentum L moves by all that acts on it, F and T of cables, joints,
+// contacts and loads among it, so what is missing from m (v1 - v0) / h and (L1 - L0) / h comes from
+// its bearings and its drive: the force, the torque across the axle, and about the axle the
+// drive's. With `rattle` the parts of F and T act where bodies were at the start and are at the end
+// (cable/certificate/evidence.h), which makes the balance exact for the states that it joins.
 
 #include "cable/reactions.h"
 
@@ -21,7 +22,8 @@ using certify::last_end;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Angular momentum of a rotor about its centre. Its inertia about the axle may be told apart from that of its shape.
+/// Angular momentum of a rotor about its centre. Its inertia about the axle may be told apart from
+/// that of its shape.
 Vector3 spin_momentum(const BodySet& bodies, int rotor, const BodyState& state,
                       const Vector3& axle) {
   const BodyProperties& body = bodies[rotor];

@@ -1,8 +1,10 @@
 #pragma once
-// Forces and powers that no constraint has as its own: what bearings bear, what drives do, what friction takes.
+// Forces and powers that no constraint has as its own: what bearings bear, what drives do, what
+// friction takes.
 //
-// They follow from the two ends of the last substep and the forces reported of it, by the balances of momentum (as means over the
-// substep). Nothing is computed or kept in the course of a run for them.
+// They follow from the two ends of the last substep and the forces reported of it, by the balances
+// of momentum (as means over the substep). Nothing is computed or kept in the course of a run for
+// them.
 //
 //   if (const auto reactions = Reactions::of(simulation)) bearing = reactions->bearing(wheel);
 
@@ -24,12 +26,14 @@ struct BearingReaction {
 struct DriveReaction {
   double torque = 0.0;  ///< about the axle, on the rotor [N m]
   double power = 0.0;   ///< that it puts in [W]; of a mounted rotor with what it does to the mount
-  /// By how much the rotor is off what the drive asks for now: its angle [rad], its speed [rad/s]; 0 of a torque.
+  /// By how much the rotor is off what the drive asks for now: its angle [rad], its speed [rad/s];
+  /// 0 of a torque.
   double error = 0.0;
 };
 
-/// Of the last substep of a simulation, which must outlive it and not step meanwhile. What cannot be told, because something acts
-/// that is not reported in full (gears whose axes tilt), is not a number.
+/// Of the last substep of a simulation, which must outlive it and not step meanwhile. What cannot
+/// be told, because something acts that is not reported in full (gears whose axes tilt), is not a
+/// number.
 class Reactions {
  public:
   /// Nothing at time 0, and after World::restore() until the next step.
@@ -42,7 +46,8 @@ class Reactions {
   [[nodiscard]] BearingReaction bearing(int body) const;
   /// `body` must be a rotor with a drive.
   [[nodiscard]] DriveReaction drive(int body) const;
-  /// Power of the drive along a coordinate of a joint [W], as it is numbered in JointReport::coordinates.
+  /// Power of the drive along a coordinate of a joint [W], as it is numbered in
+  /// JointReport::coordinates.
   [[nodiscard]] double drive_power(int joint, int coordinate) const;
   /// Of all drives of bodies and joints [W].
   [[nodiscard]] double drive_power() const;
@@ -64,8 +69,9 @@ struct Momentum {
   Vector3 linear = Vector3::Zero();
   Vector3 angular = Vector3::Zero();
 };
-/// Of one body, the angular one about its centre of mass. The mass of mounted rotors is their carrier's, and so is their inertia
-/// but for the spin about the axle, which is all that they have themselves. What is fixed or kinematic has none.
+/// Of one body, the angular one about its centre of mass. The mass of mounted rotors is their
+/// carrier's, and so is their inertia but for the spin about the axle, which is all that they have
+/// themselves. What is fixed or kinematic has none.
 [[nodiscard]] Momentum momentum(const World& world, int body);
 /// Of all bodies, the angular one about the world's origin.
 [[nodiscard]] Momentum momentum(const World& world);

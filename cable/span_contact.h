@@ -1,5 +1,6 @@
 #pragma once
-// How a span and a link lie to each other: sides, angles and the cable between two spans. Internal to the cable library.
+// How a span and a link lie to each other: sides, angles and the cable between two spans. Internal
+// to the cable library.
 
 #include "cable/link.h"
 #include "cable/span_geometry.h"
@@ -11,19 +12,21 @@ namespace sheave {
 [[nodiscard]] LinkCircle circle_of(const Substep& substep, const LinkGeometry& link,
                                    int corner = 0);
 
-/// Where the link is drawn and named to be: the wheel's centre, the point, the origin of the outline's plane [m].
+/// Where the link is drawn and named to be: the wheel's centre, the point, the origin of the
+/// outline's plane [m].
 [[nodiscard]] inline Vector3 link_center(const Substep& substep, const LinkGeometry& link) {
   return substep.point(link.carrier, link.center);
 }
 
-/// Angle [rad, (-pi, pi]] of the outline's outward normal where a span along `direction` touches it, about the link's
-/// normal from the outline's x axis.
+/// Angle [rad, (-pi, pi]] of the outline's outward normal where a span along `direction` touches
+/// it, about the link's normal from the outline's x axis.
 [[nodiscard]] double normal_angle(const Substep& substep, const LinkGeometry& link,
                                   const Vector3& direction);
 
 /// How a span passes an outline that it does not touch.
 struct Clearance {
-  /// From the outline to the span, on the side where the link's winding puts the cable [m]; < 0: the span cuts it.
+  /// From the outline to the span, on the side where the link's winding puts the cable [m]; < 0:
+  /// the span cuts it.
   double distance = 0.0;
   double center_distance = 0.0;  ///< the same from the link's centre
   bool between =
@@ -37,18 +40,21 @@ struct Clearance {
 [[nodiscard]] Clearance clearance(const Substep& substep, const LinkGeometry& link,
                                   const SpanGeometry& span);
 
-/// Cable on the link between two spans [m] whose contacts are `angle` [rad] apart in the cable's direction.
+/// Cable on the link between two spans [m] whose contacts are `angle` [rad] apart in the cable's
+/// direction.
 [[nodiscard]] double arc_between(const Substep& substep, const LinkGeometry& link,
                                  const SpanGeometry& incoming, const SpanGeometry& outgoing,
                                  double angle);
 
-/// Way along the link [m, counter-clockwise] from where one span touches it to where another does, with the link at rest;
-/// the shorter way round. `first` tells whether the link is the first of both spans or the second.
+/// Way along the link [m, counter-clockwise] from where one span touches it to where another does,
+/// with the link at rest; the shorter way round. `first` tells whether the link is the first of
+/// both spans or the second.
 [[nodiscard]] double contact_shift(const Substep& substep, const LinkGeometry& link,
                                    const SpanGeometry& from, const SpanGeometry& to, bool first);
 
-/// Angle [rad, >= 0] by which the cable is wrapped round the link between two spans. Of a wheel or an outline it is known
-/// up to whole turns from the directions; `stored_length` [m] on it tells how many. Of a pinhole it is the deflection.
+/// Angle [rad, >= 0] by which the cable is wrapped round the link between two spans. Of a wheel or
+/// an outline it is known up to whole turns from the directions; `stored_length` [m] on it tells
+/// how many. Of a pinhole it is the deflection.
 [[nodiscard]] double wrap_angle(const Substep& substep, const LinkGeometry& link,
                                 const SpanGeometry& incoming, const SpanGeometry& outgoing,
                                 double stored_length);

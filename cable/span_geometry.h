@@ -12,8 +12,9 @@
 // Circles in different planes. Each end lies on its own circle, a_i = c_i + r_i e_i with a unit
 // vector e_i in plane i, and the span is tangent to both circles in the sense of the paper, section
 // 3.4: seen along the normal of its plane, e_i . (a_j - c_i) = r_i. For a fixed other end this is
-// the point-circle tangent with the end projected into the plane. Solving the two in turn gets near from anywhere,
-// Newton's method on both from there, or from where the span was a moment ago, to rounding in a few rounds.
+// the point-circle tangent with the end projected into the plane. Solving the two in turn gets near
+// from anywhere, Newton's method on both from there, or from where the span was a moment ago, to
+// rounding in a few rounds.
 
 #include "engine/vector.h"
 
@@ -82,14 +83,15 @@ struct SpanGuess {
   return span;
 }
 
-/// The span between two circles in any planes. Points may take either place. A `guess`, a span between the same links a
-/// moment ago, saves most of the search and decides nothing: the result agrees with that without it to rounding. Null:
-/// there is none.
+/// The span between two circles in any planes. Points may take either place. A `guess`, a span
+/// between the same links a moment ago, saves most of the search and decides nothing: the result
+/// agrees with that without it to rounding. Null: there is none.
 [[nodiscard]] SpanGeometry spatial_span(const LinkCircle& first, const LinkCircle& second,
                                         const SpanGuess* guess = nullptr);
 
-/// The angle [rad, (-pi, pi]] with this sine and cosine. Small angles, which are the rule between two evaluations in one
-/// substep, come from the series of the arc sine to full precision, large ones from atan2.
+/// The angle [rad, (-pi, pi]] with this sine and cosine. Small angles, which are the rule between
+/// two evaluations in one substep, come from the series of the arc sine to full precision, large
+/// ones from atan2.
 [[nodiscard, gnu::always_inline]] inline double angle_of(double sine, double cosine) {
   const double s = sine * sine;
   if (s < 1e-3 && cosine > 0.0) {

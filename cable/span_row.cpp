@@ -10,8 +10,8 @@
 namespace sheave {
 namespace {
 
-/// Where the link's centre (of an outline: its origin, which is near enough for a guess) would be `time` after the start
-/// of the substep [m] if its body went on as it moves there.
+/// Where the link's centre (of an outline: its origin, which is near enough for a guess) would be
+/// `time` after the start of the substep [m] if its body went on as it moves there.
 Vector3 center_after(const Substep& substep, const LinkGeometry& link, double time) {
   if (link.carrier == substep.bodies.count()) return link.center;
   const BodyState& carrier = substep.start.bodies[at(link.carrier)];
@@ -21,8 +21,8 @@ Vector3 center_after(const Substep& substep, const LinkGeometry& link, double ti
          rotation_by(time * carrier.angular_velocity) * (carrier.orientation * link.center);
 }
 
-/// Velocity of the link's centre at the start of the substep (of an outline: of its origin, which is near enough for a
-/// guess of the span's turn).
+/// Velocity of the link's centre at the start of the substep (of an outline: of its origin, which
+/// is near enough for a guess of the span's turn).
 Vector3 start_velocity(const Substep& substep, const LinkGeometry& link) {
   if (link.carrier == substep.bodies.count()) return Vector3::Zero();
   const BodyState& carrier = substep.start.bodies[at(link.carrier)];
@@ -37,8 +37,8 @@ double carrier_rotation(const Substep& substep, const LinkGeometry& link) {
   return substep.h * substep.start.bodies[at(link.carrier)].angular_velocity.norm();
 }
 
-/// Turn of the line between the links' centres over the substep about `normal` [rad], any number of times, if their
-/// bodies go on as they move at its start. `apart` is that line at the start.
+/// Turn of the line between the links' centres over the substep about `normal` [rad], any number of
+/// times, if their bodies go on as they move at its start. `apart` is that line at the start.
 double expected_turn(const Substep& substep, const LinkGeometry& first, const LinkGeometry& second,
                      const Vector3& apart, const Vector3& normal) {
   const double distance_squared = dot(apart, apart);
@@ -46,8 +46,8 @@ double expected_turn(const Substep& substep, const LinkGeometry& first, const Li
   const Vector3 velocity = start_velocity(substep, second) - start_velocity(substep, first);
   const double turn = substep.h * dot(normal, cross(apart, velocity)) / distance_squared;
   if (std::abs(turn) < 1.0) return turn;
-  // One of them orbits the other, or passes it closely, which cannot turn the line by more than half a turn. So follow
-  // the line in steps of less than a radian of rotation.
+  // One of them orbits the other, or passes it closely, which cannot turn the line by more than
+  // half a turn. So follow the line in steps of less than a radian of rotation.
   constexpr double most_steps = 1e4;
   const double rotation = carrier_rotation(substep, first) + carrier_rotation(substep, second);
   const int steps = 1 + static_cast<int>(std::min(2.0 * rotation, most_steps));
@@ -65,13 +65,15 @@ double expected_turn(const Substep& substep, const LinkGeometry& first, const Li
   return sum;
 }
 
-/// By how much less than its edges the span changes when its contact moves from one corner to another while its far end,
-/// `far_end` in the carrier's own frame, is out of the outline's plane [m, with the sign of the way `along`]. Where the
-/// contact changes corner the span, seen along the plane, lies along the edge e; with d from the nearer corner to the far
-/// end and z out of the plane its length changes by sqrt((d + e)^2 + z^2) - sqrt(d^2 + z^2), which is e for z = 0. The
-/// stored length counts that, not e, so that the row's value has no jump, which would make energy; after windings at
-/// different tilts it is not quite the length of the edges. The far end is that of the start of the substep, so that
-/// what is lost depends on the corners only and the row's gradient stays exact.
+/// By how much less than its edges the span changes when its contact moves from one corner to
+/// another while its far end, `far_end` in the carrier's own frame, is out of the outline's plane
+/// [m, with the sign of the way `along`]. Where the contact changes corner the span, seen along the
+/// plane, lies along the edge e; with d from the nearer corner to the far end and z out of the
+/// plane its length changes by sqrt((d + e)^2 + z^2) - sqrt(d^2 + z^2), which is e for z = 0. The
+/// stored length counts that, not e, so that the row's value has no jump, which would make energy;
+/// after windings at different tilts it is not quite the length of the edges. The far end is that
+/// of the start of the substep, so that what is lost depends on the corners only and the row's
+/// gradient stays exact.
 double tilt_loss(const LinkGeometry& link, int from, int to, double along, const Vector3& far_end) {
   if (from == to) return 0.0;
   const int count = link.outline->curve.corner_count();
@@ -107,11 +109,12 @@ double tilt_loss(const LinkGeometry& link, int from, int to, double along, const
                       circle_of(substep, second, second_corner), guess);
 }
 
-/// Finds the corners: each round turns the span about one end until it no longer cuts the other outline. Between convex
-/// outlines in one plane that do not overlap every turn goes the same way for the same end, so each corner is passed
-/// once at most and the rounds are bounded by the number of corners; if they are used up, the outlines overlap. In
-/// skew planes there may be no pair of corners that suits both views (for 0.3 % of random polygons tilted by up to
-/// 0.3 rad about each axis, 3 % at 1 rad); then the last pair stands and counts as no tangent.
+/// Finds the corners: each round turns the span about one end until it no longer cuts the other
+/// outline. Between convex outlines in one plane that do not overlap every turn goes the same way
+/// for the same end, so each corner is passed once at most and the rounds are bounded by the number
+/// of corners; if they are used up, the outlines overlap. In skew planes there may be no pair of
+/// corners that suits both views (for 0.3 % of random polygons tilted by up to 0.3 rad about each
+/// axis, 3 % at 1 rad); then the last pair stands and counts as no tangent.
 SpanGeometry outlined_span(const Substep& substep, const SpanSetup& setup,
                            const LinkGeometry& first, const LinkGeometry& second) {
   const Vector3 between = link_center(substep, second) - link_center(substep, first);

@@ -5,19 +5,20 @@
 // motion since the start of the substep (design 5.2): with the change A of the angle of the span's
 // tangent point in the link's plane and the rotation B of the body about the plane's normal,
 //   incoming end:  L += q2 (A2 - B2)        outgoing end:  L -= q1 (A1 - B1);
-// on an outline q (A - B) becomes the way along it (cable/outline.h), and the rest of this text holds for the circle
-// at the corner where the span ends.
+// on an outline q (A - B) becomes the way along it (cable/outline.h), and the rest of this text
+// holds for the circle at the corner where the span ends.
 // In one plane A1 = A2 is the change of the span's direction. So C is a function of the positions,
 // and nothing drifts.
 //
 // Gradient, coplanar: moving the tangent points along the circles changes l and L alike, so only
-// the material points count (envelope theorem): grad C = +u at the start, -u at the end. (Where there is no tangent, the
-// centres count, too; see add_turning_terms.)
+// the material points count (envelope theorem): grad C = +u at the start, -u at the end. (Where
+// there is no tangent, the centres count, too; see add_turning_terms.)
 //
-// A drum with layers has the radius q of its outermost one, which depends on the angle psi = A - B by which it is wound:
-// dq = pitch / 2 pi dpsi (cable/cable_layers.cpp). What it takes on is the integral of q dpsi. With a tangent to a circle,
-// dl + q dA = 0 if only the radius changes (l = sqrt(d^2 - q^2), dA / dq = 1 / l for a point at the other end), so a
-// radius that follows the angle adds nothing to the gradient.
+// A drum with layers has the radius q of its outermost one, which depends on the angle psi = A - B
+// by which it is wound: dq = pitch / 2 pi dpsi (cable/cable_layers.cpp). What it takes on is the
+// integral of q dpsi. With a tangent to a circle, dl + q dA = 0 if only the radius changes (l =
+// sqrt(d^2 - q^2), dA / dq = 1 / l for a point at the other end), so a radius that follows the
+// angle adds nothing to the gradient.
 //
 // Gradient, different planes: at the end of a span on a wheel, the span's direction u and the
 // wheel's tangent t = o n x e (o = sign q) need not agree, and moving the tangent point by
@@ -105,8 +106,8 @@ struct SpanTransport {
                                            const SpanReference& reference,
                                            const SpanGeometry& geometry);
 
-/// Value and gradient of the row (bounds and compliance are the caller's). Returns the span; `transport` tells what the
-/// value counts as transport.
+/// Value and gradient of the row (bounds and compliance are the caller's). Returns the span;
+/// `transport` tells what the value counts as transport.
 SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
                            const LinkGeometry& first, const LinkGeometry& second,
                            const SpanReference& reference, Row& row, SpanTransport& transport);

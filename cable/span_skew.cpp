@@ -1,6 +1,6 @@
-// Cost of an evaluation: two frames, one round or two of Newton's method from where the span was, two angles, and two
-// terms of the row. Everything of one end is collected before it is added, for most wheels turn about fixed axles and
-// their frames and forces are a few products.
+// Cost of an evaluation: two frames, one round or two of Newton's method from where the span was,
+// two angles, and two terms of the row. Everything of one end is collected before it is added, for
+// most wheels turn about fixed axles and their frames and forces are a few products.
 
 #include "cable/span_skew.h"
 
@@ -9,8 +9,8 @@
 namespace sheave {
 namespace {
 
-/// The forces that moving tangent points stand for, per unit multiplier: along `first_radial` between the bodies at the
-/// span's end, along `second_radial` at its start.
+/// The forces that moving tangent points stand for, per unit multiplier: along `first_radial`
+/// between the bodies at the span's end, along `second_radial` at its start.
 struct SkewForces {
   Vector3 along_first = Vector3::Zero();
   Vector3 along_second = Vector3::Zero();

@@ -1,6 +1,6 @@
 #pragma once
-// The row of a span between circles, or a circle and a point, in planes that differ or move: what cable/span_row.h derives
-// for different planes. Internal to the cable library.
+// The row of a span between circles, or a circle and a point, in planes that differ or move: what
+// cable/span_row.h derives for different planes. Internal to the cable library.
 
 #include "cable/span_row.h"
 
@@ -13,15 +13,16 @@ struct LinkFrame {
 };
 [[nodiscard]] LinkFrame frame_of(const Substep& substep, const LinkGeometry& link);
 
-/// Rotation A - B [rad] of the tangent point at one end about the link's normal, relative to the body, since the start.
-/// `outward` is the unit vector from the centre of the end's circle to the tangent point, now; `start_outward` the same at
-/// the start, own frame of the carrier.
+/// Rotation A - B [rad] of the tangent point at one end about the link's normal, relative to the
+/// body, since the start. `outward` is the unit vector from the centre of the end's circle to the
+/// tangent point, now; `start_outward` the same at the start, own frame of the carrier.
 [[nodiscard]] double relative_turn(const Substep& substep, const LinkGeometry& link,
                                    const LinkFrame& frame, const Vector3& start_outward,
                                    const Vector3& outward);
 
-/// Adds to `row` the unit forces of the span's ends and the forces that its moving tangent points add. Nothing of the latter
-/// without a tangent. Circles are those at the corners where the span ends.
+/// Adds to `row` the unit forces of the span's ends and the forces that its moving tangent points
+/// add. Nothing of the latter without a tangent. Circles are those at the corners where the span
+/// ends.
 void add_skew_span(const Substep& substep, const LinkGeometry& first, const LinkGeometry& second,
                    const LinkCircle& first_circle, const LinkCircle& second_circle,
                    const SpanGeometry& span, Row& row);

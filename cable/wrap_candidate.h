@@ -1,13 +1,14 @@
 #pragma once
 // Bodies that a cable can come to touch though its list of links does not name them.
 //
-// A wrap is a rolling link that begins with the contact and ends with it. What has to be found is its plane and its
-// winding. In a planar scene the plane is the cable's. Otherwise it is fixed to the body when the cable touches:
-// perpendicular to the axis of a cylinder or prism, or to that of a box's axes which fits best, where the span comes nearest to
-// the axis; for other forms it is the plane of the span and the body's centre. The winding puts the body on the side of
-// the span on which it was at the start of the substep, as the sign of the moment m = u x (c - a) of its centre c about the
-// span a + t u tells: about a plane's normal n the cable runs counter-clockwise if n . m > 0. So a body that
-// the span has gone right through in one substep is caught, too.
+// A wrap is a rolling link that begins with the contact and ends with it. What has to be found is
+// its plane and its winding. In a planar scene the plane is the cable's. Otherwise it is fixed to
+// the body when the cable touches: perpendicular to the axis of a cylinder or prism, or to that of
+// a box's axes which fits best, where the span comes nearest to the axis; for other forms it is the
+// plane of the span and the body's centre. The winding puts the body on the side of the span on
+// which it was at the start of the substep, as the sign of the moment m = u x (c - a) of its centre
+// c about the span a + t u tells: about a plane's normal n the cable runs counter-clockwise if n .
+// m > 0. So a body that the span has gone right through in one substep is caught, too.
 
 #include <optional>
 #include <vector>
@@ -55,12 +56,14 @@ struct WrapSide {
 [[nodiscard]] WrapSide wrap_side(const Substep& substep, const WrapCandidate& candidate,
                                  const SpanGeometry& span);
 
-/// The plane in which the span would be wrapped round the candidate; none if it passes beyond the ends of its axis.
+/// The plane in which the span would be wrapped round the candidate; none if it passes beyond the
+/// ends of its axis.
 [[nodiscard]] std::optional<WrapPlane> wrap_plane(const Substep& substep,
                                                   const WrapCandidate& candidate,
                                                   const SpanGeometry& span);
 
-/// The candidate's section with the plane as a link wound counter-clockwise; none if they do not meet in an area.
+/// The candidate's section with the plane as a link wound counter-clockwise; none if they do not
+/// meet in an area.
 [[nodiscard]] std::optional<LinkGeometry> wrap_link(const BodySet& bodies,
                                                     const WrapCandidate& candidate,
                                                     const WrapPlane& plane);

@@ -38,8 +38,9 @@ struct BodyDef {
   std::string name;  ///< unique in the model, not "world"
   Mobility mobility = Mobility::free;
   /// planar: normal of the plane (default z). slider: direction (required). rotor: axle (default
-  /// the body's own z axis). kinematic: normal of the plane in which it stays; default: one with a motion of its own keeps to
-  /// that, one without goes wherever it is told to (World::set_motion()). Any length but 0; not for other mobilities.
+  /// the body's own z axis). kinematic: normal of the plane in which it stays; default: one with a
+  /// motion of its own keeps to that, one without goes wherever it is told to
+  /// (World::set_motion()). Any length but 0; not for other mobilities.
   std::optional<Vector3> axis;
   /// rotor only: the body that carries the axle. The rotor's mass and its inertia across the axle
   /// are then part of that body, which may be free, planar, slider, static or kinematic.
@@ -53,30 +54,33 @@ struct BodyDef {
   /// Moments of inertia [kg m2] about the centre of mass and the body's x, y, z axes, which are
   /// then principal axes. Default: from the shapes, scaled to the mass.
   std::optional<Vector3> inertia;
-  /// rotor only: moment of inertia about the axle [kg m2], >= 0; replaces that of `inertia` and the shapes. 0 is a
-  /// massless wheel, which turns as its cable moves it and passes the tension on unchanged.
+  /// rotor only: moment of inertia about the axle [kg m2], >= 0; replaces that of `inertia` and the
+  /// shapes. 0 is a massless wheel, which turns as its cable moves it and passes the tension on
+  /// unchanged.
   std::optional<double> spin_inertia;
-  /// rotor only: speed, angle or torque about the axis as a function of time through the given points, constant outside; a
-  /// single value without times is constant. Of a mounted rotor all of them are against its carrier, which bears the
-  /// opposite torque, and the angle is that since time 0, with what the table has there as 0.
+  /// rotor only: speed, angle or torque about the axis as a function of time through the given
+  /// points, constant outside; a single value without times is constant. Of a mounted rotor all of
+  /// them are against its carrier, which bears the opposite torque, and the angle is that since
+  /// time 0, with what the table has there as 0.
   DriveKind drive = DriveKind::none;
   std::vector<double> drive_times;   ///< [s], increasing; as many as values, or none
   std::vector<double> drive_values;  ///< [rad/s, rad or N m]
   Interpolation drive_interpolation = Interpolation::linear;  ///< between the points
   Vector3 force = Vector3::Zero();   ///< constant, at the centre of mass [N]
   Vector3 torque = Vector3::Zero();  ///< constant [N m]
-  /// Drag at the centre of mass, -damping times its velocity [N s/m], >= 0; free, planar and slider bodies.
+  /// Drag at the centre of mass, -damping times its velocity [N s/m], >= 0; free, planar and slider
+  /// bodies.
   double damping = 0.0;
-  /// Torque -angular_damping times the angular velocity [N m s/rad], >= 0: free and planar bodies, and the bearings of rotors
-  /// on fixed axles.
+  /// Torque -angular_damping times the angular velocity [N m s/rad], >= 0: free and planar bodies,
+  /// and the bearings of rotors on fixed axles.
   double angular_damping = 0.0;
   /// kinematic only: the position is position + velocity t + oscillation (sin(2 pi f t + p) - sin
   /// p) and the body turns with angular_velocity.
   Vector3 oscillation = Vector3::Zero();  ///< amplitude [m]
   double oscillation_frequency = 0.0;     ///< f [Hz], >= 0
   double oscillation_phase = 0.0;         ///< p [rad]
-  /// Whether things that are laid over bodies (cables) can come to lie on this one without being told. Needs a shape; not
-  /// for massless wheels.
+  /// Whether things that are laid over bodies (cables) can come to lie on this one without being
+  /// told. Needs a shape; not for massless wheels.
   bool wrappable = false;
   std::vector<PlacedShape> shapes;  ///< may be empty if mass and inertia are given
 

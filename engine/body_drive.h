@@ -22,11 +22,13 @@ class BodyDrive {
   [[nodiscard]] double integral(double from, double to) const {
     return set_ != nullptr ? set_->target.integral(from, to) : body_.drive_table.integral(from, to);
   }
-  /// By how much it turns the body from one time to another [rad]; of drives to a speed or an angle.
+  /// By how much it turns the body from one time to another [rad]; of drives to a speed or an
+  /// angle.
   [[nodiscard]] double turn(double from, double to) const {
     return body_.driven_by() == DriveKind::speed ? integral(from, to) : at(to) - at(from);
   }
-  /// The spin that it gives the body at the end of that time, `h` seconds [rad/s]. Of a table's angle it is the mean if not `at_end`.
+  /// The spin that it gives the body at the end of that time, `h` seconds [rad/s]. Of a table's
+  /// angle it is the mean if not `at_end`.
   [[nodiscard]] double speed(double from, double to, double h, bool at_end) const {
     if (body_.driven_by() == DriveKind::speed) return at(to);
     return set_ != nullptr || at_end ? rate(to) : (at(to) - at(from)) / h;

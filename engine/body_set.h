@@ -29,7 +29,8 @@ struct BodyProperties {
   Matrix3 inertia = Matrix3::Zero();
   Matrix3 inverse_inertia = Matrix3::Zero();  ///< of `inertia`; zero where the body cannot turn
   bool isotropic = false;  ///< free bodies: `inertia` is a multiple of the identity
-  /// Free bodies: two principal moments are equal (a capsule, a wheel), and this is the unit axis of the third, own frame.
+  /// Free bodies: two principal moments are equal (a capsule, a wheel), and this is the unit axis
+  /// of the third, own frame.
   std::optional<Vector3> symmetry_axis;
   /// Unit vector: planar normal, slider direction or axle, in the world frame; of a mounted rotor
   /// in its carrier's own frame.
@@ -38,7 +39,8 @@ struct BodyProperties {
   Vector3 mount_position = Vector3::Zero();  ///< centre of a mounted rotor, carrier's own frame [m]
   Quaternion start_orientation = Quaternion::Identity();  ///< at angle 0; relative to the carrier
   DriveKind drive = DriveKind::none;                      ///< of rotors on fixed axles
-  /// Of mounted rotors, against the carrier; one to an angle has 0 at time 0. Rows drive them (engine/dynamics/mounted_drive.h).
+  /// Of mounted rotors, against the carrier; one to an angle has 0 at time 0. Rows drive them
+  /// (engine/dynamics/mounted_drive.h).
   DriveKind mounted_drive = DriveKind::none;
   TimeTable drive_table;
   /// Either of them.
@@ -47,7 +49,8 @@ struct BodyProperties {
   [[nodiscard]] bool prescribed() const {
     return drive == DriveKind::speed || drive == DriveKind::angle;
   }
-  /// A wheel that only its cable turns, without any resistance. (A driven one resists, whatever its inertia.)
+  /// A wheel that only its cable turns, without any resistance. (A driven one resists, whatever its
+  /// inertia.)
   [[nodiscard]] bool massless() const {
     return mobility == Mobility::rotor && axis_inertia == 0.0 && !prescribed();
   }

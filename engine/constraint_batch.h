@@ -21,7 +21,8 @@ enum class NoteMark { step, substep };
 
 /// A feature of a world that constrains bodies. Its settings are fixed; what it carries from
 /// substep to substep is a FeatureState; members beyond those are scratch that begin() fills anew
-/// in every substep, or notes: what it keeps for reports alone (events, warnings), and nothing that moves depends on.
+/// in every substep, or notes: what it keeps for reports alone (events, warnings), and nothing that
+/// moves depends on.
 class ConstraintBatch {
  public:
   virtual ~ConstraintBatch() = default;
@@ -34,8 +35,8 @@ class ConstraintBatch {
   [[nodiscard]] virtual FeatureState initial_state() const = 0;
   /// Whether `state`, of the right sizes, can be one of this feature: what begin() relies on.
   [[nodiscard]] virtual bool accepts(const FeatureState& /*state*/) const { return true; }
-  /// Whether `controls`, of a state that accepts() has passed, can be those of this feature; Controls::cables and links are its
-  /// alone if it takes_cables().
+  /// Whether `controls`, of a state that accepts() has passed, can be those of this feature;
+  /// Controls::cables and links are its alone if it takes_cables().
   [[nodiscard]] virtual bool accepts_controls(const Controls& /*controls*/) const { return true; }
   /// Whether it is the one whose cables and links controls are for.
   [[nodiscard]] virtual bool takes_cables() const { return false; }
@@ -48,27 +49,31 @@ class ConstraintBatch {
   virtual void begin(const Substep& substep, const FeatureState& state) = 0;
   /// Whether limit_drives() ever does anything.
   [[nodiscard]] virtual bool limits_drives() const { return false; }
-  /// Called after begin(): lessens Substep::drive_shares where a drive would need what is not there (a winch whose cable has
-  /// run out). Other features do the same.
+  /// Called after begin(): lessens Substep::drive_shares where a drive would need what is not there
+  /// (a winch whose cable has run out). Other features do the same.
   virtual void limit_drives(Substep& /*substep*/) {}
   /// One Gauss-Seidel sweep: each row in order, re-evaluated at the current positions and solved.
   /// Returns the largest correction, as an error of a row [m or rad].
   virtual double sweep(Substep& substep) = 0;
-  /// Appends all rows at the current positions without moving anything; their multipliers are those of multipliers().
+  /// Appends all rows at the current positions without moving anything; their multipliers are those
+  /// of multipliers().
   virtual void linearise(Substep& substep, RowList& rows) = 0;
-  /// The accumulated multipliers, which a row refers to by its index; a solver changes them with the positions.
+  /// The accumulated multipliers, which a row refers to by its index; a solver changes them with
+  /// the positions.
   [[nodiscard]] virtual std::span<double> multipliers() = 0;
-  /// Called when a solver of all rows at once has found multipliers: chooses anew between the states that rows do not
-  /// tell (a cable sticks or slides). Returns whether anything has changed.
+  /// Called when a solver of all rows at once has found multipliers: chooses anew between the
+  /// states that rows do not tell (a cable sticks or slides). Returns whether anything has changed.
   virtual bool revise(Substep& /*substep*/) { return false; }
-  /// Whether its rows depend on each other too much for sweeps from row to row to get anywhere: Gauss-Seidel then solves them
-  /// all at once whenever it is their turn.
+  /// Whether its rows depend on each other too much for sweeps from row to row to get anywhere:
+  /// Gauss-Seidel then solves them all at once whenever it is their turn.
   [[nodiscard]] virtual bool is_stiff() const { return false; }
-  /// Whether begin() has found an impact from which bodies will rebound. `rattle` leaves such a substep to `xpbd`.
+  /// Whether begin() has found an impact from which bodies will rebound. `rattle` leaves such a
+  /// substep to `xpbd`.
   [[nodiscard]] virtual bool meets() const { return false; }
   /// Whether correct_velocities() ever does anything.
   [[nodiscard]] virtual bool corrects_velocities() const { return false; }
-  /// Called when velocities follow from positions, for what positions do not tell of them (a bounce).
+  /// Called when velocities follow from positions, for what positions do not tell of them (a
+  /// bounce).
   virtual void correct_velocities(Substep& /*substep*/) {}
   /// Called when positions are final: writes the feature's state at the end of the substep.
   virtual void finish(Substep& substep, FeatureState& next) = 0;
@@ -79,28 +84,28 @@ class ConstraintBatch {
 
   // Machines in which nothing turns a row's gradient: engine/solvers/affine_motion.h.
 
-  /// Appends all its rows if each is affine in what `bodies` count, for good, and has the multiplier of its place among them;
-  /// otherwise none, and false.
+  /// Appends all its rows if each is affine in what `bodies` count, for good, and has the
+  /// multiplier of its place among them; otherwise none, and false.
   [[nodiscard]] virtual bool append_affine(const AffineBodies& /*bodies*/, AffineRows& /*rows*/) {
     return false;
   }
-  /// Instead of begin() and limit_drives(): the rows' values at the start of a substep, and which of them have a force in `state`. False if in
-  /// this substep they may not be affine.
+  /// Instead of begin() and limit_drives(): the rows' values at the start of a substep, and which
+  /// of them have a force in `state`. False if in this substep they may not be affine.
   [[nodiscard]] virtual bool begin_affine(const AffineSubstep& /*substep*/,
                                           const FeatureState& /*state*/,
                                           std::span<double> /*values*/,
                                           std::span<char> /*active*/) {
     return false;
   }
-  /// Instead of finish(): the state at the end, over that at the start, which `next` holds. False if it has to be found in
-  /// another way; nothing has changed then but `next`.
+  /// Instead of finish(): the state at the end, over that at the start, which `next` holds. False
+  /// if it has to be found in another way; nothing has changed then but `next`.
   [[nodiscard]] virtual bool finish_affine(const AffineSubstep& /*substep*/,
                                            FeatureState& /*next*/) {
     return false;
   }
 
-  /// Takes over from a state of a feature of another world what is the same in both: `own` is that of initial_state(). Called
-  /// when a running world is edited.
+  /// Takes over from a state of a feature of another world what is the same in both: `own` is that
+  /// of initial_state(). Called when a running world is edited.
   virtual void adopt(const ConstraintBatch& /*before*/, const FeatureState& /*from*/,
                      FeatureState& /*own*/) const {}
 

@@ -5,7 +5,8 @@
 
 namespace sheave {
 
-// Each calls visit(member) in a fixed order, with the type that the member has. `Self` may be const.
+// Each calls visit(member) in a fixed order, with the type that the member has. `Self` may be
+// const.
 
 template <class Value, class Visit>
 void visit_ramp(Value& ramp, const Visit& visit) {

@@ -1,5 +1,5 @@
-// Rotation. From `from` to `to` the orientation is exp(r) q0 with the rotation vector r(t), a cubic; its angular velocity is
-// J(r) r', with the left Jacobian of the exponential
+// Rotation. From `from` to `to` the orientation is exp(r) q0 with the rotation vector r(t), a
+// cubic; its angular velocity is J(r) r', with the left Jacobian of the exponential
 //   J(r) v = v + (1 - cos a) / a^2 r x v + (a - sin a) / a^3 r x (r x v),   a = |r|.
 // Where r keeps its direction that is r', and Simpson's rule gives the turn exactly.
 

@@ -16,7 +16,8 @@ constexpr double runaway_sizes = 1e9;
 /// What is wrong with one body's new state; null if nothing is.
 const char* fault_of(const BodyState& body, double size, double h) {
   const double farthest = runaway_sizes * size;
-  // Nearly always nothing is, and squares tell that with few comparisons, none of which a NaN passes.
+  // Nearly always nothing is, and squares tell that with few comparisons, none of which a NaN
+  // passes.
   const double far_squared = farthest * farthest;
   const double turn = dot(body.angular_velocity, body.angular_velocity);
   if (dot(body.position, body.position) <= far_squared &&

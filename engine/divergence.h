@@ -29,8 +29,8 @@ struct Runaway {
 /// Of a scene of this size [m], in a substep of `h` [s].
 [[nodiscard]] Runaway runaway_limits(double size, double h);
 
-/// What is wrong with the state at the end of a complete substep, if anything: its first body that is not finite or has
-/// run away, or else its first feature.
+/// What is wrong with the state at the end of a complete substep, if anything: its first body that
+/// is not finite or has run away, or else its first feature.
 [[nodiscard]] std::optional<Divergence> find_divergence(
     const Substep& substep, std::span<const std::unique_ptr<ConstraintBatch>> features);
 

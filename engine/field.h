@@ -79,7 +79,8 @@ template <class Class, class Member>
 Member member_of(Member Class::*);
 }  // namespace detail
 
-/// A table row for the member `Member` (not an enumeration) of `Class`, which may have it from a base.
+/// A table row for the member `Member` (not an enumeration) of `Class`, which may have it from a
+/// base.
 template <auto Member, class Class = decltype(detail::class_of(Member))>
 [[nodiscard]] constexpr Field field(std::string_view name, std::string_view unit, Range range,
                                     Presence presence, std::string_view meaning) {

@@ -5,7 +5,8 @@
 namespace sheave {
 namespace {
 
-/// Checks the numbers of one field. Paths are made only where there is something to tell: a scene may have a million bodies.
+/// Checks the numbers of one field. Paths are made only where there is something to tell: a scene
+/// may have a million bodies.
 class NumberCheck {
  public:
   NumberCheck(const Field& field, const std::string& path, Errors& errors)

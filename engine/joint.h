@@ -37,11 +37,12 @@ class JointDef {
   std::string name;  ///< unique among the joints of the model
   BodyId body_a;     ///< default: the world
   BodyId body_b;     ///< required, differs from body_a
-  /// The joint breaks at the end of the substep in which its mean force or torque on body_b, about its anchor, exceeds
-  /// these; it then does nothing any more.
+  /// The joint breaks at the end of the substep in which its mean force or torque on body_b, about
+  /// its anchor, exceeds these; it then does nothing any more.
   std::optional<double> breaking_force;   ///< [N], > 0
   std::optional<double> breaking_torque;  ///< [N m], > 0
-  /// Where bodies were when anchors and axes were told. LiveWorld::edit() sets it for a joint that comes into a running world.
+  /// Where bodies were when anchors and axes were told. LiveWorld::edit() sets it for a joint that
+  /// comes into a running world.
   BodyFrames defined_in;
 
   /// What all joints have.

@@ -5,8 +5,9 @@
 
 namespace sheave {
 
-/// From one value to another as a cubic with given rates at both ends, and from there on at a steady rate. With equal rates of
-/// (end - start) / (to - from) it is a straight line. `Value` is a number or a vector.
+/// From one value to another as a cubic with given rates at both ends, and from there on at a
+/// steady rate. With equal rates of (end - start) / (to - from) it is a straight line. `Value` is a
+/// number or a vector.
 template <class Value>
 struct RampOf {
   double from = 0.0;             ///< when it begins [s]; before that it has its first value
@@ -17,7 +18,8 @@ struct RampOf {
   Value end_rate = nothing();    ///< as it arrives [per s]
   Value rate_after = nothing();  ///< from then on [per s]
 
-  /// Whether it is beyond its end at `time`. Times of steps are rounded; at the end it still arrives.
+  /// Whether it is beyond its end at `time`. Times of steps are rounded; at the end it still
+  /// arrives.
   [[nodiscard]] bool past(double time) const {
     constexpr double rounding = 1e-9;
     return time - to > rounding * (to - from) || !(to > from);

@@ -33,11 +33,12 @@ struct MovingBody {
   /// Rotation since the start of the substep [rad], as the sum of all rotation vectors applied. It
   /// is not wrapped: a wheel may turn several times in one substep.
   Vector3 turn = Vector3::Zero();
-  /// What it turns about, if that is one axis alone: the normal of a planar body, the axle of a rotor (of a mounted one as it
-  /// was when its inverse inertia was taken). Unit vector, world frame.
+  /// What it turns about, if that is one axis alone: the normal of a planar body, the axle of a
+  /// rotor (of a mounted one as it was when its inverse inertia was taken). Unit vector, world
+  /// frame.
   Vector3 axis = Vector3::Zero();
-  /// What its inverse mass and inertia are along each of its degrees of freedom [1/kg], [1/(kg m2)]. Of a free body with
-  /// unequal moments of inertia only `inverse_inertia` tells.
+  /// What its inverse mass and inertia are along each of its degrees of freedom [1/kg], [1/(kg
+  /// m2)]. Of a free body with unequal moments of inertia only `inverse_inertia` tells.
   double linear_yield = 0.0;
   double angular_yield = 0.0;
   Matrix3 inverse_mass = Matrix3::Zero();     ///< [1/kg], world frame
@@ -50,10 +51,11 @@ struct MovingBody {
   Quaternion free_orientation = Quaternion::Identity();  ///< `orientation` of the free motion
   Vector3 free_turn = Vector3::Zero();                   ///< `turn` of the free motion [rad]
 
-  /// Corrects the rotation by a rotation vector [rad]. The orientation is that of the free motion turned by the sum c of
-  /// all corrections, exp(c) q*, and not by one after the other: velocities follow from that sum, and rotations do not
-  /// commute, so that sweeps which turn a slender body to and fro about several axes would leave a sum, and with it a
-  /// velocity, where there is no motion. That feeds on itself.
+  /// Corrects the rotation by a rotation vector [rad]. The orientation is that of the free motion
+  /// turned by the sum c of all corrections, exp(c) q*, and not by one after the other: velocities
+  /// follow from that sum, and rotations do not commute, so that sweeps which turn a slender body
+  /// to and fro about several axes would leave a sum, and with it a velocity, where there is no
+  /// motion. That feeds on itself.
   void rotate(const Vector3& correction) {
     turn += correction;
     if (tracks_orientation) orientation = turned(free_orientation, turn - free_turn);
@@ -65,7 +67,8 @@ struct RowTerm {
   int body = 0;                       ///< index into the bodies of the substep
   Vector3 linear = Vector3::Zero();   ///< dC / d position
   Vector3 angular = Vector3::Zero();  ///< dC / d rotation vector, world frame
-  /// Of a force n at the arm r from the body's centre: r . n, which the gradient does not tell [m]. Only of curved rows.
+  /// Of a force n at the arm r from the body's centre: r . n, which the gradient does not tell [m].
+  /// Only of curved rows.
   double reach = 0.0;
 };
 
@@ -83,29 +86,32 @@ struct Row {
   int term_count = 0;
   std::array<RowTerm, max_terms> terms;
   // Only solvers of all rows at once need these.
-  /// Added to the row's yield w [1/kg], >= 0: shares a load among rows of which fewer would do. Unlike a compliance it is no
-  /// spring; the multiplier l leaves the row off by softness x l.
+  /// Added to the row's yield w [1/kg], >= 0: shares a load among rows of which fewer would do.
+  /// Unlike a compliance it is no spring; the multiplier l leaves the row off by softness x l.
   double softness = 0.0;
-  /// A row that closes faster than this at the end of a substep of `rattle` rebounds in the next one [m/s]: its velocity is
-  /// not stopped.
+  /// A row that closes faster than this at the end of a substep of `rattle` rebounds in the next
+  /// one [m/s]: its velocity is not stopped.
   double rebound_speed = unbounded;
-  /// Of a row of friction, whose bounds are +- this times the multiplier of the row `pressed_by` places before it [1].
+  /// Of a row of friction, whose bounds are +- this times the multiplier of the row `pressed_by`
+  /// places before it [1].
   double friction = 0.0;
   int pressed_by = 0;
   int index = 0;        ///< of its multiplier among those of its feature
   bool active = false;  ///< whether its multiplier was off its bounds in the last substep
-  /// Whether it shares one unknown with the row before it, which may do the same: their values are added, and the
-  /// multiplier of each is its `weight` times the unknown. Bounds are those of the first.
+  /// Whether it shares one unknown with the row before it, which may do the same: their values are
+  /// added, and the multiplier of each is its `weight` times the unknown. Bounds are those of the
+  /// first.
   bool tied = false;
-  /// Whether its gradient turns with its bodies as engine/solvers/curvature.h says. If it does so and does not tell, rounds
-  /// are more.
+  /// Whether its gradient turns with its bodies as engine/solvers/curvature.h says. If it does so
+  /// and does not tell, rounds are more.
   bool curved = false;
-  /// Of a curved row between two points: 1 / their distance, by which its direction turns [1/m]; 0 if it never does.
+  /// Of a curved row between two points: 1 / their distance, by which its direction turns [1/m]; 0
+  /// if it never does.
   double turning = 0.0;
   double weight = 1.0;        ///< > 0
   double start_weight = 1.0;  ///< the same at the start of the substep; `rattle` needs it
-  /// Null, or what this is a copy of (engine/row_list.h): the same bodies, gradient and weights as any other copy of the same
-  /// edition, and these bodies have the same inverse masses.
+  /// Null, or what this is a copy of (engine/row_list.h): the same bodies, gradient and weights as
+  /// any other copy of the same edition, and these bodies have the same inverse masses.
   const Row* source = nullptr;
   std::uint32_t edition = 0;
 

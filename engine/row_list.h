@@ -1,8 +1,9 @@
 #pragma once
 // The rows that features append for a solver of all of them at once.
 //
-// Many rows are the same from round to round and from substep to substep but for their value. Such a row names the row that it
-// is a copy of and which edition of it, so that neither it nor anything that follows from it is made anew where it already is.
+// Many rows are the same from round to round and from substep to substep but for their value. Such
+// a row names the row that it is a copy of and which edition of it, so that neither it nor anything
+// that follows from it is made anew where it already is.
 
 #include <vector>
 
@@ -29,7 +30,8 @@ class RowList {
     row.clear();
     return row;
   }
-  /// A copy of `source`, whose `edition` must change whenever it does; value and `active` are the caller's to set.
+  /// A copy of `source`, whose `edition` must change whenever it does; value and `active` are the
+  /// caller's to set.
   Row& append_copy(const Row& source) {
     if (count_ == rows_.size()) rows_.emplace_back();
     Row& row = rows_[count_++];

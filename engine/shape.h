@@ -43,8 +43,8 @@ class Shape {
   /// Appends the points [m] that decide contact with a plane whose inward (downward) unit normal in
   /// the shape's frame is `down`: all corners, or the lowest points of a curved surface.
   virtual void append_contact_points(const Vector3& down, std::vector<Vector3>& points) const = 0;
-  /// Appends points [m] in the plane whose convex hull is the hull of the shape's section with it; curved sections as
-  /// polygons (engine/shapes/section.h). Nothing if the plane misses the shape.
+  /// Appends points [m] in the plane whose convex hull is the hull of the shape's section with it;
+  /// curved sections as polygons (engine/shapes/section.h). Nothing if the plane misses the shape.
   virtual void append_section(const SectionPlane& plane, std::vector<Vector3>& points) const = 0;
   /// The form as contacts between bodies see it.
   [[nodiscard]] virtual ConvexSolid solid() const = 0;

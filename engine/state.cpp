@@ -69,8 +69,8 @@ void for_each_word(const Controls& controls, const Visit& visit) {
   });
 }
 
-/// Calls visit(word) for every number of a state but its controls in a fixed order; shared by hash and to_bytes, so
-/// that neither can forget a member.
+/// Calls visit(word) for every number of a state but its controls in a fixed order; shared by hash
+/// and to_bytes, so that neither can forget a member.
 template <class Visit>
 void for_each_word(const State& state, const Visit& visit) {
   const auto real = [&](double x) { visit(std::bit_cast<std::uint64_t>(x)); };

@@ -36,18 +36,19 @@ struct State {
   std::vector<BodyState> bodies;       ///< one per body of the model
   std::vector<FeatureState> features;  ///< one per feature of the world, in its order
   Controls controls;                   ///< what has been set; a step reads and never changes it
-  /// What a program that sets controls remembers from step to step (World::memory()); nothing that moves depends on it.
+  /// What a program that sets controls remembers from step to step (World::memory()); nothing that
+  /// moves depends on it.
   std::vector<double> memory;
 };
 
-/// Order-dependent 64-bit hash of every bit of the state (FNV-1a over 8-byte words). Of the controls what is set counts, and
-/// not what has been set and cleared.
+/// Order-dependent 64-bit hash of every bit of the state (FNV-1a over 8-byte words). Of the
+/// controls what is set counts, and not what has been set and cleared.
 [[nodiscard]] std::uint64_t hash(const State& state);
 
 /// The state as bytes, for a file; restores bit for bit on machines of the same byte order.
 [[nodiscard]] std::string to_bytes(const State& state);
-/// The inverse of to_bytes; an error names what is wrong with `bytes`. Files of the version before, which knew no controls, are
-/// states in which nothing is set.
+/// The inverse of to_bytes; an error names what is wrong with `bytes`. Files of the version before,
+/// which knew no controls, are states in which nothing is set.
 [[nodiscard]] Result<State> state_from_bytes(const std::string& bytes);
 
 }  // namespace sheave

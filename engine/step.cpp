@@ -1,10 +1,12 @@
 // The time step: the order of its stages is decided here and nowhere else.
 //
-// Cost of a substep: bodies x (predict + derive) + rows x (begin + finish), and for the rows in between
+// Cost of a substep: bodies x (predict + derive) + rows x (begin + finish), and for the rows in
+// between
 //   gauss-seidel:  iterations x rows x (evaluate + solve)
 //   direct:        rounds x (rows x evaluate + assemble and factor), linear in the rows of a chain, mostly 2 rounds
-// `rattle` evaluates the rows once more, solves once more (for velocities), and goes over the bodies once more.
-// Machines in which nothing turns a row's gradient skip all stages where they can: engine/solvers/affine_motion.h.
+// `rattle` evaluates the rows once more, solves once more (for velocities), and goes over the
+// bodies once more. Machines in which nothing turns a row's gradient skip all stages where they
+// can: engine/solvers/affine_motion.h.
 
 #include "engine/step.h"
 

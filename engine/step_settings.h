@@ -28,8 +28,8 @@ enum class StepPreset {
 };
 inline constexpr std::array<std::string_view, 2> step_preset_names{"standard", "paper"};
 
-/// Accuracy against cost, chosen per scene. The defaults are those with which machines of all kinds come out right
-/// (bench/DEFAULTS.md).
+/// Accuracy against cost, chosen per scene. The defaults are those with which machines of all kinds
+/// come out right (bench/DEFAULTS.md).
 struct StepSettings {
   double dt = 1.0 / 60.0;  ///< time per step, one frame [s], > 0
   int substeps = 4;        ///< substeps per step, 1 ... 100 000; h = dt / substeps
@@ -37,8 +37,8 @@ struct StepSettings {
   SolverKind solver = SolverKind::direct;
   IntegratorKind integrator = IntegratorKind::rattle;
 
-  /// What "Cable Joints" (2018) steps with unless it says otherwise: Gauss-Seidel, XPBD, one substep of a frame of
-  /// 1/60 s, 10 iterations.
+  /// What "Cable Joints" (2018) steps with unless it says otherwise: Gauss-Seidel, XPBD, one
+  /// substep of a frame of 1/60 s, 10 iterations.
   [[nodiscard]] static StepSettings paper();
   /// The settings that the preset stands for.
   [[nodiscard]] static StepSettings of(StepPreset preset);

@@ -16,13 +16,15 @@
 namespace sheave {
 namespace {
 
-/// The share of an impulse during `time` [s] that drag with this rate [1/s] leaves at the end: that of a constant force.
+/// The share of an impulse during `time` [s] that drag with this rate [1/s] leaves at the end: that
+/// of a constant force.
 double left_by_drag(double rate, double time) {
   const double x = rate * time;
   return x > 0.0 ? -std::expm1(-x) / x : 1.0;
 }
 
-/// Inverse mass and inverse inertia in the world frame of a body with this orientation, without drag.
+/// Inverse mass and inverse inertia in the world frame of a body with this orientation, without
+/// drag.
 void set_undamped(const BodyProperties& properties, MovingBody& body) {
   const Vector3& axis = properties.axis;
   const Matrix3 along = axis * axis.transpose();
@@ -62,8 +64,9 @@ void set_undamped(const BodyProperties& properties, MovingBody& body) {
   }
 }
 
-/// The same with drag during `time`. What constraints do is subject to it as loads are (engine/integrators/loads.h), or
-/// they would not balance at rest. (Free bodies with different moments of inertia have their drag before both.)
+/// The same with drag during `time`. What constraints do is subject to it as loads are
+/// (engine/integrators/loads.h), or they would not balance at rest. (Free bodies with different
+/// moments of inertia have their drag before both.)
 void set_inverse_masses(const BodySet& bodies, int i, double time, MovingBody& body) {
   const BodyProperties& properties = bodies[i];
   set_undamped(properties, body);

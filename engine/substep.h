@@ -16,20 +16,22 @@ namespace sheave {
 struct StepStatistics {
   int rows = 0;                 ///< constraint rows solved per substep
   std::int64_t row_solves = 0;  ///< rows x iterations x substeps
-  /// Largest correction, as an error of a row, in the last sweep or round of a substep [m or rad]: how far the solver was
-  /// from convergence.
+  /// Largest correction, as an error of a row, in the last sweep or round of a substep [m or rad]:
+  /// how far the solver was from convergence.
   double last_correction = 0.0;
   /// How often a feature had to fall back on a substitute because its geometry has no solution (a
   /// span without a tangent); details are in the feature's report.
   int geometry_fallbacks = 0;
   // Of the direct solver and of `rattle`.
-  /// Linear problems solved, or swept over by Gauss-Seidel: Newton's rounds, and the velocities of `rattle`.
+  /// Linear problems solved, or swept over by Gauss-Seidel: Newton's rounds, and the velocities of
+  /// `rattle`.
   std::int64_t rounds = 0;
   /// Rows that began or ceased to act while the active set was sought.
   std::int64_t set_changes = 0;
   /// Factorisations made for that, one at least per round.
   std::int64_t factorisations = 0;
-  /// Substeps left to Gauss-Seidel because no active set was found, for positions or for velocities.
+  /// Substeps left to Gauss-Seidel because no active set was found, for positions or for
+  /// velocities.
   std::int64_t solver_fallbacks = 0;
   int redundant_rows = 0;  ///< the most in one round
   /// Rounds in which rows contradicted each other (two drives of one coordinate) and all gave way.
@@ -44,10 +46,11 @@ struct StepStatistics {
   std::int64_t substep_parts = 0;  ///< in how many, all together
   /// Substeps, or parts, whose constraints are not met at their end, and no parts of them are.
   std::int64_t unconverged = 0;
-  /// Substeps that took all the rounds or factorisations they may, did not get to their end part by part, and were done as a
-  /// whole.
+  /// Substeps that took all the rounds or factorisations they may, did not get to their end part by
+  /// part, and were done as a whole.
   std::int64_t exhausted = 0;
-  /// Energy that `xpbd` took from the vibration of elastic cables [J], which is none of their damping's.
+  /// Energy that `xpbd` took from the vibration of elastic cables [J], which is none of their
+  /// damping's.
   double numerical_damping = 0.0;
 };
 
@@ -58,7 +61,8 @@ enum class Resort {
   anything,          ///< they make do with what they find
 };
 
-/// How much of its prescribed motion a drive does in a substep; less than all where it would need what is not there.
+/// How much of its prescribed motion a drive does in a substep; less than all where it would need
+/// what is not there.
 struct DriveShare {
   double way = 1.0;    ///< of the way, 0 ... 1
   double speed = 1.0;  ///< of the speed at the end, 0 ... 1
@@ -81,10 +85,12 @@ struct Substep {
   std::vector<DriveShare> drive_shares;  ///< per body; empty where no feature limits drives
   State next;                            ///< the state at the end, written by the last stages
   StepStatistics statistics;
-  /// Per feature: of each force in its state [N or N m] the part that acted in the second half of the substep, along the
-  /// gradients of its end (`rattle`). Empty where nothing did. A feature may bring it into another layout when it finishes.
+  /// Per feature: of each force in its state [N or N m] the part that acted in the second half of
+  /// the substep, along the gradients of its end (`rattle`). Empty where nothing did. A feature may
+  /// bring it into another layout when it finishes.
   std::vector<std::vector<double>> late_forces;
-  /// Share of the loads' impulse that predict() gives to the velocities: all of it, or the first half.
+  /// Share of the loads' impulse that predict() gives to the velocities: all of it, or the first
+  /// half.
   double load_share = 1.0;
   /// Set by a solver that gives up: what it found is no solution, and the stages end here.
   bool failed = false;
@@ -96,15 +102,18 @@ struct Substep {
   Substep(const BodySet& body_set, const State& state_at_start, double length, int sweeps);
   /// Prepares for the next substep, which starts from the current content of `start`.
   void restart();
-  /// The compliance of a row whose force shall be -damping dC/dt, if its value is the change of C since the start of the
-  /// substep: what acts, by the integrator's rule (engine/solvers/row_system.h), is minus value over compliance, or half.
+  /// The compliance of a row whose force shall be -damping dC/dt, if its value is the change of C
+  /// since the start of the substep: what acts, by the integrator's rule
+  /// (engine/solvers/row_system.h), is minus value over compliance, or half.
   [[nodiscard]] double damper_compliance(double damping) const {
     return (load_share == 1.0 ? h : 0.5 * h) / damping;
   }
-  /// The speed at the end of the substep [rad/s] that its drive prescribes to a body, if nothing is short; prescribed() bodies
-  /// only. Of a drive to an angle `xpbd` has the mean over the substep, as of all velocities.
+  /// The speed at the end of the substep [rad/s] that its drive prescribes to a body, if nothing is
+  /// short; prescribed() bodies only. Of a drive to an angle `xpbd` has the mean over the substep,
+  /// as of all velocities.
   [[nodiscard]] double driven_speed(int body) const;
-  /// Takes the inverse masses and inertias at the current orientations, with the drag during load_share x h.
+  /// Takes the inverse masses and inertias at the current orientations, with the drag during
+  /// load_share x h.
   void update_inertias();
 
   // Where bodies are now, in the course of the substep. A rotor mounted on a carrier follows it.

@@ -162,7 +162,8 @@ void SubstepDriver::keep() {
   if (state_.controls.forces.any()) {
     substep_.statistics.external_work += work_of_set_forces(substep_);
   }
-  // Same shape on all sides, so this copies without allocating, and what was is kept without a copy.
+  // Same shape on all sides, so this copies without allocating, and what was is kept without a
+  // copy.
   state_.bodies.swap(before_.bodies);
   state_.features.swap(before_.features);
   before_.time = state_.time;

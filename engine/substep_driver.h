@@ -1,14 +1,16 @@
 #pragma once
 // Substeps one after the other; one that does not converge is done again in smaller parts.
 //
-// A solver gives up (Substep::failed) where its rounds do not come near a solution: what they leave would become velocity, and
-// energy, in the next substep. In half the time bodies swing half as far, so the same rounds converge quadratically better.
-// The halves are done in turn, each of them as a whole first. Nothing carries over from one substep to the next, so a run
-// depends on its state alone.
+// A solver gives up (Substep::failed) where its rounds do not come near a solution: what they leave
+// would become velocity, and energy, in the next substep. In half the time bodies swing half as
+// far, so the same rounds converge quadratically better. The halves are done in turn, each of them
+// as a whole first. Nothing carries over from one substep to the next, so a run depends on its
+// state alone.
 //
-// Where a part does not converge, however short it is, time is not what is wrong (drives that contradict each other), and where
-// parts have taken so many rounds there is no end to them: the substep starts again and is done as a whole, by the other
-// integrator if that converges, or else with what the solvers make of it, and is counted.
+// Where a part does not converge, however short it is, time is not what is wrong (drives that
+// contradict each other), and where parts have taken so many rounds there is no end to them: the
+// substep starts again and is done as a whole, by the other integrator if that converges, or else
+// with what the solvers make of it, and is counted.
 
 #include <cstdint>
 #include <optional>
@@ -23,32 +25,36 @@ namespace sheave {
 
 class SubstepDriver {
  public:
-  /// The most equal parts that a substep is done in. Depth costs little, for only what does not converge is cut, and velocities
-  /// of so short a part are still rounded by no more than 1e-9 of a scene size per second.
+  /// The most equal parts that a substep is done in. Depth costs little, for only what does not
+  /// converge is cut, and velocities of so short a part are still rounded by no more than 1e-9 of a
+  /// scene size per second.
   static constexpr std::int64_t most_parts = 131072;
-  /// Rounds in which a part converges, or else is cut: Newton's method needs far fewer where it works.
+  /// Rounds in which a part converges, or else is cut: Newton's method needs far fewer where it
+  /// works.
   static constexpr int rounds_of_part = 16;
   /// When so many rounds have been spent on a substep and its parts it is given up. The hardest of
   /// tests/physics/light_cart_test.cpp takes less than 300.
   static constexpr std::int64_t most_rounds = 512;
-  /// Likewise factorisations, of which a round takes one for each set of rows that it tries, besides one per iteration that the
-  /// settings allow, and those for each of the two last attempts at the whole.
+  /// Likewise factorisations, of which a round takes one for each set of rows that it tries,
+  /// besides one per iteration that the settings allow, and those for each of the two last attempts
+  /// at the whole.
   static constexpr std::int64_t most_factorisations = 4096;
   static constexpr std::int64_t last_factorisations = 512;
-  /// So many of the smallest parts may be left to another integrator before larger ones are, too: it is no matter of time
-  /// then.
+  /// So many of the smallest parts may be left to another integrator before larger ones are, too:
+  /// it is no matter of time then.
   static constexpr int patience = 4;
 
-  /// `features` and `stages` are those of the model that `substep` is of, and `state` is what it starts from. All must
-  /// outlive the driver.
+  /// `features` and `stages` are those of the model that `substep` is of, and `state` is what it
+  /// starts from. All must outlive the driver.
   SubstepDriver(const Model& model, std::span<const std::unique_ptr<ConstraintBatch>> features,
                 std::span<const Stage> stages, Substep& substep, State& state);
 
-  /// Advances the state by the substeps of the step from `index` to before `end` that need none of the stages
-  /// (engine/solvers/affine_motion.h), and returns their number. If these are not all, `start`, unless it is null, becomes the
-  /// state before them.
+  /// Advances the state by the substeps of the step from `index` to before `end` that need none of
+  /// the stages (engine/solvers/affine_motion.h), and returns their number. If these are not all,
+  /// `start`, unless it is null, becomes the state before them.
   int run_affine(int index, int end, State* start);
-  /// Advances the state by substep `index` of the step. If it diverges the state is the last good one.
+  /// Advances the state by substep `index` of the step. If it diverges the state is the last good
+  /// one.
   std::optional<Divergence> run(int index);
   /// The state at the start of the last substep, or of its last part; null if there is none.
   [[nodiscard]] const State* before() const { return has_stepped_ ? &before_ : nullptr; }
@@ -58,16 +64,17 @@ class SubstepDriver {
   void note_controls() { controls_changed_ = true; }
 
  private:
-  /// One of `count` equal parts of the step; counts are the number of substeps times a power of two, so that the ends of
-  /// parts, which come from these counters and not from a running sum, agree to the last bit.
+  /// One of `count` equal parts of the step; counts are the number of substeps times a power of
+  /// two, so that the ends of parts, which come from these counters and not from a running sum,
+  /// agree to the last bit.
   struct Part {
     std::int64_t index = 0;
     std::int64_t count = 1;
     [[nodiscard]] Part first_half() const { return {2 * index, 2 * count}; }
     [[nodiscard]] Part second_half() const { return {2 * index + 1, 2 * count}; }
   };
-  /// All stages; false if a solver gave up, the result is no state, or the caller wants no more of it, and then nothing has
-  /// changed.
+  /// All stages; false if a solver gave up, the result is no state, or the caller wants no more of
+  /// it, and then nothing has changed.
   bool attempt(Part part, Resort resort);
   /// A substep that does not converge as a whole.
   void cut(Part whole);
@@ -76,7 +83,8 @@ class SubstepDriver {
   void go_back(const StepStatistics& before);
   void allow_work(std::int64_t factorisations);
   [[nodiscard]] bool out_of_work() const;
-  /// A part half by half; false where it does not converge, and then what has been done of it is void.
+  /// A part half by half; false where it does not converge, and then what has been done of it is
+  /// void.
   bool advance_in_halves(Part part);
   bool advance_half(Part part);
   void keep();

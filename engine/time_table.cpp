@@ -1,5 +1,5 @@
-// Splines by their second derivatives M: with h the length of a piece and s its slope from point to point, continuous first
-// derivatives ask for
+// Splines by their second derivatives M: with h the length of a piece and s its slope from point to
+// point, continuous first derivatives ask for
 //   h0 M0 + 2 (h0 + h1) M1 + h1 M2 = 6 (s1 - s0)
 // at each inner point, and the ends for
 //   clamped       2 h0 M0 + h0 M1 = 6 s0,            likewise at the other end

@@ -10,9 +10,10 @@ namespace sheave {
 /// What a table is between its points.
 enum class Interpolation {
   linear,
-  /// A cubic spline, twice continuously differentiable. Its ends are those of cubic polynomials through the four nearest points
-  /// ("not a knot"), so that values are right to the fourth order of the spacing and second derivatives to the second, up to the
-  /// ends: of a motion that was sampled. Its rate jumps where the table ends on the move.
+  /// A cubic spline, twice continuously differentiable. Its ends are those of cubic polynomials
+  /// through the four nearest points ("not a knot"), so that values are right to the fourth order
+  /// of the spacing and second derivatives to the second, up to the ends: of a motion that was
+  /// sampled. Its rate jumps where the table ends on the move.
   cubic,
   /// The same with rate 0 at both ends: of a motion from rest to rest.
   clamped,
@@ -22,13 +23,13 @@ inline constexpr std::string_view interpolation_meaning =
     "of the values between their times; cubic: a smooth spline through them; clamped: one from "
     "rest to rest";
 
-/// Through (times[i], values[i]), constant before the first and after the last point. Times increase strictly. Without times it
-/// is the constant values[0]; without values it is 0.
+/// Through (times[i], values[i]), constant before the first and after the last point. Times
+/// increase strictly. Without times it is the constant values[0]; without values it is 0.
 struct TimeTable {
   std::vector<double> times;  ///< [s]
   std::vector<double> values;
-  /// Second derivatives at the points [per s2], linear between them; empty: the table is piecewise linear. of() finds those of
-  /// a spline.
+  /// Second derivatives at the points [per s2], linear between them; empty: the table is piecewise
+  /// linear. of() finds those of a spline.
   std::vector<double> bends{};
 
   /// A table with these points, as many values as times or a single one without.

@@ -6,11 +6,13 @@
 
 namespace sheave {
 
-/// Asked in the course of World::step() whether the step is to end early: true ends it. It must not throw, nor touch the
-/// world that steps. It may look at a clock, a flag that a signal sets, a button.
+/// Asked in the course of World::step() whether the step is to end early: true ends it. It must not
+/// throw, nor touch the world that steps. It may look at a clock, a flag that a signal sets, a
+/// button.
 using StopRequest = std::function<bool()>;
 
-/// Solvers ask it before every piece of work whose repetitions the size of the scene does not bound.
+/// Solvers ask it before every piece of work whose repetitions the size of the scene does not
+/// bound.
 class WorkLimit {
  public:
   /// Null: nobody asks for an early end. `stop` must outlive the step.

@@ -6,8 +6,8 @@
 //   if (!world) report(world.errors());
 //   while (world->state().time < 2.0 && world->step().ok()) show(world->state());
 //
-// A step takes as long as its scene is hard. A program that cannot wait sets it a limit; what it says ends the step, which then
-// has not been:
+// A step takes as long as its scene is hard. A program that cannot wait sets it a limit; what it
+// says ends the step, which then has not been:
 //
 //   const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(5);
 //   const auto report = world->step([&] { return std::chrono::steady_clock::now() > deadline; });
@@ -32,30 +32,33 @@ namespace sheave {
 struct StepReport {
   StepStatistics statistics;
   std::optional<Divergence> divergence;  ///< if set, the state is the last good one
-  /// The stop request has ended the step: the state is, bit for bit, that before it, and the statistics are of work in vain.
+  /// The stop request has ended the step: the state is, bit for bit, that before it, and the
+  /// statistics are of work in vain.
   bool stopped = false;
   /// Whether the step is complete.
   [[nodiscard]] bool ok() const { return !divergence.has_value() && !stopped; }
 };
 
-/// How the state of a world came about: its last substep. Views of the world, valid until it steps or is restored.
+/// How the state of a world came about: its last substep. Views of the world, valid until it steps
+/// or is restored.
 struct LastSubstep {
   const State& start;  ///< state at its beginning; World::state() is the one at its end
   double h = 0.0;      ///< its length [s]
   /// What it was done by. `rattle` leaves some substeps to `xpbd`.
   IntegratorKind integrator = IntegratorKind::xpbd;
-  /// Per feature: of the forces in its state [N or N m] the parts that acted in the second half, along the gradients of the
-  /// end; the rest of each acted in the first, along those of the start. Joints, ground and cables have one number per
-  /// multiplier, contacts four per point: along the normal, and the friction as a vector. Empty with `xpbd`, where all
-  /// forces act along the gradients of the end.
+  /// Per feature: of the forces in its state [N or N m] the parts that acted in the second half,
+  /// along the gradients of the end; the rest of each acted in the first, along those of the start.
+  /// Joints, ground and cables have one number per multiplier, contacts four per point: along the
+  /// normal, and the friction as a vector. Empty with `xpbd`, where all forces act along the
+  /// gradients of the end.
   std::span<const std::vector<double>> late_forces;
 };
 
 /// Energy of all bodies and features [J].
 struct Energy {
   double kinetic = 0.0;
-  /// Of gravity, as it is now, and of the model's constant forces; zero at the world's origin. What forces do that have been set
-  /// is StepStatistics::external_work.
+  /// Of gravity, as it is now, and of the model's constant forces; zero at the world's origin. What
+  /// forces do that have been set is StepStatistics::external_work.
   double potential = 0.0;
   double elastic = 0.0;
   [[nodiscard]] double total() const { return kinetic + potential + elastic; }
@@ -70,7 +73,8 @@ class World {
   /// The same for bodies that are already compiled (features of other libraries need them first).
   static Result<World> create(Model model, std::shared_ptr<const BodySet> bodies,
                               std::vector<std::unique_ptr<ConstraintBatch>> features);
-  /// What is wrong with a model by itself, without building a world: what create(model) would report.
+  /// What is wrong with a model by itself, without building a world: what create(model) would
+  /// report.
   static Errors check(const Model& model);
   ~World();
   World(World&&) noexcept;
@@ -78,19 +82,22 @@ class World {
 
   /// Advances by dt. After a divergence the state stays at the last good substep.
   ///
-  /// `stop`, if there is one, is asked at the start of each substep, or part of one, and before each factorisation or sweep over
-  /// the constraints (once for substeps that need neither, engine/solvers/affine_motion.h): mostly some ten times per step, more often where a step is hard. Once it says true the step ends, as
-  /// soon as nothing but that one piece of work is done, and the world is as if the step had not been begun, but for
-  /// last_substep(), of which there is nothing. Another step() then comes to the same end as one that was never stopped.
+  /// `stop`, if there is one, is asked at the start of each substep, or part of one, and before
+  /// each factorisation or sweep over the constraints (once for substeps that need neither,
+  /// engine/solvers/affine_motion.h): mostly some ten times per step, more often where a step is
+  /// hard. Once it says true the step ends, as soon as nothing but that one piece of work is done,
+  /// and the world is as if the step had not been begun, but for last_substep(), of which there is
+  /// nothing. Another step() then comes to the same end as one that was never stopped.
   [[nodiscard]] StepReport step(const StopRequest& stop = {});
-  /// The same with `before_substep`, which is called before each substep of the settings, not before the parts of one that is
-  /// cut. It may set controls.
+  /// The same with `before_substep`, which is called before each substep of the settings, not
+  /// before the parts of one that is cut. It may set controls.
   [[nodiscard]] StepReport step(const StopRequest& stop,
                                 const std::function<void()>& before_substep);
 
-  // Controls: set between steps or before substeps, in force from the next substep on until they are set anew or cleared, and
-  // part of the state (engine/controls.h). Where a request cannot be met nothing changes, and the error says what is allowed.
-  // None allocates when it repeats one that is set.
+  // Controls: set between steps or before substeps, in force from the next substep on until they
+  // are set anew or cleared, and part of the state (engine/controls.h). Where a request cannot be
+  // met nothing changes, and the error says what is allowed. None allocates when it repeats one
+  // that is set.
 
   /// Instead of the model's [m/s2].
   [[nodiscard]] Errors set_gravity(const Vector3& gravity);
@@ -98,34 +105,40 @@ class World {
   /// On a body that forces can move: not on static, kinematic and driven ones.
   [[nodiscard]] Errors set_force(BodyId body, const PointForce& force);
   [[nodiscard]] Errors clear_force(BodyId body);
-  /// Of a rotor with a drive, in place of its table. An angle is the one that the body has turned since time 0
-  /// (BodyState::angle).
+  /// Of a rotor with a drive, in place of its table. An angle is the one that the body has turned
+  /// since time 0 (BodyState::angle).
   [[nodiscard]] Errors set_drive(BodyId body, const DriveTarget& target);
   /// From now on the table drives it again.
   [[nodiscard]] Errors clear_drive(BodyId body);
-  /// Of a kinematic body, in place of the motion that its definition gives it. One that has such a motion keeps to its
-  /// directions, one with an axis to the plane across it, since cables and joints may have been built for that.
+  /// Of a kinematic body, in place of the motion that its definition gives it. One that has such a
+  /// motion keeps to its directions, one with an axis to the plane across it, since cables and
+  /// joints may have been built for that.
   [[nodiscard]] Errors set_motion(BodyId body, const MotionTarget& target);
-  /// Leads it back to where its definition has it after `over` seconds, > 0; default: the next step.
+  /// Leads it back to where its definition has it after `over` seconds, > 0; default: the next
+  /// step.
   [[nodiscard]] Errors clear_motion(BodyId body, std::optional<double> over = {});
-  /// Of the drive along a coordinate of a joint, by their indices in Model::joints and JointDef::coordinates(), in place of its
-  /// table and sine.
+  /// Of the drive along a coordinate of a joint, by their indices in Model::joints and
+  /// JointDef::coordinates(), in place of its table and sine.
   [[nodiscard]] Errors set_joint_drive(int joint, int coordinate, const DriveTarget& target);
   /// The largest force or torque that it has [N or N m], >= 0; not of drives of a force.
   [[nodiscard]] Errors set_joint_drive_limit(int joint, int coordinate, double limit);
-  /// Target and limit are those of the definition again. (A drive to a position then asks for where its table is, at once.)
+  /// Target and limit are those of the definition again. (A drive to a position then asks for where
+  /// its table is, at once.)
   [[nodiscard]] Errors clear_joint_drive(int joint, int coordinate);
-  /// How long what is set now has until the caller can set it anew [s]: a step, or before a substep that.
+  /// How long what is set now has until the caller can set it anew [s]: a step, or before a substep
+  /// that.
   [[nodiscard]] double control_interval() const;
   /// The joint holds nothing any more, as if it had broken now.
   [[nodiscard]] Errors release_joint(int joint);
-  /// A joint that was released or has broken holds again what its type holds, from where its bodies are now: no position jumps
-  /// and its coordinates go on (engine/joints/joint_hold.h). What speed the bodies have against it ends as in an inelastic
-  /// impact, which keeps momentum. An error if a rigid stop or a drive to a position without a limit would move them by a blow.
-  /// One that holds goes on to do so. (To hold a coordinate of such a joint is what a brake does: a drive to the speed 0 with
-  /// a limit.)
+  /// A joint that was released or has broken holds again what its type holds, from where its bodies
+  /// are now: no position jumps and its coordinates go on (engine/joints/joint_hold.h). What speed
+  /// the bodies have against it ends as in an inelastic impact, which keeps momentum. An error if a
+  /// rigid stop or a drive to a position without a limit would move them by a blow. One that holds
+  /// goes on to do so. (To hold a coordinate of such a joint is what a brake does: a drive to the
+  /// speed 0 with a limit.)
   [[nodiscard]] Errors lock_joint(int joint);
-  /// State::memory, to be read and written by whoever sets controls. States with another size do not belong to this world.
+  /// State::memory, to be read and written by whoever sets controls. States with another size do
+  /// not belong to this world.
   [[nodiscard]] std::vector<double>& memory();
   /// Unchecked: for functions that check what they set for a feature (Simulation::set_...()).
   [[nodiscard]] Controls& controls_of_features();
@@ -143,7 +156,8 @@ class World {
   /// Where colliders touch or are about to; empty without colliders, and before the first step.
   [[nodiscard]] std::vector<ContactReport> contacts() const;
 
-  /// Goes back (or ahead) to a state of this world; an error if its shape does not fit, or its controls.
+  /// Goes back (or ahead) to a state of this world; an error if its shape does not fit, or its
+  /// controls.
   [[nodiscard]] Errors restore(const State& state);
 
   /// Nothing at time 0, after restore() and after a step that was stopped, until the next step.

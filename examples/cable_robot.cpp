@@ -14,7 +14,8 @@ Vector3 path(double time) {
   return {0.4 * std::sin(phase), -1.0 - 0.4 * std::cos(phase), 0.0};
 }
 
-/// How the drum on the `side` -1 or 1 has to stand for that: by the length of the free cable, r / tan(lean), and its direction.
+/// How the drum on the `side` -1 or 1 has to stand for that: by the length of the free cable, r /
+/// tan(lean), and its direction.
 double angle(int side, double time) {
   const Vector3 way = path(time) - Vector3{1.5 * side, 1.0, 0.0};
   const double lean = std::asin(radius / way.norm());

@@ -1,4 +1,5 @@
-// A crane operator's loop: levers set the speeds of two winches, and the load's rope tells when to stop.
+// A crane operator's loop: levers set the speeds of two winches, and the load's rope tells when to
+// stop.
 
 #include <algorithm>
 #include <cstdio>
@@ -19,12 +20,14 @@ int main(int count, char** arguments) {
   double lever_hoist = 0.0, lever_luff = 0.0;
   double most = 0.0;
   while (crane->time() < 20.0) {
-    // The operator: hoist for 8 s, luff for the rest, and let go of a lever when the rope is too tight.
+    // The operator: hoist for 8 s, luff for the rest, and let go of a lever when the rope is too
+    // tight.
     const double wanted_hoist = crane->time() < 8.0 ? 2.0 : 0.0;
     const double wanted_luff = crane->time() < 8.0 ? 0.0 : 1.0;
     const double tension = *crane->tension(rope, 0);
     const bool overload = tension > 30e3;
-    // Levers move gently; drives get to a new speed within the step, so that the load feels no blows.
+    // Levers move gently; drives get to a new speed within the step, so that the load feels no
+    // blows.
     lever_hoist += 0.02 * ((overload ? 0.0 : wanted_hoist) - lever_hoist);
     lever_luff += 0.02 * (wanted_luff - lever_luff);
     Errors errors = crane->set_speed(hoist, lever_hoist);

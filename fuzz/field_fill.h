@@ -1,5 +1,6 @@
 #pragma once
-// Values for fields, drawn by their tables: what a field may be, its bounds, and what it may not be.
+// Values for fields, drawn by their tables: what a field may be, its bounds, and what it may not
+// be.
 
 #include <cmath>
 #include <limits>

@@ -62,7 +62,8 @@ class Change {
     std::visit(FieldFill(random_, field, bodies), field.slot(object));
   }
 
-  /// The same thing as an object of its own, with another value in one field: of `common`, or of its type.
+  /// The same thing as an object of its own, with another value in one field: of `common`, or of
+  /// its type.
   template <class Base>
   std::shared_ptr<const Base> changed(const Base& old, std::span<const TypeEntry<Base>> types,
                                       std::span<const Field> common) {

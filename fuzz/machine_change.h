@@ -5,7 +5,8 @@
 
 namespace sheave::fuzz {
 
-/// Gives one field of one thing of the machine another value, by the field tables, or repeats or removes a thing.
+/// Gives one field of one thing of the machine another value, by the field tables, or repeats or
+/// removes a thing.
 void change_field(test::Random& random, test::Machine& machine);
 
 }  // namespace sheave::fuzz

@@ -174,8 +174,9 @@ void StepCheck::check(const Simulation& simulation) {
   check_energy(simulation);
 }
 
-// Lengths are multiples of a power of two of about 1e-15 of the cable (cable/cable_system.h), so their sum is exact as long as
-// none of them is beyond some times the cable; each of the some 16 sums of a substep then rounds by eps of the longest.
+// Lengths are multiples of a power of two of about 1e-15 of the cable (cable/cable_system.h), so
+// their sum is exact as long as none of them is beyond some times the cable; each of the some 16
+// sums of a substep then rounds by eps of the longest.
 void StepCheck::check_cables(const Simulation& simulation, bool clean) {
   const std::vector<CableReport> cables = simulation.cable_reports();
   const std::size_t events = simulation.cables == nullptr ? 0 : simulation.cables->events().size();
@@ -230,9 +231,10 @@ void StepCheck::check_contacts(const Simulation& simulation) const {
   }
 }
 
-// A certificate is clean if at no place more work than a hundredth of what flows there is done by nothing. What flows in all is
-// at most every force times the fastest point. What it does not see is the error of the time step, which is of second order: of an
-// impulse P that changes a velocity by dv the energy depends, by P dv, on the way between both ends, and so it does of a turning
+// A certificate is clean if at no place more work than a hundredth of what flows there is done by
+// nothing. What flows in all is at most every force times the fastest point. What it does not see
+// is the error of the time step, which is of second order: of an impulse P that changes a velocity
+// by dv the energy depends, by P dv, on the way between both ends, and so it does of a turning
 // body, of which a velocity changes by h w^2 without any force.
 void StepCheck::check_energy(const Simulation& simulation) {
   const std::optional<LastSubstep> last = simulation.world.last_substep();
@@ -269,7 +271,8 @@ void StepCheck::check_energy(const Simulation& simulation) {
            std::abs(after.potential) + before.elastic + after.elastic;
   const double flow = forces * fastest * last->h;
   double gain = after.total() - before.total();
-  // Sweeps leave a stiff spring of a joint longer than its force asks for: little beside the joint, which is what is checked.
+  // Sweeps leave a stiff spring of a joint longer than its force asks for: little beside the joint,
+  // which is what is checked.
   if (world.model().step.solver == SolverKind::gauss_seidel) {
     gain -= std::max(after.elastic - before.elastic, 0.0);
   }

@@ -5,7 +5,8 @@
 
 namespace sheave::fuzz {
 
-/// What is wrong with the state that a step has left, or with what is reported of it: a BrokenPromise.
+/// What is wrong with the state that a step has left, or with what is reported of it: a
+/// BrokenPromise.
 class StepCheck {
  public:
   /// For runs of `simulation`. `ordinary`: a machine of ordinary sizes, whose energy is a number.

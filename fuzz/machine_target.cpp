@@ -11,8 +11,8 @@ void check_refusal(const Errors& errors) {
   for (const Error& error : errors) require(!error.message.empty(), "a fault without a message");
 }
 
-/// A run ends early when it has solved so many rows, counting every round and every try of an active set: a rope that takes all
-/// the rounds it may has nothing new to tell in the tenth step.
+/// A run ends early when it has solved so many rows, counting every round and every try of an
+/// active set: a rope that takes all the rounds it may has nothing new to tell in the tenth step.
 constexpr std::int64_t most_work = 100'000;
 
 std::int64_t work_of(const StepStatistics& step) {

@@ -1,5 +1,5 @@
-// What fuzzing has found once is tried in every build: fuzz/regressions/TARGET/ has the inputs that broke a promise, fuzz/corpus/
-// TARGET/ a few that reach most of the code.
+// What fuzzing has found once is tried in every build: fuzz/regressions/TARGET/ has the inputs that
+// broke a promise, fuzz/corpus/ TARGET/ a few that reach most of the code.
 
 #include <filesystem>
 #include <fstream>

@@ -1,6 +1,7 @@
 #pragma once
-// What fuzzing tries. Each target takes any bytes, makes of them what a part of the program reads, and throws a BrokenPromise if
-// that part does not do what it promises. Faults of memory and undefined behaviour are for the sanitizers to see.
+// What fuzzing tries. Each target takes any bytes, makes of them what a part of the program reads,
+// and throws a BrokenPromise if that part does not do what it promises. Faults of memory and
+// undefined behaviour are for the sanitizers to see.
 
 #include <array>
 #include <cstdint>
@@ -27,19 +28,22 @@ inline void require(bool holds, const std::string& promise) {
   if (!holds) throw BrokenPromise(promise);
 }
 
-/// The text of a scene: it loads, and is the same when written and loaded again, or has faults at places within it.
+/// The text of a scene: it loads, and is the same when written and loaded again, or has faults at
+/// places within it.
 void try_scene_text(Bytes bytes);
-/// A machine with all that there is, and what its step settings are (machine.h): it is refused with a message, or runs 20 steps in
-/// which nothing is silently wrong (machine_run.h).
+/// A machine with all that there is, and what its step settings are (machine.h): it is refused with
+/// a message, or runs 20 steps in which nothing is silently wrong (machine_run.h).
 void try_machine(Bytes bytes);
-/// A state file, damaged, for a fixed scene: it is refused with a message, or the scene goes on from it.
+/// A state file, damaged, for a fixed scene: it is refused with a message, or the scene goes on
+/// from it.
 void try_state(Bytes bytes);
 /// A journal of `sheave trade` or a baseline of `sheave bench`: read, or refused with a message.
 void try_journal(Bytes bytes);
-/// Words of a command line, separated by line breaks: accepted, or refused with a message. Nothing is run.
+/// Words of a command line, separated by line breaks: accepted, or refused with a message. Nothing
+/// is run.
 void try_command_line(Bytes bytes);
-/// Requests of a live session, separated by line breaks: each is done or refused, and what is refused changes nothing; the log
-/// leads to the same state.
+/// Requests of a live session, separated by line breaks: each is done or refused, and what is
+/// refused changes nothing; the log leads to the same state.
 void try_live(Bytes bytes);
 
 /// A target by its name.

@@ -1,6 +1,6 @@
 #pragma once
-// What every control that can be set or cleared must provide. Adding one: a file in live/controls/ and a line in
-// control_registry.cpp.
+// What every control that can be set or cleared must provide. Adding one: a file in live/controls/
+// and a line in control_registry.cpp.
 
 #include <memory>
 #include <span>

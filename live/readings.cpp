@@ -11,7 +11,8 @@
 namespace sheave::live {
 namespace {
 
-/// Appends a member without looking whether it is there: Json's own way takes time in proportion to their number.
+/// Appends a member without looking whether it is there: Json's own way takes time in proportion to
+/// their number.
 void append(Json& object, std::string_view key, Json value) {
   using Members = std::vector<std::pair<const std::string, Json>>;
   static_cast<Members&>(object.get_ref<Json::object_t&>())

@@ -38,7 +38,8 @@ class Readings {
   [[nodiscard]] bool empty() const { return indices_.empty() && bodies_.empty(); }
   /// The same of a world that has been edited: what is no more is null from now on.
   void find_again(const QuantityIndex& index, const Names& names);
-  /// Appends "values" and "poses", as far as there are any. What is not known, as forces before the first step, is null.
+  /// Appends "values" and "poses", as far as there are any. What is not known, as forces before the
+  /// first step, is null.
   void read(const QuantityIndex& index, const LiveWorld& world, Json& answer) const;
 
  private:

@@ -16,14 +16,15 @@ namespace sheave::live {
 
 class Session {
  public:
-  /// `simulation` is one of `scene`, at its start or where a saved state has it; a snapshot of it has the name "start".
+  /// `simulation` is one of `scene`, at its start or where a saved state has it; a snapshot of it
+  /// has the name "start".
   Session(const Scene& scene, Simulation simulation, Hooks hooks = {}, const Limits& limits = {});
   ~Session();
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
 
-  /// The answer to a request: one JSON object, without the end of a line. Whatever `line` is, there is one; if it says
-  /// "ok": false nothing has changed.
+  /// The answer to a request: one JSON object, without the end of a line. Whatever `line` is, there
+  /// is one; if it says "ok": false nothing has changed.
   [[nodiscard]] std::string answer(std::string_view line);
   /// The answer to a line that is longer than the limit and was not kept.
   [[nodiscard]] std::string answer_to_long_line() const;
@@ -32,7 +33,8 @@ class Session {
   [[nodiscard]] bool is_running() const;
   /// The world's seconds per second of the clock that such a run asked for, if it did.
   [[nodiscard]] std::optional<double> pace() const;
-  /// One step of such a run. If the world goes no further, that is an event and the run is over; false if it was interrupted.
+  /// One step of such a run. If the world goes no further, that is an event and the run is over;
+  /// false if it was interrupted.
   bool advance();
   /// Whether a request has asked for the end.
   [[nodiscard]] bool has_quit() const;

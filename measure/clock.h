@@ -1,8 +1,8 @@
 #pragma once
 // Where measurements read the time.
 //
-// What is measured is not always the same, so what is decided by it (how many runs, the cheapest setting, what is skipped) is not
-// either. Tests hand in a clock of their own.
+// What is measured is not always the same, so what is decided by it (how many runs, the cheapest
+// setting, what is skipped) is not either. Tests hand in a clock of their own.
 
 #include <functional>
 

@@ -11,7 +11,8 @@ constexpr double rounding = 1e-12;
 constexpr double saturated = 0.03;
 constexpr std::size_t fewest_frames = 10;
 constexpr double least_growth = 100.0;
-/// Part of the variance that a law may leave unexplained. An impact is a leap and no growth: no law has it.
+/// Part of the variance that a law may leave unexplained. An impact is a leap and no growth: no law
+/// has it.
 constexpr double unexplained = 0.1;
 
 /// A straight line through points by least squares.

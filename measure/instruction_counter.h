@@ -18,8 +18,8 @@ class InstructionCounter {
   [[nodiscard]] bool available() const { return descriptor_ >= 0; }
   /// Why not, in a few words; empty if it is.
   [[nodiscard]] const std::string& reason() const { return reason_; }
-  /// Instructions since the counter was made; nothing if it is not available or lost its place to other counters, so that a
-  /// number is always a whole count.
+  /// Instructions since the counter was made; nothing if it is not available or lost its place to
+  /// other counters, so that a number is always a whole count.
   [[nodiscard]] std::optional<std::uint64_t> read() const;
 
  private:

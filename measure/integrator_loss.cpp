@@ -110,8 +110,8 @@ double IntegratorLoss::smooth_part(std::size_t step) const {
 
 void IntegratorLoss::Sums::add(const Step& step, double smooth) {
   const double limit = step.square > smooth ? smooth / step.square : 1.0;
-  // The law holds between impacts: where one changes the velocity, a smooth motion ends and another begins, each with
-  // v . a of its own.
+  // The law holds between impacts: where one changes the velocity, a smooth motion ends and another
+  // begins, each with v . a of its own.
   const bool smooth_motion = limit > 0.5;
   const double first = begun && smooth_motion ? power : std::sqrt(limit) * step.first_power;
   power = std::sqrt(limit) * step.power;

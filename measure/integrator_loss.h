@@ -1,16 +1,19 @@
 #pragma once
 // How much energy the integrator takes from a motion that is smooth.
 //
-// A substep h of implicit Euler, of which `xpbd` is one, follows x' = v + h/2 a, v' = a + h/2 a' to first order. With the
-// forces M a, of whatever kind, the work that they do along x' is less than the change of kinetic energy says, by
+// A substep h of implicit Euler, of which `xpbd` is one, follows x' = v + h/2 a, v' = a + h/2 a' to
+// first order. With the forces M a, of whatever kind, the work that they do along x' is less than
+// the change of kinetic energy says, by
 //   h/2 (M a . a - M v . a')   per time,   in all   h Integral M a . a dt - h/2 [M v . a].
-// For free fall that is h m g^2 t / 2, as positions that are g h t / 2 too low say; for a circle at w it is h m w^4 r^2, so that
-// w falls as w0 / sqrt(1 + 2 w0^2 h t). `rattle` is symmetric and has no such term: only substeps that it leaves to `xpbd` count.
+// For free fall that is h m g^2 t / 2, as positions that are g h t / 2 too low say; for a circle at
+// w it is h m w^4 r^2, so that w falls as w0 / sqrt(1 + 2 w0^2 h t). `rattle` is symmetric and has
+// no such term: only substeps that it leaves to `xpbd` count.
 //
-// What is counted comes from the velocities at the ends of steps. An impact changes them by a finite amount within a step or two,
-// whose energy no integrator has taken but nature: of M a . a only that much counts which three steps in a row have. Rotors that are
-// driven and bodies that move as a function of time are left out. Motion that turns round within a step (stiff springs) is not
-// seen; of elastic cables the solver counts that itself (StepStatistics::numerical_damping).
+// What is counted comes from the velocities at the ends of steps. An impact changes them by a
+// finite amount within a step or two, whose energy no integrator has taken but nature: of M a . a
+// only that much counts which three steps in a row have. Rotors that are driven and bodies that
+// move as a function of time are left out. Motion that turns round within a step (stiff springs) is
+// not seen; of elastic cables the solver counts that itself (StepStatistics::numerical_damping).
 
 #include <cstddef>
 #include <cstdint>
@@ -23,14 +26,16 @@ namespace sheave::measure {
 
 class IntegratorLoss {
  public:
-  /// To be called at the start and after every step. `energy` is World::energy().total(); `fallbacks`: how many substeps
-  /// `rattle` has left to `xpbd` so far (StepStatistics::integrator_fallbacks).
+  /// To be called at the start and after every step. `energy` is World::energy().total();
+  /// `fallbacks`: how many substeps `rattle` has left to `xpbd` so far
+  /// (StepStatistics::integrator_fallbacks).
   void observe(const World& world, double energy, std::int64_t fallbacks);
 
-  /// What was taken [J]; of a short run it may be negative, for positions lag behind by half a substep.
+  /// What was taken [J]; of a short run it may be negative, for positions lag behind by half a
+  /// substep.
   [[nodiscard]] double taken() const;
-  /// What went in and out by drives, friction, damping, impacts: the sum of all changes of the energy that the integrator does
-  /// not explain, whatever their sign [J].
+  /// What went in and out by drives, friction, damping, impacts: the sum of all changes of the
+  /// energy that the integrator does not explain, whatever their sign [J].
   [[nodiscard]] double exchanged() const;
 
  private:

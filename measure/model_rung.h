@@ -1,10 +1,11 @@
 #pragma once
 // The model ladder: the same scene with one kind of effect left out, or modelled in another way.
 //
-// A scene says more than an answer may need: inertia of wheels that is small beside the weights', compliance of cables that
-// are nearly rigid, drag, friction, bodies that never touch. Each rung changes everything of one kind and nothing else, so that
-// running both scenes tells what that effect is worth and what it costs. Adding one: a line in measure/model_rungs.cpp, with a
-// file in measure/rungs/ if it does more than setting fields to their defaults.
+// A scene says more than an answer may need: inertia of wheels that is small beside the weights',
+// compliance of cables that are nearly rigid, drag, friction, bodies that never touch. Each rung
+// changes everything of one kind and nothing else, so that running both scenes tells what that
+// effect is worth and what it costs. Adding one: a line in measure/model_rungs.cpp, with a file in
+// measure/rungs/ if it does more than setting fields to their defaults.
 
 #include <functional>
 #include <span>
@@ -41,7 +42,8 @@ struct ModelDifference {
   double position = 0.0;  ///< largest of all frames, over the bodies that both runs have
   double tension = 0.0;   ///< NaN without cables
 };
-/// Infinite for runs that are not complete. Both must be of one scene, or of its rungs, with the same frames.
+/// Infinite for runs that are not complete. Both must be of one scene, or of its rungs, with the
+/// same frames.
 [[nodiscard]] ModelDifference model_difference(const Trajectory& rung, const Trajectory& written);
 
 }  // namespace sheave::measure

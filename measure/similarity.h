@@ -6,9 +6,9 @@
 
 namespace sheave::measure {
 
-/// The larger of the errors of positions and tensions (measure/run_error.h) of `scene` against `original`, in the original's
-/// units. Infinite if either diverges; an error if one does not build, or if `stop` has
-/// ended it.
+/// The larger of the errors of positions and tensions (measure/run_error.h) of `scene` against
+/// `original`, in the original's units. Infinite if either diverges; an error if one does not
+/// build, or if `stop` has ended it.
 [[nodiscard]] Result<double> similarity_error(const Scene& scene, const Scene& original,
                                               double length_factor, double mass_factor,
                                               const StopRequest& stop = {});

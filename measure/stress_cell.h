@@ -1,5 +1,6 @@
 #pragma once
-// One cell of a stability map: a scene with some of its numbers changed, and the command that runs the same.
+// One cell of a stability map: a scene with some of its numbers changed, and the command that runs
+// the same.
 
 #include <string>
 #include <vector>
@@ -9,8 +10,8 @@
 
 namespace sheave::measure {
 
-/// Where a scene comes from and what is changed in it, in the words of the command line, so that a cell that fails can be
-/// run again by anybody.
+/// Where a scene comes from and what is changed in it, in the words of the command line, so that a
+/// cell that fails can be run again by anybody.
 struct StressCell {
   std::string kind;                        ///< of a generator; empty: `path` or `built_in`
   std::string path;                        ///< of a scene file
@@ -18,8 +19,8 @@ struct StressCell {
   std::vector<GeneratorSetting> settings;  ///< of the generator
   std::vector<Override> overrides;         ///< of the scene
   double x = 0.0, y = 0.0;                 ///< the map's coordinates
-  /// If set, the run must be similar to the one of the same scene without `overrides` but these: all lengths times
-  /// `length_factor`, all masses times `mass_factor`, at the same times.
+  /// If set, the run must be similar to the one of the same scene without `overrides` but these:
+  /// all lengths times `length_factor`, all masses times `mass_factor`, at the same times.
   std::vector<Override> similar_to;
   double length_factor = 1.0, mass_factor = 1.0;
 

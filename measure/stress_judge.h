@@ -1,9 +1,10 @@
 #pragma once
 // What a run under extreme numbers came to: right within a tenth, or how it failed.
 //
-// The closed forms are the checks of the scene. Those of generated scenes have tolerances of a thousandth of what they
-// measure, so an error in units of the tolerance is an error in thousandths, and stays one where the right value is zero.
-// A scene without checks is judged by how much longer than allowed its rigid cables are, relative to them.
+// The closed forms are the checks of the scene. Those of generated scenes have tolerances of a
+// thousandth of what they measure, so an error in units of the tolerance is an error in
+// thousandths, and stays one where the right value is zero. A scene without checks is judged by how
+// much longer than allowed its rigid cables are, relative to them.
 //
 // Three faults are told apart from numbers that are merely wrong, because each has its own cause:
 //   energy gain   a machine without drives ends with more energy than it had: by more than a tenth of the largest kinetic
@@ -44,7 +45,8 @@ struct StressVerdict {
       0.0;  ///< relative, the largest of all checks; infinite if diverged, NaN if refused
   std::string detail;  ///< the worst check, or what failed
 
-  /// The state or a number shown is not what the scene asks for: everything but `right` and `refused`.
+  /// The state or a number shown is not what the scene asks for: everything but `right` and
+  /// `refused`.
   [[nodiscard]] bool failed() const {
     return kind != StressKind::right && kind != StressKind::refused;
   }
@@ -72,8 +74,8 @@ class StressJudge {
   double rounding_energy_ = 0.0;  // kinetic, of what rounding of positions does to velocities [J]
 };
 
-/// Whether nothing but gravity and constant forces puts energy into the scene: no body moves by a function of time, is driven
-/// or has a torque, no joint has a drive, no cable is fed.
+/// Whether nothing but gravity and constant forces puts energy into the scene: no body moves by a
+/// function of time, is driven or has a torque, no joint has a drive, no cable is fed.
 [[nodiscard]] bool is_conservative(const Scene& scene);
 
 }  // namespace sheave::measure

@@ -1,20 +1,26 @@
-// The standard stability maps. Each cell is a generated scene whose checks are closed forms; where a map changes the machine
-// in a way that the generator does not know, it sets the checks' values too.
+// The standard stability maps. Each cell is a generated scene whose checks are closed forms; where
+// a map changes the machine in a way that the generator does not know, it sets the checks' values
+// too.
 //
-// Atwood, wheel train, tackle: the generators' closed forms hold for all masses, sizes and gravities.
+// Atwood, wheel train, tackle: the generators' closed forms hold for all masses, sizes and
+// gravities.
 //
-// Elastic. Two weights on a cable with compliance c per span over a massless wheel: both spans pull with one tension T, and
-// the cable is a spring of compliance 2c between the weights, w^2 = (1/m1 + 1/m2) / (2c). From rest, just taut,
+// Elastic. Two weights on a cable with compliance c per span over a massless wheel: both spans pull
+// with one tension T, and the cable is a spring of compliance 2c between the weights, w^2 = (1/m1 +
+// 1/m2) / (2c). From rest, just taut,
 //   T = T0 (1 - cos wt) with T0 = 2 m1 m2 g / (m1 + m2);   its mean over a duration D is T0 (1 - sin(wD) / (wD)),
 //   v2 = -g D + (1/m2) x the integral of T, and v1 = -g D + (1/m1) x the same.
-// A vibration that a step cannot resolve is damped by xpbd to T = T0, and the mean goes to T0 too as wD grows. So the
-// closed form holds at both ends. Errors of the tension are relative to T0: of a cable so soft that it hardly pulls yet, the
-// first order of xpbd leaves a larger share, which nothing that moves can feel.
+// A vibration that a step cannot resolve is damped by xpbd to T = T0, and the mean goes to T0 too
+// as wD grows. So the closed form holds at both ends. Errors of the tension are relative to T0: of
+// a cable so soft that it hardly pulls yet, the first order of xpbd leaves a larger share, which
+// nothing that moves can feel.
 //
-// Capstan. The cable slips over a fixed wheel, half a turn of it, with friction f, q = e^(pi f): nothing moves if m2 <= q m1;
-// else a = (m2 - q m1) g / (m2 + q m1) and T1 = m1 (g + a), T2 = q T1 = m2 (g - a).
+// Capstan. The cable slips over a fixed wheel, half a turn of it, with friction f, q = e^(pi f):
+// nothing moves if m2 <= q m1; else a = (m2 - q m1) g / (m2 + q m1) and T1 = m1 (g + a), T2 = q T1
+// = m2 (g - a).
 //
-// Gravity 0 and upwards. Without gravity nothing moves and nothing pulls. Upwards both weights rise freely; the cable is slack.
+// Gravity 0 and upwards. Without gravity nothing moves and nothing pulls. Upwards both weights rise
+// freely; the cable is slack.
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +54,8 @@ class MapMaker {
   [[nodiscard]] int by() const { return range_.quick ? 6 : 1; }
   [[nodiscard]] bool quick() const { return range_.quick; }
 
-  /// Half a second, but at least 10 steps and at most 2000 (quick: 200): what fails does so early, or grows.
+  /// Half a second, but at least 10 steps and at most 2000 (quick: 200): what fails does so early,
+  /// or grows.
   [[nodiscard]] double duration(double dt) const {
     const double most = range_.quick ? 200.0 : 2000.0;
     return dt * std::clamp(std::round(0.5 / dt), 10.0, most);
@@ -176,7 +183,8 @@ StressMap spin_map(const MapMaker& maker) {
       "spin", "Two weights over one wheel that turns so often in the last step.",
       {"turns per step", std::move(turns)}, maker.steps(), [&](double turns_per_step, double dt) {
         StressCell cell = maker.cell("wheel-train", dt);
-        // v dt = 2 pi r x turns at the end, with v = a x duration; a as of the machine with these masses.
+        // v dt = 2 pi r x turns at the end, with v = a x duration; a as of the machine with these
+        // masses.
         constexpr double radius = 0.5;
         WheelTrainOptions options;
         options.wheels = 1;

@@ -34,11 +34,12 @@ struct StressRange {
 /// Machines with closed forms: measure/stress_machines.cpp derives them.
 [[nodiscard]] std::vector<StressMap> standard_stress_maps(const StressRange& range);
 
-/// Maps of the scenes that are part of the program (measure/stress_scenes.h), named "hand-gravity" and so on; fewer cells than
-/// of a scene file.
+/// Maps of the scenes that are part of the program (measure/stress_scenes.h), named "hand-gravity"
+/// and so on; fewer cells than of a scene file.
 [[nodiscard]] std::vector<StressMap> built_in_stress_maps(const StressRange& range);
 
-/// Maps of any scene file: measure/stress_scene.cpp tells how they are judged. Errors are those of reading the file.
+/// Maps of any scene file: measure/stress_scene.cpp tells how they are judged. Errors are those of
+/// reading the file.
 [[nodiscard]] Result<std::vector<StressMap>> scene_stress_maps(const std::string& path,
                                                                const StressRange& range);
 

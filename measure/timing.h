@@ -1,10 +1,11 @@
 #pragma once
 // How long a frame of several contenders takes, measured side by side.
 //
-// Each repetition gives every contender one sample in turn, so that a machine which slows down for a while slows all of them
-// down and not one: medians of samples that were taken minutes apart cannot be compared. A sample is as many whole runs from
-// the start as fill `least_sample` seconds; putting the start back is not timed. The time is this thread's CPU time, which on
-// a quiet machine is the wall time and on a busy one leaves out what others took.
+// Each repetition gives every contender one sample in turn, so that a machine which slows down for
+// a while slows all of them down and not one: medians of samples that were taken minutes apart
+// cannot be compared. A sample is as many whole runs from the start as fill `least_sample` seconds;
+// putting the start back is not timed. The time is this thread's CPU time, which on a quiet machine
+// is the wall time and on a busy one leaves out what others took.
 
 #include <cstdint>
 #include <functional>
@@ -35,7 +36,8 @@ struct TimingOptions {
   int repetitions = 7;         ///< >= 1
   double least_sample = 0.02;  ///< [s]
   bool warm_up = true;         ///< whether each contender runs a while before its first sample
-  /// Called before each sample with the samples done, their number and the contender's name; false ends the measurement.
+  /// Called before each sample with the samples done, their number and the contender's name; false
+  /// ends the measurement.
   std::function<bool(std::int64_t done, std::int64_t of, const std::string& name)> observe;
   Clock clock;
 };

@@ -36,8 +36,8 @@ struct Frame {
 struct TrackedBody {
   BodyId id;
   std::string name;
-  /// How far from the body's origin its surface reaches [m]: what turns by an angle is displaced by angle x reach. Of
-  /// wheels their radius; of bodies without a shape 0.
+  /// How far from the body's origin its surface reaches [m]: what turns by an angle is displaced by
+  /// angle x reach. Of wheels their radius; of bodies without a shape 0.
   double reach = 0.0;
   bool turns_by_angle =
       false;  ///< planar bodies and rotors: compared by `angle`, not by `orientation`
@@ -48,8 +48,9 @@ struct Trajectory {
   double scale = 1.0;  ///< size of the scene [m]: BodySet::scale()
   std::vector<TrackedBody> bodies;
   std::vector<Frame> frames;  ///< [0] is time 0
-  /// Largest violation of the cables' lengths in any frame: the sum of what each span of a rigid cable is longer than its
-  /// rest length, relative to that cable's whole length. 0 if there is no rigid cable.
+  /// Largest violation of the cables' lengths in any frame: the sum of what each span of a rigid
+  /// cable is longer than its rest length, relative to that cable's whole length. 0 if there is no
+  /// rigid cable.
   double stretch = 0.0;
   double length_error = 0.0;  ///< largest |CableReport::length_error| in any frame
   int most_spans =
@@ -62,8 +63,9 @@ struct Trajectory {
   [[nodiscard]] bool complete() const { return !divergence.has_value(); }
 };
 
-/// The same run with only the bodies that `other` has too, in that order, by their names, and without tensions: for scenes that
-/// are the same machine modelled in two ways. Bodies of the other that it lacks are dropped from both.
+/// The same run with only the bodies that `other` has too, in that order, by their names, and
+/// without tensions: for scenes that are the same machine modelled in two ways. Bodies of the other
+/// that it lacks are dropped from both.
 [[nodiscard]] std::array<Trajectory, 2> with_common_bodies(const Trajectory& run,
                                                            const Trajectory& other);
 
@@ -72,14 +74,16 @@ struct Trajectory {
 /// What those bodies and all cables do at this moment.
 [[nodiscard]] Frame frame_of(const Simulation& simulation, const std::vector<TrackedBody>& bodies);
 
-/// Called after each frame with the frames done and their number; false ends the run, which is then no trajectory.
+/// Called after each frame with the frames done and their number; false ends the run, which is then
+/// no trajectory.
 using FrameObserver = std::function<bool(std::int64_t done, std::int64_t of)>;
 
 /// Frames in the duration of a scene, rounded to the nearest, at least 1.
 [[nodiscard]] std::int64_t frame_count(const Scene& scene);
 
-/// Runs the scene with its own settings to its duration. An error if it does not build, or if the observer or, within a step,
-/// `stop` ended it (then with an empty path and the message "interrupted"). A run that diverges is no error.
+/// Runs the scene with its own settings to its duration. An error if it does not build, or if the
+/// observer or, within a step, `stop` ended it (then with an empty path and the message
+/// "interrupted"). A run that diverges is no error.
 [[nodiscard]] Result<Trajectory> record(const Scene& scene, const FrameObserver& observe = {},
                                         const StopRequest& stop = {});
 

@@ -1,8 +1,10 @@
 #pragma once
-// Accuracy against cost of many runs: which are worth choosing, and how fast the error falls with the step.
+// Accuracy against cost of many runs: which are worth choosing, and how fast the error falls with
+// the step.
 //
-// An error is only known to lie below error + doubt, where the doubt is the reference's own. Choices are made with that bound,
-// so that what is promised holds; fits only take errors that are well above the doubt.
+// An error is only known to lie below error + doubt, where the doubt is the reference's own.
+// Choices are made with that bound, so that what is promised holds; fits only take errors that are
+// well above the doubt.
 
 #include <cstddef>
 #include <limits>
@@ -18,8 +20,9 @@ struct WorkPoint {
   double bound = std::numeric_limits<double>::infinity();  ///< that the error does not exceed, >= 0
 };
 
-/// Indices of the points that are worth their cost, cheapest first: each has a bound below 0.99 times that of every cheaper one.
-/// Less is no gain, for times are not known better than that. Of equal points the first.
+/// Indices of the points that are worth their cost, cheapest first: each has a bound below 0.99
+/// times that of every cheaper one. Less is no gain, for times are not known better than that. Of
+/// equal points the first.
 [[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const WorkPoint> points);
 
 /// The cheapest with bound <= `error`, whether it is on the front or not.
@@ -42,9 +45,10 @@ struct FittedOrder {
   int points = 0;  ///< that the fit is made from, >= 3
 };
 
-/// Slope of the straight line through log(error) over log(step) by least squares. Only errors count that the law can hold for:
-/// below 0.1, where bodies are still about where they should be, and above three times the doubt and 1e-11, which is rounding.
-/// Nothing if fewer than three steps are left.
+/// Slope of the straight line through log(error) over log(step) by least squares. Only errors count
+/// that the law can hold for: below 0.1, where bodies are still about where they should be, and
+/// above three times the doubt and 1e-11, which is rounding. Nothing if fewer than three steps are
+/// left.
 [[nodiscard]] std::optional<FittedOrder> fitted_order(std::span<const StepError> errors);
 
 }  // namespace sheave::measure

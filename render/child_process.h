@@ -18,8 +18,9 @@ class ChildProcess {
   /// goes nowhere, its standard error into a buffer. It gets its own process group, so that Ctrl-C
   /// in a terminal reaches only the caller, who may still want to finish the output.
   ///
-  /// `stall_seconds`: a child that for so long neither takes input nor ends nor uses any processor time hangs; it is
-  /// ended, and that is an error. `abandon`, if there is one, is asked while we wait for the child; true ends it likewise.
+  /// `stall_seconds`: a child that for so long neither takes input nor ends nor uses any processor
+  /// time hangs; it is ended, and that is an error. `abandon`, if there is one, is asked while we
+  /// wait for the child; true ends it likewise.
   static constexpr double usual_stall_seconds = 60.0;
   static Result<ChildProcess> start(const std::vector<std::string>& arguments,
                                     double stall_seconds = usual_stall_seconds,

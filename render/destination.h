@@ -59,7 +59,8 @@ inline void synchronise_folder(const std::string& path) {
   ::close(descriptor);
 }
 
-/// Waits until all files on the file system of the folder of `path` are on the disk, as far as that goes.
+/// Waits until all files on the file system of the folder of `path` are on the disk, as far as that
+/// goes.
 inline void synchronise_files_beside(const std::string& path) {
   const std::string folder = folder_part(path);
   const int descriptor =

@@ -17,8 +17,8 @@ constexpr std::array<double, 5> distances{1.0, 2.2, 3.8, 6.0, 9.0};
 /// Shares of the slide.
 constexpr std::array<double, 7> slides{0.0, 0.35, -0.35, 0.7, -0.7, 1.0, -1.0};
 
-/// Where labels find no room beside their anchors, as between the parts of a tackle, text across the
-/// cable it belongs to is clearer than text that touches a neighbour.
+/// Where labels find no room beside their anchors, as between the parts of a tackle, text across
+/// the cable it belongs to is clearer than text that touches a neighbour.
 constexpr double across_cost = 5.0;
 constexpr double own_line_reach =
     3.0;  ///< a line nearer to the anchor than this is its own [pixels]
@@ -127,7 +127,8 @@ class Layout {
     const Rectangle& r = candidate.text;
     const double area = std::max(r.width * r.height, 1.0);
     const Rectangle padded{r.x - 3.0, r.y - 1.0, r.width + 6.0, r.height + 2.0};
-    // Text wants more air to its sides than above and below, or it reads as part of the lines beside it.
+    // Text wants more air to its sides than above and below, or it reads as part of the lines
+    // beside it.
     const double air = std::max(3.0, 0.45 * around_.gap);
     const Rectangle airy{r.x - air, r.y - 1.0, r.width + 2.0 * air, r.height + 2.0};
     const Rectangle picture{2.0, 2.0, around_.width - 4.0, around_.height - 4.0};

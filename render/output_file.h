@@ -19,8 +19,8 @@ enum class Durability {
 /// A temporary file beside its destination, removed unless commit() succeeds.
 class OutputFile {
  public:
-  /// Creates the temporary; fails if the folder does not exist or cannot be written to, or if `path` is anything but a file,
-  /// a link (which stays one) or new.
+  /// Creates the temporary; fails if the folder does not exist or cannot be written to, or if
+  /// `path` is anything but a file, a link (which stays one) or new.
   static Result<OutputFile> create(const std::string& path);
   ~OutputFile();
   OutputFile(OutputFile&& other) noexcept;

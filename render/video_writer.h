@@ -41,7 +41,8 @@ class VideoWriter {
 
   /// Appends a frame of the size given to create().
   [[nodiscard]] Errors add(const Image& frame);
-  /// Ends the video, checks that the file has its frames, and moves it to its path. Fails if no frame was added.
+  /// Ends the video, checks that the file has its frames, and moves it to its path. Fails if no
+  /// frame was added.
   [[nodiscard]] Errors finish();
   /// Ends the encoder and removes what it wrote.
   void discard();

@@ -47,8 +47,8 @@ struct ViewOptions {
 
 class ViewBuilder {
  public:
-  /// Decides once how bodies, joints and cables look. `world` and `cables` must be of the same state,
-  /// usually that at time 0; later calls of build() must be for the same model.
+  /// Decides once how bodies, joints and cables look. `world` and `cables` must be of the same
+  /// state, usually that at time 0; later calls of build() must be for the same model.
   ViewBuilder(const World& world, std::span<const CableReport> cables, ViewOptions options = {});
 
   /// What the world looks like now.
@@ -80,7 +80,8 @@ class ViewBuilder {
 [[nodiscard]] Vector3 up_direction(const Model& model);
 
 /// The normal of the plane in which the scene moves: the common axis of its wheels, or of its
-/// planar bodies if it has no wheels, or of its hinges if it has neither. Nothing if they have none in common.
+/// planar bodies if it has no wheels, or of its hinges if it has neither. Nothing if they have none
+/// in common.
 [[nodiscard]] std::optional<Vector3> motion_plane(const Model& model,
                                                   std::span<const CableReport> cables);
 

@@ -1,5 +1,6 @@
 #pragma once
-// Codes of what `sheave validate --json` tells. A code never changes its meaning; new ones may be added.
+// Codes of what `sheave validate --json` tells. A code never changes its meaning; new ones may be
+// added.
 
 #include <cstdint>
 #include <span>

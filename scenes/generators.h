@@ -54,8 +54,9 @@ struct BlockAndTackleOptions {
 /// An error, with the option's name as its path, if an option is out of range.
 [[nodiscard]] Result<Scene> generate_block_and_tackle(const BlockAndTackleOptions& options);
 
-/// One cable along a three-dimensional Hilbert curve, with a wheel wherever the curve turns: a motor's drum winds it up at
-/// one end, a weight hangs at the other (figures 1 and 18 of the paper).
+/// One cable along a three-dimensional Hilbert curve, with a wheel wherever the curve turns: a
+/// motor's drum winds it up at one end, a weight hangs at the other (figures 1 and 18 of the
+/// paper).
 struct HilbertOptions {
   int order = 2;            ///< of the curve, through 8^order points; 1 ... 5
   double spacing = 1.0;     ///< of the curve's points [m], > 0
@@ -83,11 +84,12 @@ struct HilbertOptions {
 };
 /// An error, with the option's name as its path, if an option is out of range.
 [[nodiscard]] Result<Scene> generate_hilbert(const HilbertOptions& options);
-/// The points of the curve, in units of their spacing: 8^order of them, neighbours one apart; the last step is -y.
+/// The points of the curve, in units of their spacing: 8^order of them, neighbours one apart; the
+/// last step is -y.
 [[nodiscard]] std::vector<Vector3> hilbert_curve(int order);
 
-/// A chain of rigid links with ball joints, fixed at one end, a heavy ball at the other, let go from a straight line: what
-/// solvers that pass errors from joint to joint find hardest.
+/// A chain of rigid links with ball joints, fixed at one end, a heavy ball at the other, let go
+/// from a straight line: what solvers that pass errors from joint to joint find hardest.
 struct ChainOptions {
   int links = 40;              ///< 1 ... 10 000
   double link_length = 1.0;    ///< between the joints of a link [m], > 0
@@ -107,8 +109,8 @@ struct ChainOptions {
 /// An error, with the option's name as its path, if an option is out of range.
 [[nodiscard]] Result<Scene> generate_chain(const ChainOptions& options);
 
-/// A rope over two wheels, with a weight at each end, as rigid segments with ball joints that touch the wheels; or the same
-/// machine with one cable (figure 14 of the paper).
+/// A rope over two wheels, with a weight at each end, as rigid segments with ball joints that touch
+/// the wheels; or the same machine with one cable (figure 14 of the paper).
 struct NaiveRopeOptions {
   int segments = 100;           ///< of the rope, 20 ... 10 000
   bool cable = false;           ///< one cable in place of the segments

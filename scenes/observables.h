@@ -34,13 +34,16 @@ struct QuantityGroup {
 /// Those that are no columns unless they are asked for: they cost more than to look them up.
 [[nodiscard]] std::span<const QuantityGroup> requested_quantity_groups();
 
-/// A quantity of this joint that this body has too, so that they cannot have the same name; empty if there is none.
+/// A quantity of this joint that this body has too, so that they cannot have the same name; empty
+/// if there is none.
 [[nodiscard]] std::string shared_quantity(const JointDef& joint, const BodyDef& body);
 
-/// The observables of one model, in a fixed order: time, bodies, cables, joints, energies; then those on request.
+/// The observables of one model, in a fixed order: time, bodies, cables, joints, energies; then
+/// those on request.
 class ObservableSet {
  public:
-  /// Which of them a set has: making a name takes time, and most runs need none of those on request.
+  /// Which of them a set has: making a name takes time, and most runs need none of those on
+  /// request.
   enum class Extent { columns, everything };
 
   explicit ObservableSet(const Simulation& simulation, Extent extent = Extent::everything);
@@ -62,7 +65,8 @@ class ObservableSet {
   /// Whether a state alone tells it. Forces of bearings and powers take the substep before.
   [[nodiscard]] bool follows_from_state(int index) const;
 
-  /// The values of all that are columns by default, in the order of names(). `simulation` must be of the model this set was made for.
+  /// The values of all that are columns by default, in the order of names(). `simulation` must be
+  /// of the model this set was made for.
   void sample(const Simulation& simulation, std::vector<double>& values) const;
   /// The values at `indices` only: costs nothing for bodies and joints that are not asked for, and
   /// cables and energies only if one of them is.

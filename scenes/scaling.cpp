@@ -40,8 +40,8 @@ std::optional<UnitPowers> factor_powers(std::string_view factor) {
   return std::nullopt;
 }
 
-/// The unit of a field whose table lists several, "rad/s, rad or N m": one for each choice of the drive beside it but the
-/// first, "none".
+/// The unit of a field whose table lists several, "rad/s, rad or N m": one for each choice of the
+/// drive beside it but the first, "none".
 std::string_view unit_of(const Field& field, const std::vector<const Field*>& fields,
                          const SettingJson& object) {
   const std::size_t comma = field.unit.find(", ");

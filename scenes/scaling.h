@@ -1,9 +1,11 @@
 #pragma once
-// Scenes that must behave alike: the same machine with all lengths times a factor L and all masses times a factor M.
+// Scenes that must behave alike: the same machine with all lengths times a factor L and all masses
+// times a factor M.
 //
-// Where every setting is multiplied by the power of L and M that its unit says (a force by M L, a compliance [m/N] by 1/M,
-// gravity by L), Newton's equations are the same in units of L and M, at the same times. So for any scene, whatever it is,
-// there is a right answer: the run of the original, with its lengths times L and its forces times M L.
+// Where every setting is multiplied by the power of L and M that its unit says (a force by M L, a
+// compliance [m/N] by 1/M, gravity by L), Newton's equations are the same in units of L and M, at
+// the same times. So for any scene, whatever it is, there is a right answer: the run of the
+// original, with its lengths times L and its forces times M L.
 
 #include <optional>
 #include <string>
@@ -22,7 +24,8 @@ struct UnitPowers {
   [[nodiscard]] bool operator==(const UnitPowers&) const = default;
 };
 
-/// The powers in a unit as field tables have it ("N s/m", "rad/(N m)", ""); nothing if it is no such unit.
+/// The powers in a unit as field tables have it ("N s/m", "rad/(N m)", ""); nothing if it is no
+/// such unit.
 [[nodiscard]] std::optional<UnitPowers> unit_powers(std::string_view unit);
 
 /// A number, vector or list in the text of a scene that has powers of length or mass in its unit.
@@ -32,7 +35,8 @@ struct ScalableSetting {
   UnitPowers powers;
 };
 
-/// All of them but those of camera, paint and checks, in the order of the text, which must be that of a valid scene.
+/// All of them but those of camera, paint and checks, in the order of the text, which must be that
+/// of a valid scene.
 [[nodiscard]] std::vector<ScalableSetting> scalable_settings(std::string_view text);
 /// The setting with all its numbers times `factor`.
 [[nodiscard]] Override scaled(const ScalableSetting& setting, double factor);

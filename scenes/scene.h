@@ -61,7 +61,8 @@ enum class Statistic {
   maximum,
   range,  ///< maximum - minimum
   drift,  ///< last - first value
-  /// Over the time in the window; the first value stands for the time before it, too, where there is none at the start.
+  /// Over the time in the window; the first value stands for the time before it, too, where there
+  /// is none at the start.
   integral,
 };
 inline constexpr std::array<std::string_view, 8> statistic_names{
@@ -146,8 +147,9 @@ struct SceneResult {
 
 /// A setting that replaces or adds to what the text says, before anything is checked.
 struct Override {
-  /// JSON pointer; its parent must exist ("/step" always does). Names stand for places: /bodies/drum/mass. A drive that is
-  /// set to another kind, or to none, loses what it cannot have any more.
+  /// JSON pointer; its parent must exist ("/step" always does). Names stand for places:
+  /// /bodies/drum/mass. A drive that is set to another kind, or to none, loses what it cannot have
+  /// any more.
   std::string pointer;
   std::string value;   ///< JSON; a bare word is a string
   std::string origin;  ///< what errors call the source; default "--set POINTER"

@@ -27,7 +27,8 @@ class Suggestion {
   std::vector<std::size_t> before_previous_, previous_, current_;  // rows of the distance table
 };
 
-/// The candidates that are near enough to `word` to be worth naming, the nearest first, at most so many.
+/// The candidates that are near enough to `word` to be worth naming, the nearest first, at most so
+/// many.
 [[nodiscard]] std::vector<std::string_view> nearest(std::string_view word,
                                                     std::vector<std::string_view> candidates,
                                                     std::size_t most);

@@ -1,5 +1,6 @@
 #pragma once
-// All of Sheave that a program needs to build worlds, to load them, and to hold them while they live.
+// All of Sheave that a program needs to build worlds, to load them, and to hold them while they
+// live.
 
 #include "cable/edit.h"
 #include "cable/links/attachment.h"

@@ -1,5 +1,6 @@
 #pragma once
-// The paper's table on this machine, as data: what `sheave bench` measures, prints, keeps and compares.
+// The paper's table on this machine, as data: what `sheave bench` measures, prints, keeps and
+// compares.
 
 #include <optional>
 #include <string>
@@ -20,7 +21,8 @@ struct BenchRow {
   int joints = 0;          ///< free spans, as we count them
   StepSettings settings;
   int paper_joints = 0;  ///< 0: not told
-  /// The paper's time of this setting [s]; of the direct solver that of the scene's first row, which is the table's.
+  /// The paper's time of this setting [s]; of the direct solver that of the scene's first row,
+  /// which is the table's.
   std::optional<double> paper_seconds;
   std::string paper_source;
   /// Why there are no numbers; empty if there are.
@@ -70,8 +72,8 @@ struct BenchOptions {
   double reference_seconds = 60.0;  ///< CPU time of one reference, about
 };
 
-/// Measures all rows that the filter leaves. Shows a progress bar on a terminal. A Failure if nothing is left (2), if the
-/// folder does not exist (66), or if a signal came (130).
+/// Measures all rows that the filter leaves. Shows a progress bar on a terminal. A Failure if
+/// nothing is left (2), if the folder does not exist (66), or if a signal came (130).
 [[nodiscard]] BenchTable measure_table(const BenchOptions& options);
 /// The same rows without any numbers; their fault is "not measured".
 [[nodiscard]] BenchTable list_table(const BenchOptions& options);
@@ -87,7 +89,8 @@ struct BenchChange {
   std::string name;
   double before = 0.0;  ///< median time of a frame [s]
   double now = 0.0;
-  /// More than what is allowed, and apart by more than the spread: the quartile below is now above the quartile above then.
+  /// More than what is allowed, and apart by more than the spread: the quartile below is now above
+  /// the quartile above then.
   bool slower = false;
   [[nodiscard]] double ratio() const { return now / before; }
 };
@@ -104,7 +107,8 @@ struct BenchComparison {
                                                     const std::string& path, double allowed_ratio);
 [[nodiscard]] std::string comparison_text(const BenchComparison& comparison);
 
-/// Draws times and errors with gnuplot into a .png or .svg file. A Failure: 2 other name, 74 no gnuplot or no file.
+/// Draws times and errors with gnuplot into a .png or .svg file. A Failure: 2 other name, 74 no
+/// gnuplot or no file.
 void draw_chart(const BenchTable& table, const std::string& path);
 /// What gnuplot is told.
 [[nodiscard]] std::string chart_script(const BenchTable& table, const std::string& output);

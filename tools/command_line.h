@@ -20,7 +20,8 @@ void check_subcommands(const CLI::App& app, int argc, const char* const* words);
 /// throws a Failure (2) if something is wrong.
 [[nodiscard]] bool parse_command_line(CLI::App& app, int argc, const char* const* argv);
 
-/// A number from `low` to `high`. CLI11's own checks let "nan" pass, which is in no range and out of none.
+/// A number from `low` to `high`. CLI11's own checks let "nan" pass, which is in no range and out
+/// of none.
 [[nodiscard]] CLI::Validator number_between(double low, double high);
 /// A number that is neither infinite nor "nan".
 [[nodiscard]] CLI::Validator finite_number();

@@ -16,7 +16,8 @@ using measure::StepDifference;
 using measure::StepErrorKind;
 
 constexpr std::size_t max_quantities = 12;
-/// Where bodies move by less than this part of the scene's size, errors are told relative to the motion, too.
+/// Where bodies move by less than this part of the scene's size, errors are told relative to the
+/// motion, too.
 constexpr double small_motion = 0.1;
 
 std::string share_text(double share) { return fmt::format("{:.2g} %", 100.0 * share); }

@@ -52,7 +52,8 @@ std::string gnuplot_terminal(const std::string& output, int height) {
 
 namespace {
 
-/// Whether a .png or .svg file ends as such a file does: gnuplot ends with success on a full disk, too.
+/// Whether a .png or .svg file ends as such a file does: gnuplot ends with success on a full disk,
+/// too.
 bool is_whole_picture(const std::string& path) {
   constexpr std::size_t longest = 16;
   const std::string text = tail_of_file(path, longest);

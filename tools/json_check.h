@@ -1,6 +1,7 @@
 #pragma once
-// Files of the command's own (journals, baselines) are read as strictly as scenes: by the same parser, and against rules for
-// every value, so that whoever reads them finds what he expects. Faults have a line and a column.
+// Files of the command's own (journals, baselines) are read as strictly as scenes: by the same
+// parser, and against rules for every value, so that whoever reads them finds what he expects.
+// Faults have a line and a column.
 
 #include <cstdint>
 #include <functional>
@@ -30,7 +31,8 @@ struct JsonKey {
   bool required = true;
 };
 
-/// A number within [low, high]; with `any` also the words "inf", "-inf" and "nan", which JSON has no numbers for.
+/// A number within [low, high]; with `any` also the words "inf", "-inf" and "nan", which JSON has
+/// no numbers for.
 [[nodiscard]] JsonRule json_number(double low, double high, bool any = false);
 /// The same without a fraction.
 [[nodiscard]] JsonRule json_integer(std::int64_t low, std::int64_t high);
@@ -47,8 +49,9 @@ struct JsonKey {
 /// Any keys, with such values.
 [[nodiscard]] JsonRule json_map(JsonRule value);
 
-/// Checks a text, which errors call `name`. Throws a Failure (65) that lists all faults. `format` is what the key "format" must
-/// be; a text with another number at its end is of another version, and the Failure names both.
+/// Checks a text, which errors call `name`. Throws a Failure (65) that lists all faults. `format`
+/// is what the key "format" must be; a text with another number at its end is of another version,
+/// and the Failure names both.
 void check_json(std::string_view text, const std::string& name, std::string_view format,
                 const JsonRule& rule);
 

@@ -19,7 +19,8 @@ class LineReader {
   };
   /// The next line that is there as a whole; at the end also one without its end.
   [[nodiscard]] std::optional<Line> next();
-  /// Reads what there is; waits if there is nothing, but not beyond a signal. Throws a Failure (74).
+  /// Reads what there is; waits if there is nothing, but not beyond a signal. Throws a Failure
+  /// (74).
   void read();
   /// Whether there is nothing more to read. Lines may be left.
   [[nodiscard]] bool at_end() const { return at_end_; }

@@ -18,7 +18,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What a reader may have to take before lines that can be done without are left out, and before others wait.
+/// What a reader may have to take before lines that can be done without are left out, and before
+/// others wait.
 constexpr std::size_t most_for_offers = std::size_t{1} << 18U;
 constexpr std::size_t most_for_lines = std::size_t{1} << 20U;
 /// A pipe that is ready takes so much without waiting (PIPE_BUF).

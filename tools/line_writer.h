@@ -1,6 +1,6 @@
 #pragma once
-// Lines to a reader who may be slow: what has been begun is always completed, and what can be done without is left out rather
-// than waited for.
+// Lines to a reader who may be slow: what has been begun is always completed, and what can be done
+// without is left out rather than waited for.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,14 +15,15 @@ class LineWriter {
   /// `dropped` makes the line that tells how many have been left out.
   LineWriter(int descriptor, std::function<std::string(std::int64_t)> dropped);
 
-  /// Writes a line that must not be lost; waits for the reader if there is much that he has not taken yet, but not beyond a
-  /// signal.
+  /// Writes a line that must not be lost; waits for the reader if there is much that he has not
+  /// taken yet, but not beyond a signal.
   void write(std::string_view line);
   /// Writes a line that may be left out while the reader has much to take; never waits.
   void offer(std::string_view line);
   /// Hands on what the reader takes now; waits for him up to this time [s], less if a signal comes.
   void wait(double seconds);
-  /// Hands on all of it. After a signal the reader has two seconds to take it, or until another signal.
+  /// Hands on all of it. After a signal the reader has two seconds to take it, or until another
+  /// signal.
   void finish();
 
   [[nodiscard]] int descriptor() const { return descriptor_; }

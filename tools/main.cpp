@@ -46,8 +46,8 @@ ExitCode run_command_line(int argc, char** argv) {
   return ExitCode::internal;
 }
 
-/// An exception that a destructor or another function must not throw: libraries allocate in some. The way back is lost, the
-/// reason is not.
+/// An exception that a destructor or another function must not throw: libraries allocate in some.
+/// The way back is lost, the reason is not.
 [[noreturn]] void end_at_once() noexcept {
   try {
     if (const std::exception_ptr failure = std::current_exception()) {

@@ -1,6 +1,6 @@
 // NumPy's .npy format: magic, version, length of a header, the header (a Python dictionary, padded
-// with blanks so that the data is aligned), the data. The header keeps room for any number of rows and tells those that are there,
-// also while the file is being written.
+// with blanks so that the data is aligned), the data. The header keeps room for any number of rows
+// and tells those that are there, also while the file is being written.
 
 #include <algorithm>
 #include <array>

@@ -11,7 +11,8 @@ namespace sheave::tools {
 
 class OutputFaults {
  public:
-  /// Writes an output; if that ends in a Failure or for want of memory, remembers it. Whether it was written.
+  /// Writes an output; if that ends in a Failure or for want of memory, remembers it. Whether it
+  /// was written.
   bool attempt(const std::function<void()>& write);
   /// Remembers a fault that was found elsewhere (74).
   void add(const std::string& message, ExitCode code = ExitCode::io);
@@ -20,8 +21,8 @@ class OutputFaults {
   void add_out_of_memory();
 
   [[nodiscard]] bool any() const { return code_ != ExitCode::done; }
-  /// Says on standard error what failed. The exit code: 70 if memory was wanting, else that of the first fault, either of which
-  /// replaces any other of the command; `otherwise` if there is none.
+  /// Says on standard error what failed. The exit code: 70 if memory was wanting, else that of the
+  /// first fault, either of which replaces any other of the command; `otherwise` if there is none.
   [[nodiscard]] ExitCode report(ExitCode otherwise) const;
 
  private:

@@ -41,7 +41,8 @@ class OutputFile {
   [[nodiscard]] bool is_seekable() const { return !temporary_.empty(); }
   /// What salvage() is to keep at most: the first `size` bytes.
   void keep_at_most(std::size_t size) { size_ = std::min(size_, size); }
-  /// Whether it could not be put in place and stays under its temporary name, which the Failure told.
+  /// Whether it could not be put in place and stays under its temporary name, which the Failure
+  /// told.
   [[nodiscard]] bool is_elsewhere() const { return elsewhere_; }
   /// Whole records that have been handed to the system.
   [[nodiscard]] std::int64_t records() const { return records_; }

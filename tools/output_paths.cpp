@@ -14,7 +14,8 @@
 namespace sheave::tools {
 namespace {
 
-/// What makes two names one file: device and inode, of the file or, where there is none yet, of its folder with the name in it.
+/// What makes two names one file: device and inode, of the file or, where there is none yet, of its
+/// folder with the name in it.
 struct Identity {
   dev_t device = 0;
   ino_t inode = 0;

@@ -1,5 +1,6 @@
 #pragma once
-// Which files a command reads and writes, so that it never writes onto what it reads, or twice onto one file.
+// Which files a command reads and writes, so that it never writes onto what it reads, or twice onto
+// one file.
 
 #include <string>
 #include <vector>
@@ -12,8 +13,9 @@ struct NamedPath {
   std::string path;
 };
 
-/// Throws a Failure (2) if an output is an input or another output: the same file, whatever its name, and also one that does
-/// not exist yet. Devices and pipes may be written to twice. Standard output counts if `prints` says that something is printed there.
+/// Throws a Failure (2) if an output is an input or another output: the same file, whatever its
+/// name, and also one that does not exist yet. Devices and pipes may be written to twice. Standard
+/// output counts if `prints` says that something is printed there.
 void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs,
                  bool prints);
 

@@ -13,8 +13,8 @@ class Pacer {
 
   /// The world's seconds per second of the clock, > 0; nothing: as fast as it can.
   void set_pace(std::optional<double> pace);
-  /// How long to wait until the step that ends at `time` is due [s]; 0: it is. Steps that are late by more than a quarter of a
-  /// second, as after a break, are not made up for.
+  /// How long to wait until the step that ends at `time` is due [s]; 0: it is. Steps that are late
+  /// by more than a quarter of a second, as after a break, are not made up for.
   [[nodiscard]] double until(double time);
   /// The next step is due a step after now, whatever was before.
   void restart() { start_.reset(); }

@@ -43,7 +43,8 @@ class Shutter {
           const std::function<bool(std::size_t, const Simulation&)>& show)
       : scene_(scene), times_(times), show_(show), tolerance_(1e-6 * scene.model.step.dt) {}
 
-  /// To be called at the start and after every step; false once all moments have been shown or no more are wanted.
+  /// To be called at the start and after every step; false once all moments have been shown or no
+  /// more are wanted.
   bool observe(const Simulation& simulation) {
     const State& now = simulation.world.state();
     for (; next_ < times_.size() && times_[next_] <= now.time + tolerance_; ++next_) {

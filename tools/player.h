@@ -15,15 +15,15 @@ namespace sheave::tools {
 
 /// Simulates `scene` and calls `show(k, simulation)` for every time k of `times`
 /// [s], which are in order. A moment between two steps shows bodies and cables half way between
-/// them. `show` may return false to end the play. Playing the same scene twice shows the same. Ends after the last of `times`, or early (see
-/// RunOutcome); then moments that were not reached are not shown.
-/// `start` is a state file to begin with; empty: the scene's start.
+/// them. `show` may return false to end the play. Playing the same scene twice shows the same. Ends
+/// after the last of `times`, or early (see RunOutcome); then moments that were not reached are not
+/// shown. `start` is a state file to begin with; empty: the scene's start.
 RunOutcome play(const Scene& scene, const std::string& start, std::span<const double> times,
                 Progress& progress,
                 const std::function<bool(std::size_t, const Simulation&)>& show);
 
-/// The cables of a simulation that plays `scene`, for a picture. At the start no tension has been computed, and a taut
-/// cable would look slack; so the first step's tensions are shown there.
+/// The cables of a simulation that plays `scene`, for a picture. At the start no tension has been
+/// computed, and a taut cable would look slack; so the first step's tensions are shown there.
 [[nodiscard]] std::vector<CableReport> reports_to_show(const Scene& scene,
                                                        const Simulation& simulation);
 

@@ -35,7 +35,8 @@ class Recorder {
   /// Creates the files; a Failure if a path or pattern is wrong. Without paths nothing is recorded.
   Recorder(const RecordOptions& options, const Simulation& simulation);
 
-  /// To be called at the start and after every step: writes a row if one is due. False if a table has come to a fault.
+  /// To be called at the start and after every step: writes a row if one is due. False if a table
+  /// has come to a fault.
   bool observe(const Simulation& simulation);
   /// Puts the files in place.
   void finish();

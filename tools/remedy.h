@@ -1,5 +1,6 @@
 #pragma once
-// What to change about the settings of a run that went wrong. It never names what is in use already.
+// What to change about the settings of a run that went wrong. It never names what is in use
+// already.
 
 #include <string>
 

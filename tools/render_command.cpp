@@ -55,7 +55,8 @@ void insert_still(Moments& moments, double at, double tolerance) {
   if (!moments.still_is_frame) moments.times.insert(place, at);
 }
 
-/// Frames are those of a run from the start as far as they lie behind `begin` [s], so that films of two parts fit together.
+/// Frames are those of a run from the start as far as they lie behind `begin` [s], so that films of
+/// two parts fit together.
 Moments choose_moments(const Scene& scene, const PictureOptions& options, double begin) {
   constexpr double most_frames = 1e7;
   const double dt = scene.model.step.dt;

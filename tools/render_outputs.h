@@ -26,14 +26,16 @@ struct PictureOptions {
   [[nodiscard]] bool has_frames() const { return !video.empty() || !png.empty(); }
 };
 
-/// Opens what the options name, draws into it, and puts it in place. An output that cannot be written is given up and told in
-/// faults(), the others go on.
+/// Opens what the options name, draws into it, and puts it in place. An output that cannot be
+/// written is given up and told in faults(), the others go on.
 class PictureOutputs {
  public:
-  /// Throws a Failure at once if a folder cannot be written to, ffmpeg is missing (74) or there is no GL (70).
+  /// Throws a Failure at once if a folder cannot be written to, ffmpeg is missing (74) or there is
+  /// no GL (70).
   explicit PictureOutputs(const PictureOptions& options);
 
-  /// Draws one frame of the video and the folder, as far as they are still written. A Failure (70) if nothing can be drawn.
+  /// Draws one frame of the video and the folder, as far as they are still written. A Failure (70)
+  /// if nothing can be drawn.
   void add_frame(const render::DrawList& list, const render::Camera& camera);
   /// Draws the still, in higher quality.
   void add_still(const render::DrawList& list, const render::Camera& camera);

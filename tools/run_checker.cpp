@@ -9,7 +9,8 @@ namespace {
 
 using Kind = CertificateItem::Kind;
 
-/// The one of these kinds that is relatively farthest off; null if there was nothing of them to check.
+/// The one of these kinds that is relatively farthest off; null if there was nothing of them to
+/// check.
 const CertificateItem* worst_of(const Certificate& certificate, std::initializer_list<Kind> kinds) {
   const CertificateItem* worst = nullptr;
   for (const Kind kind : kinds) {

@@ -28,9 +28,11 @@ class RunChecker {
   Certificate certificate_;
 };
 
-/// One line: "checked: constraints within 3e-12 m, ..." or "doubtful: at 1.2 s ...", without a line break.
+/// One line: "checked: constraints within 3e-12 m, ..." or "doubtful: at 1.2 s ...", without a line
+/// break.
 [[nodiscard]] std::string certificate_text(const Certificate& certificate, double trust);
-/// The worst item and, by their kinds, the others that are above `trust`; for a certificate that is not clean.
+/// The worst item and, by their kinds, the others that are above `trust`; for a certificate that is
+/// not clean.
 [[nodiscard]] std::string doubt_text(const Certificate& certificate, double trust);
 
 }  // namespace sheave::tools

@@ -15,12 +15,13 @@ namespace sheave::tools {
 
 class RunFiles {
  public:
-  /// Creates the tables and the state file (`state_path` empty: none); a Failure if one cannot be created.
-  /// `other_output`: whether a run is of use even if all tables fail.
+  /// Creates the tables and the state file (`state_path` empty: none); a Failure if one cannot be
+  /// created. `other_output`: whether a run is of use even if all tables fail.
   RunFiles(const RecordOptions& tables, const std::string& state_path, bool other_output,
            const Simulation& simulation);
 
-  /// To be called at the start and after every step. False if there is nothing left that a further step would be for.
+  /// To be called at the start and after every step. False if there is nothing left that a further
+  /// step would be for.
   bool observe(const Simulation& simulation, Progress& progress);
 
   /// Runs `action`; what has been recorded is kept if it throws.

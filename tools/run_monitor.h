@@ -30,14 +30,14 @@ struct JointCourse {
   double error_time = 0.0;        ///< and when [s]
   double angle_error = 0.0;       ///< the largest JointReport::angle_error [rad]
   double angle_error_time = 0.0;  ///< [s]
-  /// Of the drive that has kept least to what its values ask for: sums over the looks of |drive_error| and of |what was asked
-  /// for, to and fro| [m, m/s, rad or rad/s].
+  /// Of the drive that has kept least to what its values ask for: sums over the looks of
+  /// |drive_error| and of |what was asked for, to and fro| [m, m/s, rad or rad/s].
   double drive_error = 0.0;
   double drive_asked = 0.0;
 };
 
-/// Follows a simulation: energy in every step; cables in every step of short runs and at about 2000 moments of
-/// long ones; joints at about 200 moments.
+/// Follows a simulation: energy in every step; cables in every step of short runs and at about 2000
+/// moments of long ones; joints at about 200 moments.
 class RunMonitor {
  public:
   /// For a run of so many steps.
@@ -57,10 +57,11 @@ class RunMonitor {
   [[nodiscard]] double max_energy_gain() const { return max_gain_; }
   /// The largest |total energy - its value at the start| [J].
   [[nodiscard]] double max_energy_drift() const { return max_drift_; }
-  /// What the integrator took from the motion, vibrations of elastic cables included, about [J], >= 0.
+  /// What the integrator took from the motion, vibrations of elastic cables included, about [J], >=
+  /// 0.
   [[nodiscard]] double integrator_loss() const { return integrator_loss_; }
-  /// What it is compared with: the largest sum of kinetic and elastic energy, and what drives, friction, damping and impacts
-  /// have put in and taken out [J].
+  /// What it is compared with: the largest sum of kinetic and elastic energy, and what drives,
+  /// friction, damping and impacts have put in and taken out [J].
   [[nodiscard]] double energy_flow() const { return most_vivid_ + loss_.exchanged(); }
   /// One per cable.
   [[nodiscard]] const std::vector<CableCourse>& cables() const { return cables_; }

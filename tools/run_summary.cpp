@@ -37,7 +37,8 @@ std::string link_name(const CableSystem::LinkWarning& warning, const BodySet& bo
                           : fmt::format("link {} on {}", warning.link, body);
 }
 
-/// Drives that would have needed cable which was not there, and cable that slid because there was no more.
+/// Drives that would have needed cable which was not there, and cable that slid because there was
+/// no more.
 void append_shortage_warnings(const CableSystem& cables, const BodySet& bodies,
                               std::vector<Warning>& warnings) {
   for (const CableSystem::LinkWarning& warning : cables.stall_warnings()) {
@@ -58,8 +59,8 @@ void append_shortage_warnings(const CableSystem& cables, const BodySet& bodies,
   }
 }
 
-/// Joints that have not held. Rigid ones are as exact as the solver: open by more than a thousandth of the scene, or a
-/// hundredth of a radian, they have not.
+/// Joints that have not held. Rigid ones are as exact as the solver: open by more than a thousandth
+/// of the scene, or a hundredth of a radian, they have not.
 void append_joint_warnings(const Simulation& simulation, const RunStatistics& statistics,
                            const RunMonitor& monitor, std::vector<Warning>& warnings) {
   const double most_open = 1e-3 * simulation.world.bodies().scale();
@@ -124,10 +125,11 @@ void append_cable_warnings(const CableSystem& cables, std::vector<Warning>& warn
 
 /// A rigid cable that is much longer than it can be at the end puts bodies in the wrong place.
 ///
-/// One whose length changes by much of the way that things move does not hold them: the solver has not converged,
-/// and accelerations and tensions are wrong by about that share. A sag that stays what it was is none: there the forces are
-/// right. Sweeps that do not converge act like a spring, so that the excess may well come and go. Changes by less than 1e-7
-/// of the cable are of no interest.
+/// One whose length changes by much of the way that things move does not hold them: the solver has
+/// not converged, and accelerations and tensions are wrong by about that share. A sag that stays
+/// what it was is none: there the forces are right. Sweeps that do not converge act like a spring,
+/// so that the excess may well come and go. Changes by less than 1e-7 of the cable are of no
+/// interest.
 void append_stretch_warnings(const Simulation& simulation, const RunMonitor& monitor,
                              std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.05;
@@ -153,7 +155,8 @@ void append_stretch_warnings(const Simulation& simulation, const RunMonitor& mon
     };
     const double stretching = course.stretching[0] + course.stretching[1];
     const double way = course.way[0] + course.way[1];
-    // What gives way only at first matters if things go on moving: else it is a sag, and nothing else has moved.
+    // What gives way only at first matters if things go on moving: else it is a sag, and nothing
+    // else has moved.
     const bool moves_on = course.way[1] > stretching;
     if (!gives_way(course.stretching[1], course.way[1]) &&
         !(moves_on && gives_way(stretching, way))) {
@@ -182,7 +185,8 @@ void append_damping_warning(const StepSettings& step, const RunStatistics& stati
   warnings.push_back({"damped_vibration", "", std::move(message)});
 }
 
-/// xpbd takes energy from every motion that is not straight and uniform (measure/integrator_loss.h).
+/// xpbd takes energy from every motion that is not straight and uniform
+/// (measure/integrator_loss.h).
 void append_loss_warning(const StepSettings& step, const RunMonitor& monitor,
                          std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.01;
@@ -201,9 +205,10 @@ void append_loss_warning(const StepSettings& step, const RunMonitor& monitor,
   warnings.push_back({"integrator_loss", "", std::move(message)});
 }
 
-/// Where nothing puts energy into a scene, there is never more than at first. Steps too long for what swings or spins in them
-/// do make energy: a light weight on a taut cable, pulled round a wheel; the gyroscopic motion of long bodies. So do springs
-/// that are stretched without a force, because sweeps have not got to it.
+/// Where nothing puts energy into a scene, there is never more than at first. Steps too long for
+/// what swings or spins in them do make energy: a light weight on a taut cable, pulled round a
+/// wheel; the gyroscopic motion of long bodies. So do springs that are stretched without a force,
+/// because sweeps have not got to it.
 void append_energy_warning(const Scene& scene, const Simulation& simulation,
                            const RunMonitor& monitor, std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.1;
@@ -211,7 +216,8 @@ void append_energy_warning(const Scene& scene, const Simulation& simulation,
   if (!measure::is_conservative(scene)) return;
   const double size = monitor.most_vivid_energy();
   const double gain = monitor.max_energy_gain();
-  // Of the heights that weights could have in the scene, and not of those that they have: these may be 0.
+  // Of the heights that weights could have in the scene, and not of those that they have: these may
+  // be 0.
   const BodySet& bodies = simulation.world.bodies();
   double potential = std::abs(monitor.initial_energy().potential);
   for (int i = 0; i < bodies.count(); ++i) {
@@ -227,8 +233,8 @@ void append_energy_warning(const Scene& scene, const Simulation& simulation,
   warnings.push_back({"energy_gain", "", std::move(message)});
 }
 
-/// The last digit of a position [m] in the direction in which the body is accelerated most, over what that acceleration moves
-/// it by in a substep; 0 without acceleration.
+/// The last digit of a position [m] in the direction in which the body is accelerated most, over
+/// what that acceleration moves it by in a substep; 0 without acceleration.
 double rounding_of_motion(const World& world, int body) {
   const BodySet& bodies = world.bodies();
   const BodyProperties& properties = bodies[body];
@@ -246,8 +252,8 @@ double rounding_of_motion(const World& world, int body) {
   return digit / (most * h * h);
 }
 
-/// Velocities are differences of positions, which loads change by a h^2 per substep. Where the last digit of a position is no
-/// small share of that, half of it is what accelerations are wrong by.
+/// Velocities are differences of positions, which loads change by a h^2 per substep. Where the last
+/// digit of a position is no small share of that, half of it is what accelerations are wrong by.
 void append_rounding_warning(const World& world, std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.1;
   for (int i = 0; i < world.bodies().count(); ++i) {

@@ -72,10 +72,11 @@ struct RunSummary {
   [[nodiscard]] std::string_view status() const;
 };
 
-/// Warnings about a scene and the course of its run: spans that had no tangent, wraps that found no place, drives that
-/// stalled for want of cable, rigid cables that do not keep
-/// their length, vibrations that the step damps, steps too short for the digits of positions, substeps that the direct solver
-/// or rattle left to the other one, energy that nothing has put into the scene.
+/// Warnings about a scene and the course of its run: spans that had no tangent, wraps that found no
+/// place, drives that stalled for want of cable, rigid cables that do not keep
+/// their length, vibrations that the step damps, steps too short for the digits of positions,
+/// substeps that the direct solver or rattle left to the other one, energy that nothing has put
+/// into the scene.
 [[nodiscard]] std::vector<Warning> collect_warnings(const Scene& scene,
                                                     const Simulation& simulation,
                                                     const RunStatistics& statistics,
@@ -83,8 +84,8 @@ struct RunSummary {
 
 /// Numbers of a scene that the engine does not vouch for (scenes/magnitude.h).
 [[nodiscard]] std::vector<Warning> magnitude_warnings(const Scene& scene);
-/// Warnings about a scene that can be run but may not be what was meant: such numbers, windings that look as if they were entered the wrong
-/// way round.
+/// Warnings about a scene that can be run but may not be what was meant: such numbers, windings
+/// that look as if they were entered the wrong way round.
 [[nodiscard]] std::vector<Warning> scene_warnings(const CableSystem& cables);
 [[nodiscard]] std::vector<Warning> scene_warnings(const Scene& scene);
 

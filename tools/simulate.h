@@ -51,10 +51,10 @@ struct RunOutcome {
   Certificate certificate;  ///< of the steps that were checked
 };
 
-/// Steps until `last_step` steps are complete, the state diverges, a signal comes or `time_is_over` says so, which both are
-/// looked at within steps, too: the state is then that of the last complete step. Calls
-/// `observe` with what the steps did so far, at the start and after every step; it may return false to stop early, which
-/// counts as done.
+/// Steps until `last_step` steps are complete, the state diverges, a signal comes or `time_is_over`
+/// says so, which both are looked at within steps, too: the state is then that of the last complete
+/// step. Calls `observe` with what the steps did so far, at the start and after every step; it may
+/// return false to stop early, which counts as done.
 RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& progress,
                     const std::function<bool(const RunStatistics&)>& observe,
                     const StopRequest& time_is_over = {});

@@ -19,8 +19,8 @@ constexpr double least_power = -12.0;
 constexpr double most_power = 2.0;
 constexpr double dark_power = -0.5;  ///< above it the colours are so dark that text is white
 
-/// What stands in a cell, so that nobody needs to tell colours apart: the power of ten of its error, or the letter of what it
-/// failed by.
+/// What stands in a cell, so that nobody needs to tell colours apart: the power of ten of its
+/// error, or the letter of what it failed by.
 std::string mark_of(const StressOutcome& outcome) {
   constexpr std::array<const char*, 7> letters{"", "W", "r", "D", "E", "S", "L"};
   const StressKind kind = outcome.verdict.kind;
@@ -103,7 +103,8 @@ std::string stress_script(const StressResult& result, const std::string& output)
   script +=
       fmt::format("set cbrange [{}:{}]\nset cblabel 'relative error'\n", least_power, most_power);
   script += "set format cb '10^{%.0f}'\n";
-  // From white to blue up to a tenth, from orange to brown above: told apart by all kinds of colour vision, and in grey.
+  // From white to blue up to a tenth, from orange to brown above: told apart by all kinds of colour
+  // vision, and in grey.
   script +=
       "set palette defined (-12 '#ffffff', -6 '#deebf7', -3 '#c6dbef', -1.01 '#9ecae1', "
       "-1 '#fdae6b', 0 '#e6550d', 2 '#7f2704')\n";

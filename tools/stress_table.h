@@ -23,7 +23,8 @@ struct StressOutcome {
   measure::StressVerdict verdict;
   std::vector<std::string> warnings;  ///< kinds of the warnings that `sheave run` gives
   std::string doubt;  ///< what `sheave run` calls doubtful, with its default trust; empty: nothing
-  /// A wrong result that nobody would notice: the run ended well, without any warning, and its certificate is clean.
+  /// A wrong result that nobody would notice: the run ended well, without any warning, and its
+  /// certificate is clean.
   [[nodiscard]] bool silent() const { return verdict.failed() && !said(); }
   /// Whether the run itself says that something is not as it should be.
   [[nodiscard]] bool said() const {
@@ -53,7 +54,8 @@ struct StressOptions {
   bool quick = false;
 };
 
-/// The maps that the options choose. A Failure if there is none of that name (2), or as for loading the scene.
+/// The maps that the options choose. A Failure if there is none of that name (2), or as for loading
+/// the scene.
 [[nodiscard]] std::vector<measure::StressMap> choose_maps(const StressOptions& options);
 /// Runs all cells. Shows a progress bar on a terminal; a Failure if a signal came (130).
 [[nodiscard]] std::vector<StressResult> measure_stress(const StressOptions& options);
@@ -62,7 +64,8 @@ struct StressOptions {
 [[nodiscard]] std::string stress_text(const std::vector<StressResult>& results);
 /// Name of the picture of a result, without its ending: "atwood-direct-xpbd".
 [[nodiscard]] std::string stress_chart_name(const StressResult& result);
-/// Every cell, as a page with a table per map. `picture` gives the path of a result's picture from the page, empty: none.
+/// Every cell, as a page with a table per map. `picture` gives the path of a result's picture from
+/// the page, empty: none.
 [[nodiscard]] std::string stress_markdown(
     const std::vector<StressResult>& results,
     const std::function<std::string(const StressResult&)>& picture);

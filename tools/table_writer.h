@@ -19,8 +19,8 @@ struct Salvage {
 /// Keeps what `file` has if that is `rows` whole rows.
 [[nodiscard]] Salvage salvage_rows(OutputFile& file, std::int64_t rows);
 
-/// One file of one table; it appears when finish() is called. Throws a Failure (74) if the disk is full and alike; then
-/// salvage() keeps what is there.
+/// One file of one table; it appears when finish() is called. Throws a Failure (74) if the disk is
+/// full and alike; then salvage() keeps what is there.
 class TableWriter {
  public:
   virtual ~TableWriter() = default;

@@ -13,8 +13,8 @@
 namespace sheave::tools {
 namespace {
 
-/// How the rows of one solver and integrator look. Colours that the colour-blind tell apart (Okabe and Ito 2008), and
-/// different shapes for print without any.
+/// How the rows of one solver and integrator look. Colours that the colour-blind tell apart (Okabe
+/// and Ito 2008), and different shapes for print without any.
 struct SeriesStyle {
   const char* colour;
   int filled;  ///< gnuplot's point type: tangents in every iteration

@@ -1,4 +1,5 @@
-// sheave trade: what accuracy costs in the user's own scene, and the setting that answers a question.
+// sheave trade: what accuracy costs in the user's own scene, and the setting that answers a
+// question.
 
 #include <algorithm>
 #include <filesystem>

@@ -1,12 +1,14 @@
 #pragma once
 // What `sheave trade --resume FILE` keeps, so that an interrupted run goes on where it was.
 //
-// One JSON object: a key, and below it what has been measured. The key is a hash of the scene as it is run (with all overrides),
-// of what decides how a number is measured, of the processor, and of the program itself, byte by byte: numbers of another scene,
-// setting or build are never taken. Settings that were skipped are not kept, so more minutes measure more of them. Times are kept
+// One JSON object: a key, and below it what has been measured. The key is a hash of the scene as it
+// is run (with all overrides), of what decides how a number is measured, of the processor, and of
+// the program itself, byte by byte: numbers of another scene, setting or build are never taken.
+// Settings that were skipped are not kept, so more minutes measure more of them. Times are kept
 // once all of them are there: those of two sittings would not be interleaved.
 //
-// The trajectory of the reference is not kept, for it may be large; where it is needed again, its finest run alone is repeated.
+// The trajectory of the reference is not kept, for it may be large; where it is needed again, its
+// finest run alone is repeated.
 
 #include <memory>
 #include <optional>
@@ -25,8 +27,8 @@ namespace sheave::tools {
 
 class TradeJournal {
  public:
-  /// `path` empty: nothing is kept. Reads the file if there is one; a Failure (65) if it is anything but a journal. Says so
-  /// if it is one of something else, and begins anew.
+  /// `path` empty: nothing is kept. Reads the file if there is one; a Failure (65) if it is
+  /// anything but a journal. Says so if it is one of something else, and begins anew.
   TradeJournal(std::string path, const std::string& key);
   ~TradeJournal();
   TradeJournal(const TradeJournal&) = delete;

@@ -1,5 +1,6 @@
-// sheave trade: the model ladder. The scene and its rungs are run with one setting, so that the model is all that differs; what a
-// step and a tolerance do wrong is about the same in both and cancels from the difference.
+// sheave trade: the model ladder. The scene and its rungs are run with one setting, so that the
+// model is all that differs; what a step and a tolerance do wrong is about the same in both and
+// cancels from the difference.
 
 #include <algorithm>
 #include <atomic>
@@ -18,7 +19,8 @@
 namespace sheave::tools {
 namespace {
 
-/// Beyond this error of the scene as written, what a rung changes is not told from what the setting does wrong.
+/// Beyond this error of the scene as written, what a rung changes is not told from what the setting
+/// does wrong.
 constexpr double useless_setting = 0.1;
 
 /// The cheapest for 0.1 %, or the most accurate one.

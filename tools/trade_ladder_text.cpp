@@ -14,7 +14,8 @@ const std::vector<std::string> ladder_head{
     "change of the model", "changed",    "position",    "tension", "ms / s",
     "quartiles",           "time saved", "solves saved"};
 
-/// Differences of runs with one setting have no reference whose error could blur them; only rounding has to be told apart.
+/// Differences of runs with one setting have no reference whose error could blur them; only
+/// rounding has to be told apart.
 std::string difference_text(double difference) { return error_text(difference, 0.0); }
 
 /// "12 %", "-340 %": of what it was. Nothing if it was nothing.

@@ -1,5 +1,6 @@
-// sheave trade: measuring. What runs cost, the reference, then the error of every setting, the times of all, interleaved, and
-// the rungs of the model. (Reference: tools/trade_reference.cpp; ladder: tools/trade_ladder.cpp.)
+// sheave trade: measuring. What runs cost, the reference, then the error of every setting, the
+// times of all, interleaved, and the rungs of the model. (Reference: tools/trade_reference.cpp;
+// ladder: tools/trade_ladder.cpp.)
 
 #include "tools/trade_measure.h"
 
@@ -24,14 +25,17 @@
 namespace sheave::tools {
 namespace {
 
-/// An energy that the reference itself does not know to this has nothing to be compared with: nothing moves.
+/// An energy that the reference itself does not know to this has nothing to be compared with:
+/// nothing moves.
 constexpr double known_energy = 0.1;
-/// A setting that costs as many times more than one that is at least as accurate gets no second sample: its time would have to
-/// be wrong by that factor to bring it to the front.
+/// A setting that costs as many times more than one that is at least as accurate gets no second
+/// sample: its time would have to be wrong by that factor to bring it to the front.
 constexpr double out_of_reach = 2.0;
-/// CPU time of a run [s] from which on that of the run which the error is from will do for such a setting.
+/// CPU time of a run [s] from which on that of the run which the error is from will do for such a
+/// setting.
 constexpr double long_run = 0.1;
-/// Parts of the time that is left which the errors, and then the times, may take; the ladder has the rest.
+/// Parts of the time that is left which the errors, and then the times, may take; the ladder has
+/// the rest.
 constexpr double errors_share = 0.55;
 constexpr double times_share = 0.7;
 
@@ -64,7 +68,8 @@ class ErrorStage {
 
  public:
   explicit ErrorStage(TradeRun& run) : run_(run), limit_(run.limit.part(errors_share)) {
-    // Each solver with each integrator gets its share, or all the time would go to what is merely cheap.
+    // Each solver with each integrator gets its share, or all the time would go to what is merely
+    // cheap.
     std::map<std::pair<SolverKind, IntegratorKind>, Family> families;
     for (TradeRow& row : run.table.rows) {
       if (!row.measured() || run.journal.restore(row)) continue;

@@ -1,5 +1,6 @@
 #pragma once
-// The stages of sheave trade, in their order, and what they share. Each fills in a part of the table.
+// The stages of sheave trade, in their order, and what they share. Each fills in a part of the
+// table.
 
 #include <algorithm>
 #include <cstddef>
@@ -49,16 +50,18 @@ struct TradeRun {
   [[nodiscard]] int threads() const;
 };
 
-/// Guesses from a few frames of each solver and integrator what the runs of all settings cost, and how fine a reference can be.
+/// Guesses from a few frames of each solver and integrator what the runs of all settings cost, and
+/// how fine a reference can be.
 void plan_trade(TradeRun& run);
 /// The reference, and until when it can judge. Settings that are finer than it are skipped.
 void make_reference(TradeRun& run);
-/// The error of every setting, over the cores, as long as there is time: of each solver with each integrator, which share it, the
-/// cheapest first.
+/// The error of every setting, over the cores, as long as there is time: of each solver with each
+/// integrator, which share it, the cheapest first.
 void measure_errors(TradeRun& run);
 /// The time of every setting that has an error, on this thread alone.
 void measure_times(TradeRun& run);
-/// The rungs of the model, with the cheapest setting that has an error of 0.1 %, or the most accurate one.
+/// The rungs of the model, with the cheapest setting that has an error of 0.1 %, or the most
+/// accurate one.
 void climb_ladder(TradeRun& run);
 
 /// Throws the Failure of a command that a signal has ended.

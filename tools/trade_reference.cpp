@@ -20,7 +20,8 @@
 namespace sheave::tools {
 namespace {
 
-/// A reference is good enough if its error is a hundredth of the smallest that settings are named for.
+/// A reference is good enough if its error is a hundredth of the smallest that settings are named
+/// for.
 constexpr double reference_goal = 1e-6;
 /// One that is worse than a tenth of the largest cannot judge the whole run...
 constexpr double useless_reference = 1e-3;
@@ -29,7 +30,8 @@ constexpr double trusted_level = 1e-4;
 /// How often the reference's step is halved beyond the finest setting, at most.
 constexpr int most_doublings = 6;
 
-/// Share of the time for everything after which no finer run is begun, and after which one that is running is given up.
+/// Share of the time for everything after which no finer run is begun, and after which one that is
+/// running is given up.
 constexpr double reference_share = 0.2;
 constexpr double reference_end = 0.4;
 /// Share of the time for everything that one look at what a run costs may take.
@@ -55,7 +57,8 @@ double pilot_seconds(const TradeSetting& setting, const Scene& scene, double eno
   return seconds * static_cast<double>(contender->frames) / static_cast<double>(frames);
 }
 
-/// What runs cost: a part per substep and one per sweep of gauss-seidel, for each solver, integrator and tangent update.
+/// What runs cost: a part per substep and one per sweep of gauss-seidel, for each solver,
+/// integrator and tangent update.
 class CostModel {
  public:
   /// `enough`: CPU time for a look [s], one frame at least.
@@ -99,8 +102,9 @@ std::size_t known_frames(const measure::Reference& reference, double dt) {
   return measure::error_growth(reference.differences, dt, trusted_level).trusted_frames;
 }
 
-/// That of `rattle`; if it is not good, that of `xpbd` if it is known for longer, or better all the time. (In a chaotic scene
-/// the estimate at the end tells nothing: there it is the smaller the more the integrator damps.)
+/// That of `rattle`; if it is not good, that of `xpbd` if it is known for longer, or better all the
+/// time. (In a chaotic scene the estimate at the end tells nothing: there it is the smaller the
+/// more the integrator damps.)
 measure::Reference choose(Result<measure::Reference>& second_order,
                           Result<measure::Reference>& first_order, double dt) {
   if (second_order && second_order->good) return std::move(second_order).value();
@@ -117,7 +121,8 @@ measure::Reference choose(Result<measure::Reference>& second_order,
   return better ? std::move(first_order).value() : std::move(second_order).value();
 }
 
-/// Both references side by side; that of `xpbd` is given up if that of `rattle` is good. Nothing if the time was too short.
+/// Both references side by side; that of `xpbd` is given up if that of `rattle` is good. Nothing if
+/// the time was too short.
 std::optional<measure::Reference> both_references(TradeRun& run) {
   const double limit =
       std::min(run.options.reference_seconds, reference_share * run.limit.seconds());
@@ -162,8 +167,8 @@ measure::Reference new_reference(TradeRun& run) {
                             run.options.minutes));
 }
 
-/// To the time up to which the reference is known. If it knows nothing but time 0 the whole run is compared, and the
-/// reference's error says that it tells nothing.
+/// To the time up to which the reference is known. If it knows nothing but time 0 the whole run is
+/// compared, and the reference's error says that it tells nothing.
 void limit_comparison(TradeRun& run) {
   TradeTable& table = run.table;
   const std::vector<double>& differences = table.reference.differences;

@@ -47,7 +47,8 @@ std::vector<TradeSetting> trade_settings(const TradeGrid& grid, const Scene& sce
   if (scene.cables.empty()) tangents = {std::nullopt};
   std::vector<TradeSetting> settings;
   for (const SolverKind solver : grid.solvers) {
-    // The direct solver stops when the constraints are met: its iterations are a limit, not a choice.
+    // The direct solver stops when the constraints are met: its iterations are a limit, not a
+    // choice.
     const std::vector<int> own{scene.model.step.iterations};
     const bool direct = solver == SolverKind::direct;
     for (const IntegratorKind integrator : grid.integrators) {
@@ -86,7 +87,8 @@ void judge(TradeTable& table) {
     if (row.setting.step.solver != SolverKind::gauss_seidel) continue;
     most_iterations = std::max(most_iterations, row.setting.step.iterations);
   }
-  // Only what leaves the step as the one thing that is wrong: the most iterations, tangents as accurate as measured.
+  // Only what leaves the step as the one thing that is wrong: the most iterations, tangents as
+  // accurate as measured.
   std::map<std::string, std::vector<measure::StepError>> families;
   std::vector<std::string> order;
   for (const TradeRow& row : table.rows) {

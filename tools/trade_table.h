@@ -1,5 +1,6 @@
 #pragma once
-// Speed against accuracy of one scene, as data: what `sheave trade` measures, prints and chooses from.
+// Speed against accuracy of one scene, as data: what `sheave trade` measures, prints and chooses
+// from.
 
 #include <array>
 #include <cstdint>
@@ -50,10 +51,11 @@ struct TradeRow {
   double run_seconds = 0.0;       ///< CPU time of the run that the error is from
   /// CPU time per simulated second. One sample where more cannot bring the setting to the front.
   measure::Spread seconds;
-  /// Whether the time was taken with nothing else running; otherwise it is that of the run that the error is from.
+  /// Whether the time was taken with nothing else running; otherwise it is that of the run that the
+  /// error is from.
   bool timed_alone = false;
-  /// Of positions and tensions within TradeTable::compared_seconds, tensions NaN without cables; of the energy in the whole
-  /// run, NaN if that of the reference is rounding.
+  /// Of positions and tensions within TradeTable::compared_seconds, tensions NaN without cables; of
+  /// the energy in the whole run, NaN if that of the reference is rounding.
   measure::RunError error;
   double stretch = 0.0;        ///< measure::Trajectory::stretch
   double length_error = 0.0;   ///< measure::Trajectory::length_error
@@ -96,7 +98,8 @@ struct TradeTable {
   std::string scene;  ///< its name, or the file's
   double dt = 0.0;    ///< time of a frame [s]
   double simulated_seconds = 0.0;
-  /// Positions and tensions are compared up to here [s]: less than the whole run if the reference does not know what comes later.
+  /// Positions and tensions are compared up to here [s]: less than the whole run if the reference
+  /// does not know what comes later.
   double compared_seconds = 0.0;
   measure::Reference reference;      ///< without its frames
   measure::RunError doubt;           ///< the reference's own error in what is compared
@@ -133,7 +136,8 @@ struct TradeOptions {
 /// Fills in families and front from the rows.
 void judge(TradeTable& table);
 
-/// A motion below this part of the scene's size makes errors relative to the size look small; the report says so.
+/// A motion below this part of the scene's size makes errors relative to the size look small; the
+/// report says so.
 inline constexpr double little_motion = 0.1;
 
 /// The levels that the report names a setting for: 1 %, 0.1 %, 0.01 %.

@@ -27,11 +27,13 @@ class Machine {
   Machine& operator=(const Machine&) = default;
 };
 
-/// Errors against the exact motion, the largest of the frames told; root mean square over coordinates.
+/// Errors against the exact motion, the largest of the frames told; root mean square over
+/// coordinates.
 struct MachineError {
   double position = 0.0;  ///< of all frames, relative to the scene's size
-  /// Of speeds in the second half of the run, when what the start stirred up should be over; relative to the exact speed at the
-  /// end, in balance to that of a free fall. So the error of the acceleration.
+  /// Of speeds in the second half of the run, when what the start stirred up should be over;
+  /// relative to the exact speed at the end, in balance to that of a free fall. So the error of the
+  /// acceleration.
   double speed = 0.0;
   double stretch =
       0.0;  ///< largest s_(i+1) - s_i of a span in any frame, relative to the scene's size

@@ -57,8 +57,8 @@ Errors add_sheave(const Problem& problem, std::vector<Entry>& entries) {
   return {};
 }
 
-/// The fastest of the settings that are right, and of those whose positions are right like the best ones', within a factor
-/// of two.
+/// The fastest of the settings that are right, and of those whose positions are right like the best
+/// ones', within a factor of two.
 Errors add_mujoco(const Problem& problem, bool print, std::vector<Entry>& entries) {
   Result<std::vector<MujocoTrial>> trials = mujoco_trials(problem);
   if (!trials) return trials.errors();

@@ -28,7 +28,8 @@ class MujocoMachine final : public Machine {
   void restart() override { mj_resetData(model_.get(), data_.get()); }
   bool step() override {
     mj_step(model_.get(), data_.get());
-    // What it reports by itself after a state that means nothing: it then starts from the beginning.
+    // What it reports by itself after a state that means nothing: it then starts from the
+    // beginning.
     return data_->warning[mjWARN_BADQPOS].number == 0 &&
            data_->warning[mjWARN_BADQVEL].number == 0 && data_->warning[mjWARN_BADQACC].number == 0;
   }
@@ -110,11 +111,13 @@ std::string mujoco_xml(const Problem& problem, const MujocoSettings& settings) {
   const std::string reference = settings.time_constant > 0.0
                                     ? fmt::format("{} 1", settings.time_constant * dt)
                                     : fmt::format("{} {}", -1.0 / (dt * dt), -1.0 / dt);
-  // Spans start taut: a limit that is reached to the last bit, but not passed, would not act in the first step.
+  // Spans start taut: a limit that is reached to the last bit, but not passed, would not act in the
+  // first step.
   const std::string limit =
       fmt::format("range=\"-1000 -1e-12\" solreflimit=\"{}\" solimplimit=\"{} {} 0.001\"",
                   reference, settings.impedance, settings.impedance);
-  // Scratch [numbers]: some dense matrices of the problem's size. By itself it reserves too little for long trains.
+  // Scratch [numbers]: some dense matrices of the problem's size. By itself it reserves too little
+  // for long trains.
   const std::size_t n = problem.coordinates.size();
   const std::size_t stack = 100'000 + 20 * n * n;
   std::string xml = fmt::format(

@@ -1,11 +1,12 @@
 #pragma once
 // A problem in MuJoCo, in the formulation that is cheapest there and right.
 //
-// Each weight is a body on a slide joint and each wheel one on a hinge joint, all children of the world, so that the mass
-// matrix is diagonal. A span is a fixed tendon: a linear function of two joint coordinates, s_(i+1) - s_i with s = r q for
-// wheels, limited from above by 0. So it pulls and cannot push, turns the wheels, and its Jacobian is constant. (Spatial
-// tendons slide over wheels without turning them; equality constraints would push as well.) There are no geometries, and
-// everything that the problem does not need is switched off.
+// Each weight is a body on a slide joint and each wheel one on a hinge joint, all children of the
+// world, so that the mass matrix is diagonal. A span is a fixed tendon: a linear function of two
+// joint coordinates, s_(i+1) - s_i with s = r q for wheels, limited from above by 0. So it pulls
+// and cannot push, turns the wheels, and its Jacobian is constant. (Spatial tendons slide over
+// wheels without turning them; equality constraints would push as well.) There are no geometries,
+// and everything that the problem does not need is switched off.
 
 #include <memory>
 #include <string>
@@ -23,8 +24,9 @@ struct MujocoSettings {
   int iterations = 100;              ///< of the solver at most
   double tolerance = 1e-8;           ///< at which it ends
   double impedance = 0.9999;  ///< solimp: 0.9 ... 0.9999, its largest; the rest of a limit is soft
-  /// Reference of a limit that is violated: a time constant in steps (2 is the smallest that MuJoCo calls safe), or 0: one that
-  /// removes the violation within a step (stiffness 1/dt^2, damping 1/dt).
+  /// Reference of a limit that is violated: a time constant in steps (2 is the smallest that MuJoCo
+  /// calls safe), or 0: one that removes the violation within a step (stiffness 1/dt^2, damping
+  /// 1/dt).
   double time_constant = 2.0;
   bool warm_start = true;
 

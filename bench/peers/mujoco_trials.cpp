@@ -51,7 +51,8 @@ Result<std::vector<MujocoTrial>> mujoco_trials(const Problem& problem) {
     const double start = measure::thread_time();
     const MachineError error = error_of(problem, **machine);
     double seconds = (measure::thread_time() - start) / problem.frames;
-    // Only what may be chosen needs to be timed well: what is not far wrong and not far slower than the best.
+    // Only what may be chosen needs to be timed well: what is not far wrong and not far slower than
+    // the best.
     constexpr double hopeless = 0.01;
     constexpr double far_slower = 3.0;
     if (error.speed < hopeless && seconds < far_slower * best) {

@@ -1,9 +1,11 @@
 #pragma once
-// Problems that several engines can be given: weights and wheels along one cable, which neither stretches nor slips.
+// Problems that several engines can be given: weights and wheels along one cable, which neither
+// stretches nor slips.
 //
-// Everything is told along the cable. Coordinate i is how far weight or wheel rim i has moved towards the last weight [m];
-// it has the mass m_i (of a wheel J / r^2) and is pulled with the force f_i. Span i joins coordinates i and i + 1 and can
-// only pull: s_(i+1) - s_i <= 0. While all spans are taut they move as one,
+// Everything is told along the cable. Coordinate i is how far weight or wheel rim i has moved
+// towards the last weight [m]; it has the mass m_i (of a wheel J / r^2) and is pulled with the
+// force f_i. Span i joins coordinates i and i + 1 and can only pull: s_(i+1) - s_i <= 0. While all
+// spans are taut they move as one,
 //   s_i = a t^2 / 2,   a = sum f_i / sum m_i,
 // which is exact, so errors need no reference run.
 
@@ -37,8 +39,8 @@ struct Problem {
   [[nodiscard]] double duration() const { return dt * frames; }
 };
 
-/// Atwood's machine, the paper's simple scene with its bodies on vertical rails (all they do is move up and down), and
-/// trains of 64 and 256 wheels. An error if a scene cannot be loaded.
+/// Atwood's machine, the paper's simple scene with its bodies on vertical rails (all they do is
+/// move up and down), and trains of 64 and 256 wheels. An error if a scene cannot be loaded.
 [[nodiscard]] Result<std::vector<Problem>> all_problems(const std::string& source_folder);
 
 }  // namespace sheave::peers

@@ -6,10 +6,11 @@
 
 namespace sheave::certify {
 
-/// Each body's substep again, from its start with the reported forces, against its end: cable/certificate/momentum.cpp.
-/// Returns what is off per body as work done on it [J].
+/// Each body's substep again, from its start with the reported forces, against its end:
+/// cable/certificate/momentum.cpp. Returns what is off per body as work done on it [J].
 std::vector<double> check_momentum(const Evidence& evidence, Findings& findings);
-/// Joints, spans, drives and contacts against what they ask for; slack against pull: constraints.cpp, joints.cpp.
+/// Joints, spans, drives and contacts against what they ask for; slack against pull:
+/// constraints.cpp, joints.cpp.
 void check_spans(const Evidence& evidence, Findings& findings);
 void check_joints(const Evidence& evidence, Findings& findings);
 void check_body_drives(const Evidence& evidence, Findings& findings);
@@ -21,12 +22,14 @@ void check_energy(const Evidence& evidence, const std::vector<double>& leaks, Fi
 /// Cable lengths: length.cpp.
 void check_lengths(const Evidence& evidence, Findings& findings);
 
-/// How far the rim of a wheel has passed the end of a span in the substep, by the poses alone [m]: what rolling gives to the
-/// span at its first end (sense -1) or its second (1). `reported` chooses among whole turns.
+/// How far the rim of a wheel has passed the end of a span in the substep, by the poses alone [m]:
+/// what rolling gives to the span at its first end (sense -1) or its second (1). `reported` chooses
+/// among whole turns.
 [[nodiscard]] double rim_travel(const Evidence& evidence, const SpanSide& side, double sense,
                                 double reported);
 
-/// By how much the rest length that a span has gained by rolling, `rolled` [m], differs from what its rims have moved.
+/// By how much the rest length that a span has gained by rolling, `rolled` [m], differs from what
+/// its rims have moved.
 [[nodiscard]] double unrolled(const Evidence& evidence, const CableEvidence& cable,
                               const SpanEvidence& span, double rolled);
 

@@ -1,13 +1,16 @@
 // What nothing in the substep explains.
 //
-// An impulse P changes the kinetic energy by P . (v0 + v1) / 2, exactly. So with the balance of momentum closed, energy is
-// lost or gained where a force does work at something that should not do any: a rigid span whose violation changes, a wheel
-// that moves more or less cable than its rim passes, a strained rope whose strain is left behind, a contact that pushes
-// what already moves away. What implicit Euler takes (m |v1 - v0|^2 / 2, springs, the curvature of ways) follows from these
-// forces and the states, and is explained. So are dissipation by friction, slip and damping, and the work of drives.
+// An impulse P changes the kinetic energy by P . (v0 + v1) / 2, exactly. So with the balance of
+// momentum closed, energy is lost or gained where a force does work at something that should not do
+// any: a rigid span whose violation changes, a wheel that moves more or less cable than its rim
+// passes, a strained rope whose strain is left behind, a contact that pushes what already moves
+// away. What implicit Euler takes (m |v1 - v0|^2 / 2, springs, the curvature of ways) follows from
+// these forces and the states, and is explained. So are dissipation by friction, slip and damping,
+// and the work of drives.
 //
-// Cable of a material takes its strain and energy onto wheels, and what comes off with another strain loses by creep
-// (cable/cable_material.cpp): both balances close if the rim has moved what its strain says, and that is checked.
+// Cable of a material takes its strain and energy onto wheels, and what comes off with another
+// strain loses by creep (cable/cable_material.cpp): both balances close if the rim has moved what
+// its strain says, and that is checked.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +34,8 @@ class EnergyCheck {
     }
     const Energy reported = evidence.simulation.world.energy();
     level_ = kinetic_ + std::abs(reported.elastic) + weight_ * evidence.bodies.scale();
-    // What 1e5 substeps may lose without anybody noticing, and what is nothing beside all that moves.
+    // What 1e5 substeps may lose without anybody noticing, and what is nothing beside all that
+    // moves.
     floor_ = std::max(1e-6 * level_, 1e-3 * flow_);
     findings.note(Kind::energy, "J", std::abs(reported.kinetic - kinetic_),
                   std::max(kinetic_, reported.kinetic), 1e-12 * kinetic_,
@@ -66,7 +70,8 @@ class EnergyCheck {
     findings_.note(Kind::energy, "J", std::abs(unexplained), std::max(flow, floor_), 0.0, name);
   }
 
-  /// Energy that passes through a body in the substep: in from some forces and loads, out to others or into its motion.
+  /// Energy that passes through a body in the substep: in from some forces and loads, out to others
+  /// or into its motion.
   [[nodiscard]] double flow_of(int i) const {
     const BodyProperties& body = e_.bodies[i];
     double power = e_.balances[at(i)].power;
@@ -211,8 +216,8 @@ class EnergyCheck {
     });
   }
 
-  /// What gravity does to bodies on the part of their way that is not their velocity's: that before a bounce [J]. (Velocities of
-  /// `xpbd` are means over the substep.)
+  /// What gravity does to bodies on the part of their way that is not their velocity's: that before
+  /// a bounce [J]. (Velocities of `xpbd` are means over the substep.)
   [[nodiscard]] double fallen_beside() const {
     double work = 0.0;
     for (int i = 0; i < e_.bodies.count(); ++i) {

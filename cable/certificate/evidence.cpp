@@ -11,7 +11,8 @@
 namespace sheave::certify {
 namespace {
 
-/// A feature's state with other forces: the first ones of `reals` where `acting` says, or all of `forces`.
+/// A feature's state with other forces: the first ones of `reals` where `acting` says, or all of
+/// `forces`.
 FeatureState with_forces(const FeatureState& like, const std::vector<double>& forces) {
   FeatureState own = like;
   std::copy(forces.begin(), forces.end(), own.reals.begin());

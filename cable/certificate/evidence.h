@@ -1,9 +1,11 @@
 #pragma once
-// What is known of a substep: the states at both ends and what was reported of it. All balances read from here.
+// What is known of a substep: the states at both ends and what was reported of it. All balances
+// read from here.
 //
-// Forces of `rattle` act in two halves, along the directions at the start and at the end (engine/world.h), so reports are
-// taken twice: with the first part of each force where the bodies were at the start, and with the second where they are at
-// the end. `xpbd` has the second part alone.
+// Forces of `rattle` act in two halves, along the directions at the start and at the end
+// (engine/world.h), so reports are taken twice: with the first part of each force where the bodies
+// were at the start, and with the second where they are at the end. `xpbd` has the second part
+// alone.
 
 #include <array>
 #include <memory>
@@ -22,8 +24,8 @@ namespace sheave::certify {
 /// The ends of a substep.
 enum End : int { first_end, last_end };
 
-/// Poses at one moment. Points of bodies are in their own frames (origin at the centre of mass); the world has number
-/// bodies.count().
+/// Poses at one moment. Points of bodies are in their own frames (origin at the centre of mass);
+/// the world has number bodies.count().
 struct Moment {
   const BodySet* bodies = nullptr;
   const std::vector<BodyState>* states = nullptr;
@@ -116,7 +118,8 @@ struct JointEvidence {
   JointHold hold;       ///< of one that has been locked again
 };
 
-/// A force at a point of contact, of bodies with each other or with the floor (body_b is the world).
+/// A force at a point of contact, of bodies with each other or with the floor (body_b is the
+/// world).
 struct ContactEvidence {
   int body_a = 0;
   int body_b = 0;
@@ -141,9 +144,11 @@ struct MountedDriveEvidence {
 /// What acts on a body besides its loads.
 struct Balance {
   std::array<Vector3, 2> force{Vector3::Zero(), Vector3::Zero()};
-  /// About the centre of mass; of a carrier without what spins its rotors, of a mounted rotor only that, along its axle.
+  /// About the centre of mass; of a carrier without what spins its rotors, of a mounted rotor only
+  /// that, along its axle.
   std::array<Vector3, 2> torque{Vector3::Zero(), Vector3::Zero()};
-  /// What acts on the body itself, its torque about the centre: of a mounted rotor before the bearing passes it on.
+  /// What acts on the body itself, its torque about the centre: of a mounted rotor before the
+  /// bearing passes it on.
   std::array<Vector3, 2> own_force{Vector3::Zero(), Vector3::Zero()};
   std::array<Vector3, 2> own_torque{Vector3::Zero(), Vector3::Zero()};
   double largest_force = 0.0;
@@ -172,13 +177,15 @@ class Evidence {
   std::vector<MountedDriveEvidence> mounted_drives;
   std::vector<Balance> balances;  ///< per body and the world
   double largest_force = 0.0;     ///< of all [N]
-  /// What no force is told apart from nothing by: the rounding of positions, as a force that moves all bodies by it within the
-  /// substep [N].
+  /// What no force is told apart from nothing by: the rounding of positions, as a force that moves
+  /// all bodies by it within the substep [N].
   double force_rounding = 0.0;
 
-  /// Radius of the ball about the centre of mass that contains the body, or that of gyration without a shape [m].
+  /// Radius of the ball about the centre of mass that contains the body, or that of gyration
+  /// without a shape [m].
   [[nodiscard]] double size_of(int body) const;
-  /// What acts on a body by itself, without its rotors: constant, or set. The torque is about its centre of mass.
+  /// What acts on a body by itself, without its rotors: constant, or set. The torque is about its
+  /// centre of mass.
   [[nodiscard]] Vector3 load_force(int body, End when) const;
   [[nodiscard]] Vector3 load_torque(int body, End when) const;
   /// How far the body has turned in the substep about a world axis [rad].
@@ -186,7 +193,8 @@ class Evidence {
   [[nodiscard]] std::string body_name(int body) const {
     return "body \"" + bodies.name(body) + "\"";
   }
-  /// Work of the gradient of a pair of forces: force . displacement of the material at `point`, which is of that end.
+  /// Work of the gradient of a pair of forces: force . displacement of the material at `point`,
+  /// which is of that end.
   [[nodiscard]] Vector3 displacement(int body, const Vector3& point, End end) const;
 
  private:

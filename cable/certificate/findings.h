@@ -16,7 +16,8 @@ class Findings {
 
   explicit Findings(double time) : time_(time) {}
 
-  /// `value` against `scale`; `rounding` of it means nothing. `name()` is called only if this is the worst so far.
+  /// `value` against `scale`; `rounding` of it means nothing. `name()` is called only if this is
+  /// the worst so far.
   template <class Name>
   void note(Kind kind, std::string_view unit, double value, double scale, double rounding,
             const Name& name) {

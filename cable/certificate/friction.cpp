@@ -1,5 +1,5 @@
-// Bounds of friction: e^(m a) at links, Coulomb's cone at contacts. Slip is at the bound and forwards: cable goes where the
-// larger tension is, contacts are dragged against their sliding.
+// Bounds of friction: e^(m a) at links, Coulomb's cone at contacts. Slip is at the bound and
+// forwards: cable goes where the larger tension is, contacts are dragged against their sliding.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,8 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
   if (drained) return;
   const double high = std::max(before, after);
   const double low = std::min(before, after);
-  // Tensions that are nothing beside those of the cable, or beside rounding, have no ratio that would count.
+  // Tensions that are nothing beside those of the cable, or beside rounding, have no ratio that
+  // would count.
   const double scale = std::max(high, 1e-3 * largest);
   const double rounding = std::max(1e-9 * scale, bound * evidence.force_rounding);
   const auto name = [&] {
@@ -56,7 +57,8 @@ void check_contact(const Evidence& evidence, const ContactEvidence& contact, Fin
       std::sqrt(a.static_friction.value_or(a.friction) * b.static_friction.value_or(b.friction));
   const double press = contact.press[0] + contact.press[1];
   const Vector3 drag = contact.drag[0] + contact.drag[1];
-  // Friction along two axes is bounded by a square (engine/contacts/contact.cpp): sqrt(2) at its corners.
+  // Friction along two axes is bounded by a square (engine/contacts/contact.cpp): sqrt(2) at its
+  // corners.
   const double bound = std::max(sliding, sticking) * press;
   const double scale = std::max(bound, 1e-3 * evidence.largest_force);
   const auto name = [&] {

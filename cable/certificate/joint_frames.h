@@ -63,8 +63,8 @@ struct JointFrame {
 /// A coordinate that reports tell, in their order.
 struct CoordinateSettings {
   const JointCoordinate* settings = nullptr;
-  /// What acts along it is the reported wrench along this direction: 0 none alone, 1 the force along the axis, 2 the torque
-  /// about the axis, 3 the force along the line between the anchors.
+  /// What acts along it is the reported wrench along this direction: 0 none alone, 1 the force
+  /// along the axis, 2 the torque about the axis, 3 the force along the line between the anchors.
   int along = 0;
 };
 [[nodiscard]] std::vector<CoordinateSettings> coordinates_of(const JointDef& joint);

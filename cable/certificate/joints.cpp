@@ -1,6 +1,7 @@
-// Joints against what they lock, their drives against what they prescribe, and what acts along their coordinates against
-// the laws of springs, dampers and friction. Rates and forces by the integrator's rule: `xpbd` asks for its laws at the end
-// of the substep, `rattle` for the mean of both ends.
+// Joints against what they lock, their drives against what they prescribe, and what acts along
+// their coordinates against the laws of springs, dampers and friction. Rates and forces by the
+// integrator's rule: `xpbd` asks for its laws at the end of the substep, `rattle` for the mean of
+// both ends.
 
 #include <algorithm>
 #include <cmath>
@@ -286,8 +287,8 @@ class JointCheck {
     // What has all the force it can have is stalled, not wrong.
     const double enough = (1.0 - 1e-6) * limit;
     if (std::abs(force) >= enough) return;
-    // The first half of `rattle` has to make all of the way and may not have more than half of the limit; what it has not
-    // reached the second half may, with less.
+    // The first half of `rattle` has to make all of the way and may not have more than half of the
+    // limit; what it has not reached the second half may, with less.
     const double early = joint_.acting[first_end].coordinates[k].drive_force;
     if (e_.rattle && std::abs(early) >= 0.5 * enough) return;
     const double slop = rounding * (scale_of(k) + std::abs(now.value)) +
@@ -304,7 +305,8 @@ class JointCheck {
          std::max(now.angle ? 1.0 : size_, most), slop);
   }
 
-  /// What acts along a coordinate is its drive, its spring and its damper, friction as far as it goes, and stops that push.
+  /// What acts along a coordinate is its drive, its spring and its damper, friction as far as it
+  /// goes, and stops that push.
   void check_law(std::size_t k, const CoordinateSettings& entry) {
     const JointCoordinate& settings = *entry.settings;
     const JointCoordinateReport& now = joint_.end.coordinates[k];

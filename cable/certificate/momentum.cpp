@@ -1,8 +1,10 @@
-// Each body's substep again, by the integrator's own rule (engine/integrators), from the state at its start with the loads and
-// the reported forces. Where that ends elsewhere than the state says, forces are wrong or missing: a difference dx of the
-// position is the force m dx / h^2, one dv of the velocity m dv / h.
+// Each body's substep again, by the integrator's own rule (engine/integrators), from the state at
+// its start with the loads and the reported forces. Where that ends elsewhere than the state says,
+// forces are wrong or missing: a difference dx of the position is the force m dx / h^2, one dv of
+// the velocity m dv / h.
 //
-// Drag at the rate c [1/s] is exact: in a time t it leaves e^(-ct) of a velocity and (1 - e^(-ct)) / ct of an impulse.
+// Drag at the rate c [1/s] is exact: in a time t it leaves e^(-ct) of a velocity and (1 - e^(-ct))
+// / ct of an impulse.
 
 #include <algorithm>
 #include <cmath>
@@ -209,8 +211,8 @@ class Player {
                     change;
       return;
     }
-    // Angular momentum is kept from the first half on, then the second half acts at the end; what the rotors have got in
-    // between is theirs.
+    // Angular momentum is kept from the first half on, then the second half acts at the end; what
+    // the rotors have got in between is theirs.
     const Quaternion& to = e_.end.bodies[at(i)].orientation;
     const Matrix3 inertia1 = in_world(body.inertia, to);
     Vector3 total = momentum + 0.5 * h * torque + h * pushed;
@@ -304,8 +306,8 @@ class MomentumCheck {
     return h * missing.dot(0.5 * (from.velocity + to.velocity));
   }
 
-  /// Forces alone, through the centre, still make torques by what rounding leaves of their arms: the least that a torque is
-  /// measured by.
+  /// Forces alone, through the centre, still make torques by what rounding leaves of their arms:
+  /// the least that a torque is measured by.
   [[nodiscard]] double lever(int i) const {
     const double size = e_.size_of(i);
     return 0.1 * size * e_.balances[at(i)].largest_force;

@@ -34,7 +34,8 @@ SpanPushes pushes_of(const SpanEvidence& span, End when, bool guided) {
     own.center = side.center[at(when)];
     own.e = (side.point[at(when)] - own.center) / side.radius;
     if (side.outlined) {
-      // Round a corner, whose centre follows from where the span touches it; a sharp one is a point.
+      // Round a corner, whose centre follows from where the span touches it; a sharp one is a
+      // point.
       own.e = side.winding * u.cross(side.normal[at(when)]).normalized();
       own.center = side.point[at(when)] - side.radius * own.e;
     }
@@ -77,7 +78,8 @@ JointPushes pushes_of(const Evidence& evidence, const JointEvidence& joint, End 
     return result;
   }
   // The factor of the coupling from what it does to body_b; virtual work gives the rest:
-  // C = c_b - ratio c_a, so body_a gets -ratio times it about its axis, and the carrier what is left of both.
+  // C = c_b - ratio c_a, so body_a gets -ratio times it about its axis, and the carrier what is
+  // left of both.
   const Quaternion carried = frame.turned_by(now, frame.carrier);
   const Vector3 axis_a = carried * frame.axis_a;
   const Vector3 axis_b = carried * frame.axis_b;

@@ -1,9 +1,10 @@
 // Spans against their rest lengths, and springs against their tensions.
 //
-// Where cable passes from span to span only the sum of a chain's lengths is asked for, so the law of a spring is that of
-// chains of spans joined by links over which cable may come; a rigid span keeps its own length either way. With the stretch
-// x = l - L, the compliance a and the damping b, XPBD asks for a T = x + a b (change of x) / h at the end of the substep,
-// `rattle` for the mean of both ends; a tension below 0 is none.
+// Where cable passes from span to span only the sum of a chain's lengths is asked for, so the law
+// of a spring is that of chains of spans joined by links over which cable may come; a rigid span
+// keeps its own length either way. With the stretch x = l - L, the compliance a and the damping b,
+// XPBD asks for a T = x + a b (change of x) / h at the end of the substep, `rattle` for the mean of
+// both ends; a tension below 0 is none.
 
 #include <algorithm>
 
@@ -22,8 +23,8 @@ bool is_rigid(const CableDef& cable) {
   return !cable.axial_stiffness && !(cable.compliance.value_or(0.0) > 0.0);
 }
 
-/// Change of the stretch as damping sees it: what a unit of tension works at the end, backwards. Where a wheel's plane is not
-/// that of the span, that is more than the way of its ends along it.
+/// Change of the stretch as damping sees it: what a unit of tension works at the end, backwards.
+/// Where a wheel's plane is not that of the span, that is more than the way of its ends along it.
 double linear_stretch(const Evidence& evidence, SpanEvidence span, bool guided) {
   span.force[last_end] = 1.0;
   const SpanPushes pushes = pushes_of(span, last_end, guided);
@@ -158,7 +159,8 @@ class SpanCheck {
       before += start;
       double stretch = span.length[last_end] - span.rest_length[last_end];
       if (cable.tangent_update == TangentUpdate::substep) {
-        // What acted is between attachments that keep their places on the bodies; what rolls is in their distance.
+        // What acted is between attachments that keep their places on the bodies; what rolls is in
+        // their distance.
         const double apart = (span.to.point[last_end] - span.from.point[last_end]).norm();
         stretch = apart - span.rest_length[first_end] - span.fed;
       }

@@ -7,16 +7,18 @@
 namespace sheave {
 
 /// The cable runs over a wheel without slipping. At the end of an open cable it is wound onto the
-/// wheel, which then needs a stored length; a round one holds the end by its rim when that is used up, as a hybrid link does.
+/// wheel, which then needs a stored length; a round one holds the end by its rim when that is used
+/// up, as a hybrid link does.
 class RollingLink final : public WheelLink {
  public:
   /// Cable on the wheel at time 0 [m], >= 0; default: the arc between the tangents. Required at the
   /// end of an open cable, where there is no second tangent.
   std::optional<double> stored_length;
-  /// Capstan coefficient, >= 0; default: the cable does not slip. With it, it slips as soon as the ratio of the tensions
-  /// passes e^(friction x wrap angle), any number of turns.
+  /// Capstan coefficient, >= 0; default: the cable does not slip. With it, it slips as soon as the
+  /// ratio of the tensions passes e^(friction x wrap angle), any number of turns.
   std::optional<double> friction;
-  /// The cable passes the wheel by at time 0; it is wound on, as `winding` says, when it comes to touch it.
+  /// The cable passes the wheel by at time 0; it is wound on, as `winding` says, when it comes to
+  /// touch it.
   bool lifted = false;
   int turns = 0;  ///< whole turns in addition to the arc between the tangents, 0 ... 1000
 

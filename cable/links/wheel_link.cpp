@@ -22,7 +22,8 @@ bool is_circle(const PlacedShape& wheel, const Vector3& normal) {
   return (wheel.orientation * Vector3::UnitZ()).cross(normal).norm() <= parallel_tolerance;
 }
 
-/// A cable plane must be perpendicular to the axis that the body turns about, or the body would leave it.
+/// A cable plane must be perpendicular to the axis that the body turns about, or the body would
+/// leave it.
 bool plane_fits_axle(const BodySet& bodies, int body, const Vector3& normal) {
   if (body == bodies.count()) return true;
   const BodyProperties& properties = bodies[body];
@@ -123,7 +124,8 @@ void carry_by_axle(const BodySet& bodies, LinkGeometry& link) {
   const int mount = bodies[wheel].mount;
   const bool mounted = mount >= 0;
   const Quaternion orientation = bodies.initial_orientation(wheel);
-  // A mounted rotor turns about the origin of its frame, one on a fixed axle about its centre of mass.
+  // A mounted rotor turns about the origin of its frame, one on a fixed axle about its centre of
+  // mass.
   const Vector3& center_of_mass = bodies[wheel].center_of_mass;
   const Quaternion to_carrier =
       mounted ? Quaternion(bodies.initial_orientation(mount).conjugate() * orientation)

@@ -1,6 +1,6 @@
 #pragma once
-// What the links that run along a body have in common: where the cable's plane cuts it, and which way round the cable
-// runs.
+// What the links that run along a body have in common: where the cable's plane cuts it, and which
+// way round the cable runs.
 
 #include <optional>
 
@@ -8,12 +8,14 @@
 
 namespace sheave {
 
-/// A link on a wheel or along an outline; the link types that derive from it add what the cable does there.
+/// A link on a wheel or along an outline; the link types that derive from it add what the cable
+/// does there.
 class WheelLink : public LinkDef {
  public:
   /// At the end of a cable: as if the cable ran on beyond it.
   Winding winding = Winding::counter_clockwise;
-  /// [m], body frame; default: the centre of the body's first wheel-like shape, or of its first shape
+  /// [m], body frame; default: the centre of the body's first wheel-like shape, or of its first
+  /// shape
   std::optional<Vector3> center;
   /// Normal of the cable's plane, body frame, any length but 0; default: that shape's z axis
   std::optional<Vector3> normal;
@@ -21,9 +23,9 @@ class WheelLink : public LinkDef {
   std::optional<double> radius;
 
  protected:
-  /// A circle if a radius is given or the body has a wheel-like shape whose section is one, otherwise the hull of the
-  /// section of all its shapes; on the body itself, also if that is a mounted rotor. Errors have the
-  /// prefix `path`.
+  /// A circle if a radius is given or the body has a wheel-like shape whose section is one,
+  /// otherwise the hull of the section of all its shapes; on the body itself, also if that is a
+  /// mounted rotor. Errors have the prefix `path`.
   [[nodiscard]] Result<LinkGeometry> place(const BodySet& bodies, const std::string& path) const;
 };
 
@@ -47,8 +49,8 @@ template <class Link>
   };
 }
 
-/// A wheel whose centre lies on the axle of a rotor gets it and its plane fixed to what holds the axle, another body or the
-/// world, which saves following the rotor's own angle.
+/// A wheel whose centre lies on the axle of a rotor gets it and its plane fixed to what holds the
+/// axle, another body or the world, which saves following the rotor's own angle.
 void carry_by_axle(const BodySet& bodies, LinkGeometry& link);
 
 }  // namespace sheave

@@ -1,8 +1,10 @@
 #pragma once
-// Which pairs of boxes overlap: sweep and prune along the axis along which their centres are spread most.
+// Which pairs of boxes overlap: sweep and prune along the axis along which their centres are spread
+// most.
 //
-// Cost: sorting (of an order that hardly changes from substep to substep, so nearly linear) and one test per pair that
-// overlaps along the axis. The pairs come out in ascending order and depend on the boxes alone, not on what came before.
+// Cost: sorting (of an order that hardly changes from substep to substep, so nearly linear) and one
+// test per pair that overlaps along the axis. The pairs come out in ascending order and depend on
+// the boxes alone, not on what came before.
 
 #include <span>
 #include <utility>

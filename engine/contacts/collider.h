@@ -11,15 +11,17 @@
 
 namespace sheave {
 
-/// Makes a body touch others: with the shapes it has. Two colliders never touch if a joint holds their bodies together, if
-/// one is mounted on the other or both on the same body, if neither can move, or if a group keeps them apart.
+/// Makes a body touch others: with the shapes it has. Two colliders never touch if a joint holds
+/// their bodies together, if one is mounted on the other or both on the same body, if neither can
+/// move, or if a group keeps them apart.
 struct ColliderDef {
   BodyId body;  ///< with at least one shape; one collider per body
-  /// Coefficient of friction while sliding, >= 0. Of a pair the geometric mean of both, so 0 on one side is smooth.
+  /// Coefficient of friction while sliding, >= 0. Of a pair the geometric mean of both, so 0 on one
+  /// side is smooth.
   double friction = 0.0;
   std::optional<double> static_friction;  ///< while sticking, >= friction; default: friction
-  /// Speed of parting over speed of meeting, 0 ... 1. Of a pair the larger one. Bodies that meet more slowly than gravity
-  /// would make them in two substeps do not bounce.
+  /// Speed of parting over speed of meeting, 0 ... 1. Of a pair the larger one. Bodies that meet
+  /// more slowly than gravity would make them in two substeps do not bounce.
   double restitution = 0.0;
   double compliance = 0.0;           ///< of each point of contact [m/N], >= 0; of a pair the sum
   std::vector<std::string> groups;   ///< names of the user's choice

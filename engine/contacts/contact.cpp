@@ -1,20 +1,24 @@
-// An impact within a substep. The gap starts at c with the rate w and the acceleration a of free bodies; it closes after
+// An impact within a substep. The gap starts at c with the rate w and the acceleration a of free
+// bodies; it closes after
 //   T = 2 c / (|w| + |w_i|)  with  w_i^2 = w^2 - 2 a c,
 // and with restitution e it is, at the end of the substep h,
 //   target = e |w_i| (h - T) + a (h - T)^2 / 2,   and grows at  e |w_i| + a (h - T).
-// So a ball loses nothing of its height by where in a substep it meets the floor. `xpbd` keeps the mean velocity of a
-// substep for the velocity of a body, so its w is that plus a h / 2. That settles positions; for velocities the approach is
-// taken from the end (rebound.cpp). Bodies that touch at the end of a substep, and approach, bounce in the next one: `rattle`,
-// which has the velocities of the end, must not stop them before. Bodies that meet at less than 2 |a| h do not bounce: they would for ever.
+// So a ball loses nothing of its height by where in a substep it meets the floor. `xpbd` keeps the
+// mean velocity of a substep for the velocity of a body, so its w is that plus a h / 2. That
+// settles positions; for velocities the approach is taken from the end (rebound.cpp). Bodies that
+// touch at the end of a substep, and approach, bounce in the next one: `rattle`, which has the
+// velocities of the end, must not stop them before. Bodies that meet at less than 2 |a| h do not
+// bounce: they would for ever.
 //
-// Tangents. What slides has friction against its sliding and none across it, so it has one row, along its velocity at the
-// start. (A second one would hold it to that direction.) What is slow enough to stop, or sticks, has two. They bound the
-// force by a square, which is right along its axes and too large by up to sqrt(2) between them; so the first axis is the
-// direction of the force that the whole manifold holds: were it that of each point, points that press against each other
+// Tangents. What slides has friction against its sliding and none across it, so it has one row,
+// along its velocity at the start. (A second one would hold it to that direction.) What is slow
+// enough to stop, or sticks, has two. They bound the force by a square, which is right along its
+// axes and too large by up to sqrt(2) between them; so the first axis is the direction of the force
+// that the whole manifold holds: were it that of each point, points that press against each other
 // sideways could together hold more than they should.
 //
-// A rigid contact that overlaps at the start is opened by a fiftieth per substep only, because the velocity that opening it at
-// once would leave behind is energy that nobody has put in.
+// A rigid contact that overlaps at the start is opened by a fiftieth per substep only, because the
+// velocity that opening it at once would leave behind is energy that nobody has put in.
 
 #include "engine/contacts/contact.h"
 
@@ -25,17 +29,18 @@ namespace {
 
 constexpr double opened_share = 0.02;
 constexpr double slow_impact = 2.0;  // of what gravity does in a substep
-/// Share of a row's own yield by which solvers of all rows soften it: between the corners of a box, which four rows hold
-/// where three would do, it shares the load. It lets contacts sink by this share of what the load would move the body by in a
-/// substep if nothing held it.
+/// Share of a row's own yield by which solvers of all rows soften it: between the corners of a box,
+/// which four rows hold where three would do, it shares the load. It lets contacts sink by this
+/// share of what the load would move the body by in a substep if nothing held it.
 constexpr double softened_share = 1e-9;
-/// The same for friction, which is hyperstatic far more often: a taut rope over a wheel sticks at many points to what moves as
-/// one. With less, rounding decides which of them slip, and the search for them goes on and on (373 changes per substep for
-/// a rope of 100 segments, 61 with this, 10 with a hundred times as much); with more, a box on a slope creeps by more than
-/// 1e-9 m/s.
+/// The same for friction, which is hyperstatic far more often: a taut rope over a wheel sticks at
+/// many points to what moves as one. With less, rounding decides which of them slip, and the search
+/// for them goes on and on (373 changes per substep for a rope of 100 segments, 61 with this, 10
+/// with a hundred times as much); with more, a box on a slope creeps by more than 1e-9 m/s.
 constexpr double softened_friction = 1e-7;
 
-/// Rotation of a body since the start of the substep [rad]; a mounted rotor has its own about its axle.
+/// Rotation of a body since the start of the substep [rad]; a mounted rotor has its own about its
+/// axle.
 Vector3 turn_of(const Substep& substep, int body) {
   const int mount = substep.bodies[body].mount;
   const Vector3& own = substep.moving[at(body)].turn;

@@ -1,16 +1,17 @@
 #pragma once
 // One point of contact during a substep, and its rows.
 //
-// With core points p_a, p_b fixed to the bodies, the normal n and tangents t fixed for the substep, and s what friction has
-// let slip at most by rounding since the point began to stick,
+// With core points p_a, p_b fixed to the bodies, the normal n and tangents t fixed for the substep,
+// and s what friction has let slip at most by rounding since the point began to stick,
 //
 //   normal    C = n . (p_a - p_b) - r_a - r_b - target >= 0,       l_n in [0, inf)
 //   friction  C = t . (s + d_a - d_b) = 0,                         |l_t| <= mu l_n
 //             d = change of p + turn x arm,  arm_a = -r_a n,  arm_b = r_b n
 //
-// d is the path of the surface at the contact. The turn enters with the rotation vector, not with the chord of the point, so
-// a ball rolls on its circumference exactly. Gradients are n and t at p_a - r_a n and p_b + r_b n; along n the place makes no
-// difference. The multipliers are forces x h^2.
+// d is the path of the surface at the contact. The turn enters with the rotation vector, not with
+// the chord of the point, so a ball rolls on its circumference exactly. Gradients are n and t at
+// p_a - r_a n and p_b + r_b n; along n the place makes no difference. The multipliers are forces x
+// h^2.
 
 #include <array>
 #include <optional>
@@ -40,16 +41,19 @@ struct Contact {
   double friction = 0.0;              ///< coefficient that counts in this substep
   double compliance = 0.0;            ///< [m/N]
   double target = 0.0;                ///< gap at the end of the substep
-  /// Normal velocity after an impact in this substep [m/s]; 0: none. Refined when velocities are known (rebound.h).
+  /// Normal velocity after an impact in this substep [m/s]; 0: none. Refined when velocities are
+  /// known (rebound.h).
   double rebound = 0.0;
-  /// Approach above which the end of the substep leaves an impact to the next one [m/s] (Row::rebound_speed).
+  /// Approach above which the end of the substep leaves an impact to the next one [m/s]
+  /// (Row::rebound_speed).
   double rebound_speed = Row::unbounded;
   /// Whether velocities are means of the substep before, as those of `xpbd` are, or of the moment.
   bool mean_velocities = true;
   double restitution = 0.0;
   double acceleration = 0.0;         ///< of the gap, for free bodies [m/s2]
   std::array<double, 3> softness{};  ///< Row::softness of each row [1/kg]
-  // What the last substep knows: forces [N] along the normal and the tangents, and whether friction held.
+  // What the last substep knows: forces [N] along the normal and the tangents, and whether friction
+  // held.
   std::array<double, 3> last_force{};
   bool stuck = true;
   // What the solver has found so far.
@@ -68,7 +72,9 @@ struct Contact {
 /// Velocity [m/s] of the body's surface at a world point at the start of the substep.
 [[nodiscard]] Vector3 start_velocity(const Substep& substep, int body, const Vector3& point);
 
-/// `held` and `pressure` are the friction on A and the normal force [N] of the whole manifold in the last substep. Chooses tangents, coefficient of friction and what an impact does; the rest of the contact is set.
+/// `held` and `pressure` are the friction on A and the normal force [N] of the whole manifold in
+/// the last substep. Chooses tangents, coefficient of friction and what an impact does; the rest of
+/// the contact is set.
 void prepare_contact(const Substep& substep, const ContactMaterial& material,
                      const Vector3& free_acceleration, const Vector3& held, double pressure,
                      bool is_new, Contact& contact);

@@ -1,12 +1,14 @@
 #pragma once
 // Along which direction two solids touch, or would first come apart.
 //
-// The distance of convex solids, or minus the depth of their overlap, is the largest gap_along() of all directions. Which
-// directions can be the largest is known for each pair of forms: the normals of faces, the cross products of edges, the
-// lines between the nearest points of cores. They are tried one by one (the method of separating axes), so the result is
-// exact where forms are flat or round, never depends on a tolerance of an iteration, and is as precise when solids touch as
-// when they do not. Only between the rim of a cylinder and an edge or a rim is a direction found by iteration; it is then
-// the gap along that direction that counts, which is never more than the true one.
+// The distance of convex solids, or minus the depth of their overlap, is the largest gap_along() of
+// all directions. Which directions can be the largest is known for each pair of forms: the normals
+// of faces, the cross products of edges, the lines between the nearest points of cores. They are
+// tried one by one (the method of separating axes), so the result is exact where forms are flat or
+// round, never depends on a tolerance of an iteration, and is as precise when solids touch as when
+// they do not. Only between the rim of a cylinder and an edge or a rim is a direction found by
+// iteration; it is then the gap along that direction that counts, which is never more than the true
+// one.
 
 #include "engine/contacts/placed_solid.h"
 
@@ -40,7 +42,8 @@ struct ContactAxis {
 [[nodiscard]] ContactAxis axis_of_cylinder(const PlacedSolid& a, const PlacedSolid& b,
                                            double margin);
 
-/// The nearest points of the segments p0 p1 and q0 q1, each of which may be a point; of parallel ones the middle ones.
+/// The nearest points of the segments p0 p1 and q0 q1, each of which may be a point; of parallel
+/// ones the middle ones.
 struct NearestPoints {
   Vector3 p;
   Vector3 q;

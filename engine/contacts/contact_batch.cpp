@@ -1,8 +1,9 @@
-// All points of contact. Found anew at the start of every substep and matched with those of the last one, so that friction
-// knows what it holds and the solver begins with the last forces.
+// All points of contact. Found anew at the start of every substep and matched with those of the
+// last one, so that friction knows what it holds and the solver begins with the last forces.
 //
-// In a sweep of Gauss-Seidel friction is bounded by the normal multiplier of the moment. A solver of all rows at once gets
-// bounds from its last round, or the last substep, and revise() asks for another round until they agree.
+// In a sweep of Gauss-Seidel friction is bounded by the normal multiplier of the moment. A solver
+// of all rows at once gets bounds from its last round, or the last substep, and revise() asks for
+// another round until they agree.
 
 #include "engine/contacts/contact_batch.h"
 
@@ -19,8 +20,8 @@ namespace {
 
 /// Relative change of a normal force below which the bounds of friction count as found.
 constexpr double settled_share = 1e-9;
-/// A point of contact is the same as one of the last substep if it is no farther away on one of the bodies than this share
-/// of the smaller form.
+/// A point of contact is the same as one of the last substep if it is no farther away on one of the
+/// bodies than this share of the smaller form.
 constexpr double same_point = 0.05;
 
 class ContactBatch final : public ConstraintBatch {
@@ -207,7 +208,8 @@ class ContactBatch final : public ConstraintBatch {
     }
     return places;
   }
-  /// Appends the points of one pair. `old` is the first record of the state that is not of an earlier pair.
+  /// Appends the points of one pair. `old` is the first record of the state that is not of an
+  /// earlier pair.
   void add_manifold(const Substep& substep, const FeatureState& state, const FormPair& pair,
                     Manifold& manifold, std::size_t& old) {
     const std::optional<Vector3> plane = plane_of_motion(
@@ -272,7 +274,8 @@ class ContactBatch final : public ConstraintBatch {
     return substep.orientation(body).conjugate() * (point - substep.position(body));
   }
 
-  /// The record of the same point, nearest first come; null if there is none. It then is nobody else's.
+  /// The record of the same point, nearest first come; null if there is none. It then is nobody
+  /// else's.
   const ContactRecord* take_record(const Contact& contact, std::size_t points) {
     ContactRecord* best = nullptr;
     double nearest = std::numeric_limits<double>::infinity();
@@ -299,7 +302,8 @@ class ContactBatch final : public ConstraintBatch {
         std::abs(multipliers_[3 * i + 1]) >= limit || std::abs(multipliers_[3 * i + 2]) >= limit;
   }
 
-  /// Makes what acted in the second half of the substep four numbers per contact: along the normal, and friction.
+  /// Makes what acted in the second half of the substep four numbers per contact: along the normal,
+  /// and friction.
   void describe_late_forces(Substep& substep) {
     if (place_ >= substep.late_forces.size() || substep.late_forces[place_].empty()) return;
     late_.clear();

@@ -10,8 +10,9 @@ namespace sheave {
 
 struct Model;
 
-/// Contacts between the colliders of a model. State: per point of contact 3 integers (its two forms, whether friction holds it)
-/// and 20 reals (engine/contacts/contact_state.h); as many points as there are. `place`: its index among the world's features.
+/// Contacts between the colliders of a model. State: per point of contact 3 integers (its two
+/// forms, whether friction holds it) and 20 reals (engine/contacts/contact_state.h); as many points
+/// as there are. `place`: its index among the world's features.
 [[nodiscard]] std::unique_ptr<ConstraintBatch> make_contact_batch(const Model& model,
                                                                   const BodySet& bodies,
                                                                   std::size_t place);

@@ -46,8 +46,9 @@ class ContactFinder {
  public:
   ContactFinder(const Model& model, const BodySet& bodies);
 
-  /// Calls `use(pair, manifold)` for every pair of forms with points that touch or may do so within the substep, which is
-  /// at its start, in ascending order of the pairs. Points may be apart by what the motion of the substep can close.
+  /// Calls `use(pair, manifold)` for every pair of forms with points that touch or may do so within
+  /// the substep, which is at its start, in ascending order of the pairs. Points may be apart by
+  /// what the motion of the substep can close.
   template <class Use>
   void find(const Substep& substep, const Use& use) {
     place(substep);

@@ -15,8 +15,8 @@ struct ContactReport {
   double normal_force = 0.0;                 ///< on A along the normal [N], >= 0
   Vector3 friction_force = Vector3::Zero();  ///< on A, across the normal [N]
   bool sticks = false;                       ///< whether friction holds the point
-  /// The points of the bodies' cores, of which the surfaces are the radius away along the normal, in their own frames
-  /// (origin at the centre of mass) [m].
+  /// The points of the bodies' cores, of which the surfaces are the radius away along the normal,
+  /// in their own frames (origin at the centre of mass) [m].
   Vector3 core_a = Vector3::Zero();
   Vector3 core_b = Vector3::Zero();
 };

@@ -1,5 +1,6 @@
-// A cylinder B against anything: each way in which a flat end, a rim or the mantle can touch a corner, an edge, a face, a
-// rim or a mantle gives a direction, and the one with the largest gap counts.
+// A cylinder B against anything: each way in which a flat end, a rim or the mantle can touch a
+// corner, an edge, a face, a rim or a mantle gives a direction, and the one with the largest gap
+// counts.
 //
 //   flat end       the cylinder's axis
 //   corner         from the nearest point of the cylinder to it
@@ -8,9 +9,9 @@
 //   rim, rim       tangent x tangent, at the nearest points of the two circles
 //   rim, mantle    from the other axis to the point of the rim that is nearest to it
 //
-// Nearest points of circles are found by projecting back and forth; where solids overlap deeply these need not be the best
-// ones, so the best direction is improved by a search across it. A direction that is a little off has a gap that is too
-// small by the square of that.
+// Nearest points of circles are found by projecting back and forth; where solids overlap deeply
+// these need not be the best ones, so the best direction is improved by a search across it. A
+// direction that is a little off has a gap that is too small by the square of that.
 
 #include <limits>
 
@@ -79,8 +80,8 @@ class Search {
     try_one(-direction / length);
   }
 
-  /// From the best direction uphill, by steps across it that are halved where none helps. What is best already by more
-  /// than rounding, and has a closed form, stays as it is.
+  /// From the best direction uphill, by steps across it that are halved where none helps. What is
+  /// best already by more than rounding, and has a closed form, stays as it is.
   void climb() {
     const double size = a_.solid->radius + b_.solid->radius + (a_.first() - b_.first()).norm();
     for (double step = 0.1; step > 1e-7; step *= 0.5) {

@@ -1,6 +1,7 @@
-// Solids with flat faces: the separating axis is the normal of a face, or the cross product of two edges whose arcs on
-// the sphere of normals cross (Gregorius, "The separating axis test between convex polyhedra", 2013). Cost: faces x corners
-// of both, and edges x edges tests of some 20 operations; fine for hundreds of edges, slow for thousands.
+// Solids with flat faces: the separating axis is the normal of a face, or the cross product of two
+// edges whose arcs on the sphere of normals cross (Gregorius, "The separating axis test between
+// convex polyhedra", 2013). Cost: faces x corners of both, and edges x edges tests of some 20
+// operations; fine for hundreds of edges, slow for thousands.
 
 #include <limits>
 
@@ -37,8 +38,9 @@ bool arcs_cross(const Vector3& a, const Vector3& b, const Vector3& c, const Vect
 }  // namespace
 
 ContactAxis axis_of_faces(const PlacedSolid& a, const PlacedSolid& b, double margin) {
-  // Axes of faces give whole faces to stand on, so another kind must be better by more than rounding could make it; and the
-  // choice between two equal ones must not depend on rounding either.
+  // Axes of faces give whole faces to stand on, so another kind must be better by more than
+  // rounding could make it; and the choice between two equal ones must not depend on rounding
+  // either.
   const double size =
       (a.vertices.front() - a.vertices.back()).norm() + (b.first() - b.last()).norm();
   const double preferred = 1e-9 * size;

@@ -60,7 +60,8 @@ class GroundBatch final : public ConstraintBatch {
     double correction = 0.0;
     Row row;
     for (Owner& owner : owners_) {
-      // One look at a shape that is nowhere near the floor; not from where a point of it has been pushed.
+      // One look at a shape that is nowhere near the floor; not from where a point of it has been
+      // pushed.
       if (!owner.touches && height(substep.position(owner.body)) > owner.reach) continue;
       for (std::size_t i = owner.first; i < owner.first + owner.count; ++i) {
         row.clear();
@@ -76,7 +77,8 @@ class GroundBatch final : public ConstraintBatch {
 
   void linearise(Substep& substep, RowList& rows) override {
     for (Owner& owner : owners_) {
-      // A row that appears in the middle of a substep has no start there, and rattle leaves that substep to xpbd.
+      // A row that appears in the middle of a substep has no start there, and rattle leaves that
+      // substep to xpbd.
       owner.near = owner.near || height(substep.position(owner.body)) <= owner.reach;
       if (!owner.near) continue;
       for (std::size_t i = owner.first; i < owner.first + owner.count; ++i) {

@@ -1,6 +1,6 @@
-// Given the normal, each solid offers what it turns towards the other: a face, an edge or a line, or a point. A face clips
-// what lies above it to the prism over itself (Sutherland and Hodgman 1974); two lines touch along what they share if
-// they are parallel, and in one point otherwise.
+// Given the normal, each solid offers what it turns towards the other: a face, an edge or a line,
+// or a point. A face clips what lies above it to the prism over itself (Sutherland and Hodgman
+// 1974); two lines touch along what they share if they are parallel, and in one point otherwise.
 
 #include "engine/contacts/manifold.h"
 
@@ -12,7 +12,8 @@
 namespace sheave {
 namespace {
 
-/// Cosines and sines of the angle within which a flat or a straight side of a cylinder counts as facing the other solid.
+/// Cosines and sines of the angle within which a flat or a straight side of a cylinder counts as
+/// facing the other solid.
 constexpr double faces_it = 0.99;
 constexpr double lies_along_it = 0.02;
 
@@ -229,8 +230,8 @@ void reduce_points(Manifold& manifold) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     size = std::max(size, (position(i) - position(0)).norm());
   }
-  // The corners of two squares that are turned against each other by a little come in pairs. One of each will do, and
-  // then it is no matter of rounding which four are kept.
+  // The corners of two squares that are turned against each other by a little come in pairs. One of
+  // each will do, and then it is no matter of rounding which four are kept.
   std::vector<ContactPoint> distinct;
   for (const ContactPoint& point : points) {
     if (std::none_of(distinct.begin(), distinct.end(), [&](const ContactPoint& other) {

@@ -49,7 +49,8 @@ struct PlacedSolid {
     }
     return best;
   }
-  /// How far the radius reaches beyond the core along a unit vector: all of it, or what the rim of a cylinder does.
+  /// How far the radius reaches beyond the core along a unit vector: all of it, or what the rim of
+  /// a cylinder does.
   [[nodiscard]] double round_reach(const Vector3& direction) const {
     if (!is(ConvexSolid::Kind::cylinder)) return solid->radius;
     const double along = dot(direction, axis());
@@ -61,8 +62,9 @@ struct PlacedSolid {
   }
 };
 
-/// The distance along the unit vector `normal` by which `a` lies beyond `b`; negative if they overlap as seen along it.
-/// The largest over all directions is the distance of convex solids, or minus the depth of their overlap.
+/// The distance along the unit vector `normal` by which `a` lies beyond `b`; negative if they
+/// overlap as seen along it. The largest over all directions is the distance of convex solids, or
+/// minus the depth of their overlap.
 [[nodiscard]] inline double gap_along(const PlacedSolid& a, const PlacedSolid& b,
                                       const Vector3& normal) {
   return -a.reach(-normal) - b.reach(normal);

@@ -1,15 +1,18 @@
-// Newton's law for impacts, v+ = -e v-, with v- the normal velocity that points of contact would have at the end of the
-// substep if nothing had touched. Where the law holds in all of them with impulses m >= 0, the energy changes by
+// Newton's law for impacts, v+ = -e v-, with v- the normal velocity that points of contact would
+// have at the end of the substep if nothing had touched. Where the law holds in all of them with
+// impulses m >= 0, the energy changes by
 //   m . (v+ + v-) / 2 = (1 - e) m . v- / 2 <= 0,
-// so that no bounce makes any, however many meet. (The approach at the start would not do: bodies turn in a substep.)
+// so that no bounce makes any, however many meet. (The approach at the start would not do: bodies
+// turn in a substep.)
 //
-// v- is reached at the depth c < 0 beyond the surface, under the acceleration a. The impact was at v_i^2 = v-^2 - 2 a c, the
-// time 2 c / (v- + v_i) ago, and since then the rebound e v_i has been slowed by a. `xpbd` keeps the mean velocity of the
-// substep, which is by a h / 2 less.
+// v- is reached at the depth c < 0 beyond the surface, under the acceleration a. The impact was at
+// v_i^2 = v-^2 - 2 a c, the time 2 c / (v- + v_i) ago, and since then the rebound e v_i has been
+// slowed by a. `xpbd` keeps the mean velocity of the substep, which is by a h / 2 less.
 //
-// Substeps of `rattle` with an impact are left to `xpbd`: multipliers along the gradients of the start would bounce a body that
-// turns off places where it no longer is. Impulses, found by sweeps, bring points that bounce to that velocity and keep those that are pressed from
-// falling; friction takes its share. With those of the positions, l / h, no impulse pulls.
+// Substeps of `rattle` with an impact are left to `xpbd`: multipliers along the gradients of the
+// start would bounce a body that turns off places where it no longer is. Impulses, found by sweeps,
+// bring points that bounce to that velocity and keep those that are pressed from falling; friction
+// takes its share. With those of the positions, l / h, no impulse pulls.
 
 #include "engine/contacts/rebound.h"
 

@@ -7,12 +7,12 @@
 
 namespace sheave {
 
-/// Velocities after impacts. Positions have already been moved apart, and velocities follow from that; but what a bounce
-/// leaves is not what the way of a substep says.
+/// Velocities after impacts. Positions have already been moved apart, and velocities follow from
+/// that; but what a bounce leaves is not what the way of a substep says.
 class Rebound {
  public:
-  /// Finds Contact::rebound of the contacts that meet in this substep, changes the velocities in substep.next, and adds h
-  /// times the impulses to the multipliers, three per contact.
+  /// Finds Contact::rebound of the contacts that meet in this substep, changes the velocities in
+  /// substep.next, and adds h times the impulses to the multipliers, three per contact.
   void run(Substep& substep, std::span<Contact> contacts, std::span<double> multipliers);
 
  private:

@@ -1,6 +1,7 @@
-// Balls and capsules: all points within a radius of a core, so their distance is that of the cores less the radii, along
-// the line between the nearest points of the cores. Where a core lies inside a solid with faces that line does not exist;
-// the shortest way out is along a face's normal or across an edge.
+// Balls and capsules: all points within a radius of a core, so their distance is that of the cores
+// less the radii, along the line between the nearest points of the cores. Where a core lies inside
+// a solid with faces that line does not exist; the shortest way out is along a face's normal or
+// across an edge.
 
 #include <algorithm>
 #include <limits>
@@ -10,7 +11,8 @@
 namespace sheave {
 namespace {
 
-/// The part of a segment, as shares of it, that lies inside a solid with faces; empty if begin > end.
+/// The part of a segment, as shares of it, that lies inside a solid with faces; empty if begin >
+/// end.
 struct Inside {
   double begin = 0.0;
   double end = 1.0;
@@ -74,7 +76,8 @@ ContactAxis way_out(const PlacedSolid& a, const PlacedSolid& b) {
 
 NearestPoints nearest_points(const Vector3& p0, const Vector3& p1, const Vector3& q0,
                              const Vector3& q1) {
-  // Minimise |p0 + s u - q0 - t w|^2 over the unit square (Ericson, "Real-Time Collision Detection", 5.1.9).
+  // Minimise |p0 + s u - q0 - t w|^2 over the unit square (Ericson, "Real-Time Collision
+  // Detection", 5.1.9).
   const Vector3 u = p1 - p0;
   const Vector3 w = q1 - q0;
   const Vector3 d = p0 - q0;

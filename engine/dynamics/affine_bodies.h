@@ -1,8 +1,8 @@
 #pragma once
 // Bodies that move along straight lines: sliders, and rotors on axles that do not turn.
 //
-// Each has one number and one speed, in flat arrays. Nothing in their motion depends on where they are, so what loads and drag
-// make of a speed in a substep is a factor and a sum, found once:
+// Each has one number and one speed, in flat arrays. Nothing in their motion depends on where they
+// are, so what loads and drag make of a speed in a substep is a factor and a sum, found once:
 //   v* = keep v + push,   dq* = h v*.
 // What a rotor is mounted on may slide, but not turn. Number 0 belongs to what does not move.
 
@@ -36,8 +36,9 @@ class AffineBodies {
   /// Inverse masses and moments of inertia, as far as drag leaves them [1/kg], [1/(kg m2)].
   [[nodiscard]] std::span<const double> yields() const { return yields_; }
 
-  /// Takes places [m], [rad] and speeds from a state, and what its controls say of drives and loads. False if a force that has
-  /// been set turns about an axle. `state` must outlive the substeps that follow.
+  /// Takes places [m], [rad] and speeds from a state, and what its controls say of drives and
+  /// loads. False if a force that has been set turns about an axle. `state` must outlive the
+  /// substeps that follow.
   [[nodiscard]] bool load(const State& state);
   [[nodiscard]] std::span<const double> places() const { return places_; }  ///< at the start
   [[nodiscard]] std::span<const double> speeds() const { return speeds_; }  ///< likewise
@@ -45,7 +46,8 @@ class AffineBodies {
   [[nodiscard]] std::span<double> motion() { return motion_; }
   /// Speeds at the end of the substep.
   [[nodiscard]] std::span<double> end_speeds() { return end_speeds_; }
-  /// The motion without constraints in a substep between these times [s], with what loads do until `loaded`.
+  /// The motion without constraints in a substep between these times [s], with what loads do until
+  /// `loaded`.
   void predict(double from, double loaded, double to);
   /// Work that forces do in the substep which have been set [J].
   [[nodiscard]] double work_of_set_loads() const;
@@ -58,8 +60,8 @@ class AffineBodies {
   /// The end of the substep becomes the start of the next one.
   void go_on();
 
-  /// Writes the start of the last substep, of which go_on() was called, to `state`, whose other bodies and numbers are those
-  /// of `loaded`, the state that was loaded. Both may be the same.
+  /// Writes the start of the last substep, of which go_on() was called, to `state`, whose other
+  /// bodies and numbers are those of `loaded`, the state that was loaded. Both may be the same.
   void store_start(const State& loaded, State& state) const {
     store(end_places_, end_speeds_, loaded, state);
   }

@@ -1,9 +1,10 @@
 #pragma once
 // Degrees of freedom: by what numbers the bodies of a machine can move.
 //
-// A wheel on a fixed axle has one number, a body in a plane three, a free one six. Solvers of all rows at once count motion in
-// these: a gradient has a number per degree of freedom, and for all but free bodies with unequal moments of inertia the inverse
-// mass matrix is diagonal. Number 0 belongs to what no row can move.
+// A wheel on a fixed axle has one number, a body in a plane three, a free one six. Solvers of all
+// rows at once count motion in these: a gradient has a number per degree of freedom, and for all
+// but free bodies with unequal moments of inertia the inverse mass matrix is diagonal. Number 0
+// belongs to what no row can move.
 
 #include <cstdint>
 #include <span>
@@ -50,7 +51,8 @@ struct BodyFreedom {
   Vector3 across = Vector3::Zero();
 };
 
-/// The parts of a gradient (or of any pair of vectors that is linear in them) along the body's degrees of freedom.
+/// The parts of a gradient (or of any pair of vectors that is linear in them) along the body's
+/// degrees of freedom.
 [[gnu::always_inline]] inline void project(const BodyFreedom& freedom, const MovingBody& body,
                                            const Vector3& linear, const Vector3& angular,
                                            double* parts) {

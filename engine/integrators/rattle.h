@@ -4,9 +4,10 @@
 //   v_half = v0 + h/2 M^-1 f + J(x0)^T l / h,   x1 = x0 + h v_half,   C(x1) = 0,   l >= 0 where C pulls one way
 //   v1 = v_half + h/2 M^-1 f + J(x1)^T m,       J(x1) v1 + dC/dt = 0,  m >= 0 likewise
 //
-// Multipliers act along the gradients of the start in the first half and of the end in the second, so the map is its
-// own inverse with time reversed: second order, and energy that neither grows nor dies away. The mean force of the
-// substep, l / h^2 + m / h, is the force at its middle to second order.
+// Multipliers act along the gradients of the start in the first half and of the end in the second,
+// so the map is its own inverse with time reversed: second order, and energy that neither grows nor
+// dies away. The mean force of the substep, l / h^2 + m / h, is the force at its middle to second
+// order.
 //
 // - The positions are those that xpbd finds for half the load with frozen gradients: x1 = x* + W J(x0)^T l. Newton's
 //   matrix is J(x) W J(x0)^T, not symmetric.
@@ -28,8 +29,8 @@ namespace sheave {
 /// The constraint part of the integrator and its scratch.
 class RattleSolver {
  public:
-  /// Work of workless forces above which a substep counts as failed, as a share of the kinetic energy. Rows that turn by
-  /// an angle a in the substep do about a^3 of it.
+  /// Work of workless forces above which a substep counts as failed, as a share of the kinetic
+  /// energy. Rows that turn by an angle a in the substep do about a^3 of it.
   static constexpr double unresolved = 1e-2;
 
   explicit RattleSolver(SolverKind solver) : solver_(solver) {}

@@ -13,8 +13,8 @@ struct Anchor {
   Vector3 point = Vector3::Zero();            ///< [m]
   Quaternion frame = Quaternion::Identity();  ///< joint frame to own frame
 
-  /// The anchor of `joint` at the world point `world_point` [m] with the joint frame `world_frame`, both told where bodies are
-  /// when it is defined.
+  /// The anchor of `joint` at the world point `world_point` [m] with the joint frame `world_frame`,
+  /// both told where bodies are when it is defined.
   [[nodiscard]] static Anchor at_start(const BodySet& bodies, const JointDef& joint, BodyId body,
                                        const Vector3& world_point,
                                        const Quaternion& world_frame = Quaternion::Identity()) {
@@ -48,7 +48,8 @@ struct AnchorPair {
     return {Anchor::at_start(bodies, joint, body_a, world_point, frame),
             Anchor::at_start(bodies, joint, body_b, world_point, frame)};
   }
-  /// Makes A's anchor, as defined, that of a joint that was locked again (engine/joints/joint_hold.h).
+  /// Makes A's anchor, as defined, that of a joint that was locked again
+  /// (engine/joints/joint_hold.h).
   void apply(const JointHold& hold);
   [[nodiscard]] int anchor_body() const { return b.body; }
   [[nodiscard]] Vector3 anchor(const Substep& substep) const { return b.position(substep); }

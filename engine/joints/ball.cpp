@@ -1,7 +1,8 @@
-// Locks: the anchors coincide. Coordinates: the twist (angle_about in lock_rows.h); the swing s of B's axis b from A's a,
-// s = atan2(|a x b|, a . b), which a rotation d of B changes by d . n, n = a x b / |a x b|; and, for friction and damping,
-// the rotations about three directions, of which the first is that of the relative angular velocity at the start, so
-// that dry friction is the same against any rotation.
+// Locks: the anchors coincide. Coordinates: the twist (angle_about in lock_rows.h); the swing s of
+// B's axis b from A's a, s = atan2(|a x b|, a . b), which a rotation d of B changes by d . n, n = a
+// x b / |a x b|; and, for friction and damping, the rotations about three directions, of which the
+// first is that of the relative angular velocity at the start, so that dry friction is the same
+// against any rotation.
 
 #include "engine/joints/ball.h"
 

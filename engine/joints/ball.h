@@ -5,8 +5,8 @@
 
 namespace sheave {
 
-/// Keeps two points of two bodies together. The relative rotation can be limited in two parts: the swing of the axis,
-/// and the twist about it.
+/// Keeps two points of two bodies together. The relative rotation can be limited in two parts: the
+/// swing of the axis, and the twist about it.
 class BallJoint final : public JointDef {
  public:
   Vector3 anchor = Vector3::Zero();  ///< common point, world frame at time 0 [m]

@@ -1,7 +1,8 @@
 #pragma once
 // What acts along a free coordinate of a joint: the angle of a hinge, the travel of a slider.
 //
-// A joint type has a member of type JointCoordinate per free coordinate and adds coordinate_fields() to its table.
+// A joint type has a member of type JointCoordinate per free coordinate and adds
+// coordinate_fields() to its table.
 
 #include <array>
 #include <optional>
@@ -22,7 +23,8 @@ inline constexpr std::array<std::string_view, 4> rotation_drive_names{"none", "a
                                                                       "torque"};
 enum class CoordinateKind { translation, rotation };
 
-/// Settings; "force" is a torque and "m" is rad if the coordinate is an angle. All of them may act together.
+/// Settings; "force" is a torque and "m" is rad if the coordinate is an angle. All of them may act
+/// together.
 struct JointCoordinate {
   std::optional<double> lower;    ///< the coordinate stays at or above this [m]
   std::optional<double> upper;    ///< ... and at or below this [m]
@@ -49,8 +51,8 @@ struct JointCoordinate {
   [[nodiscard]] bool acts() const;
 };
 
-/// Appends what is wrong beyond the ranges of the fields. `path` is that of the joint, `prefix` that of the fields'
-/// names, `joint` its name.
+/// Appends what is wrong beyond the ranges of the fields. `path` is that of the joint, `prefix`
+/// that of the fields' names, `joint` its name.
 void check_coordinate(const JointCoordinate& coordinate, const std::string& joint,
                       const std::string& path, const std::string& prefix, Errors& errors);
 
@@ -95,8 +97,9 @@ struct CoordinateSlots {
 
 }  // namespace detail
 
-/// The fields of the coordinate `Coordinate` of the joint type `Class`, whose names begin with `prefix`, which must be
-/// the same in every call for that coordinate. `what` tells it in the documentation, e.g. "the angle".
+/// The fields of the coordinate `Coordinate` of the joint type `Class`, whose names begin with
+/// `prefix`, which must be the same in every call for that coordinate. `what` tells it in the
+/// documentation, e.g. "the angle".
 template <class Class, JointCoordinate Class::*Coordinate>
 [[nodiscard]] std::vector<Field> coordinate_fields(CoordinateKind kind, const std::string& prefix,
                                                    const std::string& what) {

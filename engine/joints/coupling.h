@@ -1,5 +1,6 @@
 #pragma once
-// What gears and racks have in common: they couple two motions against a carrier, with or without play.
+// What gears and racks have in common: they couple two motions against a carrier, with or without
+// play.
 
 #include "engine/joint.h"
 #include "engine/joints/joint_batch.h"

@@ -1,5 +1,6 @@
-// Locks: B's anchor stays on the axis, two directions of A across it; A's axis is perpendicular to two directions of B
-// across B's axis (lock_rows.h). Coordinates: travel along the axis of A, angle about it.
+// Locks: B's anchor stays on the axis, two directions of A across it; A's axis is perpendicular to
+// two directions of B across B's axis (lock_rows.h). Coordinates: travel along the axis of A, angle
+// about it.
 
 #include "engine/joints/cylindrical.h"
 

@@ -1,6 +1,7 @@
-// Lock: C = |p_a - p_b| - L, gradient n at p_a and -n at p_b with n = (p_a - p_b) / |p_a - p_b|. A force l / h^2 along the
-// gradient pushes the points apart, so a string (C <= 0) has l in (-inf, 0] and a bumper (C >= 0) has l in [0, inf).
-// Coordinate: the extension |p_a - p_b| - |p_a - p_b| at time 0.
+// Lock: C = |p_a - p_b| - L, gradient n at p_a and -n at p_b with n = (p_a - p_b) / |p_a - p_b|. A
+// force l / h^2 along the gradient pushes the points apart, so a string (C <= 0) has l in (-inf, 0]
+// and a bumper (C >= 0) has l in [0, inf). Coordinate: the extension |p_a - p_b| - |p_a - p_b| at
+// time 0.
 
 #include "engine/joints/distance.h"
 

@@ -12,8 +12,8 @@ enum class DistanceLimit { exactly, at_most, at_least, none };
 inline constexpr std::array<std::string_view, 4> distance_limit_names{"exactly", "at-most",
                                                                       "at-least", "none"};
 
-/// Keeps two points of two bodies at a distance: a massless rod, a string or a bumper. With the limit `none` it is what acts
-/// along the line between them: a dashpot, an actuator.
+/// Keeps two points of two bodies at a distance: a massless rod, a string or a bumper. With the
+/// limit `none` it is what acts along the line between them: a dashpot, an actuator.
 class DistanceJoint final : public JointDef {
  public:
   Vector3 anchor_a = Vector3::Zero();  ///< on body a, world frame at time 0 [m]

@@ -1,5 +1,5 @@
-// One row: C = angle of B - ratio x angle of A, both against the carrier and with all their turns, so that it cannot
-// slip; with backlash two one-sided rows at half of it to each side.
+// One row: C = angle of B - ratio x angle of A, both against the carrier and with all their turns,
+// so that it cannot slip; with backlash two one-sided rows at half of it to each side.
 
 #include "engine/joints/gear.h"
 

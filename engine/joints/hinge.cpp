@@ -1,6 +1,7 @@
-// Locks: the anchors coincide; A's axis is perpendicular to two directions of B that are perpendicular to B's axis
-// (lock_rows.h). Coordinate: the angle about the axis. Between bodies that keep the plane perpendicular to the axis, two
-// directions of this plane are all there is to lock.
+// Locks: the anchors coincide; A's axis is perpendicular to two directions of B that are
+// perpendicular to B's axis (lock_rows.h). Coordinate: the angle about the axis. Between bodies
+// that keep the plane perpendicular to the axis, two directions of this plane are all there is to
+// lock.
 
 #include "engine/joints/hinge.h"
 

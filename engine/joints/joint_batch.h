@@ -304,7 +304,8 @@ class JointBatch final : public JointFeature {
     return {};
   }
 
-  /// Value of a coordinate, and its gradient into `row`; `starts` are the values at the start of the substep.
+  /// Value of a coordinate, and its gradient into `row`; `starts` are the values at the start of
+  /// the substep.
   double measure(const Substep& substep, const Joint& joint, int k, std::span<const double> starts,
                  Row& row) const {
     if constexpr (coordinate_count == 0) {
@@ -339,7 +340,8 @@ class JointBatch final : public JointFeature {
       row.lower = row.upper = 0.0;
     }
   }
-  /// Whether the bodies move on, along the direction of their motion, whatever friction does in a substep.
+  /// Whether the bodies move on, along the direction of their motion, whatever friction does in a
+  /// substep.
   bool goes_on(const Substep& substep, const Joint& joint, const JointEffect& friction,
                std::span<const double> starts) const {
     Row row;

@@ -1,5 +1,6 @@
 #pragma once
-// Rows that act along a free coordinate c of a joint, all with its gradient (engine/joints/coordinate.h).
+// Rows that act along a free coordinate c of a joint, all with its gradient
+// (engine/joints/coordinate.h).
 //
 //   lower stop       C = c - lower >= 0           multiplier in [0, inf)
 //   upper stop       C = c - upper <= 0           multiplier in (-inf, 0]
@@ -13,7 +14,8 @@
 //   drive, force     the multiplier has equal bounds: the mean of F over the substep
 //   coupling         C = c                        of two coordinates: c = factor c1 + second factor c2
 //
-// c0 is the coordinate at the start of the substep. A drive that reaches its limit lags behind and stalls.
+// c0 is the coordinate at the start of the substep. A drive that reaches its limit lags behind and
+// stalls.
 
 #include <string>
 #include <vector>
@@ -38,7 +40,8 @@ struct JointEffect {
   double compliance = 0.0;        ///< [m/N or rad/(N m)]
   double damping = 0.0;           ///< [N s/m or N m s/rad]
   double limit = Row::unbounded;  ///< of the force [N or N m]
-  /// Friction in several directions: the coordinate whose direction is that of the motion; < 0 if there is but one direction.
+  /// Friction in several directions: the coordinate whose direction is that of the motion; < 0 if
+  /// there is but one direction.
   int motion = -1;
   TimeSignal signal;  ///< of drives
   int control =
@@ -89,13 +92,14 @@ class DriveDemand {
 void append_effects(const JointCoordinate& settings, int coordinate,
                     std::vector<JointEffect>& effects);
 
-/// By how much a coordinate with this value and rate is off what the drive asks for at `time`, while it has this force; 0 if
-/// it asks for nothing (JointCoordinateReport::drive_error).
+/// By how much a coordinate with this value and rate is off what the drive asks for at `time`,
+/// while it has this force; 0 if it asks for nothing (JointCoordinateReport::drive_error).
 [[nodiscard]] double drive_error(const JointEffect& drive, const DriveDemand& demand, double time,
                                  double force, double value, double rate);
 
-/// Why a joint cannot be locked with `row` of this effect as it is: a rigid stop that is passed, or a drive without limits that
-/// asks for another position, would be there with a blow. Empty if nothing. `scale` is the size of the scene [m].
+/// Why a joint cannot be locked with `row` of this effect as it is: a rigid stop that is passed, or
+/// a drive without limits that asks for another position, would be there with a blow. Empty if
+/// nothing. `scale` is the size of the scene [m].
 [[nodiscard]] std::string hold_fault(const JointEffect& effect, const JointCoordinateInfo& info,
                                      const Row& row, double scale);
 

@@ -1,8 +1,8 @@
 #pragma once
 // What a joint that was released and has been locked again holds.
 //
-// It holds what its type holds, from where its bodies are then: nothing jumps, and its coordinates read what they read before.
-// What is defined is changed by as little as that needs:
+// It holds what its type holds, from where its bodies are then: nothing jumps, and its coordinates
+// read what they read before. What is defined is changed by as little as that needs:
 //
 //   with a common anchor   A's anchor is where B's is now (in what the joint leaves free it keeps its distance), and A's axes are
 //                          those of B, turned back by the angles that are left free
@@ -52,7 +52,8 @@ struct JointHold {
   [[nodiscard]] Anchor applied(const Anchor& defined) const {
     return {defined.body, defined.point + shift, turn * defined.frame};
   }
-  /// What brings A's anchor from `defined` to the world point `point` [m] and the world frame `frame`.
+  /// What brings A's anchor from `defined` to the world point `point` [m] and the world frame
+  /// `frame`.
   [[nodiscard]] static JointHold of(const Anchor& defined, const Substep& now, const Vector3& point,
                                     const Quaternion& frame) {
     const Quaternion to_own = now.orientation(defined.body).conjugate();

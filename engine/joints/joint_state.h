@@ -9,9 +9,10 @@
 
 namespace sheave {
 
-/// Reals: generalised force per row [N or N m] of the last substep along the row's gradient, locks and effects joint by joint;
-/// then the coordinates [m or rad] of the joints that count them, angles with all turns; then when each joint broke [s], -1 for
-/// one that has not; then, as soon as one of them has been locked again, what each holds (JointHold).
+/// Reals: generalised force per row [N or N m] of the last substep along the row's gradient, locks
+/// and effects joint by joint; then the coordinates [m or rad] of the joints that count them,
+/// angles with all turns; then when each joint broke [s], -1 for one that has not; then, as soon as
+/// one of them has been locked again, what each holds (JointHold).
 struct JointStateLayout {
   std::size_t rows = 0;
   std::size_t coordinates = 0;

@@ -5,13 +5,14 @@
 
 namespace sheave {
 
-/// Makes those parts of the gradient 0 that are but rounding to the body's mobility: a row across the axis of a slider has
-/// 1e-17 along it, which would be enough for the row to hold the body.
+/// Makes those parts of the gradient 0 that are but rounding to the body's mobility: a row across
+/// the axis of a slider has 1e-17 along it, which would be enough for the row to hold the body.
 inline void drop_rounding(Row& row, std::span<const MovingBody> bodies) {
   const auto keep = [](const Matrix3& inverse, Vector3& gradient) {
     constexpr double rounding = 1e-12;
     const double full = inverse.trace() * gradient.norm();
-    // What nothing can move may yet move by itself: velocities of driven bodies count in those of rows.
+    // What nothing can move may yet move by itself: velocities of driven bodies count in those of
+    // rows.
     if (!(full > 0.0)) return;
     if (times(inverse, gradient).norm() <= rounding * full) gradient.setZero();
   };
@@ -22,8 +23,8 @@ inline void drop_rounding(Row& row, std::span<const MovingBody> bodies) {
   }
 }
 
-/// Takes what a unit multiplier of a joint's row does to the bodies: as the gradient of the row, and, if asked, as the wrench
-/// on one of them.
+/// Takes what a unit multiplier of a joint's row does to the bodies: as the gradient of the row,
+/// and, if asked, as the wrench on one of them.
 class JointTerms {
  public:
   JointTerms(const Substep& substep, Row& row) : substep_(substep), row_(row) {}

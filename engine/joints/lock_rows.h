@@ -1,8 +1,9 @@
 #pragma once
 // Rows that joint types have in common: what they keep from moving.
 //
-// n . (p_b - p_a) with a direction n fixed in A changes by n . d(p_b - p_a) + (d_a x n) . (p_b - p_a). The second part is
-// what the lever between the two points adds to the torque of -n on A: a force n acts at p_b on both.
+// n . (p_b - p_a) with a direction n fixed in A changes by n . d(p_b - p_a) + (d_a x n) . (p_b -
+// p_a). The second part is what the lever between the two points adds to the torque of -n on A: a
+// force n acts at p_b on both.
 
 #include "engine/joints/anchor.h"
 #include "engine/joints/joint_terms.h"
@@ -45,9 +46,9 @@ inline void lock_perpendicular(const Anchor& a, int axis, const Anchor& b, int a
   terms.add_torque(b.body, -gradient);
 }
 
-/// No relative rotation. The quaternion E = q_a q_b^-1 of the relative rotation of the frames, with w >= 0, is the identity:
-/// C = 2 E_k (the rotation vector for small errors). A world rotation d of A changes E to (1, d/2) E, one of B to
-/// E (1, -d/2), so with E = (w, v)
+/// No relative rotation. The quaternion E = q_a q_b^-1 of the relative rotation of the frames, with
+/// w >= 0, is the identity: C = 2 E_k (the rotation vector for small errors). A world rotation d of
+/// A changes E to (1, d/2) E, one of B to E (1, -d/2), so with E = (w, v)
 ///   dC_k = (w e_k + v x e_k) . d_a - (w e_k - v x e_k) . d_b.
 inline void lock_rotation(const Anchor& a, const Anchor& b, int index, JointTerms& terms) {
   Quaternion error = a.orientation(terms.substep()) * b.orientation(terms.substep()).conjugate();
@@ -59,10 +60,11 @@ inline void lock_rotation(const Anchor& a, const Anchor& b, int index, JointTerm
   terms.add_torque(b.body, -error.w() * axis + v.cross(axis));
 }
 
-/// The angle by which B has turned about the z axis of A's frame. With the rotation (w, v) from A's to B's frame, seen in
-/// A's frame, it is 2 atan2(v_z, w), up to whole turns. A rotation d of B changes the
-/// quaternion by dw = -d . v / 2, dv = (w d + d x v) / 2, so the angle by d . (w^2 z + w v x z + v_z v) / (w^2 + v_z^2).
-/// Exact for any tilt but half a turn across the axis, where there is no such angle.
+/// The angle by which B has turned about the z axis of A's frame. With the rotation (w, v) from A's
+/// to B's frame, seen in A's frame, it is 2 atan2(v_z, w), up to whole turns. A rotation d of B
+/// changes the quaternion by dw = -d . v / 2, dv = (w d + d x v) / 2, so the angle by d . (w^2 z +
+/// w v x z + v_z v) / (w^2 + v_z^2). Exact for any tilt but half a turn across the axis, where
+/// there is no such angle.
 inline void angle_about(const Anchor& a, const Anchor& b, JointTerms& terms) {
   const Quaternion frame = a.orientation(terms.substep());
   const Quaternion relative = frame.conjugate() * b.orientation(terms.substep());

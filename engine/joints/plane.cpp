@@ -1,7 +1,8 @@
-// Locks: B's anchor stays in the plane of A; the normal of A is perpendicular to two directions of B across its own
-// (lock_rows.h). Coordinates: the angle about the normal; and, for friction and damping, the sliding of B's anchor along
-// two directions in the plane, of which the first is that of its velocity against A at the start of the substep, so
-// that dry friction is the same in all directions.
+// Locks: B's anchor stays in the plane of A; the normal of A is perpendicular to two directions of
+// B across its own (lock_rows.h). Coordinates: the angle about the normal; and, for friction and
+// damping, the sliding of B's anchor along two directions in the plane, of which the first is that
+// of its velocity against A at the start of the substep, so that dry friction is the same in all
+// directions.
 
 #include "engine/joints/plane.h"
 

@@ -1,5 +1,5 @@
-// One row: C = travel of B - radius x angle of A, both against the carrier, the angle with all its turns; with backlash
-// two one-sided rows at half of it to each side.
+// One row: C = travel of B - radius x angle of A, both against the carrier, the angle with all its
+// turns; with backlash two one-sided rows at half of it to each side.
 
 #include "engine/joints/rack.h"
 

@@ -1,5 +1,5 @@
-// Locks: B's anchor stays on the axis, two directions of A across it; no relative rotation (lock_rows.h). Coordinate:
-// how far B's anchor has moved along the axis of A.
+// Locks: B's anchor stays on the axis, two directions of A across it; no relative rotation
+// (lock_rows.h). Coordinate: how far B's anchor has moved along the axis of A.
 
 #include "engine/joints/slider.h"
 

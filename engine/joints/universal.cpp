@@ -1,6 +1,6 @@
-// Locks: the anchors coincide; the axis u of A is perpendicular to the axis v of B (lock_rows.h). Coordinates: the turn of v
-// about u against A's v0, atan2(v . (u x v0), v . v0), which a rotation d of B against A changes, where u and v are
-// perpendicular or not, by
+// Locks: the anchors coincide; the axis u of A is perpendicular to the axis v of B (lock_rows.h).
+// Coordinates: the turn of v about u against A's v0, atan2(v . (u x v0), v . v0), which a rotation
+// d of B against A changes, where u and v are perpendicular or not, by
 //   d . ((v . v0) v x w0 - (v . w0) v x v0) / ((v . v0)^2 + (v . w0)^2),   w0 = u x v0;
 // and minus the turn of u about v against B's u0, by the same formula with the bodies exchanged.
 
@@ -12,8 +12,8 @@
 namespace sheave {
 namespace {
 
-/// Adds the angle by which the axis `pointer` of body `other` has turned about the axis `about` of `own` since time 0,
-/// times `sense`. The three axes of both frames were the same then.
+/// Adds the angle by which the axis `pointer` of body `other` has turned about the axis `about` of
+/// `own` since time 0, times `sense`. The three axes of both frames were the same then.
 void turn_of_axis(const Anchor& own, int about, const Anchor& other, int pointer, double sense,
                   JointTerms& terms) {
   const Quaternion frame = own.orientation(terms.substep());

@@ -4,8 +4,9 @@
 
 namespace sheave {
 
-/// All points beneath a plane through the shape's origin: a floor, a wall or a slope for colliders. It has no mass, so only
-/// static and kinematic bodies can have it, and nothing that a cable could be laid round.
+/// All points beneath a plane through the shape's origin: a floor, a wall or a slope for colliders.
+/// It has no mass, so only static and kinematic bodies can have it, and nothing that a cable could
+/// be laid round.
 class HalfSpace final : public Shape {
  public:
   Vector3 normal = Vector3::UnitY();  ///< away from the solid side; any length but 0

@@ -53,8 +53,8 @@ void append_ball_section(const Vector3& center, double radius, const SectionPlan
 
 void append_cylinder_section(double radius, double length, const SectionPlane& plane,
                              std::vector<Vector3>& points) {
-  // Line by line along the barrel, then the two end discs: linear, where the hull of all rim points would be
-  // quadratic.
+  // Line by line along the barrel, then the two end discs: linear, where the hull of all rim points
+  // would be quadratic.
   const Vector3 half(0.0, 0.0, 0.5 * length);
   const Vector3& n = plane.normal;
   for (int i = 0; i < curved_section_corners; ++i) {

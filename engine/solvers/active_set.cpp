@@ -82,7 +82,8 @@ bool ActiveSetSolver::attempt(ComplementarityProblem& problem, bool compromise, 
   solve_free(problem);
   if (course.yields) find_compromise(problem);
   mark_violations(problem);
-  // Also where violations go round: one that comes from a redundant row without its share tells the wrong bound.
+  // Also where violations go round: one that comes from a redundant row without its share tells the
+  // wrong bound.
   if (!course.yields && (violated_.empty() || course.left < 0)) {
     contradicts_ = false;
     const int blocking = blocking_unknown(problem);
@@ -270,8 +271,8 @@ void ActiveSetSolver::find_residuals(const ComplementarityProblem& problem) {
 
 int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem) {
   if (dropped_ == 0) return -1;
-  // Residuals of redundant rows that agree are rounding, more than that of a row of its own; what is overlooked here is
-  // larger against the constants of the next round.
+  // Residuals of redundant rows that agree are rounding, more than that of a row of its own; what
+  // is overlooked here is larger against the constants of the next round.
   constexpr double agreement = 1e-9;
   double largest = 0.0;
   for (const double constant : problem.constant) largest = std::max(largest, std::abs(constant));
@@ -309,7 +310,8 @@ int ActiveSetSolver::first_blocked(const ComplementarityProblem& problem, int re
     const bool above = rate > 0.0;
     const double bound = !above ? problem.lower[at(i)] : problem.upper[at(i)];
     const double way = (bound - solution_[at(i)]) / rate;
-    // Of unknowns that are blocked alike the redundant one itself stays free, which is what it needs.
+    // Of unknowns that are blocked alike the redundant one itself stays free, which is what it
+    // needs.
     if (way < nearest || (way == nearest && blocked == redundant)) {
       nearest = way;
       blocked = i;
@@ -320,7 +322,8 @@ int ActiveSetSolver::first_blocked(const ComplementarityProblem& problem, int re
 }
 
 double ActiveSetSolver::noise(const ComplementarityProblem& problem, std::size_t i) const {
-  // Per row: rows of one problem may be in metres and in radians, of a part of 1e-6 m and of a crane.
+  // Per row: rows of one problem may be in metres and in radians, of a part of 1e-6 m and of a
+  // crane.
   constexpr double rounding = 1e-13;
   double terms = std::abs(problem.constant[i]) + std::abs(problem.diagonal[i] * solution_[i]);
   for (int p = neighbour_start_[i]; p < neighbour_start_[i + 1]; ++p) {
@@ -337,7 +340,8 @@ void ActiveSetSolver::mark_violations(const ComplementarityProblem& problem) {
   for (int i = 0; i < problem.size; ++i) {
     const std::size_t k = at(i);
     if (problem.lower[k] == problem.upper[k]) continue;
-    // By how much the row's condition is broken, in the unit of c; what rounding leaves is no violation.
+    // By how much the row's condition is broken, in the unit of c; what rounding leaves is no
+    // violation.
     double broken = 0.0;
     if (problem.free[k] == 1) {
       const double outside =

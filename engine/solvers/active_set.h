@@ -2,18 +2,21 @@
 // The linear complementarity problem of rows with bounds, by block pivoting.
 //
 // Find dl with  r = c + A dl  so that each unknown is free with r = 0, or at its lower bound with r >= 0, or at its
-// upper bound with r <= 0. Given which ones are free, that is a linear system. Afterwards those that break their
-// conditions change sides, all at once as long as their number falls, otherwise only the last of them: Murty's rule, which
-// ends for every positive definite A (Judice and Pires, "Block pivoting for strictly monotone LCPs", 1994). Started
-// from the set of the last substep it mostly ends at the first try.
+// upper bound with r <= 0. Given which ones are free, that is a linear system. Afterwards those
+// that break their conditions change sides, all at once as long as their number falls, otherwise
+// only the last of them: Murty's rule, which ends for every positive definite A (Judice and Pires,
+// "Block pivoting for strictly monotone LCPs", 1994). Started from the set of the last substep it
+// mostly ends at the first try.
 //
-// Where A is singular, a free unknown can be redundant (its pivot is dropped) and yet contradict the others: a cable lifts a
-// weight that the floor's rows still hold down. Along the null vector z with z_j = 1 of the redundant unknown j no residual
-// changes, so dl + t z is as good a solution for every t; t goes the way that r_j wants until the first unknown meets its
-// bound, and that one is no longer free. If none does, nothing can satisfy the row: it contradicts the others. Which of them
-// was left out is then an accident of the order, so all of them give way: with the diagonal matrix D of A, e = 1e-6 and
-// B = A + e D, the solution dl = -B^-1 A B^-1 c leaves the residuals with the least sum of r^2 / D, and what it has along
-// the null vectors, forces that hold each other in balance without end, is nearly 0.
+// Where A is singular, a free unknown can be redundant (its pivot is dropped) and yet contradict
+// the others: a cable lifts a weight that the floor's rows still hold down. Along the null vector z
+// with z_j = 1 of the redundant unknown j no residual changes, so dl + t z is as good a solution
+// for every t; t goes the way that r_j wants until the first unknown meets its bound, and that one
+// is no longer free. If none does, nothing can satisfy the row: it contradicts the others. Which of
+// them was left out is then an accident of the order, so all of them give way: with the diagonal
+// matrix D of A, e = 1e-6 and B = A + e D, the solution dl = -B^-1 A B^-1 c leaves the residuals
+// with the least sum of r^2 / D, and what it has along the null vectors, forces that hold each
+// other in balance without end, is nearly 0.
 
 #include <span>
 #include <utility>
@@ -35,8 +38,8 @@ struct ComplementarityProblem {
   double rounding = 0.0;             ///< what c may be off by, whatever its size [unit of c]
   std::vector<double> lower;         ///< bounds of dl; where they are equal, r can be anything
   std::vector<double> upper;
-  /// Per unknown whether to begin with it free, 1, or at a bound, 0 (the lower one if that is finite) or at_upper; that of
-  /// the solution afterwards.
+  /// Per unknown whether to begin with it free, 1, or at a bound, 0 (the lower one if that is
+  /// finite) or at_upper; that of the solution afterwards.
   std::vector<char> free;
   static constexpr char at_upper = 2;
 };
@@ -45,20 +48,22 @@ class ActiveSetSolver {
  public:
   /// Where A has entries off its diagonal.
   void analyse(int size, std::span<const std::pair<int, int>> entries);
-  /// Returns false if there is none: where the tries go round in a circle, and where they take more factorisations than `work`
-  /// allows, or a number that grows with the size. `compromise`: rows that contradict each other all give way; otherwise
-  /// some of them are left out. `work` may be null: no limit.
+  /// Returns false if there is none: where the tries go round in a circle, and where they take more
+  /// factorisations than `work` allows, or a number that grows with the size. `compromise`: rows
+  /// that contradict each other all give way; otherwise some of them are left out. `work` may be
+  /// null: no limit.
   bool solve(ComplementarityProblem& problem, bool compromise = false, WorkLimit* work = nullptr);
 
-  /// Projected Gauss-Seidel from dl = 0 instead: sweeps over the unknowns in their order, as many unless `work` stops them.
+  /// Projected Gauss-Seidel from dl = 0 instead: sweeps over the unknowns in their order, as many
+  /// unless `work` stops them.
   void relax(const ComplementarityProblem& problem, int sweeps, WorkLimit* work = nullptr);
 
   [[nodiscard]] std::span<const double> solution() const { return solution_; }
   [[nodiscard]] int changes() const { return changes_; }  ///< of sides in the last solve()
   [[nodiscard]] int factorisations() const { return factorisations_; }  ///< in the last solve()
   [[nodiscard]] int dropped() const { return dropped_; }  ///< redundant rows in the last solve()
-  /// Solves again, with the matrix and the sets of the last solve(), after `problem.constant` has grown by `change`, and bounds
-  /// may have moved. False if
+  /// Solves again, with the matrix and the sets of the last solve(), after `problem.constant` has
+  /// grown by `change`, and bounds may have moved. False if
   /// these are not the right sets now; the solution is then still the last one.
   bool refine(const ComplementarityProblem& problem, std::span<const double> change);
   /// Whether in the last solve() some free rows contradicted each other.
@@ -88,7 +93,8 @@ class ActiveSetSolver {
   void mark_violations(const ComplementarityProblem& problem);
   /// What rounding leaves of row i's equation [unit of c].
   [[nodiscard]] double noise(const ComplementarityProblem& problem, std::size_t i) const;
-  /// The free unknown that has to go to its bound so that a redundant one is satisfied; -1: there is none.
+  /// The free unknown that has to go to its bound so that a redundant one is satisfied; -1: there
+  /// is none.
   [[nodiscard]] int blocking_unknown(const ComplementarityProblem& problem);
   [[nodiscard]] int first_blocked(const ComplementarityProblem& problem, int redundant,
                                   double direction);

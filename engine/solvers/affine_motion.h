@@ -1,9 +1,10 @@
 #pragma once
 // Machines in which nothing turns a row's gradient: wheels on fixed axles, and what slides.
 //
-// There the matrix of the rows is a constant, Newton's first round is the last one, and as long as the same rows act its factor
-// serves from substep to substep. What is left of a substep is a residual, two triangular sweeps, a check, and sums; all in flat
-// arrays. With C0 the value at the start of the substep, dq* the motion without constraints, and the rules of
+// There the matrix of the rows is a constant, Newton's first round is the last one, and as long as
+// the same rows act its factor serves from substep to substep. What is left of a substep is a
+// residual, two triangular sweeps, a check, and sums; all in flat arrays. With C0 the value at the
+// start of the substep, dq* the motion without constraints, and the rules of
 // engine/solvers/row_system.h, the unknowns l of the rows that act satisfy
 //
 //   r = p C0 + s min(C0, 0) + J dq* + (J W J^T + d) l = 0
@@ -12,12 +13,13 @@
 //   backward:  p = 1 / (1 + g), s = 0,                 d = p a / h^2,           g = a b / h
 //   midpoint:  p = 1,           s = (1 - g) / (1 + g), d = 4 a / (h^2 (1 + g)), g = 2 a b / h
 //
-// and then dq = dq* + W J^T l. `rattle` gives the velocities, after the second half of the loads, the other half of what springs
-// do and the impulses m of the rigid rows, J W J^T m = -J v.
+// and then dq = dq* + W J^T l. `rattle` gives the velocities, after the second half of the loads,
+// the other half of what springs do and the impulses m of the rigid rows, J W J^T m = -J v.
 //
-// Such a substep is taken only if its solution is one: the rows that had a force at its start have one, the others stay open,
-// none is redundant, and what is left of the equations is rounding. Everything else (a cable falls slack, a wheel has wound off
-// all its cable) the stages of engine/step.cpp do, which find the same motion. Which of the two it is follows from the state.
+// Such a substep is taken only if its solution is one: the rows that had a force at its start have
+// one, the others stay open, none is redundant, and what is left of the equations is rounding.
+// Everything else (a cable falls slack, a wheel has wound off all its cable) the stages of
+// engine/step.cpp do, which find the same motion. Which of the two it is follows from the state.
 
 #include <memory>
 #include <span>
@@ -33,13 +35,15 @@ namespace sheave {
 
 class AffineMotion {
  public:
-  /// Null if bodies or features of the model are not such, or it wants another solver. `bodies` and `features` must outlive it.
+  /// Null if bodies or features of the model are not such, or it wants another solver. `bodies` and
+  /// `features` must outlive it.
   static std::unique_ptr<AffineMotion> create(const Model& model, const BodySet& bodies,
                                               Features features);
 
-  /// Substeps `first` to before `last` of a step, one after the other, as many as are such: their number. `substep` keeps their statistics.
-  /// If these are all, `before` becomes the state before the last of them; if some are left, `start`, unless it is null or there
-  /// is none of them, becomes the state before all of them.
+  /// Substeps `first` to before `last` of a step, one after the other, as many as are such: their
+  /// number. `substep` keeps their statistics. If these are all, `before` becomes the state before
+  /// the last of them; if some are left, `start`, unless it is null or there is none of them,
+  /// becomes the state before all of them.
   int advance(int first, int last, State& state, State& before, Substep& substep, State* start);
   /// To be called when a state has come about in another way.
   void forget() { agree_ = false; }

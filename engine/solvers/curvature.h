@@ -1,14 +1,16 @@
 #pragma once
 // How forces turn while bodies move: the second derivatives of rows, times their multipliers.
 //
-// A row that acts with the force n at the arm r from a body's centre has the gradient (n, r x n). If the body turns by th, so
-// does the arm, and if the row is a span of length L between points that move by v1 and v2, its direction u turns, too:
+// A row that acts with the force n at the arm r from a body's centre has the gradient (n, r x n).
+// If the body turns by th, so does the arm, and if the row is a span of length L between points
+// that move by v1 and v2, its direction u turns, too:
 //
 //   d(r x n) = (th x r) x n + r x dn,   dn = +- du,   du = (1 - u u^T) (v2 - v1) / L,   v = d + th x r.
 //
-// r follows from the gradient but for its part along n, r . n, which rows tell (RowTerm::reach), as they tell 1 / L
-// (Row::turning); a row that tells nothing counts as straight. In one plane this is exact for wheels as well: the point where
-// the span leaves a wheel slides over it, but only by what is along u.
+// r follows from the gradient but for its part along n, r . n, which rows tell (RowTerm::reach), as
+// they tell 1 / L (Row::turning); a row that tells nothing counts as straight. In one plane this is
+// exact for wheels as well: the point where the span leaves a wheel slides over it, but only by
+// what is along u.
 //
 // dx . dJ / 2 is the second-order term of the row's value.
 
@@ -22,13 +24,14 @@ namespace sheave {
 
 class Curvature {
  public:
-  /// Takes up these rows but for those that are copies, which are straight, or have nothing that could turn them. Returns
-  /// whether any is left.
+  /// Takes up these rows but for those that are copies, which are straight, or have nothing that
+  /// could turn them. Returns whether any is left.
   bool collect(const RowList& rows, const Coordinates& coordinates,
                std::span<const MovingBody> bodies);
-  /// How the gradients of the rows turn with `motion`, which is along degrees of freedom: the motion that `multipliers` (per
-  /// row) make of that into `bent`, which has to be 0, and the second-order term of each row's value into `second_order`.
-  /// False where a span turns so far that its derivatives tell little.
+  /// How the gradients of the rows turn with `motion`, which is along degrees of freedom: the
+  /// motion that `multipliers` (per row) make of that into `bent`, which has to be 0, and the
+  /// second-order term of each row's value into `second_order`. False where a span turns so far
+  /// that its derivatives tell little.
   bool turn(const Coordinates& coordinates, std::span<const MovingBody> bodies,
             std::span<const double> multipliers, std::span<const double> motion,
             std::span<double> bent, std::span<double> second_order);

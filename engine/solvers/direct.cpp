@@ -43,7 +43,8 @@ void DirectSolver::solve(Substep& substep, Features features) {
     if (round > 0 && !revised && violated <= enough && (adding_up || arrives(substep, astray))) {
       break;
     }
-    // Rows that nothing can satisfy, between driven bodies, stay violated however many rounds there are.
+    // Rows that nothing can satisfy, between driven bodies, stay violated however many rounds there
+    // are.
     const bool settled = adding_up || compromise;
     if (round > 2 && settled && !revised && violated > stagnation * before) break;
     if (round == 0) first = violated;
@@ -62,7 +63,8 @@ void DirectSolver::solve(Substep& substep, Features features) {
       system_.linearise(substep, features, RowSystem::Rule::backward, true);
     }
     if (!system_.solve(substep, compromise)) return give_up(substep, features, round == 0);
-    // Where nothing swings the first round mostly is all there is, and gradients that are this much off are none the worse.
+    // Where nothing swings the first round mostly is all there is, and gradients that are this much
+    // off are none the worse.
     constexpr double least_swing = 1e-6;  // [rad]
     if (!compromise && round + 1 < substep.iterations &&
         (round > 0 || system_.swing() > least_swing)) {
@@ -70,7 +72,8 @@ void DirectSolver::solve(Substep& substep, Features features) {
     }
     system_.apply(substep, features);
     revised = false;
-    // What the last round finds would have no round to act in; the features decide it for the next substep.
+    // What the last round finds would have no round to act in; the features decide it for the next
+    // substep.
     if (round + 1 == substep.iterations) break;
     for (const auto& feature : features) revised = feature->revise(substep) || revised;
   }

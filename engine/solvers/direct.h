@@ -1,16 +1,19 @@
 #pragma once
 // All rows of a substep at once, by Newton's method.
 //
-// Each round solves engine/solvers/row_system.h with XPBD's compliance and damping. The first round leaves what the
-// motion of one substep bends the constraints by, the next one the square of it. Rounds end when no row is violated by
-// more than `tolerance` times the scene's size where its multipliers and the gradients found last put the bodies, to which
-// they are then moved, if that is no more than `across` (rows do not tell how far it is across them: up to the root of the
-// tolerance), at the latest after `iterations` of them. Where they do not come near a solution, or find no active set, the substep has failed; in one that
-// has to make do, what the rounds leave is kept, or Gauss-Seidel goes on, and is counted.
+// Each round solves engine/solvers/row_system.h with XPBD's compliance and damping. The first round
+// leaves what the motion of one substep bends the constraints by, the next one the square of it.
+// Rounds end when no row is violated by more than `tolerance` times the scene's size where its
+// multipliers and the gradients found last put the bodies, to which they are then moved, if that is
+// no more than `across` (rows do not tell how far it is across them: up to the root of the
+// tolerance), at the latest after `iterations` of them. Where they do not come near a solution, or
+// find no active set, the substep has failed; in one that has to make do, what the rounds leave is
+// kept, or Gauss-Seidel goes on, and is counted.
 //
-// At first each round starts again from the prediction, with the gradients of the last one, so that what rests has its
-// static forces. Where bodies swing too far within a substep for that, the rounds stop converging, and corrections are added
-// up instead: a chain of light links under a heavy ball, whose links swing across it by more than a radian per substep.
+// At first each round starts again from the prediction, with the gradients of the last one, so that
+// what rests has its static forces. Where bodies swing too far within a substep for that, the
+// rounds stop converging, and corrections are added up instead: a chain of light links under a
+// heavy ball, whose links swing across it by more than a radian per substep.
 
 #include "engine/solvers/gauss_seidel.h"
 #include "engine/solvers/row_system.h"
@@ -21,34 +24,40 @@ class DirectSolver {
  public:
   /// Violation at which a round is the last one, relative to the scene's size.
   static constexpr double tolerance = 1e-10;
-  /// Closer than this a row counts as closed when the velocities are found, relative to the scene's size: far below what a
-  /// substep moves, far above what the solver leaves.
+  /// Closer than this a row counts as closed when the velocities are found, relative to the scene's
+  /// size: far below what a substep moves, far above what the solver leaves.
   static constexpr double closed = 1e-8;
-  /// How far the bodies may be, in the same unit, from where the forces of the last round put them along the gradients of
-  /// the next one, to which they are then moved: what rows do not see of it, because it is across them.
+  /// How far the bodies may be, in the same unit, from where the forces of the last round put them
+  /// along the gradients of the next one, to which they are then moved: what rows do not see of it,
+  /// because it is across them.
   static constexpr double across = 1e-9;
   /// A round that leaves more than this share of the violation is the last one, too.
   static constexpr double stagnation = 0.9;
-  /// Rounds that shrink the violation by less than this are no fixed-point iteration worth going on with: from then on
-  /// corrections are added up (engine/solvers/row_system.h).
+  /// Rounds that shrink the violation by less than this are no fixed-point iteration worth going on
+  /// with: from then on corrections are added up (engine/solvers/row_system.h).
   static constexpr double slow = 0.5;
-  /// The same once the violation is larger by this than that of the first round, whatever the features decide meanwhile.
+  /// The same once the violation is larger by this than that of the first round, whatever the
+  /// features decide meanwhile.
   static constexpr double growth = 10.0;
 
-  /// What is left of the violation that the first round found counts as no solution above this share.
+  /// What is left of the violation that the first round found counts as no solution above this
+  /// share.
   static constexpr double nearly = 1e-3;
-  /// Corrections that have been added up can end far from implicit Euler, on another side of a short swing. It makes no
-  /// energy; what makes more than this share of the kinetic energy counts as no solution, either.
+  /// Corrections that have been added up can end far from implicit Euler, on another side of a
+  /// short swing. It makes no energy; what makes more than this share of the kinetic energy counts
+  /// as no solution, either.
   static constexpr double unresolved = 1e-2;
 
   void solve(Substep& substep, Features features);
 
  private:
-  /// No active set was found: leaves the substep to Gauss-Seidel, if it has to make do. `at_once`: in the first round.
+  /// No active set was found: leaves the substep to Gauss-Seidel, if it has to make do. `at_once`:
+  /// in the first round.
   void give_up(Substep& substep, Features features, bool at_once);
 
-  /// Where rows are met: whether the bodies are there, too, to where they are then moved. `astray` is how far they were off when
-  /// this was last asked, infinite at first, and becomes how far they are.
+  /// Where rows are met: whether the bodies are there, too, to where they are then moved. `astray`
+  /// is how far they were off when this was last asked, infinite at first, and becomes how far they
+  /// are.
   bool arrives(Substep& substep, double& astray) const;
 
   RowSystem system_;

@@ -8,9 +8,10 @@
 
 namespace sheave {
 
-/// Visits all rows of all features in a fixed order, `iterations` times, each re-evaluated at the current positions (the
-/// paper's solver; row update in engine/row.h). The rows of a stiff feature are visited all at once: one round of Newton's
-/// method on them alone, with what the others have done to the bodies taken as given (block Gauss-Seidel).
+/// Visits all rows of all features in a fixed order, `iterations` times, each re-evaluated at the
+/// current positions (the paper's solver; row update in engine/row.h). The rows of a stiff feature
+/// are visited all at once: one round of Newton's method on them alone, with what the others have
+/// done to the bodies taken as given (block Gauss-Seidel).
 class GaussSeidelSolver {
  public:
   void solve(Substep& substep, Features features);

@@ -38,8 +38,8 @@ void RowSystem::find_rubbing_rows() {
 double RowSystem::follow_pressure(bool first) {
   const std::span<const double> change = active_set_.solution();
   const auto unknown = [&](std::size_t g) { return groups_[g].multiplier + change[g]; };
-  // Bounds b follow pressures that follow bounds: a linear fixed point b = f(b), of which the last two steps tell the next
-  // (Anderson's method).
+  // Bounds b follow pressures that follow bounds: a linear fixed point b = f(b), of which the last
+  // two steps tell the next (Anderson's method).
   double product = 0.0;
   double square = 0.0;
   for (Rubbing& rubbing : rubbing_) {

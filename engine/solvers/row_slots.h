@@ -1,13 +1,15 @@
 #pragma once
 // The gradients of all rows along degrees of freedom, and the matrix that couples their unknowns.
 //
-// A row touches bodies, a body has one to six degrees of freedom: each of these is a slot, with the number J of the gradient
-// there and the motion W K that a unit of the row's multiplier causes. Rows that share an unknown are added up: J as they are,
-// W K times their weights. So an unknown is a block of slots for each body that it touches, and
+// A row touches bodies, a body has one to six degrees of freedom: each of these is a slot, with the
+// number J of the gradient there and the motion W K that a unit of the row's multiplier causes.
+// Rows that share an unknown are added up: J as they are, W K times their weights. So an unknown is
+// a block of slots for each body that it touches, and
 //
 //   A(i, j) = sum of J_i W K_j  over the slots of bodies that both touch.
 //
-// Which slots there are and which of them couple (the pattern) is found once and kept until rows touch other bodies.
+// Which slots there are and which of them couple (the pattern) is found once and kept until rows
+// touch other bodies.
 
 #include <span>
 #include <utility>
@@ -20,10 +22,11 @@ namespace sheave {
 
 class RowSlots {
  public:
-  /// Finds the slots of these rows, and what couples, unless it is known. Returns whether the pattern is another one.
+  /// Finds the slots of these rows, and what couples, unless it is known. Returns whether the
+  /// pattern is another one.
   bool find_pattern(const Coordinates& coordinates, const RowList& rows);
-  /// The gradients J of the rows, whose pattern it is, and how the bodies respond along them. Rows that are copies of what
-  /// they were last time have them already.
+  /// The gradients J of the rows, whose pattern it is, and how the bodies respond along them. Rows
+  /// that are copies of what they were last time have them already.
   void fill(const Coordinates& coordinates, const RowList& rows,
             std::span<const MovingBody> bodies);
   /// Lets row `row` act along the gradient of a row of `other` that touches the same bodies.
@@ -58,9 +61,10 @@ class RowSlots {
     return sum;
   }
 
-  /// Brings A up to date with what fill(), act_along() and join() have changed: the diagonal, 0 where it is but rounding (where
-  /// the rows of an unknown cancel, because nothing but a wheel that the cable slides over can move, the unknown has nothing
-  /// to move), A(i, j) of each entry (i, j) and, if it is asked for, A(j, i).
+  /// Brings A up to date with what fill(), act_along() and join() have changed: the diagonal, 0
+  /// where it is but rounding (where the rows of an unknown cancel, because nothing but a wheel
+  /// that the cable slides over can move, the unknown has nothing to move), A(i, j) of each entry
+  /// (i, j) and, if it is asked for, A(j, i).
   void assemble(bool symmetric);
   [[nodiscard]] std::span<const double> diagonal() const { return diagonal_; }
   [[nodiscard]] const std::vector<double>& above() const { return above_; }

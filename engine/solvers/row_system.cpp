@@ -326,8 +326,9 @@ double RowSystem::violation() const {
     const double r = problem_.constant[g];
     // Seen whatever bounds there are: no round mends it.
     if (!std::isfinite(r)) return std::numeric_limits<double>::infinity();
-    // An unknown can make up for what its bounds leave room for: friction that slips and a force that has just ended are
-    // none of a violation, though bounds that follow other forces have moved on a little.
+    // An unknown can make up for what its bounds leave room for: friction that slips and a force
+    // that has just ended are none of a violation, though bounds that follow other forces have
+    // moved on a little.
     const double room = r > 0.0 ? -problem_.lower[g] : problem_.upper[g];
     if (!(room > 0.0)) continue;
     double off = std::abs(r);
@@ -423,8 +424,8 @@ void RowSystem::apply(Substep& substep, Features features) {
 }
 
 void RowSystem::assemble() {
-  // The factor 1 + g that damping gives a row's gradient is that of its group's S, so A has neither.
-  // Sweeps that replace a solution take the matrix as it is.
+  // The factor 1 + g that damping gives a row's gradient is that of its group's S, so A has
+  // neither. Sweeps that replace a solution take the matrix as it is.
   if (assembled_) return;
   assembled_ = true;
   slots_.assemble(problem_.symmetric);

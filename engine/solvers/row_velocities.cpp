@@ -1,4 +1,5 @@
-// The velocity problem of engine/solvers/row_system.h: dC/dt = J v + the explicit change of C with time.
+// The velocity problem of engine/solvers/row_system.h: dC/dt = J v + the explicit change of C with
+// time.
 
 #include <algorithm>
 #include <cmath>
@@ -24,8 +25,8 @@ void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
   const double closed = DirectSolver::closed * substep.bodies.scale();
   const double share =
       0.5 / substep.h;  // of the bounds, for an impulse in the second half of the substep
-  // Velocities alone tell nothing of forces that hold each other in balance. They stay what they were in the first half,
-  // where the bounds and the links have judged them.
+  // Velocities alone tell nothing of forces that hold each other in balance. They stay what they
+  // were in the first half, where the bounds and the links have judged them.
   const bool redundant = positions.active_set_.dropped() > 0;
   std::swap(rows_, positions.rows_);  // which have served their turn
   for (Row& row : rows_) std::swap(row.weight, row.start_weight);
@@ -118,7 +119,8 @@ void RowSystem::start_from_impulses() {
 }
 
 void RowSystem::act_springs(Substep& substep) {
-  // Their force at the middle of the substep, F = 2 l / h^2, acts for the second half along the gradient of the end.
+  // Their force at the middle of the substep, F = 2 l / h^2, acts for the second half along the
+  // gradient of the end.
   motion_.assign(at(substep.bodies.coordinates().count()), 0.0);
   bool any = false;
   for (std::size_t i = 0; i < rows_.size(); ++i) {

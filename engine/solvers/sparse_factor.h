@@ -1,15 +1,18 @@
 #pragma once
-// Factorisation of a sparse matrix with a symmetric pattern, for constraint rows: A = L D L^T of a symmetric positive
-// semidefinite one, A = L D U of one that is nearly so (friction, gradients of two moments).
+// Factorisation of a sparse matrix with a symmetric pattern, for constraint rows: A = L D L^T of a
+// symmetric positive semidefinite one, A = L D U of one that is nearly so (friction, gradients of
+// two moments).
 //
-// Up-looking (Davis, "Direct Methods for Sparse Linear Systems", 2006, chapter 4): row k of L solves a triangular system
-// with the rows before it, and which of its entries are not zero follows from the elimination tree, found once per
-// pattern. A chain, such as the spans of a cable over wheels, has one entry per row, next to the diagonal: there the
-// same operations are those of a tridiagonal solver, and are written as one.
+// Up-looking (Davis, "Direct Methods for Sparse Linear Systems", 2006, chapter 4): row k of L
+// solves a triangular system with the rows before it, and which of its entries are not zero follows
+// from the elimination tree, found once per pattern. A chain, such as the spans of a cable over
+// wheels, has one entry per row, next to the diagonal: there the same operations are those of a
+// tridiagonal solver, and are written as one.
 //
-// Redundant rows make A singular: a belt round two wheels, a frame with more joints than degrees of freedom. Their
-// pivots are what rounding leaves of zero. A pivot below `dropped_pivot` times the diagonal entry it started from is left
-// out: that unknown stays 0, and the others satisfy its equation too, if it can be satisfied.
+// Redundant rows make A singular: a belt round two wheels, a frame with more joints than degrees of
+// freedom. Their pivots are what rounding leaves of zero. A pivot below `dropped_pivot` times the
+// diagonal entry it started from is left out: that unknown stays 0, and the others satisfy its
+// equation too, if it can be satisfied.
 
 #include <span>
 #include <utility>
@@ -19,16 +22,18 @@ namespace sheave {
 
 class SparseFactor {
  public:
-  /// Relative size of a pivot that counts as 0. Rounding leaves some 1e-16 of the diagonal; a wheel of 1e-12 kg m2 in a
-  /// cable between kilograms still has 1e-10.
+  /// Relative size of a pivot that counts as 0. Rounding leaves some 1e-16 of the diagonal; a wheel
+  /// of 1e-12 kg m2 in a cable between kilograms still has 1e-10.
   static constexpr double dropped_pivot = 1e-14;
 
-  /// Prepares for n x n matrices whose entries off the diagonal are at `entries`, (row, column) with row != column, each
-  /// pair once in either order. Chooses the order of elimination.
+  /// Prepares for n x n matrices whose entries off the diagonal are at `entries`, (row, column)
+  /// with row != column, each pair once in either order. Chooses the order of elimination.
   void analyse(int n, std::span<const std::pair<int, int>> entries);
-  /// Factors the symmetric matrix with this diagonal and these values of the entries given to analyse(), in their order.
+  /// Factors the symmetric matrix with this diagonal and these values of the entries given to
+  /// analyse(), in their order.
   void factor(std::span<const double> diagonal, std::span<const double> values);
-  /// Factors the matrix whose entry (i, j) of the pattern has the first value and (j, i) the second. Without pivoting.
+  /// Factors the matrix whose entry (i, j) of the pattern has the first value and (j, i) the
+  /// second. Without pivoting.
   void factor(std::span<const double> diagonal, std::span<const double> values,
               std::span<const double> transposed_values);
   /// Solves A x = b in place.
@@ -45,8 +50,9 @@ class SparseFactor {
 
  private:
   [[nodiscard]] int count_fill(std::span<const std::pair<int, int>> entries);
-  /// The places of row k of L that are not 0, in an order in which each depends on earlier ones only: path_ from the
-  /// returned place on. Scatters the entries of A above the diagonal into work_, and those below into lower_work_.
+  /// The places of row k of L that are not 0, in an order in which each depends on earlier ones
+  /// only: path_ from the returned place on. Scatters the entries of A above the diagonal into
+  /// work_, and those below into lower_work_.
   int scatter(int k, std::span<const double> values, const double* transposed_values);
   void begin_factor(std::span<const double> diagonal);
   /// The factors of a chain; null `transposed_values`: symmetric.

@@ -53,7 +53,8 @@ int reset_structs(std::vector<Def>& list, const FieldNames& names) {
   return count;
 }
 
-/// The definition again with the named fields of its type at their defaults; null if nothing changes.
+/// The definition again with the named fields of its type at their defaults; null if nothing
+/// changes.
 template <class Def>
 std::shared_ptr<const Def> reset_one(std::span<const TypeEntry<Def>> types, const Def& old,
                                      const FieldNames& names) {

@@ -1,5 +1,6 @@
 #pragma once
-// Rungs that set fields to their defaults, by the field tables: what a type says of itself is all they need.
+// Rungs that set fields to their defaults, by the field tables: what a type says of itself is all
+// they need.
 
 #include <initializer_list>
 #include <string>
@@ -11,7 +12,8 @@
 
 namespace sheave::measure {
 
-/// Names of fields. Those of joints with several coordinates begin with the coordinate's: "damping" is also "twist_damping".
+/// Names of fields. Those of joints with several coordinates begin with the coordinate's: "damping"
+/// is also "twist_damping".
 using FieldNames = std::vector<std::string_view>;
 
 /// Each returns how many things it changed.

@@ -18,7 +18,8 @@ Vector3 axle_of(const BodyDef& rotor) {
   return rotor.orientation.normalized() * Vector3::UnitZ();
 }
 
-/// Moments of inertia about the body's axes of a mounted rotor as a body of its own; nothing if there is no such body.
+/// Moments of inertia about the body's axes of a mounted rotor as a body of its own; nothing if
+/// there is no such body.
 std::optional<Vector3> moments_of_mounted(const BodyDef& rotor) {
   if (rotor.shapes.empty() && !rotor.inertia) return std::nullopt;
   const MassProperties unit = combine(rotor.shapes, 1.0);

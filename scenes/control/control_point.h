@@ -1,5 +1,6 @@
 #pragma once
-// What can be set while a simulation runs, by name: the outputs of controllers, and what triggers change.
+// What can be set while a simulation runs, by name: the outputs of controllers, and what triggers
+// change.
 
 #include <functional>
 #include <span>

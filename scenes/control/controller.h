@@ -1,5 +1,6 @@
 #pragma once
-// What every type of controller must provide. Adding one: a file in scenes/control/ and a line in controller_registry.cpp.
+// What every type of controller must provide. Adding one: a file in scenes/control/ and a line in
+// controller_registry.cpp.
 
 #include <memory>
 #include <optional>
@@ -23,8 +24,9 @@ struct ControllerInput {
   bool first = false;     ///< whether it acts for the first time since it was switched on
 };
 
-/// Leads an observable to a setpoint by a control. It acts at the first substep's start at or behind each multiple of its sample
-/// time, and what it sets holds until it acts again. Settings; derived types add their own.
+/// Leads an observable to a setpoint by a control. It acts at the first substep's start at or
+/// behind each multiple of its sample time, and what it sets holds until it acts again. Settings;
+/// derived types add their own.
 class ControllerDef {
  public:
   virtual ~ControllerDef() = default;

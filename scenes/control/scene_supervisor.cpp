@@ -47,7 +47,8 @@ Error at_path(const Errors& errors, const std::string& path) {
   return {path, errors.front().message};
 }
 
-/// When what is due at `due` is done: at the start of the substep nearest to it. Times are sums of steps.
+/// When what is due at `due` is done: at the start of the substep nearest to it. Times are sums of
+/// steps.
 bool is_due(double time, double due, double substep) { return time > due - 1e-6 * substep; }
 
 double substep_of(const Simulation& simulation) {

@@ -13,9 +13,10 @@
 
 namespace sheave {
 
-/// Acts before each substep: triggers first, then controllers, both in the order of the scene. What it remembers is part of the
-/// state (State::memory): whether the run stops, how often a control has refused a value; per trigger when it has acted last and
-/// whether its condition holds; per controller whether it is on, how many samples have been due, and what the controller itself
+/// Acts before each substep: triggers first, then controllers, both in the order of the scene. What
+/// it remembers is part of the state (State::memory): whether the run stops, how often a control
+/// has refused a value; per trigger when it has acted last and whether its condition holds; per
+/// controller whether it is on, how many samples have been due, and what the controller itself
 /// remembers.
 class SceneSupervisor final : public Supervisor {
  public:
@@ -74,8 +75,8 @@ class SceneSupervisor final : public Supervisor {
   std::size_t memory_size_ = 2;
 };
 
-/// Sets what controllers and triggers may set once, at their limits, at the start of a simulation of its own: what of it cannot
-/// be set at all.
+/// Sets what controllers and triggers may set once, at their limits, at the start of a simulation
+/// of its own: what of it cannot be set at all.
 [[nodiscard]] Errors try_controls(const Scene& scene);
 
 /// The simulation of a scene, with its controllers and triggers.

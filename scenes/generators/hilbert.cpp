@@ -1,20 +1,25 @@
-// A cable along a Hilbert curve in space (hilbert_curve.cpp): a motor's drum before its first point, a wheel wherever it
-// turns, a weight below its last point. Where it goes straight on there is nothing to hold a cable, and no wheel.
+// A cable along a Hilbert curve in space (hilbert_curve.cpp): a motor's drum before its first
+// point, a wheel wherever it turns, a weight below its last point. Where it goes straight on there
+// is nothing to hold a cable, and no wheel.
 //
-// A wheel of radius r at a turn P from direction e1 to e2 has its centre at P + r (e2 - e1), inside the turn: both edges of
-// the curve are then tangents. So every free span runs along the curve, and it lies in the planes of both its wheels although
-// these are mostly perpendicular to each other; nothing kinks, and no wheel has to be indented as in the paper's figure 18.
-// A wheel reaches 2 r along both edges, so r < spacing / 4 keeps neighbours apart.
+// A wheel of radius r at a turn P from direction e1 to e2 has its centre at P + r (e2 - e1), inside
+// the turn: both edges of the curve are then tangents. So every free span runs along the curve, and
+// it lies in the planes of both its wheels although these are mostly perpendicular to each other;
+// nothing kinks, and no wheel has to be indented as in the paper's figure 18. A wheel reaches 2 r
+// along both edges, so r < spacing / 4 keeps neighbours apart.
 //
-// The cable does not slip. Once it is taut all rims move at the speed v at which the motor winds it up. With the wheels'
-// J = m r^2 / 2 and the drag c of their bearings a wheel needs the difference of tensions
+// The cable does not slip. Once it is taut all rims move at the speed v at which the motor winds it
+// up. With the wheels' J = m r^2 / 2 and the drag c of their bearings a wheel needs the difference
+// of tensions
 //   d(v, a) = m a / 2 + c v / r^2,    a = dv/dt;
-// behind the first k of n wheels the tension is T_k = M (g + a) + (n - k) d(v, a). All wheels start with the motor.
+// behind the first k of n wheels the tension is T_k = M (g + a) + (n - k) d(v, a). All wheels start
+// with the motor.
 //
-// With a slack s in each span wheel k (1 ... n) stands still until k s have been wound up, is then set in motion with one jerk
-// (the cable is rigid and an impact inelastic, so no rim ever overtakes the cable), and follows: its rim has moved w - k s
-// when w has been wound up. The weight stands on the floor until w = (n + 1) s. With k wheels running the first span carries
-// k d(v, 0), so the motor's load climbs in n steps.
+// With a slack s in each span wheel k (1 ... n) stands still until k s have been wound up, is then
+// set in motion with one jerk (the cable is rigid and an impact inelastic, so no rim ever overtakes
+// the cable), and follows: its rim has moved w - k s when w has been wound up. The weight stands on
+// the floor until w = (n + 1) s. With k wheels running the first span carries k d(v, 0), so the
+// motor's load climbs in n steps.
 
 #include <algorithm>
 #include <cmath>
@@ -187,8 +192,9 @@ class Hilbert {
              std::max(0.0, options_.wound(time) - slack) / options_.radius,
              1e-10 * size * (wheels_ + 1) / options_.radius, std::move(because));
   }
-  /// The means over the substep that ends at the time, with k wheels running. Within it drag changes a wheel's speed by up
-  /// to c h / J of itself before the cable makes up for it, so the wheels' part is known as well as that.
+  /// The means over the substep that ends at the time, with k wheels running. Within it drag
+  /// changes a wheel's speed by up to c h / J of itself before the cable makes up for it, so the
+  /// wheels' part is known as well as that.
   void check_tensions(double near, int running, bool lifting, const std::string& because) {
     const double time = step_near(near);
     if (time > scene_.duration) return;
@@ -242,7 +248,8 @@ class Hilbert {
       check_angle(k, options_.time_of((k - 0.5) * slack), k * slack, because);
       check_angle(k, options_.time_of((k + 0.5) * slack), k * slack, because);
       check_angle(k, scene_.duration, k * slack, "and stays with the cable");
-      // Not while the motor speeds up, where the wheels that run take some of the tension for that, too.
+      // Not while the motor speeds up, where the wheels that run take some of the tension for that,
+      // too.
       const double between = options_.time_of((k + 0.5) * slack);
       if (between > HilbertOptions::start + options_.ramp && jerks_are_apart()) {
         check_tensions(between, k, false,

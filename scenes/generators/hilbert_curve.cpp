@@ -1,12 +1,14 @@
-// A Hilbert curve in space, by its own definition: the curve of order n visits the eight octants of a cube along a path of
-// edges, and in each octant it is the curve of order n - 1, turned or mirrored so that the pieces join.
+// A Hilbert curve in space, by its own definition: the curve of order n visits the eight octants of
+// a cube along a path of edges, and in each octant it is the curve of order n - 1, turned or
+// mirrored so that the pieces join.
 //
-// There are many such curves. The paper lists 62 cable joints for its second and 498 for its third order, of 64 and 512
-// points. With a wheel only where the curve turns, and the cable's two ends at its first and last point, a curve that goes
-// straight on at s points has 8^order - s - 1 joints, so the table asks for s = 1 and s = 13. The commonest curves do not
-// fit it (s = 2 and 20, or 6 and 50; a curve that reads the same from both ends has an even s), but of those with neighbouring ends
-// whose octants are only turned and mirrored, never run backwards, five do. This is one of the five: its path through the
-// octants is the usual one; only how they are turned differs.
+// There are many such curves. The paper lists 62 cable joints for its second and 498 for its third
+// order, of 64 and 512 points. With a wheel only where the curve turns, and the cable's two ends at
+// its first and last point, a curve that goes straight on at s points has 8^order - s - 1 joints,
+// so the table asks for s = 1 and s = 13. The commonest curves do not fit it (s = 2 and 20, or 6
+// and 50; a curve that reads the same from both ends has an even s), but of those with neighbouring
+// ends whose octants are only turned and mirrored, never run backwards, five do. This is one of the
+// five: its path through the octants is the usual one; only how they are turned differs.
 
 #include <array>
 
@@ -17,8 +19,8 @@ namespace {
 
 using Axes = std::array<Eigen::Vector3i, 3>;
 
-/// Where an octant is, and the directions in which its own curve takes the axes: axis[i] = 1, 2, 3 for x, y, z of the whole
-/// cube, negative for the opposite direction.
+/// Where an octant is, and the directions in which its own curve takes the axes: axis[i] = 1, 2, 3
+/// for x, y, z of the whole cube, negative for the opposite direction.
 struct Octant {
   std::array<int, 3> side;  // -1 or 1 along x, y, z
   std::array<int, 3> axis;

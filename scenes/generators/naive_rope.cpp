@@ -1,5 +1,5 @@
-// A rope over two wheels as jointed rigid segments, with a weight at each end (figure 14 of the paper), or, to compare with,
-// the same machine with one cable.
+// A rope over two wheels as jointed rigid segments, with a weight at each end (figure 14 of the
+// paper), or, to compare with, the same machine with one cable.
 //
 //        __________          Segments are tangents of the rope's centre line, which has the radius S = R + r on a wheel: k of them
 //      /            \        to a quarter of a turn have the length
@@ -9,13 +9,14 @@
 //                            of which the first of each side hangs beside its wheel's centre. About 8 N / 100 segments are a
 //                            quarter of a turn and N / 3 the way between the wheels; m is odd if N is even and even if N is odd.
 //
-// Weights of M each: the machine is in balance and nothing moves, every span of the cable carries M g. A joint of the rope
-// carries M g and what rope hangs under it.
+// Weights of M each: the machine is in balance and nothing moves, every span of the cable carries M
+// g. A joint of the rope carries M g and what rope hangs under it.
 //
-// Why the naive rope is hard. A joint is as good as the errors that have reached it, and these pass one joint per sweep: in a
-// substep the weights fall by g h^2 whatever the rope holds back, so that it gives like rubber. And a segment of mass m between
-// joints that pull with T swings across them with up to 2 sqrt(T / m l): what is solved along the gradients of the last round
-// converges only while h times that is about 1, which for 100 segments are some 16 substeps of 1/960 s.
+// Why the naive rope is hard. A joint is as good as the errors that have reached it, and these pass
+// one joint per sweep: in a substep the weights fall by g h^2 whatever the rope holds back, so that
+// it gives like rubber. And a segment of mass m between joints that pull with T swings across them
+// with up to 2 sqrt(T / m l): what is solved along the gradients of the last round converges only
+// while h times that is about 1, which for 100 segments are some 16 substeps of 1/960 s.
 
 #include <array>
 #include <cmath>
@@ -198,7 +199,8 @@ class NaiveRope {
     add_rope_checks();
   }
 
-  /// A rope that holds keeps the weights where they are; at rest on the floor they are floor_below deeper.
+  /// A rope that holds keeps the weights where they are; at rest on the floor they are floor_below
+  /// deeper.
   void add_rope_checks() {
     const bool coarse = options_.substeps == 1 && options_.segments >= 100;
     const double rest = floor_height() + 0.5 * load_edge;

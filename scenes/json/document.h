@@ -74,10 +74,10 @@ class Document {
                         Faults& faults);
 
   /// Sets the value at `pointer` to the JSON in `value`; a bare word counts as a string. Its parent
-  /// must exist; a member of an object may be new, an element of an array may not. Elements of an array may be told by
-  /// their "name" (/bodies/drum/mass); a number is their place. Objects named in
-  /// `implied`, pointers of one level, are made if they are missing. `origin` is what errors call
-  /// the source of the text.
+  /// must exist; a member of an object may be new, an element of an array may not. Elements of an
+  /// array may be told by their "name" (/bodies/drum/mass); a number is their place. Objects named
+  /// in `implied`, pointers of one level, are made if they are missing. `origin` is what errors
+  /// call the source of the text.
   void set(std::string_view pointer, std::string_view value, std::string origin,
            std::span<const std::string_view> implied, const Limits& limits, Faults& faults);
 
@@ -140,7 +140,8 @@ class Document {
   [[nodiscard]] Node& node(NodeId id) { return nodes_[static_cast<std::size_t>(id)]; }
   NodeId parse_source(std::string_view text, std::string name, const Limits& limits,
                       Faults& faults);
-  /// The element of an array that this step of a pointer means, by its place or its name, or no_node.
+  /// The element of an array that this step of a pointer means, by its place or its name, or
+  /// no_node.
   [[nodiscard]] NodeId element(NodeId array, const std::string& step) const;
   /// The names of an array's elements, as far as they have any.
   [[nodiscard]] std::vector<std::string_view> names(NodeId array) const;

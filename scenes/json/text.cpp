@@ -18,7 +18,8 @@ std::string_view wide_encoding(std::string_view text) {
     std::string_view bytes;
     std::string_view name;
   };
-  // Byte order marks; then "{", "[" or blank as such texts have it without one. The longer ones first.
+  // Byte order marks; then "{", "[" or blank as such texts have it without one. The longer ones
+  // first.
   using namespace std::string_view_literals;
   static constexpr std::array<Mark, 4> marks{{{"\xff\xfe\0\0"sv, "UTF-32"},
                                               {"\0\0\xfe\xff"sv, "UTF-32"},

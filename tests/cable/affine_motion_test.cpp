@@ -1,8 +1,9 @@
-// Substeps of machines in which nothing turns a row's gradient (engine/solvers/affine_motion.h) against the stages of
-// engine/step.cpp, which any machine takes that has a free body besides: it need not have to do with anything.
+// Substeps of machines in which nothing turns a row's gradient (engine/solvers/affine_motion.h)
+// against the stages of engine/step.cpp, which any machine takes that has a free body besides: it
+// need not have to do with anything.
 //
-// Both solve the same equations, so what differs is rounding: some 1e-16 of the lengths per substep, over 1e3 substeps and twice
-// integrated at most 1e-10.
+// Both solve the same equations, so what differs is rounding: some 1e-16 of the lengths per
+// substep, over 1e3 substeps and twice integrated at most 1e-10.
 
 #include "engine/solvers/affine_motion.h"
 
@@ -163,7 +164,8 @@ TEST_P(AffineMotion, DrumThatRunsOutIsLeftToTheStages) {
   test::Machine m = winch(integrator(), substeps(), DriveKind::none);
   m.model.bodies[0].drive_times.clear();
   m.model.bodies[0].drive_values.clear();
-  // It is at an end after 82 to 84 steps; later it swings through its dead point, and rounding grows.
+  // It is at an end after 82 to 84 steps; later it swings through its dead point, and rounding
+  // grows.
   compare(m, 86, 70);
 }
 

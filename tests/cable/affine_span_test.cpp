@@ -1,5 +1,6 @@
-// Affine spans against the geometry of spans: wherever the bodies are, the row's value is the rest length, with what the wheels
-// have given, less the length that the general geometry finds, and nothing turns the gradient.
+// Affine spans against the geometry of spans: wherever the bodies are, the row's value is the rest
+// length, with what the wheels have given, less the length that the general geometry finds, and
+// nothing turns the gradient.
 
 #include "cable/affine_span.h"
 
@@ -17,7 +18,8 @@ using test::g;
 using test::right;
 using test::roll;
 
-/// Wheels on fixed axles in three planes, and a weight that slides below the first and one below the last.
+/// Wheels on fixed axles in three planes, and a weight that slides below the first and one below
+/// the last.
 test::Machine skew_wheels() {
   test::Machine m;
   m.model.gravity = test::down;
@@ -82,8 +84,9 @@ TEST(AffineSpan, RunFromASnapshotIsTheSameBitForBit) {
 }
 
 TEST(AffineSpan, DragThatDependsOnTheStepIsThatOfTheStep) {
-  // All have the same ratio k of drag to inertia, so v = a (1 - e^(-k t)) / k, with the decay exact for any step. (The
-  // inverse masses that rows are copied with belong to the length of the substep.)
+  // All have the same ratio k of drag to inertia, so v = a (1 - e^(-k t)) / k, with the decay exact
+  // for any step. (The inverse masses that rows are copied with belong to the length of the
+  // substep.)
   test::Machine m = test::Atwood{.m1 = 1.0, .m2 = 2.0, .inertia = 0.0625}.machine();
   // J / r^2 = 1 kg.
   m.model.bodies[0].angular_damping = 0.5 * 0.0625;

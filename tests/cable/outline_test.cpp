@@ -92,8 +92,9 @@ TEST(Outline, DistanceIsTheLengthOfTheCurve) {
     walked += (here - last).norm();
     last = here;
   }
-  // A chord of the angle a falls short of its arc by r a^3 / 24; and where a step crosses an edge, the chord cuts
-  // the two corners' arcs, at most 2 r a each, in 2.6 turns at most 26 times per corner.
+  // A chord of the angle a falls short of its arc by r a^3 / 24; and where a step crosses an edge,
+  // the chord cuts the two corners' arcs, at most 2 r a each, in 2.6 turns at most 26 times per
+  // corner.
   const double angle = (to - from) / steps;
   EXPECT_NEAR(outline.distance(corner, to) - start, walked,
               4.0 * outline.corner_count() * outline.corner_radius() * angle * angle +

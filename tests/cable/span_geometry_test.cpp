@@ -220,8 +220,9 @@ TEST(SpatialSpan, IsTangentToBothCirclesSeenAlongTheirNormals) {
 }
 
 TEST(SpatialSpan, AGuessDecidesNothing) {
-  // Guesses from as near as rounding to anywhere on the rims. Both searches end within 1e-14 of the solution, times the
-  // condition 1/l of a tangent that is short as seen along a normal, at either end.
+  // Guesses from as near as rounding to anywhere on the rims. Both searches end within 1e-14 of the
+  // solution, times the condition 1/l of a tangent that is short as seen along a normal, at either
+  // end.
   Random random;
   int without = 0;
   for (int i = 0; i < 50000; ++i) {

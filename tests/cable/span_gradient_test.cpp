@@ -42,8 +42,8 @@ struct Bodies {
   }
 };
 
-/// The rows of a batch with the value -a T, T = -value / compliance, a that of the first call: the tension as a function of
-/// the positions.
+/// The rows of a batch with the value -a T, T = -value / compliance, a that of the first call: the
+/// tension as a function of the positions.
 class TensionRows final : public ConstraintBatch {
  public:
   explicit TensionRows(ConstraintBatch& batch) : batch_(batch) {}
@@ -149,8 +149,9 @@ TEST(SpanGradient, PlanarWithSheavesMountedOnAPlanarBlock) {
   expect_exact(b.check(0.1, 0.3));
 }
 
-// The force on rims is T R whatever the strain: virtual work, and so a dT = -(gradient) dx. At the start of a substep, where
-// what lies on the wheels has the strain of the spans; differences go 1e-3 to either side, through coming off and on.
+// The force on rims is T R whatever the strain: virtual work, and so a dT = -(gradient) dx. At the
+// start of a substep, where what lies on the wheels has the strain of the spans; differences go
+// 1e-3 to either side, through coming off and on.
 TEST(SpanGradient, OfAStretchedMaterialIsThatOfItsTension) {
   Bodies b;
   const BodyId w1 = b.add(test::wheel("w1", {0.0, 0.0, 0.0}, 0.3, 0.05));
@@ -173,13 +174,14 @@ TEST(SpanGradient, OfAStretchedMaterialIsThatOfItsTension) {
     rows.begin(substep, world.state().features.back());
     const test::GradientCheck result = test::check_gradients(substep, rows, true);
     EXPECT_GT(result.compared, 4);
-    // Second derivatives jump where cable that came on comes off, by e / L: with `kinks` each side is told apart.
+    // Second derivatives jump where cable that came on comes off, by e / L: with `kinks` each side
+    // is told apart.
     EXPECT_LT(result.error, tolerance) << strain << ' ' << result.worst;
   }
 }
 
-// The radius of a drum with layers follows its angle within the substep. (In one plane; in skew planes the row misses by what
-// cable/cable_layers.cpp says.)
+// The radius of a drum with layers follows its angle within the substep. (In one plane; in skew
+// planes the row misses by what cable/cable_layers.cpp says.)
 TEST(SpanGradient, OfDrumsWithLayers) {
   Bodies b;
   const BodyId w1 = b.add(test::wheel("w1", {0.0, 0.0, 0.0}, 0.3, 0.05));

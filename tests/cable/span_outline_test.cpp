@@ -1,5 +1,6 @@
-// Spans between convex outlines against all pairs of corners, and against the bound on the rounds that finding the
-// corners takes (cable/span_row.cpp): a pair of outlines that do not overlap always has its tangent found.
+// Spans between convex outlines against all pairs of corners, and against the bound on the rounds
+// that finding the corners takes (cable/span_row.cpp): a pair of outlines that do not overlap
+// always has its tangent found.
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +24,8 @@ struct Nothing {
   Substep now{bodies, state, 1.0, 1};
 };
 
-/// A random outline about `center` within a circle of `radius`: a point, a circle or a polygon; corners in the world.
+/// A random outline about `center` within a circle of `radius`: a point, a circle or a polygon;
+/// corners in the world.
 LinkGeometry random_link(test::Random& random, const Vector3& center, double radius) {
   LinkGeometry link;
   link.center = center;
@@ -68,8 +70,8 @@ std::vector<Vector3> corners_of(const LinkGeometry& link) {
   return link.outline ? link.outline->corners : std::vector<Vector3>{link.center};
 }
 
-/// How far the link reaches beyond the line of the span, to the side where the cable is [m]; <= 0: it does not. Of more
-/// than `enough` it says no more than that.
+/// How far the link reaches beyond the line of the span, to the side where the cable is [m]; <= 0:
+/// it does not. Of more than `enough` it says no more than that.
 double reach_beyond(const LinkGeometry& link, const SpanGeometry& span, const Vector3& contact,
                     double enough = 1e300) {
   if (!link.outline) return 0.0;  // circles and points are touched by the formula's construction
@@ -82,7 +84,8 @@ double reach_beyond(const LinkGeometry& link, const SpanGeometry& span, const Ve
   return reach;
 }
 
-/// The tangent with the least overhang among all pairs of corners; its overhang is positive if there is none.
+/// The tangent with the least overhang among all pairs of corners; its overhang is positive if
+/// there is none.
 struct BestPair {
   SpanGeometry span;
   double reach = 1e300;
@@ -118,8 +121,8 @@ void compare_with_all_pairs(std::uint64_t seed, int pairs, double low_gap, doubl
     const LinkGeometry b = random_link(random, apart, r2);
     const SpanGeometry span = span_geometry(nothing.now, planar_setup(a, b), a, b);
     ASSERT_TRUE(span.has_tangent) << "seed " << seed << ", pair " << i;
-    // Heights of corners are compared with an error of 4 eps of their size. The span's direction is exact to that over
-    // its length, and an outline of the size 2 r turns with it.
+    // Heights of corners are compared with an error of 4 eps of their size. The span's direction is
+    // exact to that over its length, and an outline of the size 2 r turns with it.
     const double size = apart.norm() + 2.0;
     const double tolerance = 16.0 * test::eps * size * (1.0 + 2.0 / std::max(span.length, 1e-300));
     EXPECT_LE(reach_beyond(a, span, span.start), tolerance) << "seed " << seed << ", pair " << i;
@@ -146,8 +149,8 @@ TEST(OutlineSpan, IsFoundForOutlinesThatNearlyTouch) {
 }
 
 TEST(OutlineSpan, IsFoundWhereverOutlinesDoNotOverlap) {
-  // Closer than their circumscribed circles allow. Two convex outlines do not overlap if a line along an edge of one
-  // has them on different sides.
+  // Closer than their circumscribed circles allow. Two convex outlines do not overlap if a line
+  // along an edge of one has them on different sides.
   const Nothing nothing;
   test::Random random(3);
   int apart_pairs = 0;

@@ -1,4 +1,5 @@
-// Windings that look as if they were entered the wrong way round (cable/cable_compile_windings.cpp).
+// Windings that look as if they were entered the wrong way round
+// (cable/cable_compile_windings.cpp).
 
 #include <gtest/gtest.h>
 

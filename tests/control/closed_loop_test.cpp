@@ -1,12 +1,13 @@
 // Loops that are closed while a world runs, against linear theory.
 //
-// A load m on a drum of radius r and inertia J, with the drum's drive torque u r + r m g, is pulled by u besides its weight. With
-// M_d = J / r^2 and the law u = -(kp e + ki (integral of e) + kd e') of the error e of its height the poles are the zeros of
+// A load m on a drum of radius r and inertia J, with the drum's drive torque u r + r m g, is pulled
+// by u besides its weight. With M_d = J / r^2 and the law u = -(kp e + ki (integral of e) + kd e')
+// of the error e of its height the poles are the zeros of
 //   rigid cable:    (m + M_d) s^3 + kd s^2 + kp s + ki,
 //   spring k with damping b between drum and load:
 //     m M_d s^5 + (m + M_d) (b s^4 + k s^3) + (k + b s) (kd s^2 + kp s + ki).
-// Poles are found in the response by Prony's method: samples of a sum of n exponentials e^(p_i t) satisfy a recurrence of n steps,
-// whose characteristic roots are e^(p_i T).
+// Poles are found in the response by Prony's method: samples of a sum of n exponentials e^(p_i t)
+// satisfy a recurrence of n steps, whose characteristic roots are e^(p_i T).
 
 #include <algorithm>
 #include <cmath>
@@ -158,10 +159,11 @@ TEST(ClosedLoop, PidHoldsALoadOnAnElasticCableWithThePolesOfTheory) {
   }
 }
 
-// A winch holds the tension of a rope while what pulls at its end gets stronger: from 100 N, balanced, to 180 N in 2 s. The drive's
-// speed is a PI law of the tension's error, v = kp e + ki (integral of e). With the spring k of the rope T' = k (v_end - v), and the
-// end's acceleration is a = (F - T) / m: after what e'' + k kp e' + k ki e = k a makes of the start it is e = a / ki, 0.64 N at
-// most, with the two roots' frequency sqrt(k ki) = 224 / s.
+// A winch holds the tension of a rope while what pulls at its end gets stronger: from 100 N,
+// balanced, to 180 N in 2 s. The drive's speed is a PI law of the tension's error, v = kp e + ki
+// (integral of e). With the spring k of the rope T' = k (v_end - v), and the end's acceleration is
+// a = (F - T) / m: after what e'' + k kp e' + k ki e = k a makes of the start it is e = a / ki,
+// 0.64 N at most, with the two roots' frequency sqrt(k ki) = 224 / s.
 TEST(ClosedLoop, AWinchKeepsItsTensionThroughARampOfTheLoad) {
   const double k = 2e4;
   const double wanted = 100.0;

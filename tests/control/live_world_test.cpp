@@ -285,7 +285,8 @@ TEST(LiveWorld, CertificatesKnowWhatIsSet) {
       all.merge(*one);
     }
     EXPECT_TRUE(all.clean(1e-3)) << all.worst()->sentence();
-    // And it sees it if they are not what acted: a state whose controls differ from those of the last substep is none.
+    // And it sees it if they are not what acted: a state whose controls differ from those of the
+    // last substep is none.
     EXPECT_NE(all.find(CertificateItem::Kind::drive), nullptr);
   }
 }

@@ -1,4 +1,5 @@
-// A pointer that drags the end of a rope through a block and tackle, at 60 Hz, for a minute, with jerks of 10 m per frame.
+// A pointer that drags the end of a rope through a block and tackle, at 60 Hz, for a minute, with
+// jerks of 10 m per frame.
 
 #include <random>
 
@@ -53,7 +54,8 @@ class Pointer {
   std::mt19937 random_{7};
 };
 
-// By a grip of 0.5 kg, pulled towards the pointer by a spring and a damper that has no more than 150 N.
+// By a grip of 0.5 kg, pulled towards the pointer by a spring and a damper that has no more than
+// 150 N.
 TEST(Pointer, DragsARopeByAGripThroughATackle) {
   BodyDef grip = test::lump("grip", Vector3::Zero(), 0.5);
   LiveWorld world = [&] {
@@ -93,7 +95,8 @@ TEST(Pointer, DragsARopeByAGripThroughATackle) {
   EXPECT_LT(stretch, 1e-8);
 }
 
-// By the end itself, which goes where the pointer is, whatever that takes: the rope never gets longer.
+// By the end itself, which goes where the pointer is, whatever that takes: the rope never gets
+// longer.
 TEST(Pointer, DragsTheEndOfARopeThroughATackle) {
   BodyDef hand;
   hand.name = "hand";
@@ -124,8 +127,8 @@ TEST(Pointer, DragsTheEndOfARopeThroughATackle) {
       stretch = std::max(stretch, rope.max_stretch);
     }
   }
-  // However the strands lie, nothing goes faster than the rope, and that no faster than the pointer has ever gone: the block
-  // with its sheaves, 8 kg, and the rims of four wheels, 0.1 kg each.
+  // However the strands lie, nothing goes faster than the rope, and that no faster than the pointer
+  // has ever gone: the block with its sheaves, 8 kg, and the rims of four wheels, 0.1 kg each.
   EXPECT_LT(most, 0.5 * (8.0 + 4.0 * 0.1) * fastest * fastest) << stretch;
   EXPECT_LT(stretch, 1e-8) << most;
 }

@@ -13,7 +13,8 @@ using test::attach;
 using test::cable;
 using test::roll;
 
-/// One of each thing that can be controlled: bodies 0 drum (speed), 1 load, 2 hand (kinematic), 3 bar, 4 post.
+/// One of each thing that can be controlled: bodies 0 drum (speed), 1 load, 2 hand (kinematic), 3
+/// bar, 4 post.
 test::Machine steered_machine() {
   test::Machine machine;
   machine.model.gravity = test::down;

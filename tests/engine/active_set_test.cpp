@@ -118,7 +118,8 @@ TEST(ActiveSet, StartedFromTheSolutionNothingChanges) {
 }
 
 TEST(ActiveSet, WhatRoundingMakesUnsolvableIsNoViolation) {
-  // A wheel held between two walls: one span is too long by more than the other has to spare, all of it rounding.
+  // A wheel held between two walls: one span is too long by more than the other has to spare, all
+  // of it rounding.
   ComplementarityProblem p;
   p.size = 2;
   p.diagonal = {1.0, 1.0};
@@ -140,8 +141,9 @@ TEST(ActiveSet, WhatRoundingMakesUnsolvableIsNoViolation) {
 }
 
 TEST(ActiveSet, EachRowHasItsOwnScale) {
-  // A joint that turns by a radian in a substep, and beside it, nothing between them, a span in a machine of a micrometre
-  // that is too long by 1e-14 m. The span must be pulled back however large the other number is.
+  // A joint that turns by a radian in a substep, and beside it, nothing between them, a span in a
+  // machine of a micrometre that is too long by 1e-14 m. The span must be pulled back however large
+  // the other number is.
   ComplementarityProblem p;
   p.size = 2;
   p.diagonal = {10.0, 1e3};
@@ -161,8 +163,9 @@ TEST(ActiveSet, EachRowHasItsOwnScale) {
   EXPECT_EQ(solver.solution()[1], 0.0);
 }
 
-// One coordinate, pushed up by all rows alike: A is a matrix of ones, of rank 1. The last row asks for more than the others, so
-// it alone pushes; whichever rows are free to begin with, and in whichever order they are eliminated.
+// One coordinate, pushed up by all rows alike: A is a matrix of ones, of rank 1. The last row asks
+// for more than the others, so it alone pushes; whichever rows are free to begin with, and in
+// whichever order they are eliminated.
 TEST(ActiveSet, ARedundantRowThatContradictsTheOthersReleasesThem) {
   for (const int n : {2, 3, 5}) {
     for (const double skew : {0.0, 1e-3}) {
@@ -201,9 +204,10 @@ TEST(ActiveSet, ARedundantRowThatContradictsTheOthersReleasesThem) {
 }
 
 TEST(ActiveSet, RowsThatContradictEachOtherAllGiveWay) {
-  // A = J J^T of more rows than unknowns of motion, so c is mostly out of reach. The least sum of r^2 / D has A r / D = 0: with
-  // the softness e = 1e-6, and s the eigenvalues of S = D^-1/2 A D^-1/2, what is left of a part c' of D^-1/2 c is
-  // c' (1 - (s / (s + e))^2), and S times that at most 2 e c'. Along null vectors, s = 0, dl is rounding over e^2.
+  // A = J J^T of more rows than unknowns of motion, so c is mostly out of reach. The least sum of
+  // r^2 / D has A r / D = 0: with the softness e = 1e-6, and s the eigenvalues of S = D^-1/2 A
+  // D^-1/2, what is left of a part c' of D^-1/2 c is c' (1 - (s / (s + e))^2), and S times that at
+  // most 2 e c'. Along null vectors, s = 0, dl is rounding over e^2.
   constexpr double softness = 1e-6;
   std::mt19937 generator(8);
   std::uniform_real_distribution<double> value(-1.0, 1.0);

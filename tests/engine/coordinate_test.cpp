@@ -1,4 +1,5 @@
-// What is wrong with the settings along a joint's coordinate: where the error points and what it says.
+// What is wrong with the settings along a joint's coordinate: where the error points and what it
+// says.
 
 #include "engine/joints/coordinate.h"
 

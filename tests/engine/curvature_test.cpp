@@ -1,8 +1,9 @@
 // How forces turn with bodies, against finite differences of the rows.
 //
-// Tolerance. Differences over e = 1e-6 of numbers of the size 1 leave e of truncation (second derivatives of gradients are some
-// ones) and 1e-10 of rounding: 1e-4 of the largest has a margin of ten. Values are compared over a motion d of 1e-3 [m or rad]:
-// what the second order leaves is d^3, 1e-9, times third derivatives of some tens.
+// Tolerance. Differences over e = 1e-6 of numbers of the size 1 leave e of truncation (second
+// derivatives of gradients are some ones) and 1e-10 of rounding: 1e-4 of the largest has a margin
+// of ten. Values are compared over a motion d of 1e-3 [m or rad]: what the second order leaves is
+// d^3, 1e-9, times third derivatives of some tens.
 
 #include "engine/solvers/curvature.h"
 

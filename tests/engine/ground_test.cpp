@@ -80,7 +80,8 @@ INSTANTIATE_TEST_SUITE_P(Combinations, GroundForAll, ::testing::ValuesIn(test::c
                          test::combination_name);
 
 TEST_P(GroundForAll, HasNoRowsForWhatIsFarAndStopsWhatGetsThereWithinOneStep) {
-  // At rest 2 m above the floor, then pulled down by 6e4 N: 8 m of fall in 1/60 s, which nothing tells at the start.
+  // At rest 2 m above the floor, then pulled down by 6e4 N: 8 m of fall in 1/60 s, which nothing
+  // tells at the start.
   Model model;
   model.gravity = test::down;
   model.step = step_settings(1.0 / 60.0, 10);

@@ -223,8 +223,8 @@ TEST(JointGradient, OfFrictionIsExactAtTheStart) {
   model.joints = {plane};
   const test::GradientCheck of_plane = check(model, 0.0, 0.0);
   EXPECT_GT(of_plane.compared, 60);
-  // The lever arm moves with the body, and its change times the motion of 1e-3 is of second order: it cancels in
-  // symmetric differences but for rounding.
+  // The lever arm moves with the body, and its change times the motion of 1e-3 is of second order:
+  // it cancels in symmetric differences but for rounding.
   EXPECT_LT(of_plane.error, tolerance) << of_plane.worst;
 }
 

@@ -50,7 +50,8 @@ TEST(LastSubstep, IsAPartOfItsStep) {
   EXPECT_DOUBLE_EQ(world.last_substep()->start.time, 3.0 / 240.0);
 }
 
-// Atwood's machine has the same force at any time: `rattle` does half of it at the start and half at the end of a substep.
+// Atwood's machine has the same force at any time: `rattle` does half of it at the start and half
+// at the end of a substep.
 TEST(LastSubstep, HalvesOfASteadyForceAreEqual) {
   Simulation simulation = start(pendulum(IntegratorKind::rattle, 1));
   World& world = simulation.world;

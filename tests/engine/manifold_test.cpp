@@ -1,4 +1,5 @@
-// Distances of solids against brute force over directions, and manifolds against what geometry says.
+// Distances of solids against brute force over directions, and manifolds against what geometry
+// says.
 
 #include "engine/contacts/manifold.h"
 
@@ -68,14 +69,15 @@ TEST(ContactAxis, NoDirectionIsBetter) {
                      std::to_string(brute));
         ASSERT_NEAR(axis.normal.norm(), 1.0, 1e-12);
         EXPECT_NEAR(axis.gap, gap_along(a, b, axis.normal), 1e-12);
-        // Solids with corners that are apart may be nearer along the axis than they are: then both corners stand out.
+        // Solids with corners that are apart may be nearer along the axis than they are: then both
+        // corners stand out.
         if (brute > 0.0) {
           EXPECT_GT(axis.gap, 0.0);
           const bool exact = a.is_round() && (b.is_round() || !b.solid->faces.empty());
           if (!exact) continue;
         }
-        // The rim of a cylinder that overlaps an edge or a rim deeply (here by some 0.1 m) is searched for, and the search
-        // ends on ridges between two edges: within 0.1 % of the depth.
+        // The rim of a cylinder that overlaps an edge or a rim deeply (here by some 0.1 m) is
+        // searched for, and the search ends on ridges between two edges: within 0.1 % of the depth.
         const bool rim = (a.is(ConvexSolid::Kind::cylinder) && !b.is_round()) ||
                          (b.is(ConvexSolid::Kind::cylinder) && !a.is_round());
         EXPECT_GE(axis.gap, brute - (rim ? 2e-4 : 1e-8));

@@ -25,7 +25,8 @@ TEST(Ramp, RateIsTheDerivative) {
   const Ramp ramp = some_ramp();
   const double d = 1e-5;
   for (const double t : {1.1, 1.7, 2.5, 2.9, 4.0}) {
-    // The third derivative of the cubic is some 10, so d^2 / 6 of that is left, and rounding over d.
+    // The third derivative of the cubic is some 10, so d^2 / 6 of that is left, and rounding over
+    // d.
     EXPECT_NEAR(ramp.rate(t), (ramp.at(t + d) - ramp.at(t - d)) / (2.0 * d), 2e-9) << t;
   }
 }

@@ -1,4 +1,5 @@
-// The matrix that RowSlots assembles along degrees of freedom against J W K^T with whole vectors per body.
+// The matrix that RowSlots assembles along degrees of freedom against J W K^T with whole vectors
+// per body.
 
 #include "engine/solvers/row_slots.h"
 

@@ -121,8 +121,9 @@ TEST(Row, AddsContributionsToTheSameBody) {
   EXPECT_EQ(row.term_count, 0);
 }
 
-/// Sweeps that turn a body to and fro about several axes and end where they began must leave it where it was: its velocity
-/// follows from the sum of what was applied, and slender bodies under large forces are turned by a radian at a time.
+/// Sweeps that turn a body to and fro about several axes and end where they began must leave it
+/// where it was: its velocity follows from the sum of what was applied, and slender bodies under
+/// large forces are turned by a radian at a time.
 TEST(MovingBody, TurnsByTheSumOfItsCorrections) {
   MovingBody body;
   body.free_orientation = Quaternion(Eigen::Quaterniond(0.5, 0.5, -0.5, 0.5));

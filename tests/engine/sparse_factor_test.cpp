@@ -8,7 +8,8 @@
 namespace sheave {
 namespace {
 
-/// A sparse positive (semi)definite matrix B B^T with `rank` random columns of `width` entries each.
+/// A sparse positive (semi)definite matrix B B^T with `rank` random columns of `width` entries
+/// each.
 struct SparseMatrix {
   Eigen::MatrixXd dense;
   std::vector<std::pair<int, int>> entries;
@@ -86,7 +87,8 @@ TEST(SparseFactor, SolvesWhatIsNotSymmetric) {
     std::vector<double> x(b.data(), b.data() + n);
     factor.solve(x);
     const Eigen::VectorXd solution = Eigen::Map<Eigen::VectorXd>(x.data(), n);
-    // x^T A x >= 0.1 x^2, so no pivot is small, and the skew part lets entries grow by a few times 10 at most.
+    // x^T A x >= 0.1 x^2, so no pivot is small, and the skew part lets entries grow by a few times
+    // 10 at most.
     EXPECT_NEAR((a.dense * solution - b).norm(), 0.0, 1e-11 * n);
   }
 }
@@ -106,7 +108,8 @@ TEST(SparseFactor, AChainFillsNothingInWhateverOrderItsEntriesCome) {
 }
 
 TEST(SparseFactor, AChainIsSolvedLikeAnyMatrix) {
-  // Symmetric and not, its entries given either way round, in pieces, and with a redundant equation.
+  // Symmetric and not, its entries given either way round, in pieces, and with a redundant
+  // equation.
   std::mt19937 generator(5);
   std::uniform_real_distribution<double> value(-1.0, 1.0);
   for (int trial = 0; trial < 100; ++trial) {
@@ -165,7 +168,8 @@ TEST(SparseFactor, LeavesOutRedundantEquations) {
     SparseFactor factor;
     factor.analyse(n, a.entries);
     factor.factor(a.diagonal, a.values);
-    // Not every one: where other pivots are small, too, rounding can leave more than the bound of a zero pivot.
+    // Not every one: where other pivots are small, too, rounding can leave more than the bound of a
+    // zero pivot.
     dropped += factor.dropped();
     redundant += n - n / 2;
     // An equation that can be satisfied is.
@@ -179,7 +183,8 @@ TEST(SparseFactor, LeavesOutRedundantEquations) {
 }
 
 TEST(SparseFactor, KeepsWhatIsOnlyNearlyRedundant) {
-  // Two opposite rows, as a light wheel makes them: s (1, -1; -1, 1) + w (1, 0; 0, 1) with s / w = 1e10.
+  // Two opposite rows, as a light wheel makes them: s (1, -1; -1, 1) + w (1, 0; 0, 1) with s / w =
+  // 1e10.
   SparseFactor factor;
   const std::vector<std::pair<int, int>> entries{{0, 1}};
   factor.analyse(2, entries);

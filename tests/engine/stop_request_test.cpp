@@ -1,4 +1,5 @@
-// Steps that their caller ends early, what a substep may cost, and what is discarded with motion that is.
+// Steps that their caller ends early, what a substep may cost, and what is discarded with motion
+// that is.
 
 #include <limits>
 
@@ -26,7 +27,8 @@ class NthTime {
   int asked_ = 0;
 };
 
-/// A load that swings under a light cart, whose substeps are cut, beside an obstacle that the cable touches and leaves.
+/// A load that swings under a light cart, whose substeps are cut, beside an obstacle that the cable
+/// touches and leaves.
 test::Machine whip() {
   test::Machine m;
   m.model.gravity = test::down;
@@ -48,7 +50,8 @@ Model fallen_boxes() {
   return heap.model;
 }
 
-/// Steps `stopped` with a stop at the first, second, ... time of asking until a step is complete, and `whole` without any.
+/// Steps `stopped` with a stop at the first, second, ... time of asking until a step is complete,
+/// and `whole` without any.
 void expect_nothing_of_stopped_steps(World& stopped, World& whole, int steps) {
   for (int step = 0; step < steps; ++step) {
     const std::uint64_t before = hash(stopped.state());
@@ -146,8 +149,8 @@ TEST(StopRequest, ThatIsNeverAskedForAnythingChangesNothing) {
   }
 }
 
-/// A weight on a cable that it breaks in the first substep, and a bar with two drives of one angle that agree for half a
-/// step and contradict each other from then on.
+/// A weight on a cable that it breaks in the first substep, and a bar with two drives of one angle
+/// that agree for half a step and contradict each other from then on.
 test::Machine broken_promise() {
   test::Machine m;
   m.model.gravity = test::down;
@@ -216,7 +219,8 @@ TEST(WorkLimit, NumbersThatAreNotFiniteEndTheRounds) {
     ASSERT_TRUE(s.world.restore(state).empty());
     const StepReport report = s.world.step();
     ASSERT_TRUE(report.divergence.has_value());
-    // No attempt has a round that could be solved: the whole, halves down to 2^-17, and the whole once or twice more.
+    // No attempt has a round that could be solved: the whole, halves down to 2^-17, and the whole
+    // once or twice more.
     EXPECT_EQ(report.statistics.rounds, 0);
   }
   // Sweeps, of which there are as many as were asked for, end soon.
@@ -242,7 +246,8 @@ TEST(WorkLimit, RefusesOneFactorisationTooMany) {
   EXPECT_FALSE(work.stopped());
 }
 
-// Eleven boxes under a gravity of 1e6: each touches all others within a substep, and most sets of rows lead to another.
+// Eleven boxes under a gravity of 1e6: each touches all others within a substep, and most sets of
+// rows lead to another.
 TEST(WorkLimit, BoundsTheFactorisationsOfAStep) {
   test::Heap heap(SolverKind::direct, IntegratorKind::rattle);
   heap.model.step = StepSettings{};

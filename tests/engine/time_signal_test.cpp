@@ -1,5 +1,5 @@
-// at(), rate() and integral() of one function of time must belong together: the rate is the slope of the value, the value
-// that of the integral.
+// at(), rate() and integral() of one function of time must belong together: the rate is the slope
+// of the value, the value that of the integral.
 
 #include "engine/time_signal.h"
 
@@ -15,7 +15,8 @@ namespace {
 /// A table with a sine on it; corners at 0.5, 1 and 2.5 s.
 TimeSignal table_and_sine() { return {{{0.5, 1.0, 2.5}, {1.0, 4.0, -2.0}}, 0.7, 1.3, 0.4}; }
 
-/// Integral by Simpson's rule. Its error is (to - from) d^4 |f''''| / 180 for the spacing d = 1 / 2000 s: with
+/// Integral by Simpson's rule. Its error is (to - from) d^4 |f''''| / 180 for the spacing d = 1 /
+/// 2000 s: with
 /// |f''''| <= 0.7 (2 pi 1.3)^4 = 3116 below 4e-12 for 4 s, and none from the table, whose corners are nodes.
 double quadrature(const TimeSignal& signal, double from, double to) {
   const auto pieces = static_cast<int>(std::lround((to - from) * 1000.0));
@@ -37,7 +38,8 @@ TEST(TimeSignal, IsTheTableAndTheSine) {
 
 TEST(TimeSignal, RateIsTheSlope) {
   const TimeSignal s = table_and_sine();
-  // Central differences: d^2 / 6 |f'''| <= 1e-8 / 6 x 0.7 (2 pi 1.3)^3 = 6.4e-7, and rounding 1e-15 / d = 1e-11.
+  // Central differences: d^2 / 6 |f'''| <= 1e-8 / 6 x 0.7 (2 pi 1.3)^3 = 6.4e-7, and rounding 1e-15
+  // / d = 1e-11.
   const double d = 1e-4;
   for (const double t : {0.2, 0.7, 0.99, 1.01, 2.4, 2.6, 5.0}) {
     EXPECT_NEAR(s.rate(t), (s.at(t + d) - s.at(t - d)) / (2.0 * d), 7e-7) << t;

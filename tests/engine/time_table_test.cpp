@@ -66,7 +66,8 @@ TimeTable sampled_blend(double spacing, Interpolation interpolation) {
   return TimeTable::of(sine.times, sine.values, interpolation);
 }
 
-// Through points of a cubic polynomial goes no other spline that is one polynomial in its first two pieces and in its last.
+// Through points of a cubic polynomial goes no other spline that is one polynomial in its first two
+// pieces and in its last.
 TEST(TimeTable, SplinesOfCubicPolynomialsAreThose) {
   const auto cubic = [](double t) { return 1.0 - 2.0 * t + 3.0 * t * t - 0.5 * t * t * t; };
   const auto slope = [](double t) { return -2.0 + 6.0 * t - 1.5 * t * t; };
@@ -105,7 +106,8 @@ TEST(TimeTable, SplinesAreTwiceSmooth) {
     const TimeTable table =
         TimeTable::of({0.0, 0.4, 1.0, 1.1, 2.0}, {0.0, 2.0, -1.0, 0.5, 0.0}, kind);
     for (const double t : {0.4, 1.0, 1.1}) {
-      // One-sided differences of the rate over e differ by e times the jump of the third derivative, here below 3e4.
+      // One-sided differences of the rate over e differ by e times the jump of the third
+      // derivative, here below 3e4.
       const double e = 1e-7;
       EXPECT_NEAR(table.rate(t - e), table.rate(t + e), 2e-4) << t;
       const double before = (table.rate(t - e) - table.rate(t - 2.0 * e)) / e;

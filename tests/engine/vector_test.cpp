@@ -43,8 +43,9 @@ TEST(RotationBy, AgreesWithAngleAxisFromTinyToManyTurns) {
       const Vector3 turn = angle * axis;
       const Quaternion q = rotation_by(turn);
       const Eigen::Quaternion<Exact> exact = reference(turn);
-      // The squared norm is a sum of three products, so the half angle is known to 2 epsilon relative;
-      // sine and cosine pass that on as 2 epsilon (half angle) and add a rounding or two of their own.
+      // The squared norm is a sum of three products, so the half angle is known to 2 epsilon
+      // relative; sine and cosine pass that on as 2 epsilon (half angle) and add a rounding or two
+      // of their own.
       const double tolerance = epsilon * (2.0 + angle);
       EXPECT_NEAR(static_cast<double>(q.w() - exact.w()), 0.0, tolerance) << angle;
       const Eigen::Matrix<Exact, 3, 1> error = q.vec().cast<Exact>() - exact.vec();
@@ -55,8 +56,8 @@ TEST(RotationBy, AgreesWithAngleAxisFromTinyToManyTurns) {
 
 TEST(RotationBy, SeriesIsExactToTheLastBits) {
   // Below the switch the vector part is turn / 2 (1 - t / 6 ...): relative, not only absolute,
-  // accuracy. Rounding: t to 2 epsilon but weighted by t / 6 < 0.002, one for the bracket, one for the
-  // factor 0.5, one for each component. The first series term left out is t^6 / 13! < 2e-22.
+  // accuracy. Rounding: t to 2 epsilon but weighted by t / 6 < 0.002, one for the bracket, one for
+  // the factor 0.5, one for each component. The first series term left out is t^6 / 13! < 2e-22.
   for (const Vector3& axis : axes) {
     for (const double angle : angles()) {
       if (angle >= 0.2) continue;
@@ -100,10 +101,10 @@ TEST(Turned, AppliesTheTurnInTheWorldFrame) {
 }
 
 TEST(Turned, StaysAUnitQuaternionOverAMillionTurns) {
-  // Each step multiplies two quaternions (norm error: some epsilon, the components' roundings) and then
-  // makes one Newton step, which squares that error; what stays is the rounding of the last
-  // product, half an ulp in each of four components: 0.5 epsilon sqrt(4) at most. Without the Newton
-  // step the error would be a random walk, some 1e3 epsilon by the end.
+  // Each step multiplies two quaternions (norm error: some epsilon, the components' roundings) and
+  // then makes one Newton step, which squares that error; what stays is the rounding of the last
+  // product, half an ulp in each of four components: 0.5 epsilon sqrt(4) at most. Without the
+  // Newton step the error would be a random walk, some 1e3 epsilon by the end.
   Quaternion q = rotation_by(Vector3(0.1, 0.2, 0.3));
   const Vector3 turn(0.011, -0.007, 0.013);
   double worst = 0.0;

@@ -1,4 +1,5 @@
-// Preloaded into the command (LD_PRELOAD): lets the n-th of its output calls, or of its allocations, fail, and records the calls.
+// Preloaded into the command (LD_PRELOAD): lets the n-th of its output calls, or of its
+// allocations, fail, and records the calls.
 //
 //   SHEAVE_FAULT_AT=n        the n-th output call fails, counted from 1; 0 or not set: none
 //   SHEAVE_FAULT_STAYS=1     and all after it, as on a disk that is full
@@ -7,8 +8,8 @@
 //                            objects of libraries throw before
 //   SHEAVE_FAULT_LOG=path    the calls, one per record (see Record)
 //
-// Output calls are those that bring something to a disk or start a program; standard error is left alone, for it tells what
-// happened. Programs that the command starts are not touched.
+// Output calls are those that bring something to a disk or start a program; standard error is left
+// alone, for it tells what happened. Programs that the command starts are not touched.
 
 #include <atomic>
 #include <cerrno>
@@ -63,7 +64,8 @@ __attribute__((destructor)) void tell_allocations() {
   ::syscall(SYS_write, log_file, line, static_cast<std::size_t>(length));
 }
 
-/// A record: the call, a descriptor or -1, an offset or -1, the length of a first and of a second text, a line break; the texts.
+/// A record: the call, a descriptor or -1, an offset or -1, the length of a first and of a second
+/// text, a line break; the texts.
 void record(const char* call, int descriptor, long offset, const void* first,
             std::size_t first_size, const void* second = nullptr, std::size_t second_size = 0) {
   if (log_file < 0) return;

@@ -1,8 +1,9 @@
 // What a run says of the error of its step, against closed forms.
 //
-// With e = C h + D h^2 and d = D h / C small, the differences give p = 1 + 0.75 d / ln 2 = 1 + 1.08 d and the estimate
-// C h (1 + 0.75 d), where the error is C h (1 + d). With e = C h^2 + D h^4 (rattle is symmetric) and d = D h^2 / C they give
-// p = 2 + 1.35 d and C h^2 (1 + 15/16 d). So an estimate is as good as the order that it finds is whole: wrong by a quarter of
+// With e = C h + D h^2 and d = D h / C small, the differences give p = 1 + 0.75 d / ln 2 = 1 + 1.08
+// d and the estimate C h (1 + 0.75 d), where the error is C h (1 + d). With e = C h^2 + D h^4
+// (rattle is symmetric) and d = D h^2 / C they give p = 2 + 1.35 d and C h^2 (1 + 15/16 d). So an
+// estimate is as good as the order that it finds is whole: wrong by a quarter of
 // |p - 1|, or a twentieth of |p - 2|. As d is different in each frame, tests allow four times that.
 
 #include "measure/error_estimate.h"
@@ -90,8 +91,8 @@ struct Pendulum {
 };
 
 TEST(ErrorEstimate, ThePendulumsClosedFormIsOne) {
-  // The test's own ground: energy of the closed form, w'^2 = 2 g (cos a - cos a0), by central differences of 1e-4 s, whose error is
-  // a'''/6 x 1e-8 < 1e-7.
+  // The test's own ground: energy of the closed form, w'^2 = 2 g (cos a - cos a0), by central
+  // differences of 1e-4 s, whose error is a'''/6 x 1e-8 < 1e-7.
   for (const double time : {0.3, 1.0, 1.9}) {
     const double rate = (Pendulum::angle(time + 1e-4) - Pendulum::angle(time - 1e-4)) / 2e-4;
     const double energy = 2.0 * g * (std::cos(Pendulum::angle(time)) - std::cos(Pendulum::start));
@@ -124,7 +125,8 @@ TEST(ErrorEstimate, OfRattleOnAPendulumHasOrderTwoAndIsItsError) {
   const double time = bob.position.time;
   const double error = (run.at(time).poses[0].position - Pendulum::position(time)).norm();
   EXPECT_NEAR(bob.position.error(), error, 0.2 * 0.03 * error);
-  // The tension of a substep is that of its middle, so half a substep late: of first order, T' h / 2.
+  // The tension of a substep is that of its middle, so half a substep late: of first order, T' h /
+  // 2.
   const StepDifference& tension = run.estimate.spans.at(0).tension;
   ASSERT_TRUE(tension.order);
   EXPECT_NEAR(*tension.order, 1.0, 0.1);
@@ -133,8 +135,9 @@ TEST(ErrorEstimate, OfRattleOnAPendulumHasOrderTwoAndIsItsError) {
 }
 
 TEST(ErrorEstimate, OfAtwoodIsTheClosedFormOfXpbd) {
-  // v(k h) = k a h is exact and positions sum it up: x is a t h / 2 too large, exactly of first order, for the weights as for the
-  // wheel's rim. Tensions are right. Rounding: 60 steps of positions of metres.
+  // v(k h) = k a h is exact and positions sum it up: x is a t h / 2 too large, exactly of first
+  // order, for the weights as for the wheel's rim. Tensions are right. Rounding: 60 steps of
+  // positions of metres.
   const test::Atwood atwood;
   Scene scene = scene_of(atwood.machine(), IntegratorKind::xpbd, 1);
   scene.duration = 1.0;
@@ -158,8 +161,9 @@ TEST(ErrorEstimate, OfAtwoodIsTheClosedFormOfXpbd) {
 }
 
 TEST(ErrorEstimate, OfThePapersSimpleSceneIsItsSag) {
-  // In balance nothing moves, so what moves is the error: the sag that the sweeps of one substep leave. It is what gravity moves a
-  // body by in a substep times a factor that the number of sweeps makes: of second order.
+  // In balance nothing moves, so what moves is the error: the sag that the sweeps of one substep
+  // leave. It is what gravity moves a body by in a substep times a factor that the number of sweeps
+  // makes: of second order.
   SceneResult loaded = load_scene(SHEAVE_SOURCE_DIR "/scenes/paper/simple.json");
   ASSERT_TRUE(loaded);
   Scene scene = std::move(*loaded.scene);
@@ -187,8 +191,8 @@ TEST(ErrorEstimate, OfThePapersSimpleSceneIsItsSag) {
 }
 
 TEST(ErrorEstimate, AnImpactsTensionHasNoOrderAndIsCalledAnEvent) {
-  // A weight thrown up on a slack cable falls until it is taut: the impulse 1 kg x 3.1 m/s in one substep h is a tension of 3.1 / h,
-  // which grows as the step shrinks.
+  // A weight thrown up on a slack cable falls until it is taut: the impulse 1 kg x 3.1 m/s in one
+  // substep h is a tension of 3.1 / h, which grows as the step shrinks.
   test::Machine machine = test::cable_pendulum(1.0, 1.0, 0.0);
   machine.model.bodies[0].position = {0.0, -0.5, 0.0};
   machine.cables[0].rest_lengths = {1.0};
@@ -199,8 +203,8 @@ TEST(ErrorEstimate, AnImpactsTensionHasNoOrderAndIsCalledAnEvent) {
 }
 
 TEST(ErrorEstimate, KnowsAChaoticMotion) {
-  // Both bars upright: errors grow with the rate at which two of them side by side fall apart, and soon the runs have nothing in
-  // common.
+  // Both bars upright: errors grow with the rate at which two of them side by side fall apart, and
+  // soon the runs have nothing in common.
   SceneResult loaded = load_scene(SHEAVE_SOURCE_DIR "/scenes/analytic/double-pendulum.json");
   ASSERT_TRUE(loaded);
   Scene scene = std::move(*loaded.scene);

@@ -43,8 +43,8 @@ TEST(ErrorGrowth, SaysNothingAboutFewOrConstantErrors) {
 }
 
 TEST(ErrorGrowth, ALeapIsNoGrowth) {
-  // An impact at a slightly different time: quiet before and after, and no law. Over 200 frames with the leap in the middle a line
-  // explains 3/4 of the variance of such a step.
+  // An impact at a slightly different time: quiet before and after, and no law. Over 200 frames
+  // with the leap in the middle a line explains 3/4 of the variance of such a step.
   const auto leap =
       error_growth(course(200, 0.01, [](double t) { return t < 1.0 ? 1e-7 : 1e-3; }), 0.01, 1e-4);
   EXPECT_FALSE(leap.rate);

@@ -1,4 +1,5 @@
-// What the integrator takes, against closed forms and against what is missing where nothing else takes any.
+// What the integrator takes, against closed forms and against what is missing where nothing else
+// takes any.
 
 #include "measure/integrator_loss.h"
 
@@ -39,8 +40,9 @@ Losses losses_of(test::Machine machine, IntegratorKind integrator, int substeps,
 }
 
 TEST(IntegratorLoss, OfFreeFall) {
-  // v = g t is exact, positions are g h t / 2 too low: m g^2 h t / 2, exactly. Velocities are differences of positions
-  // of some metres, so they have 1e-15 m / h = 1e-12 m/s of rounding, and the energies of 100 J that are compared 1e-9 of 0.2 J.
+  // v = g t is exact, positions are g h t / 2 too low: m g^2 h t / 2, exactly. Velocities are
+  // differences of positions of some metres, so they have 1e-15 m / h = 1e-12 m/s of rounding, and
+  // the energies of 100 J that are compared 1e-9 of 0.2 J.
   test::Machine fall;
   fall.model.gravity = test::down;
   fall.model.add(test::lump("stone", Vector3::Zero(), 2.0));
@@ -55,8 +57,8 @@ TEST(IntegratorLoss, OfFreeFall) {
 }
 
 TEST(IntegratorLoss, OfACircle) {
-  // w0 / sqrt(1 + 2 w0^2 h t), so of the energy 1 - 1 / (1 + 2 w0^2 h t) is gone. What is of higher order: (w h)^2, and that
-  // the acceleration is that of a chord of w dt = 0.02: 1e-3.
+  // w0 / sqrt(1 + 2 w0^2 h t), so of the energy 1 - 1 / (1 + 2 w0^2 h t) is gone. What is of higher
+  // order: (w h)^2, and that the acceleration is that of a chord of w dt = 0.02: 1e-3.
   test::Machine circle = test::cable_pendulum(1.0, 1.0, 0.0);
   circle.model.gravity.setZero();
   constexpr double w = 2.0;
@@ -73,8 +75,8 @@ TEST(IntegratorLoss, OfACircle) {
 }
 
 TEST(IntegratorLoss, IsWhatIsMissingWhereNothingElseTakesAny) {
-  // Pendulums, wheels, a tackle that sways, joints in space: to first order in h, and the acceleration from steps of 0.01 s, in which
-  // things turn by 0.05 rad or so.
+  // Pendulums, wheels, a tackle that sways, joints in space: to first order in h, and the
+  // acceleration from steps of 0.01 s, in which things turn by 0.05 rad or so.
   test::Tackle tackle{.strands = 4, .effort = 3.0, .block_mobility = Mobility::planar};
   test::Machine swaying = tackle.machine();
   swaying.model.bodies[0].velocity = {0.3, 0.0, 0.0};
@@ -90,7 +92,8 @@ TEST(IntegratorLoss, IsWhatIsMissingWhereNothingElseTakesAny) {
 }
 
 TEST(IntegratorLoss, LeavesImpactsAndDrivesToThemselves) {
-  // A weight that falls 0.5 m into its cable loses m g 0.5 m, which is no integrator's fault; its own part is that of the fall.
+  // A weight that falls 0.5 m into its cable loses m g 0.5 m, which is no integrator's fault; its
+  // own part is that of the fall.
   test::Machine drop = test::cable_pendulum(1.0, 1.0, 0.0);
   drop.model.bodies[0].position = {0.0, -0.5, 0.0};
   drop.cables[0].rest_lengths = {1.0};

@@ -82,8 +82,9 @@ TEST(ModelRung, AtwoodWithAMasslessWheel) {
   EXPECT_NEAR(travel(own, "light"), 0.5 * (9.81 / 3.0) * t * t, 1e-9);
   EXPECT_NEAR(own.frames.back().tensions[0], 4.0 * 9.81 / 3.0, 1e-6);
   EXPECT_NEAR(own.frames.back().tensions[1], 4.0 * 9.81 / 3.0, 1e-6);
-  // As written it is (m2 - m1) g / 5: the rung's difference is that of the closed forms. Rotors turn by way / r, and count
-  // with their rim, r x angle = way, so all three bodies are displaced by as much.
+  // As written it is (m2 - m1) g / 5: the rung's difference is that of the closed forms. Rotors
+  // turn by way / r, and count with their rim, r x angle = way, so all three bodies are displaced
+  // by as much.
   const Trajectory written = run(atwood());
   const double apart = 0.5 * 9.81 * (1.0 / 3.0 - 1.0 / 5.0) * t * t;
   EXPECT_NEAR(model_difference(own, written).position, apart / written.scale, 1e-9);
@@ -101,8 +102,9 @@ ModelDifference difference_of_hinges(const std::string& file, int substeps) {
 }
 
 TEST(ModelRung, RotorsAreTheSameAsBodiesWithHinges) {
-  // The direct solver leaves violations of 1e-10 of the scene, and the steps are the same: a hinge about a fixed axis and the
-  // rotor's own coordinate integrate the same angle. A tension is a violation over h^2, in units of a weight.
+  // The direct solver leaves violations of 1e-10 of the scene, and the steps are the same: a hinge
+  // about a fixed axis and the rotor's own coordinate integrate the same angle. A tension is a
+  // violation over h^2, in units of a weight.
   for (const std::string file :
        {"analytic/atwood.json", "analytic/belt.json", "analytic/block-and-tackle-4.json"}) {
     SCOPED_TRACE(file);
@@ -112,9 +114,9 @@ TEST(ModelRung, RotorsAreTheSameAsBodiesWithHinges) {
 }
 
 TEST(ModelRung, RotorsWithDragAreTheSameAsBodiesWithHinges) {
-  // Drag takes e^(-c h / J) of a rotor's speed, and of a body with unequal moments the same to first order in h
-  // (engine/integrators/loads.cpp). The constraints put the speed right at once, so only their forces differ, by half as much
-  // with half the step.
+  // Drag takes e^(-c h / J) of a rotor's speed, and of a body with unequal moments the same to
+  // first order in h (engine/integrators/loads.cpp). The constraints put the speed right at once,
+  // so only their forces differ, by half as much with half the step.
   const ModelDifference coarse = difference_of_hinges("paper/hilbert2-stretched.json", 2);
   const ModelDifference fine = difference_of_hinges("paper/hilbert2-stretched.json", 4);
   EXPECT_LT(coarse.position, 1e-10);
@@ -123,8 +125,9 @@ TEST(ModelRung, RotorsWithDragAreTheSameAsBodiesWithHinges) {
 }
 
 TEST(ModelRung, HingedRotorsOfABodyThatTurns) {
-  // The gyroscope's rotor is mounted on a body that precesses, so the six-degree body turns about a moving axis, where both
-  // integrators have their own error of second order: it must fall by four when the step is halved.
+  // The gyroscope's rotor is mounted on a body that precesses, so the six-degree body turns about a
+  // moving axis, where both integrators have their own error of second order: it must fall by four
+  // when the step is halved.
   std::array<double, 2> differences{};
   for (std::size_t i = 0; i < 2; ++i) {
     Scene scene = exact(shipped("analytic/gyroscope.json"), 0.2);

@@ -39,8 +39,9 @@ TEST(ReferenceRun, EstimatesItsOwnError) {
   EXPECT_EQ(reference.substeps, 8);
   EXPECT_FALSE(reference.good);
   EXPECT_NEAR(reference.order, 2.0, 0.1);
-  // 16 times finer, so a 256th of the error: as good as the truth here. An estimate of second order is three times too
-  // large, 1 / (2^2 - 1); half and twice that leave room for what is of higher order.
+  // 16 times finer, so a 256th of the error: as good as the truth here. An estimate of second order
+  // is three times too large, 1 / (2^2 - 1); half and twice that leave room for what is of higher
+  // order.
   ReferenceOptions finer = options;
   finer.first_substeps = 64;
   finer.most_substeps = 128;
@@ -74,7 +75,8 @@ TEST(ReferenceRun, BeginsNoRunThatWouldTakeTooLong) {
   ReferenceOptions options;
   options.first_substeps = 1;
   options.most_substeps = 1024;
-  // A clock by which every run takes twice as long as the last one: it is read before the first and after each, at 0, 1, 3, 7 s.
+  // A clock by which every run takes twice as long as the last one: it is read before the first and
+  // after each, at 0, 1, 3, 7 s.
   double next = 0.0;
   options.clock.cpu = [&] { return std::exchange(next, 2.0 * next + 1.0); };
   options.most_seconds = 8.0;

@@ -34,8 +34,9 @@ Trajectory recorded(const Scene& scene) {
 }
 
 TEST(RunError, OfXpbdUnderConstantAccelerationIsItsClosedForm) {
-  // v(k h) = k a h is exact, positions sum it up: x(T) = a T^2 / 2 + a h T / 2. Weights and the wheel's rim move alike, so the
-  // root mean square over the three is a h T / 2 too. Rounding: 60 steps of positions of some metres.
+  // v(k h) = k a h is exact, positions sum it up: x(T) = a T^2 / 2 + a h T / 2. Weights and the
+  // wheel's rim move alike, so the root mean square over the three is a h T / 2 too. Rounding: 60
+  // steps of positions of some metres.
   const Trajectory reference = recorded(atwood_scene(1, IntegratorKind::rattle));
   const double a = test::Atwood().acceleration();
   for (const int substeps : {1, 2, 4}) {
@@ -81,7 +82,8 @@ TEST(RunError, CountsPlacesAndTurns) {
   run.frames[1].poses[1].position = {0.0, 0.3, 0.0};
   const double square = 0.25 * angle * angle + 0.09;
   EXPECT_NEAR(error_of(run, reference).position, std::sqrt(square / 2.0) / 4.0, 8.0 * eps);
-  // A body that does not turn by an angle is compared by its orientation, whichever sign its quaternion has.
+  // A body that does not turn by an angle is compared by its orientation, whichever sign its
+  // quaternion has.
   Trajectory turned = still();
   turned.frames[1].poses[1].orientation = Eigen::AngleAxisd(0.2, Vector3(0.6, 0.0, 0.8));
   EXPECT_NEAR(error_of(turned, reference).position, std::sqrt(0.16 / 2.0) / 4.0, 1e-8);
@@ -120,7 +122,8 @@ TEST(RunError, OfARunThatDivergedIsInfinite) {
 }
 
 TEST(RunError, MotionIsTheWayFromTheStart) {
-  // Two bodies in a scene of 4 m: one goes 3 m and comes back, one turns by 2 rad with a reach of 0.5 m.
+  // Two bodies in a scene of 4 m: one goes 3 m and comes back, one turns by 2 rad with a reach of
+  // 0.5 m.
   Trajectory run;
   run.scale = 4.0;
   run.bodies = {{BodyId{0}, "goes", 0.0, false}, {BodyId{1}, "turns", 0.5, true}};

@@ -26,8 +26,8 @@ Scene short_scene(const std::string& name, const std::vector<Override>& more) {
 }
 
 TEST(Similarity, ScenesOfAllSizesAndMassesMoveAlike) {
-  // Factors that are powers of two change no digit, except where cable is counted in multiples of a power of two that the
-  // size decides; 12 steps of some 40 roundings each stay far below 1e-9.
+  // Factors that are powers of two change no digit, except where cable is counted in multiples of a
+  // power of two that the size decides; 12 steps of some 40 roundings each stay far below 1e-9.
   for (const std::string name :
        {"analytic/atwood.json", "machines/crane.json", "paper/pulley.json"}) {
     std::ifstream file(similarity_scene_path(name));

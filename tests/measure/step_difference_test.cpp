@@ -41,7 +41,8 @@ TEST(StepDifference, FindsOrderAndErrorOfALaw) {
 }
 
 TEST(StepDifference, LengthsAloneMakeNoOrder) {
-  // Twice as large, as of first order, but at other times: what moments of impacts that shift by a step make.
+  // Twice as large, as of first order, but at other times: what moments of impacts that shift by a
+  // step make.
   const StepDifference events = summed([](double h, double t) {
                                   return Vector3(h * std::sin(30.0 * t / h), 0.0, 0.0);
                                 }).result(1.0);

@@ -1,5 +1,5 @@
-// Stability maps: what the verdicts mean, that the closed forms of the standard machines are right, and that the command of
-// a cell is the cell.
+// Stability maps: what the verdicts mean, that the closed forms of the standard machines are right,
+// and that the command of a cell is the cell.
 
 #include "measure/stress_map.h"
 
@@ -41,8 +41,8 @@ Scene train(const std::vector<GeneratorSetting>& settings = {}) {
 }
 
 TEST(StressJudge, ErrorIsRelativeToTheClosedForm) {
-  // A gravity that is 20 % too large makes all accelerations and tensions 20 % too large, up to Gauss-Seidel's error, below
-  // 0.1 %; checks of the generator have tolerances of 0.1 %.
+  // A gravity that is 20 % too large makes all accelerations and tensions 20 % too large, up to
+  // Gauss-Seidel's error, below 0.1 %; checks of the generator have tolerances of 0.1 %.
   Scene scene = train();
   EXPECT_EQ(judged(scene).kind, StressKind::right);
   EXPECT_LT(judged(scene).error, 1e-3);
@@ -68,7 +68,8 @@ TEST(StressJudge, TellsFaultsApart) {
 }
 
 TEST(StressJudge, SeesEnergyThatCameFromNowhere) {
-  // The judge is told of a state that another run has reached: a weight moves although the machine is in balance.
+  // The judge is told of a state that another run has reached: a weight moves although the machine
+  // is in balance.
   const Scene scene = train({{"last_mass", "1"}});
   Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
   ASSERT_TRUE(simulation);
@@ -78,7 +79,8 @@ TEST(StressJudge, SeesEnergyThatCameFromNowhere) {
   state.bodies.front().velocity.y() += 1.0;
   ASSERT_TRUE(simulation->world.restore(state).empty());
   judge.observe(*simulation);
-  // The tensions, which no step has found, are slack as well; energy is judged where they are not asked for.
+  // The tensions, which no step has found, are slack as well; energy is judged where they are not
+  // asked for.
   EXPECT_NE(judge.verdict(*simulation, {}).kind, StressKind::right);
   Scene unchecked = scene;
   unchecked.checks.clear();
@@ -105,8 +107,9 @@ TEST(StressJudge, KnowsWhatIsDriven) {
       *load_scene(std::string(SHEAVE_SOURCE_DIR) + "/scenes/analytic/four-bar.json")));
 }
 
-/// The closed forms belong to the machine and not to a solver, so the most exact settings must meet them: steps that resolve
-/// the motion, moderate numbers. 1e-2 leaves room for what vibrations of the elastic machine lose to the step.
+/// The closed forms belong to the machine and not to a solver, so the most exact settings must meet
+/// them: steps that resolve the motion, moderate numbers. 1e-2 leaves room for what vibrations of
+/// the elastic machine lose to the step.
 TEST(StressMaps, ModerateCellsMeetTheirClosedForms) {
   int judged_cells = 0;
   for (const StressMap& map : standard_stress_maps({})) {

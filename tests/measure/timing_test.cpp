@@ -71,7 +71,8 @@ TEST(Timing, FillsASampleWithWholeRuns) {
   options.repetitions = 1;
   options.warm_up = false;
   options.least_sample = 0.035;
-  // By this clock a frame takes a millisecond, so a run takes ten, and four of them fill the sample; each begins at the start.
+  // By this clock a frame takes a millisecond, so a run takes ten, and four of them fill the
+  // sample; each begins at the start.
   options.clock.cpu = [&] { return 1e-3 * a.frames; };
   const std::vector<Timing> timings = time_interleaved({a.contender("a")}, options);
   EXPECT_EQ(a.restarts, 4);

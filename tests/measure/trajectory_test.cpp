@@ -61,7 +61,8 @@ TEST(Trajectory, FollowsOnlyWhatIsNotGiven) {
 }
 
 TEST(Trajectory, StretchIsThatOfTheWholeCable) {
-  // One sweep leaves spans too long; what is told must be the largest sum of their excesses, by the cable's length.
+  // One sweep leaves spans too long; what is told must be the largest sum of their excesses, by the
+  // cable's length.
   Scene scene = scene_of(test::wheel_train(5, 1.0, 2.0, 0.2, 0.01), 0.5);
   scene.model.step.iterations = 1;
   const Result<Trajectory> run = record(scene);

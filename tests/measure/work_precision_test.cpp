@@ -14,7 +14,8 @@ using testing::IsEmpty;
 
 constexpr double none = std::numeric_limits<double>::infinity();
 
-// In no order; 1 is dominated by 0 in cost and by 4 in both, 3 failed, 5 costs as much as 4 for less.
+// In no order; 1 is dominated by 0 in cost and by 4 in both, 3 failed, 5 costs as much as 4 for
+// less.
 const std::vector<WorkPoint> some_points{{1.0, 0.5},  {8.0, 0.1},  {16.0, 1e-3}, {none, none},
                                          {4.0, 0.01}, {4.0, 0.02}, {2.0, none},  {32.0, 1e-3}};
 

@@ -242,7 +242,8 @@ void BowModel::runge_kutta(Vector& q, Vector& v, Nock nock, double h) const {
 
 BowModel::Vector BowModel::held_force(const Vector& q) const {
   const int x = 2 * rods_;
-  // Arrow: a beam on the rest and the serving. Fingers: their cord is straight back only if they are level with the serving.
+  // Arrow: a beam on the rest and the serving. Fingers: their cord is straight back only if they
+  // are level with the serving.
   const double share = (rest_x_ - q[x] - arrow_middle_) / (rest_x_ - q[x]);
   Vector f = force(q, Vector::Zero(q.size()), share * gravity_ * arrow_);
   f[x + 1] -= f[x] * (q[x + 1] - fingers_y_) / cord_;
@@ -253,7 +254,8 @@ BowModel::Draw BowModel::hold(double x) {
   const int at_x = 2 * rods_;
   const Vector still = Vector::Zero(q_.size());
   q_[at_x] = q_[at_x + 2] = x;
-  // Newton's method for the limbs and the serving's height; the stiffness matrix by central differences.
+  // Newton's method for the limbs and the serving's height; the stiffness matrix by central
+  // differences.
   const int n = at_x + 1;
   const auto index = [&](int i) { return i < at_x ? i : at_x + 1; };
   for (int round = 0; round < 50; ++round) {

@@ -1,10 +1,12 @@
 #pragma once
-// The bow of scenes/paper/bow.json once more, without the engine: its limbs as two chains of rods in generalised
-// coordinates, integrated by Runge and Kutta's method. It shares numbers with the scene, and nothing else.
+// The bow of scenes/paper/bow.json once more, without the engine: its limbs as two chains of rods
+// in generalised coordinates, integrated by Runge and Kutta's method. It shares numbers with the
+// scene, and nothing else.
 //
-// Coordinates: the angle a_i of every rod from the upright, positive towards the archer (away from -x sine), upper limb
-// first; then x, y of the string's middle (the serving); then x of the arrow's nock. With rods of length s, masses m_i and
-// moments I_i about their middles, a limb has the kinetic energy 1/2 sum_jk c_jk cos(a_j - a_k) a_j' a_k' with
+// Coordinates: the angle a_i of every rod from the upright, positive towards the archer (away from
+// -x sine), upper limb first; then x, y of the string's middle (the serving); then x of the arrow's
+// nock. With rods of length s, masses m_i and moments I_i about their middles, a limb has the
+// kinetic energy 1/2 sum_jk c_jk cos(a_j - a_k) a_j' a_k' with
 //   c_jk = s^2 (m_max(j,k) / 2 + what is beyond it)  for j != k,   c_jj = s^2 (m_j / 4 + what is beyond j) + I_j,
 // and moves by  sum_k c_jk (cos(a_j - a_k) a_k'' + sin(a_j - a_k) a_k'^2) = -dV/da_j - losses.
 
@@ -27,7 +29,8 @@ class BowModel {
     double upper_tension = 0.0;  ///< of the string's halves [N]
     double lower_tension = 0.0;
   };
-  /// In balance with the serving held at x [m]; continues from the draw before, so go in small steps.
+  /// In balance with the serving held at x [m]; continues from the draw before, so go in small
+  /// steps.
   Draw hold(double x);
 
   struct Shot {
@@ -37,7 +40,8 @@ class BowModel {
     double losses = 0.0;           ///< to damping in limbs and string until the end [J]
     double energy_error = 0.0;     ///< of the balance of energy at the end [J]
   };
-  /// Lets go from the draw held last and follows bow and arrow for `duration` with steps of `step` [s].
+  /// Lets go from the draw held last and follows bow and arrow for `duration` with steps of `step`
+  /// [s].
   [[nodiscard]] Shot loose(double duration, double step) const;
 
   /// x of the serving in the scene at time 0, the braced bow [m].
@@ -56,8 +60,9 @@ class BowModel {
   [[nodiscard]] String string(const Vector& q, const Vector& v, int limb) const;
   [[nodiscard]] Vector force(const Vector& q, const Vector& v, double arrow_weight) const;
   [[nodiscard]] Vector held_force(const Vector& q) const;
-  /// What the string carries of an arrow without a rest: a rod on one hinge starts to fall with the centre's acceleration
-  /// 3/4 g, so a quarter of its weight, and a quarter of its mass moves with the string.
+  /// What the string carries of an arrow without a rest: a rod on one hinge starts to fall with the
+  /// centre's acceleration 3/4 g, so a quarter of its weight, and a quarter of its mass moves with
+  /// the string.
   [[nodiscard]] double flying_weight() const { return 0.25 * gravity_ * arrow_; }
   [[nodiscard]] Vector acceleration(const Vector& q, const Vector& v, Nock nock) const;
   [[nodiscard]] double grip(const Vector& q) const;

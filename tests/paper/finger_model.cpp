@@ -83,7 +83,8 @@ FingerModel::FingerModel(const Scene& scene, const std::string& digit)
 double FingerModel::flexor_way(const std::vector<Vector3>& holes) const {
   const Vector3 d = drum_frame_.conjugate() * (holes.front() - drum_);
   const double distance = std::hypot(d.x(), d.y());
-  // It leaves the drum clockwise, over its top; what turns the tangent point back along the cable is unwound from the drum.
+  // It leaves the drum clockwise, over its top; what turns the tangent point back along the cable
+  // is unwound from the drum.
   double way = std::sqrt(distance * distance - drum_radius_ * drum_radius_) -
                drum_radius_ * (std::atan2(d.y(), d.x()) - std::asin(drum_radius_ / distance));
   for (std::size_t i = 1; i < holes.size(); ++i) way += (holes[i] - holes[i - 1]).norm();
@@ -115,7 +116,8 @@ double FingerModel::potential(const Eigen::VectorXd& angles, double flexor_tensi
 Eigen::VectorXd FingerModel::posture(double flexor_tension) const {
   const auto n = static_cast<Eigen::Index>(phalanges_.size());
   Eigen::VectorXd angles = Eigen::VectorXd::Zero(n);
-  // Newton's method with central differences: errors of V'' e^2 = 1e-8 of the gradient, 1e-4 of the slope.
+  // Newton's method with central differences: errors of V'' e^2 = 1e-8 of the gradient, 1e-4 of the
+  // slope.
   constexpr double e = 1e-4;
   const auto v = [&](Eigen::Index i, double si, Eigen::Index j, double sj) {
     Eigen::VectorXd moved = angles;

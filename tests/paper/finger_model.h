@@ -1,11 +1,12 @@
 #pragma once
-// A digit of scenes/paper/hand.json as a potential of its joint angles, without constraints: an engine-free account of how
-// tendons, ligaments, stops and weight share a posture.
+// A digit of scenes/paper/hand.json as a potential of its joint angles, without constraints: an
+// engine-free account of how tendons, ligaments, stops and weight share a posture.
 //
 //   V(t) = T f(t) + T0 e(t) + k e(t)^2 / 2 + sum_i s t_i^2 / 2 - sum_i m_i g . x_i(t)
 //
-// with the angles t since time 0, the way f of the flexor, which the drum pulls with T, the lengthening e = sum_i r_i t_i of the
-// extensor with its first tension T0 and its stiffness k, and the stiffness s of the ligaments. Least where dV/dt = 0.
+// with the angles t since time 0, the way f of the flexor, which the drum pulls with T, the
+// lengthening e = sum_i r_i t_i of the extensor with its first tension T0 and its stiffness k, and
+// the stiffness s of the ligaments. Least where dV/dt = 0.
 
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
-// The hand of the paper's Figure 1 (scenes/paper/hand.json) against statics by potential, and what tendons and hinges owe
-// whatever the hand does: excursion, one tension, axes, stops.
+// The hand of the paper's Figure 1 (scenes/paper/hand.json) against statics by potential, and what
+// tendons and hinges owe whatever the hand does: excursion, one tension, axes, stops.
 
 #include <cmath>
 
@@ -29,7 +29,8 @@ TEST(Hand, posture_under_a_light_pull_has_the_least_potential) {
     const FingerModel finger(hand.scene(), digit);
     const Eigen::VectorXd posture = finger.posture(light_pull);
     for (std::size_t i = 0; i < finger.joints().size(); ++i) {
-      // A second after the pull has come, a motion that hinges and drums damp within 0.1 s has left 1e-4 rad.
+      // A second after the pull has come, a motion that hinges and drums damp within 0.1 s has left
+      // 1e-4 rad.
       EXPECT_NEAR(hand.value(finger.joints()[i] + ".angle"), posture[static_cast<Eigen::Index>(i)],
                   2e-4)
           << finger.joints()[i];
@@ -85,7 +86,8 @@ void expect_hinges(const PaperRun& hand) {
   for (const auto& joint : hand.scene().model.joints) {
     const auto& hinge = dynamic_cast<const HingeJoint&>(*joint);
     SCOPED_TRACE(hinge.name);
-    // The direct solver leaves squares of what its last round corrected: far below a micrometre and ten microradians.
+    // The direct solver leaves squares of what its last round corrected: far below a micrometre and
+    // ten microradians.
     const Vector3 gap = carried(hand, hinge.body_a, hinge.anchor, false) -
                         carried(hand, hinge.body_b, hinge.anchor, false);
     EXPECT_LT(gap.norm(), 1e-6);
@@ -114,7 +116,8 @@ TEST(Hand, closes_on_the_ball_and_holds_it) {
     if (k == 17) held = ball();
   }
   EXPECT_LT((ball() - held).norm(), 1e-6);
-  // Pressed in by more than its own weight would (1 N on two points of contact that give by 1e-4 m/N).
+  // Pressed in by more than its own weight would (1 N on two points of contact that give by 1e-4
+  // m/N).
   EXPECT_LT(held.y(), 0.0385 - 2e-4);
 }
 

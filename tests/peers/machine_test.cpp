@@ -1,4 +1,5 @@
-// The comparison with other engines: that all are given the same problem, and that errors mean what they say.
+// The comparison with other engines: that all are given the same problem, and that errors mean what
+// they say.
 
 #include "bench/peers/machine.h"
 

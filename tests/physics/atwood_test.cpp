@@ -44,8 +44,8 @@ TEST(Atwood, HeavyWheelHasClosedFormAccelerationAndTensions) {
   }
 }
 
-// The worst q above over m2/m1 is that of m2 -> infinity, (1/J')/(1/m1 + 1/J') = 0.56. One iteration
-// is enough here (0.03 % of the tensions); two leave 1e-8.
+// The worst q above over m2/m1 is that of m2 -> infinity, (1/J')/(1/m1 + 1/J') = 0.56. One
+// iteration is enough here (0.03 % of the tensions); two leave 1e-8.
 TEST(Atwood, MassRatiosUpToAMillionStayWithinOnePercent) {
   for (double ratio = 1.0; ratio < 2e6; ratio *= 10.0) {
     for (const bool heavy_right : {true, false}) {

@@ -38,7 +38,8 @@ TEST(Cut, AtItsTimeBothWeightsOfAnAtwoodMachineFall) {
 }
 
 TEST(Cut, ACableBreaksWhenItsTensionPassesTheGivenOne) {
-  // A weight that swings on a cable: T = m (g cos a + v^2 / l) = m g (3 cos a - 2 cos a0), at most 3 - 2 cos 60 = 2 m g.
+  // A weight that swings on a cable: T = m (g cos a + v^2 / l) = m g (3 cos a - 2 cos a0), at most
+  // 3 - 2 cos 60 = 2 m g.
   const double start = pi / 3.0;
   for (const double share : {0.9, 1.1}) {
     test::Machine m = test::cable_pendulum(1.0, 1.0, start);
@@ -50,7 +51,8 @@ TEST(Cut, ACableBreaksWhenItsTensionPassesTheGivenOne) {
     }
     EXPECT_EQ(s.cables->events().size(), share < 1.0 ? 1U : 0U);
     if (share > 1.0) continue;
-    // It breaks where 3 cos a - 1 = 1.8. XPBD's damping, of order h, and the mean over a substep shift that.
+    // It breaks where 3 cos a - 1 = 1.8. XPBD's damping, of order h, and the mean over a substep
+    // shift that.
     const Vector3 x = s.world.position({0});
     EXPECT_NEAR(-x.y() / x.norm(), 2.8 / 3.0, 2e-3);
     const Vector3 v = s.world.velocity({0});

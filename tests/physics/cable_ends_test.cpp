@@ -49,7 +49,8 @@ TEST(Hybrid, AWeightFallsAsFarAsTheStoredLengthAllows) {
       const double r = 0.2;
       const BodyId wheel = m.model.add(test::wheel("wheel", Vector3::Zero(), r, 0.02));
       const BodyId weight = m.model.add(ball("weight", {r, -0.5, 0.0}));
-      // On the right side a cable that runs up and over the wheel goes counter-clockwise; from the wheel down, clockwise.
+      // On the right side a cable that runs up and over the wheel goes counter-clockwise; from the
+      // wheel down, clockwise.
       m.cables.push_back(ends_first ? cable("rope", {hybrid(wheel, right, stored), attach(weight)})
                                     : cable("rope", {attach(weight), hybrid(wheel, left, stored)}));
       Simulation s = test::start(m);
@@ -60,7 +61,8 @@ TEST(Hybrid, AWeightFallsAsFarAsTheStoredLengthAllows) {
         ASSERT_TRUE(s.world.step().ok());
         lowest = std::min(lowest, s.world.position(weight).y());
         const double now = s.world.energy().total();
-        // A substep under the force T does at most T h v of work wrongly; what rounds at a transition is far less.
+        // A substep under the force T does at most T h v of work wrongly; what rounds at a
+        // transition is far less.
         EXPECT_LE(now, energy + 1e-9 * scale) << "step " << i << " stored " << stored;
         energy = now;
       }
@@ -75,8 +77,8 @@ TEST(Hybrid, AWeightFallsAsFarAsTheStoredLengthAllows) {
 }
 
 TEST(Hybrid, APendulumOnAFixedDiscIsWoundAndAttachedInTurn) {
-  // It hangs on the right of the disc. Swinging to the left it is wound onto the disc's lower right, swinging to the
-  // right the few centimetres that are stored are used up.
+  // It hangs on the right of the disc. Swinging to the left it is wound onto the disc's lower
+  // right, swinging to the right the few centimetres that are stored are used up.
   test::Machine m;
   m.model.gravity = test::down;
   m.model.step = test::settings(0.002, 1, 20);
@@ -108,7 +110,8 @@ TEST(Hybrid, APendulumOnAFixedDiscIsWoundAndAttachedInTurn) {
 }
 
 TEST(Drum, LayersHoldTheIntegralOfTheGrowingRadius) {
-  // Driven at 2 turns per second; the load hangs far below, so that the direction of the cable hardly changes.
+  // Driven at 2 turns per second; the load hangs far below, so that the direction of the cable
+  // hardly changes.
   test::Machine m;
   m.model.gravity = test::down;
   m.model.step = test::settings(0.01, 1, 10);
@@ -138,8 +141,9 @@ TEST(Drum, LayersHoldTheIntegralOfTheGrowingRadius) {
   EXPECT_NEAR(s.world.position(load).y(), -1000.0 + report.links[1].stored_length, 1e-3);
 }
 
-// A load winds itself off a drum in layers, on a rigid rope 2 m to the side, so that its direction turns as the radius
-// changes. Nothing is lost: J w^2 / 2 + m v^2 / 2 + m g y stays, to the second order of the step with `rattle`.
+// A load winds itself off a drum in layers, on a rigid rope 2 m to the side, so that its direction
+// turns as the radius changes. Nothing is lost: J w^2 / 2 + m v^2 / 2 + m g y stays, to the second
+// order of the step with `rattle`.
 TEST(Drum, LayersKeepEnergyToSecondOrder) {
   const auto error = [](double h, double pitch) {
     test::Machine m;
@@ -187,8 +191,9 @@ TEST(Drum, TheLastTurnIsFixedToTheDrum) {
   for (int i = 0; i < 2000; ++i) ASSERT_TRUE(s.world.step().ok());
   const CableReport report = s.cable_reports()[0];
   EXPECT_EQ(report.links[1].winding, -1);
-  // Four turns less the 0.5 m that were unwound and the half turn in which the attachment passes below from the right
-  // side to the left. The load swings a little: the cable's direction differs by less than 0.05 rad from the plumb line.
+  // Four turns less the 0.5 m that were unwound and the half turn in which the attachment passes
+  // below from the right side to the left. The load swings a little: the cable's direction differs
+  // by less than 0.05 rad from the plumb line.
   EXPECT_NEAR(report.links[1].stored_length, 4.0 * 2.0 * pi * 0.1 - 0.5 - pi * 0.1, 0.05 * 0.1);
   EXPECT_EQ(report.length_error, 0.0);
 }

@@ -1,4 +1,5 @@
-// Drives that want more cable than there is (cable/cable_drives.cpp), and ends of cables that have run out.
+// Drives that want more cable than there is (cable/cable_drives.cpp), and ends of cables that have
+// run out.
 
 #include <algorithm>
 #include <cmath>
@@ -139,7 +140,8 @@ TEST_P(CableLimits, OneDriveOfABeltNeverStalls) {
 }
 
 TEST_P(CableLimits, RoundingOfABeltWithOneDriveIsNoShortage) {
-  // Crossed round the middle one of three wheels: what the drive feeds and draws differs in the last digits.
+  // Crossed round the middle one of three wheels: what the drive feeds and draws differs in the
+  // last digits.
   test::Machine m;
   m.model.step = step_settings(1.0 / 60.0, 20);
   BodyDef first = driven_wheel("a", {-2.3, -1.3, 0.0}, 0.3, 0.0);
@@ -173,7 +175,8 @@ TEST_P(CableLimits, AWinchStopsWhenItsLoadIsAtTheDrum) {
   run_and_check(s, 1.0);
   EXPECT_NEAR(s.world.position(load).y(), -0.1, 1e-9);
   run_and_check(s, 3.0);
-  // It has wound 0.5 m, to the last part of a step. The load has been thrown up by 0.4 m/s, and hangs again.
+  // It has wound 0.5 m, to the last part of a step. The load has been thrown up by 0.4 m/s, and
+  // hangs again.
   const CableReport report = s.cable_reports()[0];
   EXPECT_NEAR(s.world.state().bodies[0].angle, 0.5 / r, 1e-9);
   EXPECT_EQ(s.world.state().bodies[0].angular_velocity.z(), 0.0);
@@ -189,8 +192,9 @@ TEST_P(CableLimits, AWinchStopsWhenItsLoadIsAtTheDrum) {
 }
 
 TEST_P(CableLimits, ADrumThatHasPaidOutAllWindsUpTheOtherWay) {
-  // A load that slides along the line of its cable. After the stored length the end is a point of the rim, which turns on
-  // by the angle a: y = -r sin a - sqrt(l^2 - r^2 (1 - cos a)^2), until the cable lies on the drum again.
+  // A load that slides along the line of its cable. After the stored length the end is a point of
+  // the rim, which turns on by the angle a: y = -r sin a - sqrt(l^2 - r^2 (1 - cos a)^2), until the
+  // cable lies on the drum again.
   for (const bool rolling : {true, false}) {
     test::Machine m;
     m.model.gravity = test::down;
@@ -230,8 +234,8 @@ TEST_P(CableLimits, ADrumThatWindsUpTheOtherWayStopsAtItsLoad) {
   m.cables.push_back(cable("rope", {attach(m.model.add(hung)), drum(body, left, 0.3)}));
   Simulation s = test::start(m);
   double most = 0.0;
-  // Later the load, which nothing keeps out of the drum, goes through its centre: there it is an accident on which side the cable
-  // is.
+  // Later the load, which nothing keeps out of the drum, goes through its centre: there it is an
+  // accident on which side the cable is.
   for (int i = 1; i <= 3000; ++i) {
     run_and_check(s, 0.002 * i);
     const LinkReport end = s.cable_reports()[0].links[1];
@@ -244,7 +248,8 @@ TEST_P(CableLimits, ADrumThatWindsUpTheOtherWayStopsAtItsLoad) {
 }
 
 TEST_P(CableLimits, AFreeDrumThatHasPaidOutAllHoldsItsLoadByTheRim) {
-  // Falls with a = m g / (m + J / r^2) for 0.3 m; the bearing's drag then brings it to rest below the drum.
+  // Falls with a = m g / (m + J / r^2) for 0.3 m; the bearing's drag then brings it to rest below
+  // the drum.
   test::Machine m;
   m.model.gravity = test::down;
   m.model.step = step_settings(0.002, 30);
@@ -323,7 +328,8 @@ TEST_P(CableLimits, AnElasticBeltIsDrawnNoFurtherThanItsSpanIsLong) {
   test::Machine m = driven_belt(step_settings(0.01, 20), 0.2, 0.2, 1.0, -1.0);
   m.cables[0].compliance = 1e-4;
   Simulation s = test::start(m);
-  // Each draws 0.2 m/s: the span of 1 m is used up after 2.5 s. The tension is the stretch over the compliance.
+  // Each draws 0.2 m/s: the span of 1 m is used up after 2.5 s. The tension is the stretch over the
+  // compliance.
   run_and_check(s, 2.0);
   const CableReport before = s.cable_reports()[0];
   const double tension = std::max(before.spans[0].tension, before.spans[1].tension);
@@ -335,8 +341,9 @@ TEST_P(CableLimits, AnElasticBeltIsDrawnNoFurtherThanItsSpanIsLong) {
 }
 
 TEST_P(CableLimits, OfAMaterialThatIsUsedUpNothingVibrates) {
-  // Compliance and stretch are both 0 then, and so is what implicit Euler takes: the weight has fallen as far as its springs
-  // let it, and never more is taken than its 2 kg x g x 0.5 m and what the feed has put in.
+  // Compliance and stretch are both 0 then, and so is what implicit Euler takes: the weight has
+  // fallen as far as its springs let it, and never more is taken than its 2 kg x g x 0.5 m and what
+  // the feed has put in.
   test::Machine m;
   m.model.gravity = test::down;
   m.model.step = step_settings(0.004, 20);

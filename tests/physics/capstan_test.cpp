@@ -16,8 +16,9 @@ using test::g;
 using test::right;
 using test::roll;
 
-/// A cable from a sliding block, bent by `angle` round something fixed, down to a hanging weight. The block is pulled away
-/// by as much as gravity pulls a hanging mass of its size, so both ends accelerate like those of Atwood's machine.
+/// A cable from a sliding block, bent by `angle` round something fixed, down to a hanging weight.
+/// The block is pulled away by as much as gravity pulls a hanging mass of its size, so both ends
+/// accelerate like those of Atwood's machine.
 struct Capstan {
   static constexpr double radius = 0.25;
   static constexpr double reach = 10.0;  ///< of the cable to either side [m]
@@ -35,8 +36,9 @@ struct Capstan {
   /// Whole turns in `angle`.
   [[nodiscard]] int turns() const { return static_cast<int>(angle / (2.0 * pi) + 0.1); }
 
-  /// Where the cable comes from, seen from the drum, whose right side it leaves downwards: from the left over the
-  /// drum's top for a quarter turn, from below on the left for half a turn, from above on the right for none.
+  /// Where the cable comes from, seen from the drum, whose right side it leaves downwards: from the
+  /// left over the drum's top for a quarter turn, from below on the left for half a turn, from
+  /// above on the right for none.
   [[nodiscard]] Vector3 away() const {
     const double rest = angle - 2.0 * pi * turns();
     if (rest < 0.1) return Vector3::UnitY();
@@ -76,13 +78,15 @@ struct Capstan {
   }
 };
 
-/// With the tension ratio beyond e^(m a) = q, to either side: the heavier end falls with the acceleration
+/// With the tension ratio beyond e^(m a) = q, to either side: the heavier end falls with the
+/// acceleration
 ///   m1 a = T1 - m1 g, m2 a = m2 g - q T1  =>  a = (m2 - q m1) g / (m2 + q m1), exact in every step, as all is straight.
 /// Below it nothing moves and each tension is its own weight.
 ///
-/// Rounding: positions of 10 m are known to 1e-15 m, which is 1e-13 m/s in one step of 0.01 s and 1e-12 m/s after 50
-/// steps at worst; to g h^2 = 1e-3 m, the motion that a tension holds back, it is 1e-12, and the same to that of the
-/// ratio, because the lighter end has the same g. A factor of 10 is left for the sums on the way.
+/// Rounding: positions of 10 m are known to 1e-15 m, which is 1e-13 m/s in one step of 0.01 s and
+/// 1e-12 m/s after 50 steps at worst; to g h^2 = 1e-3 m, the motion that a tension holds back, it
+/// is 1e-12, and the same to that of the ratio, because the lighter end has the same g. A factor of
+/// 10 is left for the sums on the way.
 void expect_capstan(const Capstan& capstan) {
   constexpr double tolerance = 1e-11;
   Simulation s = test::start(capstan.machine());
@@ -109,8 +113,8 @@ void expect_capstan(const Capstan& capstan) {
               tolerance);
 }
 
-/// One end weighs e^(x m a) times the other, x being a share of the exponent: also where the limit is 12000 that comes
-/// as near to it as a thousandth, from both sides.
+/// One end weighs e^(x m a) times the other, x being a share of the exponent: also where the limit
+/// is 12000 that comes as near to it as a thousandth, from both sides.
 void expect_capstan_near_its_limit(Capstan capstan) {
   for (const double share : {0.5, 0.9, 0.999, 1.001, 1.1}) {
     const double heavy = std::exp(share * capstan.friction * capstan.angle);
@@ -140,7 +144,8 @@ TEST(Capstan, APinholeHoldsUpToTheRatioAndSlipsBeyond) {
 }
 
 TEST(Capstan, GoesContinuouslyFromSlipToStickAsFrictionGrows) {
-  // An Atwood machine on a wheel with inertia: it slips below the friction at which rolling needs the ratio.
+  // An Atwood machine on a wheel with inertia: it slips below the friction at which rolling needs
+  // the ratio.
   const test::Atwood atwood{.m1 = 1.0, .m2 = 2.0, .inertia = 0.2, .hang = 50.0};
   const double rolling = atwood.acceleration();
   const double needed = 2.0 * (g - rolling) / (g + rolling);  // T2 / T1 when it rolls
@@ -183,7 +188,8 @@ TEST(Capstan, WithoutFrictionTheWheelStandsStill) {
 }
 
 TEST(Capstan, StaysFiniteWhereNothingButTheWheelCanMove) {
-  // Sliding over the wheel turns it but gives no cable, so what pulls a rigid cable apart here cannot be met.
+  // Sliding over the wheel turns it but gives no cable, so what pulls a rigid cable apart here
+  // cannot be met.
   for (int i = 0; i < 20; ++i) {
     test::Machine m;
     m.model.gravity = test::down;
@@ -211,7 +217,8 @@ TEST(Capstan, StaysFiniteWhereNothingButTheWheelCanMove) {
 }
 
 TEST(Capstan, WithOneRoundItSlidesOneStepLater) {
-  // Whether it slides is decided after a round, so a single one leaves the decision to the next step.
+  // Whether it slides is decided after a round, so a single one leaves the decision to the next
+  // step.
   for (const SolverKind solver : {SolverKind::gauss_seidel, SolverKind::direct}) {
     const Capstan capstan{.weight = 2.0};
     test::Machine m = capstan.machine();

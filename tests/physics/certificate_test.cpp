@@ -1,5 +1,6 @@
-// The certificate finds nothing where numbers are right, to what solvers leave, and something where a solver has not
-// converged. That it sees faults of the code itself is shown by tools/mutation-table.
+// The certificate finds nothing where numbers are right, to what solvers leave, and something where
+// a solver has not converged. That it sees faults of the code itself is shown by
+// tools/mutation-table.
 
 #include "cable/certificate.h"
 
@@ -42,8 +43,8 @@ std::string worst_of(const Certificate& certificate) {
 
 class CertificateOf : public testing::TestWithParam<IntegratorKind> {};
 
-// The direct solver ends when no row is violated by 1e-10 of the scene, 5 m here: a force of m 5e-10 m / h^2 with h = 1/240 s
-// is 3e-6 m g. Tensions are as exact.
+// The direct solver ends when no row is violated by 1e-10 of the scene, 5 m here: a force of m
+// 5e-10 m / h^2 with h = 1/240 s is 3e-6 m g. Tensions are as exact.
 TEST_P(CertificateOf, AtwoodIsWhatTheSolverLeaves) {
   Machine machine = Atwood{}.machine();
   machine.model.step = exact(GetParam());
@@ -100,9 +101,9 @@ TEST_P(CertificateOf, DrivenHinge) {
   EXPECT_NE(all.find(Kind::joint), nullptr);
 }
 
-// A drive of 30 N that has to bring 2 kg to 0.1 m/s: with `rattle` the first half of a substep has 15 N for the whole way, which
-// is not enough; the second one brings the speed, with less than 30 N altogether. 30 N / 2 kg h = 0.0625 m/s after the first
-// substep, 0.1 m/s after the second.
+// A drive of 30 N that has to bring 2 kg to 0.1 m/s: with `rattle` the first half of a substep has
+// 15 N for the whole way, which is not enough; the second one brings the speed, with less than 30 N
+// altogether. 30 N / 2 kg h = 0.0625 m/s after the first substep, 0.1 m/s after the second.
 TEST_P(CertificateOf, DriveThatSpeedsUpWithAllItsForce) {
   Machine machine;
   machine.model.step = exact(GetParam());
@@ -126,8 +127,9 @@ TEST_P(CertificateOf, DriveThatSpeedsUpWithAllItsForce) {
   EXPECT_TRUE(later.clean(1e-5)) << worst_of(later);
 }
 
-// Between a wheel and the edge of a box, out of the plane of either: the wheel is held in its plane as by another wheel, and a
-// sharp corner is a point. Without the pair of forces that says so the disk's torques are 2 % off.
+// Between a wheel and the edge of a box, out of the plane of either: the wheel is held in its plane
+// as by another wheel, and a sharp corner is a point. Without the pair of forces that says so the
+// disk's torques are 2 % off.
 TEST_P(CertificateOf, WheelAndBoxInSkewPlanes) {
   Machine machine;
   machine.model.gravity = down;
@@ -161,7 +163,8 @@ INSTANTIATE_TEST_SUITE_P(Integrators, CertificateOf,
                                integrator_names[static_cast<std::size_t>(info.param)]);
                          });
 
-// 31 wheels are more than one sweep can carry a tension over: 1 + 2 kg move, the middle knows nothing of it.
+// 31 wheels are more than one sweep can carry a tension over: 1 + 2 kg move, the middle knows
+// nothing of it.
 TEST(Certificate, SeesASolverThatHasNotConverged) {
   Machine machine = wheel_train(31, 1.0, 2.0, 0.25, 0.05);
   machine.model.step = settings(1.0 / 60.0, 1, 1);
@@ -240,8 +243,8 @@ TEST_P(CertificateOf, DashpotLocksNothing) {
   EXPECT_LT(simulation.world.position({0}).y(), -1.8);
 }
 
-// What falls together with its cable pulls at nothing: what rounding leaves of tensions has no ratio, and what it leaves of
-// damped rates is no force.
+// What falls together with its cable pulls at nothing: what rounding leaves of tensions has no
+// ratio, and what it leaves of damped rates is no force.
 TEST_P(CertificateOf, RoundingIsNoFriction) {
   Machine machine;
   machine.model.step = exact(GetParam());

@@ -24,7 +24,8 @@ BodyDef chain_body(std::string name, double x, double mass) {
   return body;
 }
 
-/// `links` slender rods of 1 kg in a row along x and a ball of `ratio` kg, joined, the first to the world.
+/// `links` slender rods of 1 kg in a row along x and a ball of `ratio` kg, joined, the first to the
+/// world.
 Model ball_on_chain(int links, double ratio) {
   Model model;
   model.gravity = test::down;
@@ -62,8 +63,9 @@ double largest_gap(const World& world, int links) {
   return worst;
 }
 
-// The chain is let go from the horizontal. Under up to 3 M g a link swings across the chain with 2 sqrt(3 M g / m L), by
-// 1.2 rad in a substep of 1/240 s, so the gradients turn by as much as the corrections are large.
+// The chain is let go from the horizontal. Under up to 3 M g a link swings across the chain with 2
+// sqrt(3 M g / m L), by 1.2 rad in a substep of 1/240 s, so the gradients turn by as much as the
+// corrections are large.
 TEST(Chain, WithAHeavyBallKeepsItsLengthWithTheDirectSolver) {
   constexpr int links = 40;
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
@@ -78,9 +80,10 @@ TEST(Chain, WithAHeavyBallKeepsItsLengthWithTheDirectSolver) {
       ASSERT_TRUE(report.ok()) << report.divergence->message;
       worst = std::max(worst, largest_gap(world, links));
     }
-    // Each of a joint's three rows is solved to 1e-10 of the scene's size. Close to where `rattle` has no solution (it then
-    // leaves the substep to xpbd) Newton's method is slow; what is left after ten rounds is taken if it is small: seen
-    // 9e-6 m. The bound is what is asked of the solver, 0.01 % of a link.
+    // Each of a joint's three rows is solved to 1e-10 of the scene's size. Close to where `rattle`
+    // has no solution (it then leaves the substep to xpbd) Newton's method is slow; what is left
+    // after ten rounds is taken if it is small: seen 9e-6 m. The bound is what is asked of the
+    // solver, 0.01 % of a link.
     const double rows = std::sqrt(3.0) * 1e-10 * world.bodies().scale();
     EXPECT_LT(worst, integrator == IntegratorKind::xpbd ? rows : 1e-4 * length);
     // It has swung to the other side.
@@ -88,7 +91,8 @@ TEST(Chain, WithAHeavyBallKeepsItsLengthWithTheDirectSolver) {
   }
 }
 
-// With heavy links nothing is stiff, and the two ways of going on must agree: the energy of rattle at the same settings.
+// With heavy links nothing is stiff, and the two ways of going on must agree: the energy of rattle
+// at the same settings.
 TEST(Chain, SwingsWithItsEnergy) {
   constexpr int links = 10;
   Model model = ball_on_chain(links, 5.0);
@@ -102,8 +106,9 @@ TEST(Chain, SwingsWithItsEnergy) {
     ASSERT_TRUE(world.step().ok());
     drift = std::max(drift, std::abs(world.energy().total() - start));
   }
-  // Second order: the fastest swing turns links by some 0.1 rad in a substep, of which the square and a tenth, by the
-  // usual coefficient of the midpoint rule, is seen in the energy m g L of a link that swings.
+  // Second order: the fastest swing turns links by some 0.1 rad in a substep, of which the square
+  // and a tenth, by the usual coefficient of the midpoint rule, is seen in the energy m g L of a
+  // link that swings.
   EXPECT_LT(drift, 1e-3 * 15.0 * g * length);
 }
 

@@ -14,8 +14,8 @@ using test::Heap;
 
 constexpr double degree = pi / 180.0;
 
-/// Sweeps of Gauss-Seidel that share a load among four corners to 1e-6 of it: `xpbd` begins with the forces of the last
-/// substep, `rattle` with none.
+/// Sweeps of Gauss-Seidel that share a load among four corners to 1e-6 of it: `xpbd` begins with
+/// the forces of the last substep, `rattle` with none.
 void sweep_enough(const test::Method& method, Heap& heap) {
   if (method.solver == SolverKind::gauss_seidel && method.integrator == IntegratorKind::rattle) {
     heap.model.step.iterations = 100;
@@ -67,9 +67,10 @@ TEST(ContactFriction, ABoxSlidesJustBeyondTheFrictionAngle) {
 }
 
 TEST(ContactFriction, AnImpactTakesFrictionTimesWhatItGives) {
-  // A box hits the floor while it slides. As long as it does, friction is mu times the normal force at every moment, those of
-  // the impact among them, so v_x falls by mu times what the floor adds to v_y, whatever the box does and however its time is
-  // cut into steps: of a substep of `rattle` both halves have their own.
+  // A box hits the floor while it slides. As long as it does, friction is mu times the normal force
+  // at every moment, those of the impact among them, so v_x falls by mu times what the floor adds
+  // to v_y, whatever the box does and however its time is cut into steps: of a substep of `rattle`
+  // both halves have their own.
   const double friction = 0.3;
   for (const test::Method& method : test::methods) {
     SCOPED_TRACE(test::name_of(method));

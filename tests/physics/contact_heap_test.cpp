@@ -53,8 +53,9 @@ TEST(ContactHeap, EnergyNeverRisesWithoutFriction) {
         ASSERT_TRUE(world.step().ok());
         highest = std::max(highest, world.energy().total());
       }
-      // `xpbd` keeps mean velocities, which are g h / 2 too small while a body falls and too large when it has bounced: an
-      // energy of m g h v, and v is sqrt(2 E / m) for all bodies together at the most.
+      // `xpbd` keeps mean velocities, which are g h / 2 too small while a body falls and too large
+      // when it has bounced: an energy of m g h v, and v is sqrt(2 E / m) for all bodies together
+      // at the most.
       const double h = 1.0 / 480.0;
       double mass = 0.0;
       for (const BodyDef& body : heap.model.bodies) mass += body.mass.value_or(0.0);

@@ -1,7 +1,9 @@
-// Joints and drives that contradict each other: they compromise, make no energy, and reports tell by how much they are off.
+// Joints and drives that contradict each other: they compromise, make no energy, and reports tell
+// by how much they are off.
 //
-// With `direct` (and `rattle`, which leaves such substeps to it) rows give way so that the sum of r^2 / w is least, with their
-// errors r and yields w (engine/solvers/active_set.h), within 1e-6. Gauss-Seidel ends with the row that it visits last.
+// With `direct` (and `rattle`, which leaves such substeps to it) rows give way so that the sum of
+// r^2 / w is least, with their errors r and yields w (engine/solvers/active_set.h), within 1e-6.
+// Gauss-Seidel ends with the row that it visits last.
 
 #include <cmath>
 
@@ -75,8 +77,8 @@ TEST_P(Contradiction, TwoSpeedsOfOneHingeMeetInTheMiddle) {
 }
 
 TEST_P(Contradiction, ADriveAgainstAHingeThatHoldsStallsAndOpensItNoFurtherThanAStep) {
-  // Two hinges 1 m apart hold the bar. The drive asks for v h = 2/480 rad in each substep, which the locks stop when they are
-  // off by as much between them.
+  // Two hinges 1 m apart hold the bar. The drive asks for v h = 2/480 rad in each substep, which
+  // the locks stop when they are off by as much between them.
   Model model;
   model.gravity = test::down;
   model.step = step_settings(h, 20);
@@ -95,7 +97,8 @@ TEST_P(Contradiction, ADriveAgainstAHingeThatHoldsStallsAndOpensItNoFurtherThanA
   const std::vector<JointReport> reports = joint_reports(world);
   EXPECT_LE(reports[0].error + reports[1].error, 2.0 * h * 1.0 * 1.01);
   EXPECT_GT(reports[0].error + reports[1].error, 0.1 * 2.0 * h);
-  // The whole bar at the drive's speed has 1/2 (0.2 + 2 / 4) 2^2 = 1.4 J; a first jerk of Gauss-Seidel may come near that.
+  // The whole bar at the drive's speed has 1/2 (0.2 + 2 / 4) 2^2 = 1.4 J; a first jerk of
+  // Gauss-Seidel may come near that.
   EXPECT_LT(most, 1.4);
   if (!direct()) return;
   EXPECT_NEAR(reports[0].coordinates[0].drive_error, -2.0, 1e-3);
@@ -103,8 +106,9 @@ TEST_P(Contradiction, ADriveAgainstAHingeThatHoldsStallsAndOpensItNoFurtherThanA
 }
 
 TEST_P(Contradiction, HingesToTheWorldAndToABodyThatLeavesShareTheGap) {
-  // The far end of the bar is hinged to a body that is led away along it by 0.3 m/s for 1 s. The hinges of the bar are alike
-  // as seen from its middle, so each is open by half of it. No gravity: the bar stays on its line.
+  // The far end of the bar is hinged to a body that is led away along it by 0.3 m/s for 1 s. The
+  // hinges of the bar are alike as seen from its middle, so each is open by half of it. No gravity:
+  // the bar stays on its line.
   Model model;
   model.step = step_settings(h, 20);
   const BodyId body = model.add(bar());
@@ -147,8 +151,8 @@ TEST_P(Contradiction, TwoDrivesAndAGearThatDoesNotFit) {
   World world = test::start(model);
   test::run(world, 1.0);
   const std::vector<JointReport> reports = joint_reports(world);
-  // Drives ask for 5 rad/s between them that the gear does not have. It counts angles and they do not: so it is off until its
-  // error stops them, by no more than they ask for in a substep.
+  // Drives ask for 5 rad/s between them that the gear does not have. It counts angles and they do
+  // not: so it is off until its error stops them, by no more than they ask for in a substep.
   EXPECT_LE(reports[2].angle_error, 5.0 * h * 1.01);
   for (const BodyId body : {u, v}) EXPECT_LE(world.angular_velocity(body).norm(), 3.0 + 1e-9);
   if (!direct()) return;
@@ -156,7 +160,8 @@ TEST_P(Contradiction, TwoDrivesAndAGearThatDoesNotFit) {
 }
 
 TEST(JointErrors, TellHowFarAnchorsAndAxesAreApart) {
-  // Before the first step a state may be anything: a hinged body is moved by (3, 4, 0) cm and tilted by 0.1 rad about x.
+  // Before the first step a state may be anything: a hinged body is moved by (3, 4, 0) cm and
+  // tilted by 0.1 rad about x.
   Model model;
   const BodyId body = model.add(bar());
   model.joints = {hinge("a", BodyId::world(), body, Vector3::Zero())};

@@ -38,8 +38,8 @@ test::Machine hanging(bool oscillates) {
   return machine;
 }
 
-// Targets with velocities, step by step, are a cubic between points of the oscillation: off it by x'''' dt^4 / 384 and, in the
-// acceleration, x'''' dt^2 / 12, which is what the tension sees.
+// Targets with velocities, step by step, are a cubic between points of the oscillation: off it by
+// x'''' dt^4 / 384 and, in the acceleration, x'''' dt^2 / 12, which is what the tension sees.
 TEST(ControlsMotion, WhatHangsOnATargetFeelsItsVelocity) {
   const double w = 2.0 * pi * 0.8;
   double previous = 0.0;
@@ -49,7 +49,8 @@ TEST(ControlsMotion, WhatHangsOnATargetFeelsItsVelocity) {
     Simulation table = test::start(machine);
     machine = hanging(false);
     machine.model.step = test::direct_settings(IntegratorKind::rattle, dt, 4);
-    // The velocity at the start comes from the definition; the hand is at rest, so the first target sets it off.
+    // The velocity at the start comes from the definition; the hand is at rest, so the first target
+    // sets it off.
     Simulation led = test::start(machine);
     double worst = 0.0;
     const int steps = static_cast<int>(std::lround(2.0 / dt));
@@ -68,7 +69,8 @@ TEST(ControlsMotion, WhatHangsOnATargetFeelsItsVelocity) {
       const double b = led.cable_reports()[0].spans[0].tension;
       worst = std::max(worst, std::abs(a - b));
     }
-    // The start from rest within a step leaves a swing of its own: 0.05 x w dt / 2 sideways, and no more than that in tension.
+    // The start from rest within a step leaves a swing of its own: 0.05 x w dt / 2 sideways, and no
+    // more than that in tension.
     const double acceleration = 0.2 * std::pow(w, 4.0) * dt * dt / 12.0;
     EXPECT_LT(worst, 3.0 * acceleration + 3.0 * g * 0.05 * w * dt);
     if (previous > 0.0) {
@@ -119,7 +121,8 @@ TEST(ControlsMotion, SpinIsTheRateOfTheOrientation) {
     lead(world, 1);
     const Quaternion change = world.orientation({0}) * before.conjugate();
     const Vector3 mean = 0.5 * (spin_before + world.angular_velocity({0}));
-    // The trapezium's rule: w'' dt^2 / 12 with w'' of some 1e2, but for the step at which the spin begins to be steady.
+    // The trapezium's rule: w'' dt^2 / 12 with w'' of some 1e2, but for the step at which the spin
+    // begins to be steady.
     if (i > 0 && i != 500) {
       ASSERT_NEAR((2e3 * change.vec() - mean).norm(), 0.0, 2e-4) << i;
     }

@@ -1,4 +1,5 @@
-// What is set while a world runs, against models that have the same from the start, and against closed forms.
+// What is set while a world runs, against models that have the same from the start, and against
+// closed forms.
 
 #include "engine/controls.h"
 
@@ -54,8 +55,8 @@ TEST(ControlsForce, EqualsABodyWithThatConstantForce) {
   }
 }
 
-// A flat body, pushed at a point by a force that turns with it: the torque is constant, so the angle is t^2 T / 2 J, and the
-// velocity of the centre the integral of F / m in that direction.
+// A flat body, pushed at a point by a force that turns with it: the torque is constant, so the
+// angle is t^2 T / 2 J, and the velocity of the centre the integral of F / m in that direction.
 TEST(ControlsForce, AtAPointThatTurnsWithTheBody) {
   const double inertia = 0.3;
   const double mass = 2.0;
@@ -95,7 +96,8 @@ TEST(ControlsForce, AtAPointThatTurnsWithTheBody) {
   EXPECT_NEAR(errors[0] / errors[1], 4.0, 0.4);
 }
 
-// On a rotor whose axle a free block carries: the block gets the force and all of the torque but what spins the rotor.
+// On a rotor whose axle a free block carries: the block gets the force and all of the torque but
+// what spins the rotor.
 TEST(ControlsForce, OnAMountedRotorMovesItsCarrier) {
   Model model;
   model.step = test::direct_settings(IntegratorKind::rattle, 1e-3);
@@ -199,8 +201,8 @@ TEST(ControlsDrive, ARampEqualsATable) {
   }
 }
 
-// A crane operator who asks for more speed every frame: with the speed's way there the load feels the acceleration, m (g + a),
-// at every substep, and no blows.
+// A crane operator who asks for more speed every frame: with the speed's way there the load feels
+// the acceleration, m (g + a), at every substep, and no blows.
 TEST(ControlsDrive, ASpeedThatIsSetEveryStepIsAnAcceleration) {
   test::Machine machine = winch(DriveKind::speed, {}, {0.0});
   machine.model.step = test::direct_settings(IntegratorKind::rattle, 1.0 / 60.0, 4);
@@ -272,7 +274,8 @@ TEST(ControlsJointDrive, ARampEqualsATable) {
   }
 }
 
-// The drive may have 5 N m; it takes 2 kg x 9.81 x 0.5 m = 9.81 N m to hold the bar up. It sinks with the rest.
+// The drive may have 5 N m; it takes 2 kg x 9.81 x 0.5 m = 9.81 N m to hold the bar up. It sinks
+// with the rest.
 TEST(ControlsJointDrive, StallsAtALimitThatIsSet) {
   Model model = driven_bar(CoordinateDrive::speed, {}, {0.0});
   model.step = test::direct_settings(IntegratorKind::rattle, 1e-3);

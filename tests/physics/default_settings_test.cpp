@@ -1,8 +1,10 @@
-// Machines that say nothing about their step: jointed and driven ones, against statics and kinematics.
+// Machines that say nothing about their step: jointed and driven ones, against statics and
+// kinematics.
 //
-// Tolerances: the direct solver ends its rounds at 1e-10 of the machine's size, here 0.1 to 2 m, and a force is the stiffness
-// w / h^2 of its row times that: 200 kg / (1/240 s)^2 x 1e-10 m = 1e-3 N of 1962 N. Springs of the finger come to rest as
-// e^(-t k / c) with c / k = 0.02 s, in 2 s to nothing.
+// Tolerances: the direct solver ends its rounds at 1e-10 of the machine's size, here 0.1 to 2 m,
+// and a force is the stiffness w / h^2 of its row times that: 200 kg / (1/240 s)^2 x 1e-10 m = 1e-3
+// N of 1962 N. Springs of the finger come to rest as e^(-t k / c) with c / k = 0.02 s, in 2 s to
+// nothing.
 
 #include <cmath>
 
@@ -71,7 +73,8 @@ TEST(DefaultSettings, ADrivenDrumOnAHingeLiftsFortyTimesItsMass) {
   EXPECT_LT(report.error, 1e-9);
 }
 
-/// Two phalanges of 50 mm with springs in their hinges, and a tendon below them that a drum draws in.
+/// Two phalanges of 50 mm with springs in their hinges, and a tendon below them that a drum draws
+/// in.
 struct Finger {
   static constexpr double length = 0.05;
   static constexpr double below = -0.008;

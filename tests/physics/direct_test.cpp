@@ -49,8 +49,8 @@ TEST(Direct, WheelTrainsOfAnyLengthAreExactAtOneSubstep) {
   }
 }
 
-// Where the search for a solution begins decides how many rounds it takes: a pendulum that goes on as it moves is nearer to
-// where it will be than one that falls.
+// Where the search for a solution begins decides how many rounds it takes: a pendulum that goes on
+// as it moves is nearer to where it will be than one that falls.
 TEST(Direct, WhatSwingsSlowlyNeedsFewRounds) {
   test::Machine m = test::cable_pendulum(1.0, 1.0, 0.5);
   use_direct(m);
@@ -58,20 +58,23 @@ TEST(Direct, WhatSwingsSlowlyNeedsFewRounds) {
   for (int i = 0; i < 60; ++i) {
     const StepReport report = s.world.step();
     ASSERT_TRUE(report.ok());
-    // The swing of at most sqrt(2 g L (1 - cos 0.5)) h = 0.026 rad per substep turns gradients by as much, and every round
-    // leaves h^2 g / L = 3e-3 of the error: 1e-10 after 0.026^2, 2e-6, 6e-9, 2e-11.
+    // The swing of at most sqrt(2 g L (1 - cos 0.5)) h = 0.026 rad per substep turns gradients by
+    // as much, and every round leaves h^2 g / L = 3e-3 of the error: 1e-10 after 0.026^2, 2e-6,
+    // 6e-9, 2e-11.
     ASSERT_LE(report.statistics.rounds, 4);
     ASSERT_LE(report.statistics.last_correction, 1e-9);
   }
 }
 
-// Rest lengths are multiples of a quantum, here 2^-39 m = 1.8e-12 m, and all spans of a train are rounded alike. Over n spans
-// that is a jerk of n x 1e-12 m, against g h^2 = 2.5e-10 m that gravity moves the ends by: if rows did not count what is
-// below the quantum, most spans would be slack after the first substep. What is left is the rounding of positions: a last digit
-// of 1.8e-15 m at the weights, who move by a h^2 = 4.9e-13 m in the first substep.
-/// Where implicit Euler puts a body of 1 kg that hangs by a point `hook` above its centre of mass on a rope of `length` from the
-/// origin, all in a plane: x' = x + h v + h^2 (g - u T), a' = a + h w + h^2 (r x u) T / I, |x' + r| = length, with
-/// u = (x' + r) / length the direction of the rope and r the hook's arm at the end.
+// Rest lengths are multiples of a quantum, here 2^-39 m = 1.8e-12 m, and all spans of a train are
+// rounded alike. Over n spans that is a jerk of n x 1e-12 m, against g h^2 = 2.5e-10 m that gravity
+// moves the ends by: if rows did not count what is below the quantum, most spans would be slack
+// after the first substep. What is left is the rounding of positions: a last digit of 1.8e-15 m at
+// the weights, who move by a h^2 = 4.9e-13 m in the first substep.
+/// Where implicit Euler puts a body of 1 kg that hangs by a point `hook` above its centre of mass
+/// on a rope of `length` from the origin, all in a plane: x' = x + h v + h^2 (g - u T), a' = a + h
+/// w + h^2 (r x u) T / I, |x' + r| = length, with u = (x' + r) / length the direction of the rope
+/// and r the hook's arm at the end.
 struct SwingByImplicitEuler {
   double inertia;
   double hook;
@@ -110,9 +113,10 @@ struct SwingByImplicitEuler {
   }
 };
 
-// What rounds end with is implicit Euler's solution, also across the rope, where rows see nothing: a load that swings by a quarter
-// of a radian per step. Each step may leave `across` (1e-9 of 1 m, and a tenth of that after bodies have been moved along the
-// last gradients); measured are 2e-11 m after a second.
+// What rounds end with is implicit Euler's solution, also across the rope, where rows see nothing:
+// a load that swings by a quarter of a radian per step. Each step may leave `across` (1e-9 of 1 m,
+// and a tenth of that after bodies have been moved along the last gradients); measured are 2e-11 m
+// after a second.
 TEST(Direct, QuickSwingsEndWhereImplicitEulerDoes) {
   const double speed = 15.0;
   SwingByImplicitEuler expected{0.02, 0.1, 0.5, 1.0 / 60.0};
@@ -172,7 +176,8 @@ TEST(Direct, LightWheelsAreAsExactAsHeavyOnes) {
     Simulation s = test::start(m);
     const double expected = tackle.acceleration();
     const double a = acceleration(s, test::Tackle::block);
-    // Heavy wheels leave little motion; what counts is the acceleration that the gravity of the weights would give.
+    // Heavy wheels leave little motion; what counts is the acceleration that the gravity of the
+    // weights would give.
     const double scale = std::max(std::abs(expected), 1e-6 * g);
     EXPECT_NEAR(a, expected, 1e-5 * scale) << inertia;
   }
@@ -217,7 +222,8 @@ TEST(Direct, ManyPinholesHaveOneTension) {
 }
 
 TEST(Direct, SlackAndTautAreFoundInOneSubstep) {
-  // Weights on a train of wheels, the second half of which is thrown up: its cable is slack at once, the other's taut.
+  // Weights on a train of wheels, the second half of which is thrown up: its cable is slack at
+  // once, the other's taut.
   test::Machine m = test::wheel_train(31, 1.0, 2.0, 0.5, 0.125);
   use_direct(m);
   m.model.bodies[32].velocity = {0.0, 5.0, 0.0};
@@ -267,7 +273,8 @@ TEST(Direct, ABeltOverFourWheelsIsRedundantAndRuns) {
 }
 
 TEST(Direct, AFrameWithMoreRodsThanItNeedsHangs) {
-  // Four balls that turn freely have 12 degrees of freedom; there are 6 rods between them and 8 to the ceiling.
+  // Four balls that turn freely have 12 degrees of freedom; there are 6 rods between them and 8 to
+  // the ceiling.
   test::Machine m;
   m.model.gravity = test::down;
   std::vector<BodyId> balls;
@@ -321,7 +328,8 @@ TEST(Direct, AgreesWithConvergedGaussSeidel) {
     ASSERT_TRUE(slow.world.step().ok());
     ASSERT_TRUE(fast.world.step().ok());
   }
-  // Both solve the same equations but for the gradients at which the multipliers of earlier rounds have acted.
+  // Both solve the same equations but for the gradients at which the multipliers of earlier rounds
+  // have acted.
   for (int i = 0; i < 2; ++i) {
     EXPECT_NEAR((fast.world.position({i}) - slow.world.position({i})).norm(), 0.0, 1e-6);
   }
@@ -346,8 +354,9 @@ TEST(Direct, AStateWithItsActiveSetCanBeRestored) {
   EXPECT_EQ(hash(other.world.state()), hash(s.world.state()));
 }
 
-// A box stands on its four lower corners, whose rows and the cable's all move it along one axis. A winch pulls at v from the
-// start; the cable was loose by s, so the box leaves the floor at t = s / v and has then risen by v t - s.
+// A box stands on its four lower corners, whose rows and the cable's all move it along one axis. A
+// winch pulls at v from the start; the cable was loose by s, so the box leaves the floor at t = s /
+// v and has then risen by v t - s.
 TEST(Direct, AWinchLiftsABoxOffTheFloor) {
   const double v = 0.3;
   const double s = 0.12;

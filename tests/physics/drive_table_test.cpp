@@ -1,9 +1,10 @@
 // Tables that drives follow: what comes of the motion between their points.
 //
-// A platform of 2 kg is carried round a circle by two cables, which are wound by drums to the angles that this takes. With d from
-// drum to platform and r the drum's radius, the free cable is l = sqrt(d^2 - r^2) long and leaves the drum at the angle
-// psi = direction of d - o acos(r / d), o = 1 on the left drum and -1 on the right; so the drum has to turn by
-// (psi - psi0) + o (l - l0) / r. The tensions follow from 2 kg (a - g) = T1 u1 + T2 u2, with u along the free cables.
+// A platform of 2 kg is carried round a circle by two cables, which are wound by drums to the
+// angles that this takes. With d from drum to platform and r the drum's radius, the free cable is l
+// = sqrt(d^2 - r^2) long and leaves the drum at the angle psi = direction of d - o acos(r / d), o =
+// 1 on the left drum and -1 on the right; so the drum has to turn by (psi - psi0) + o (l - l0) / r.
+// The tensions follow from 2 kg (a - g) = T1 u1 + T2 u2, with u along the free cables.
 
 #include <cmath>
 
@@ -62,7 +63,8 @@ std::array<double, 2> tensions(double time) {
           (u.x() * force.y() - u.y() * force.x()) / determinant};
 }
 
-/// The largest relative error of both tensions in the middle second, with table points so far apart.
+/// The largest relative error of both tensions in the middle second, with table points so far
+/// apart.
 double tension_error(double spacing, double h, Interpolation interpolation) {
   test::Machine machine;
   machine.model.gravity = test::down;
@@ -112,12 +114,13 @@ double tension_error(double spacing, double h, Interpolation interpolation) {
 }
 
 TEST(DriveTable, TensionsOfAPlatformOnACircleConvergeWithTheSpacing) {
-  // Second derivatives of a spline, and so accelerations, are right to the second order of its spacing.
+  // Second derivatives of a spline, and so accelerations, are right to the second order of its
+  // spacing.
   const double coarse = tension_error(0.2, 1.0 / 480.0, Interpolation::cubic);
   const double fine = tension_error(0.1, 1.0 / 480.0, Interpolation::cubic);
   EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.2);
-  // (turn rate x spacing)^2 / 12 of an acceleration of 1.75 m/s2 is 0.0064 m/s2, 7e-4 of gravity, and the cables, which meet at
-  // an obtuse angle, have up to 3 times that.
+  // (turn rate x spacing)^2 / 12 of an acceleration of 1.75 m/s2 is 0.0064 m/s2, 7e-4 of gravity,
+  // and the cables, which meet at an obtuse angle, have up to 3 times that.
   EXPECT_LT(fine, 2.2e-3);
   // The same points joined by lines: the load is thrown from corner to corner.
   EXPECT_GT(tension_error(0.1, 1.0 / 480.0, Interpolation::linear), 1.0);

@@ -1,16 +1,21 @@
-// The elastic Atwood machine: two weights on vertical spans of stiffness k each, over a wheel with inertia.
+// The elastic Atwood machine: two weights on vertical spans of stiffness k each, over a wheel with
+// inertia.
 //
-// With the weights' ways down x1, x2 and the cable's way s over the wheel, towards the second, the spans are stretched by
-// e1 = x1 + s and e2 = x2 - s, because rest length moves over the wheel without slip. With M = J / r^2
+// With the weights' ways down x1, x2 and the cable's way s over the wheel, towards the second, the
+// spans are stretched by e1 = x1 + s and e2 = x2 - s, because rest length moves over the wheel
+// without slip. With M = J / r^2
 //   m1 x1'' = m1 g - k e1,   m2 x2'' = m2 g - k e2,   M s'' = k (e2 - e1)
 //   =>  e'' = (g, g) - K e,   K = k [ 1/m1 + 1/M, -1/M; -1/M, 1/m2 + 1/M ].
-// The third mode is the machine's own run. K's eigenvalues are w^2; at e0 = K^-1 (g, g) the stretches are at rest.
+// The third mode is the machine's own run. K's eigenvalues are w^2; at e0 = K^-1 (g, g) the
+// stretches are at rest.
 //
-// Discretised, and since everything is linear exactly so, each mode y is a rotation by p per substep that shrinks by q:
+// Discretised, and since everything is linear exactly so, each mode y is a rotation by p per
+// substep that shrinks by q:
 //   xpbd    y1 = y0 + h v1, v1 = v0 - h w^2 y1              p = atan(w h),         q = 1 / sqrt(1 + (w h)^2)
 //   rattle  y1 = y0 + h (v0 + v1) / 2, v1 = v0 - h w^2 (y0 + y1) / 2   p = 2 atan(w h / 2),   q = 1
-// So the frequency p / h is too low by (w h)^2 / 3 (xpbd) and (w h)^2 / 12 (rattle): at 20 substeps per period by 3.2 % and
-// 0.81 %. 0.1 % takes 2 pi sqrt(1000 / 3) = 115 and 2 pi sqrt(1000 / 12) = 57.4 substeps per period.
+// So the frequency p / h is too low by (w h)^2 / 3 (xpbd) and (w h)^2 / 12 (rattle): at 20 substeps
+// per period by 3.2 % and 0.81 %. 0.1 % takes 2 pi sqrt(1000 / 3) = 115 and 2 pi sqrt(1000 / 12) =
+// 57.4 substeps per period.
 
 #include <array>
 #include <cmath>
@@ -56,7 +61,8 @@ struct ElasticAtwood {
 constexpr std::array both_solvers{SolverKind::direct, SolverKind::gauss_seidel};
 constexpr std::array both_integrators{IntegratorKind::xpbd, IntegratorKind::rattle};
 
-/// Angle p and factor q of a substep, from the recurrence y[n+1] = 2 q cos(p) y[n] - q^2 y[n-1] of a single mode.
+/// Angle p and factor q of a substep, from the recurrence y[n+1] = 2 q cos(p) y[n] - q^2 y[n-1] of
+/// a single mode.
 struct Rotation {
   double angle = 0.0;
   double factor = 0.0;
@@ -84,7 +90,8 @@ Rotation fit_rotation(const std::vector<double>& y) {
   return rotation;
 }
 
-/// What a substep does to the mode `shape` of frequency w. Swings by half of what hangs, so that no span goes slack.
+/// What a substep does to the mode `shape` of frequency w. Swings by half of what hangs, so that no
+/// span goes slack.
 Rotation measured_rotation(const ElasticAtwood& machine, const Eigen::Vector2d& shape,
                            SolverKind solver, IntegratorKind integrator, double h, int substeps) {
   const Eigen::Vector2d rest = machine.rest();
@@ -133,9 +140,10 @@ TEST(ElasticAtwood, NaturalFrequencies) {
 }
 
 TEST(ElasticAtwood, StableAtAnyStiffness) {
-  // Steps of 1/60 s, from 25 substeps per period to 1e-4 of one. From half of the stretches at rest both modes swing; from
-  // 2.5 of them the spans go slack and taut again. A solver may leave d = 1e-10 of the scene's size in each of n substeps,
-  // hence a force d / (W h^2) with the rows' smallest yield W, which works at the speed v: n d v / (W h).
+  // Steps of 1/60 s, from 25 substeps per period to 1e-4 of one. From half of the stretches at rest
+  // both modes swing; from 2.5 of them the spans go slack and taut again. A solver may leave d =
+  // 1e-10 of the scene's size in each of n substeps, hence a force d / (W h^2) with the rows'
+  // smallest yield W, which works at the speed v: n d v / (W h).
   const double h = 1.0 / 60.0;
   constexpr int substeps = 60;
   constexpr double yield = 1.0;  // 1 / m1 + 1 / M and 1 / m2 + 1 / M are more [1/kg]
@@ -188,15 +196,17 @@ TEST(Elastic, ASpringBetweenDrivenBodiesHasItsForce) {
       m.cables[0].compliance = 1e-3;
       Simulation s = test::start(m);
       for (int i = 0; i < 50; ++i) ASSERT_TRUE(s.world.step().ok());
-      // 0.05 m at 1000 N/m. `rattle` tells the mean of the last substep, which is half a substep behind.
+      // 0.05 m at 1000 N/m. `rattle` tells the mean of the last substep, which is half a substep
+      // behind.
       const double behind = integrator == IntegratorKind::rattle ? 0.5 : 0.0;
       EXPECT_NEAR(s.cable_reports()[0].spans[0].tension, 50.0 - behind, 1e-9);
     }
   }
 }
 
-/// What a weight of 2 kg on a cable of compliance 1/k loses in `steps` substeps to its damping and to the step [J], and what
-/// the statistics tell of the latter. It begins `amplitude` below where it would rest, and the cable is never slack.
+/// What a weight of 2 kg on a cable of compliance 1/k loses in `steps` substeps to its damping and
+/// to the step [J], and what the statistics tell of the latter. It begins `amplitude` below where
+/// it would rest, and the cable is never slack.
 struct Loss {
   double energy = 0.0;
   double by_damping = 0.0;
@@ -235,8 +245,9 @@ Loss loss_of(double wh, double damping, IntegratorKind integrator, int steps) {
   return loss;
 }
 
-// xpbd takes 1 - q^(2n) of the energy k y0^2 / 2 = 15.0 mJ, and says so. It counts k dy^2 for k dy^2 / 2 + m dv^2 / 2, which
-// agree in the mean over a period and differ by less than a share of w h in what is left of one.
+// xpbd takes 1 - q^(2n) of the energy k y0^2 / 2 = 15.0 mJ, and says so. It counts k dy^2 for k
+// dy^2 / 2 + m dv^2 / 2, which agree in the mean over a period and differ by less than a share of w
+// h in what is left of one.
 TEST(ElasticCable, TellsWhatXpbdTakesFromAVibration) {
   const double energy = 0.5 * 800.0 * std::pow(0.5 * 2.0 * g / 800.0, 2);
   for (const double wh : {0.05, 0.2}) {
@@ -248,7 +259,8 @@ TEST(ElasticCable, TellsWhatXpbdTakesFromAVibration) {
   }
 }
 
-// What a dashpot dissipates is none of it: b dy'^2 h, in a vibration that it damps to 1/e in two periods.
+// What a dashpot dissipates is none of it: b dy'^2 h, in a vibration that it damps to 1/e in two
+// periods.
 TEST(ElasticCable, TellsTheStepsDampingFromItsOwn) {
   const double energy = 0.5 * 800.0 * std::pow(0.5 * 2.0 * g / 800.0, 2);
   const double wh = 0.05;
@@ -257,9 +269,10 @@ TEST(ElasticCable, TellsTheStepsDampingFromItsOwn) {
   EXPECT_NEAR(loss.told, loss.energy - loss.by_damping, wh * energy);
 }
 
-/// An elastic, damped rope runs over an eyelet from a side of 1 m to one of 3 m: what passes deflects no spring and moves no
-/// damper, so once the first swing has died away, e^(-c t / 2 m) with c = b / 2 or more and the reduced mass m = 3/4 kg,
-/// T = 2 m1 m2 g / (m1 + m2), and each side is longer than its rest length L by T L / EA.
+/// An elastic, damped rope runs over an eyelet from a side of 1 m to one of 3 m: what passes
+/// deflects no spring and moves no damper, so once the first swing has died away, e^(-c t / 2 m)
+/// with c = b / 2 or more and the reduced mass m = 3/4 kg, T = 2 m1 m2 g / (m1 + m2), and each side
+/// is longer than its rest length L by T L / EA.
 class RunningElasticCable : public test::ForEveryCombination {};
 INSTANTIATE_TEST_SUITE_P(All, RunningElasticCable, testing::ValuesIn(test::combinations),
                          test::combination_name);
@@ -289,9 +302,9 @@ TEST_P(RunningElasticCable, IsNotDampedByItsRunning) {
   }
 }
 
-// A load of 8 kN pulls cable of 1 m/kN over an eyelet (a quarter turn, e^(m a) = e) out of a span of 1 m that ends at a wall.
-// When nothing is left in it, it is stretched by its whole length, 1 kN, and gives no more: the eyelet holds 8 to 1, and one
-// without friction does, too.
+// A load of 8 kN pulls cable of 1 m/kN over an eyelet (a quarter turn, e^(m a) = e) out of a span
+// of 1 m that ends at a wall. When nothing is left in it, it is stretched by its whole length, 1
+// kN, and gives no more: the eyelet holds 8 to 1, and one without friction does, too.
 TEST(ElasticCable, ASpanThatIsDrainedGivesNoMore) {
   for (int i = 0; i < 8; ++i) {
     test::Machine m;

@@ -1,9 +1,11 @@
-// What a machine that nothing holds keeps: its momentum and its angular momentum, as far as the integrator does.
+// What a machine that nothing holds keeps: its momentum and its angular momentum, as far as the
+// integrator does.
 //
-// Rows push bodies with equal and opposite forces along one line, so momentum is kept to rounding. With `rattle` the line is
-// that of the bodies where the force acts, at the start and at the end: angular momentum is kept, too. `xpbd` lets the forces
-// of the end act on bodies that are at the start: the arm between them has turned by w h meanwhile, which leaves a torque of
-// first order, and so the angular momentum drifts with the step.
+// Rows push bodies with equal and opposite forces along one line, so momentum is kept to rounding.
+// With `rattle` the line is that of the bodies where the force acts, at the start and at the end:
+// angular momentum is kept, too. `xpbd` lets the forces of the end act on bodies that are at the
+// start: the arm between them has turned by w h meanwhile, which leaves a torque of first order,
+// and so the angular momentum drifts with the step.
 
 #include <cmath>
 #include <vector>
@@ -84,7 +86,8 @@ TEST(FreeFloating, XpbdLosesAngularMomentumInFirstOrder) {
 }
 
 TEST(FreeFloating, RattleKeepsAngularMomentum) {
-  // To what the solver leaves: 1e-10 of the scene per substep between the points where a force and its reaction act.
+  // To what the solver leaves: 1e-10 of the scene per substep between the points where a force and
+  // its reaction act.
   for (const double h : {1.0 / 60.0, 1.0 / 240.0}) {
     EXPECT_LE(angular_drift(IntegratorKind::rattle, h), 1e-7) << h;
   }

@@ -55,9 +55,11 @@ Drift tumble(IntegratorKind integrator, SolverKind solver, double dt) {
   return drift;
 }
 
-// 10^4 steps in which the box turns by 0.06 rad each. L is kept by construction, but for rounding: a step multiplies with the
-// inertia and with its inverse in the world's frame, each a product of three matrices, some ten roundings of 1.1e-16. E grows by less than (n h)^4 / 4 per step, n = 3.96 rad/s (scenes/analytic/
-// tumbling-body.json): 0.6 %; seen 0.13 %, and an eighth with half the step as t / h steps gain h^4 each.
+// 10^4 steps in which the box turns by 0.06 rad each. L is kept by construction, but for rounding:
+// a step multiplies with the inertia and with its inverse in the world's frame, each a product of
+// three matrices, some ten roundings of 1.1e-16. E grows by less than (n h)^4 / 4 per step, n =
+// 3.96 rad/s (scenes/analytic/ tumbling-body.json): 0.6 %; seen 0.13 %, and an eighth with half the
+// step as t / h steps gain h^4 each.
 TEST(FreeBody, TumblingKeepsMomentumAndNearlyItsEnergyOverTenThousandSteps) {
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     for (const SolverKind solver : {SolverKind::gauss_seidel, SolverKind::direct}) {
@@ -141,8 +143,8 @@ struct DoublePendulum {
   }
 };
 
-// Order from three step sizes: the errors' ratios tend to 2 (xpbd) and 4 (rattle); the next order of h changes the ratio by
-// about h's own factor of it, a tenth at these steps.
+// Order from three step sizes: the errors' ratios tend to 2 (xpbd) and 4 (rattle); the next order
+// of h changes the ratio by about h's own factor of it, a tenth at these steps.
 TEST(DoublePendulum, ConvergesToARungeKuttaIntegration) {
   for (const SolverKind solver : {SolverKind::gauss_seidel, SolverKind::direct}) {
     for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {

@@ -1,7 +1,9 @@
-// Springs, dampers, dry friction, stops and drives along a joint's coordinate, against closed forms.
+// Springs, dampers, dry friction, stops and drives along a joint's coordinate, against closed
+// forms.
 //
-// A flywheel of I = 0.06 kg m2 on a hinge, a sledge of 2 kg on a slider. For constant forces both integrators have exact
-// velocities; what is exact is compared within 1e-9, or, for Gauss-Seidel, within what 100 sweeps over six rows leave.
+// A flywheel of I = 0.06 kg m2 on a hinge, a sledge of 2 kg on a slider. For constant forces both
+// integrators have exact velocities; what is exact is compared within 1e-9, or, for Gauss-Seidel,
+// within what 100 sweeps over six rows leave.
 
 #include <cmath>
 
@@ -79,8 +81,9 @@ TEST_P(JointCoordinates, CountWholeTurns) {
 }
 
 TEST_P(JointCoordinates, SpringOscillatesAtItsFrequency) {
-  // The angle after n periods of the method itself: implicit Euler multiplies the amplitude by 1 / sqrt(1 + (w h)^2) per
-  // step and advances the phase by atan(w h); the midpoint rule by 2 atan(w h / 2), without loss.
+  // The angle after n periods of the method itself: implicit Euler multiplies the amplitude by 1 /
+  // sqrt(1 + (w h)^2) per step and advances the phase by atan(w h); the midpoint rule by 2 atan(w h
+  // / 2), without loss.
   JointCoordinate spring;
   spring.stiffness = 6.0;
   spring.rest = 0.3;
@@ -105,7 +108,8 @@ TEST_P(JointCoordinates, DamperSlowsExponentially) {
   damper.damping = 0.12;
   World world = flywheel(damper, 5.0);
   test::run(world, 1.0);
-  // Per step by 1 / (1 + b h / I), or by (1 - b h / 2 I) / (1 + b h / 2 I); both tend to exp(-b t / I).
+  // Per step by 1 / (1 + b h / I), or by (1 - b h / 2 I) / (1 + b h / 2 I); both tend to exp(-b t /
+  // I).
   const double x = 0.12 / inertia / 240.0;
   const double factor = GetParam().rattle() ? (1.0 - 0.5 * x) / (1.0 + 0.5 * x) : 1.0 / (1.0 + x);
   EXPECT_NEAR(coordinate(world).rate, 5.0 * std::pow(factor, 240), 1e-8);
@@ -157,7 +161,8 @@ TEST_P(JointCoordinates, StopsHoldWithoutOvershoot) {
   World down = sledge(stops, 0.0, 0.3);
   test::run(down, 2.0);
   EXPECT_NEAR(coordinate(down).value, -0.2, 1e-9);
-  // Its axis rises to the right, and so does what the stop does; the guide bears the rest of the weight.
+  // Its axis rises to the right, and so does what the stop does; the guide bears the rest of the
+  // weight.
   EXPECT_NEAR(joint_reports(down)[0].force.y(), sledge_mass * test::g, 1e-4);
 }
 

@@ -1,11 +1,12 @@
 // What joints bear, at rest: reaction forces and torques against statics, and how far they give.
 //
-// A body of 3 kg with its centre 0.4 m beside the joint is held against gravity. On it act m g upwards at the joint and
-// the torque 0.4 m x m g about it.
+// A body of 3 kg with its centre 0.4 m beside the joint is held against gravity. On it act m g
+// upwards at the joint and the torque 0.4 m x m g about it.
 //
-// Tolerances. With `direct` a static scene is solved to 1e-10 of its size (the tolerance of its rounds), which here is
-// about 1 m and at h = 1/60 s, with the stiffness 1 / (w h^2) of a row, an error of 1e-10 m m / h^2 = 1e-6 N of 30 N.
-// Gauss-Seidel gets there linearly; 400 sweeps are far more than the few rows need.
+// Tolerances. With `direct` a static scene is solved to 1e-10 of its size (the tolerance of its
+// rounds), which here is about 1 m and at h = 1/60 s, with the stiffness 1 / (w h^2) of a row, an
+// error of 1e-10 m m / h^2 = 1e-6 N of 30 N. Gauss-Seidel gets there linearly; 400 sweeps are far
+// more than the few rows need.
 
 #include <gtest/gtest.h>
 
@@ -157,7 +158,8 @@ TEST_P(JointForce, DeflectsBearingsByComplianceTimesForce) {
   model.gravity = test::down;
   model.step = step_settings(1.0 / 240.0, 100);
   BodyDef lump = test::lump("body", beside, held_mass);
-  // Oscillations die away: frequencies are 58 and 82 rad/s, decays by 20 / 3 and 1 / 0.27 per second.
+  // Oscillations die away: frequencies are 58 and 82 rad/s, decays by 20 / 3 and 1 / 0.27 per
+  // second.
   lump.damping = 40.0;
   lump.angular_damping = 2.0;
   const BodyId body = model.add(lump);
@@ -166,7 +168,8 @@ TEST_P(JointForce, DeflectsBearingsByComplianceTimesForce) {
   model.joints.push_back(joint);
   World world = test::start(model);
   test::run(world, 6.0);
-  // The joint frame of B sinks by c m g and turns by c' 0.4 m x m g; the angle is small, sin and tan alike to 1e-4.
+  // The joint frame of B sinks by c m g and turns by c' 0.4 m x m g; the angle is small, sin and
+  // tan alike to 1e-4.
   const double angle = 1e-3 * arm * weight;
   EXPECT_NEAR(2.0 * world.orientation(body).z(), -angle, 1e-4 * angle);
   EXPECT_NEAR(world.point(body, {-arm, 0.0, 0.0}).y(), -1e-4 * weight, 1e-4 * 1e-4 * weight);

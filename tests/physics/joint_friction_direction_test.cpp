@@ -1,8 +1,10 @@
-// Dry friction of joints that slide in several directions is against the motion, whatever pulls across it.
+// Dry friction of joints that slide in several directions is against the motion, whatever pulls
+// across it.
 //
-// A body of unit inertia moves at v0 along x, with a load F along z and friction M > F: v' = F e_z - M v / |v|. Across the
-// motion nothing holds, so the motion turns towards the load. Reference: Runge-Kutta with steps of 1e-5 s. The direction of
-// friction is that of the start of a substep, and so the error is of first order in it.
+// A body of unit inertia moves at v0 along x, with a load F along z and friction M > F: v' = F e_z
+// - M v / |v|. Across the motion nothing holds, so the motion turns towards the load. Reference:
+// Runge-Kutta with steps of 1e-5 s. The direction of friction is that of the start of a substep,
+// and so the error is of first order in it.
 
 #include <array>
 #include <cmath>

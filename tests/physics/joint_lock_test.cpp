@@ -1,4 +1,5 @@
-// Joints that are released and locked again: they hold what their type holds, from where the bodies are then.
+// Joints that are released and locked again: they hold what their type holds, from where the bodies
+// are then.
 
 #include <cmath>
 
@@ -108,9 +109,9 @@ using Types = testing::Types<DistanceJoint, BallJoint, HingeJoint, SliderJoint, 
                              UniversalJoint, PlaneJoint, FixedJoint>;
 TYPED_TEST_SUITE(JointLock, Types);
 
-// The bodies have flown apart by decimetres and turned by a radian. What is held after the lock is checked by the certificate,
-// which has its own account of anchors and axes; a joint that held anything else than what is there would move them by a blow,
-// of some 0.1 m / 2 ms = 50 m/s.
+// The bodies have flown apart by decimetres and turned by a radian. What is held after the lock is
+// checked by the certificate, which has its own account of anchors and axes; a joint that held
+// anything else than what is there would move them by a blow, of some 0.1 m / 2 ms = 50 m/s.
 TYPED_TEST(JointLock, HoldsWhatIsThereWithoutABlow) {
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     SCOPED_TRACE(integrator == IntegratorKind::xpbd ? "xpbd" : "rattle");
@@ -140,7 +141,8 @@ TYPED_TEST(JointLock, HoldsWhatIsThereWithoutABlow) {
     const Momentum now = momentum_of(s.world);
     // Velocities follow from positions of a metre: 2e-16 m / 2 ms in each of 400 substeps.
     EXPECT_LT((now.linear - then.linear).norm(), 4e-11);
-    // Of xpbd they are means over the substep, and what they miss of turning bodies is w h = 2.5 rad/s x 2 ms of them.
+    // Of xpbd they are means over the substep, and what they miss of turning bodies is w h = 2.5
+    // rad/s x 2 ms of them.
     const bool means = integrator == IntegratorKind::xpbd;
     const double slop = means ? 5e-3 * then.angular.norm() : 1e-10;
     EXPECT_LT((now.angular - then.angular).norm(), slop);
@@ -148,8 +150,8 @@ TYPED_TEST(JointLock, HoldsWhatIsThereWithoutABlow) {
   }
 }
 
-// What goes on from a state with a locked joint is the same, restored, in another world, and by way of bytes; and a world
-// that had locked one goes back to before.
+// What goes on from a state with a locked joint is the same, restored, in another world, and by way
+// of bytes; and a world that had locked one goes back to before.
 TYPED_TEST(JointLock, IsPartOfTheState) {
   const test::Machine machine = tumbling<TypeParam>(IntegratorKind::rattle);
   Simulation s = test::start(machine);
@@ -242,8 +244,9 @@ TEST(JointLock, AStringIsNoLongerThanItHasToBe) {
   }
 }
 
-// Wheels of 0.1 and 0.3 kg m2 with the ratio r = -0.5 (w_b = r w_a) mesh again at 2 and 0 rad/s: the impulse p of the teeth gives
-// J_b w_b = p and J_a (w_a - 2) = -r p, so w_a = 2 J_a / (J_a + r^2 J_b).
+// Wheels of 0.1 and 0.3 kg m2 with the ratio r = -0.5 (w_b = r w_a) mesh again at 2 and 0 rad/s:
+// the impulse p of the teeth gives J_b w_b = p and J_a (w_a - 2) = -r p, so w_a = 2 J_a / (J_a +
+// r^2 J_b).
 TEST(JointLock, AGearMeshesWhereItIs) {
   for (const double backlash : {0.0, 0.01}) {
     test::Machine machine;
@@ -268,7 +271,8 @@ TEST(JointLock, AGearMeshesWhereItIs) {
     const double speed = 2.0 * 0.1 / (0.1 + 0.25 * 0.3);
     EXPECT_NEAR(s.world.angular_velocity({0}).z(), speed, 1e-9);
     EXPECT_NEAR(s.world.angular_velocity({1}).z(), -0.5 * speed, 1e-9);
-    // The lag of 1 rad (2 x 0.5) stays, but for what the play leaves: teeth touch on the side that pushes.
+    // The lag of 1 rad (2 x 0.5) stays, but for what the play leaves: teeth touch on the side that
+    // pushes.
     EXPECT_NEAR(s.world.state().bodies[1].angle + 0.5 * s.world.state().bodies[0].angle, 1.0, 1e-9);
     EXPECT_TRUE(all.clean()) << (all.worst() ? all.worst()->sentence() : "");
   }

@@ -1,7 +1,8 @@
 // What the joint types let bodies do, in closed form, with every solver and integrator.
 //
-// Under constant forces velocities of both integrators are exact; angles that follow from positions of driven bodies are as
-// good as the solver: 1e-10 of the scene with `direct`, what the sweeps leave with Gauss-Seidel.
+// Under constant forces velocities of both integrators are exact; angles that follow from positions
+// of driven bodies are as good as the solver: 1e-10 of the scene with `direct`, what the sweeps
+// leave with Gauss-Seidel.
 
 #include <cmath>
 
@@ -38,8 +39,9 @@ class JointTypes : public test::ForEveryCombination {
   Model model_;
 };
 
-// Shafts along x and along e = (cos b, sin b, 0). The input's fork points along z at time 0, so after the angle p it is
-// a = z cos p - y sin p; the output's is b = z x e cos q + z sin q, and a . b = 0 says tan q = cos b tan p.
+// Shafts along x and along e = (cos b, sin b, 0). The input's fork points along z at time 0, so
+// after the angle p it is a = z cos p - y sin p; the output's is b = z x e cos q + z sin q, and a .
+// b = 0 says tan q = cos b tan p.
 TEST_P(JointTypes, CardanJointTurnsUnevenly) {
   const double bend = 0.5;
   const Vector3 out(std::cos(bend), std::sin(bend), 0.0);
@@ -144,7 +146,8 @@ TEST_P(JointTypes, ScrewLiftsWithItsPitch) {
   EXPECT_NEAR(world.velocity(b).y(), 0.5 * acceleration, 1e-8 * std::abs(acceleration) + 1e-8);
 }
 
-// Sun (20 teeth), planet (15) and a ring (50) that stands still: the carrier turns at 20 / 70 of the sun.
+// Sun (20 teeth), planet (15) and a ring (50) that stands still: the carrier turns at 20 / 70 of
+// the sun.
 TEST_P(JointTypes, PlanetsCarryTheirCarrier) {
   const BodyId sun = model_.add(test::wheel("sun", Vector3::Zero(), 0.2, 0.01));
   BodyDef ring = test::wheel("ring", Vector3::Zero(), 0.5, 1.0);
@@ -197,7 +200,8 @@ TEST_P(JointTypes, CylindricalJointSlidesAndTurnsIndependently) {
     EXPECT_NEAR(report.coordinates[1].rate, 2.0, 1e-8);
     EXPECT_NEAR(world.energy().total(), start, 1e-7);
   } else {
-    // xpbd slows what circles as 1 / sqrt(1 + 2 w^2 h t), here all but the part 0.1 of the inertia 0.28.
+    // xpbd slows what circles as 1 / sqrt(1 + 2 w^2 h t), here all but the part 0.1 of the inertia
+    // 0.28.
     EXPECT_NEAR(report.coordinates[1].rate, 2.0, 2.0 * 4.0 / 240.0);
   }
 }
@@ -219,7 +223,8 @@ TEST_P(JointTypes, PlaneLetsAPuckSlideAndSpinStraight) {
   EXPECT_LT((joint_reports(world)[0].force + 5.0 * normal).norm(), 1e-5);
 }
 
-// Two welded bodies turn like one: about the common centre at constant rate, and the weld bears m w^2 r.
+// Two welded bodies turn like one: about the common centre at constant rate, and the weld bears m
+// w^2 r.
 TEST_P(JointTypes, WeldedBodiesSpinAsOne) {
   model_.step.dt = 1.0 / 960.0;
   const auto half = [](const char* name, double x) {
@@ -243,7 +248,8 @@ TEST_P(JointTypes, WeldedBodiesSpinAsOne) {
   }
 }
 
-// A winch: a rotor with a speed drive on its bearing, and a weight on a cable. What the drive can do decides.
+// A winch: a rotor with a speed drive on its bearing, and a weight on a cable. What the drive can
+// do decides.
 TEST_P(JointTypes, SpeedDriveStallsAgainstAHeavyLoad) {
   for (const double limit : {30.0, 10.0}) {
     test::Machine machine;

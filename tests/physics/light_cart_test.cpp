@@ -1,9 +1,11 @@
-// A bob of 1 kg on a cable under a cart on a rail, the lighter the harder: substeps that do not converge are cut.
+// A bob of 1 kg on a cable under a cart on a rail, the lighter the harder: substeps that do not
+// converge are cut.
 //
-// With the angle p of a cable of length L, the momentum along the rail conserved (0), and masses M and m,
+// With the angle p of a cable of length L, the momentum along the rail conserved (0), and masses M
+// and m,
 //   p'' = -((M + m) g sin p + m L p'^2 sin p cos p) / (L (M + m sin^2 p)),   x = x0 - m L (sin p - sin p0) / (M + m).
-// A light cart whips past the bob below it within M / m L / v, v being the speed that the bob has fallen to: it turns the
-// bob's fall into its rise like a hard, elastic impact.
+// A light cart whips past the bob below it within M / m L / v, v being the speed that the bob has
+// fallen to: it turns the bob's fall into its rise like a hard, elastic impact.
 
 #include <array>
 #include <cmath>
@@ -108,21 +110,25 @@ TEST(LightCart, MakesNoEnergyHoweverLight) {
         cut += run.cut;
         // The solver ends at 1e-10 of a scene of about 1 m.
         EXPECT_LE(run.stretch, 1e-9);
-        // Velocities are differences of positions of 1 m over a part of h: each is rounded by eps / h, as if at random.
+        // Velocities are differences of positions of 1 m over a part of h: each is rounded by eps /
+        // h, as if at random.
         const double shortest = 1.0 / (60.0 * substeps * (run.cut > 0 ? 131072.0 : 1.0));
         const double roundings = std::sqrt(120.0 * substeps + static_cast<double>(run.parts));
         EXPECT_LE(run.momentum, 1e-12 + 2.2e-16 / shortest * roundings);
         if (integrator == IntegratorKind::xpbd) {
-          // Implicit Euler makes none. What it adds up off the end's gradients may make a hundredth per part.
+          // Implicit Euler makes none. What it adds up off the end's gradients may make a hundredth
+          // per part.
           EXPECT_LE(run.most, 0.01 * cart_swing);
           EXPECT_GE(run.least, -cart_swing - 1e-6) << "all there is";
         } else if (run.left == 0) {
-          // A part in which the cable turns by a does work of a^3, a hundredth of the energy at the most: a = 0.2, eight of
-          // them in the quarter turn of a whip before the cart is above the bob. Those behind it have the other sign.
+          // A part in which the cable turns by a does work of a^3, a hundredth of the energy at the
+          // most: a = 0.2, eight of them in the quarter turn of a whip before the cart is above the
+          // bob. Those behind it have the other sign.
           EXPECT_LE(run.most, 0.08 * cart_swing);
           EXPECT_GE(run.least, -0.08 * cart_swing);
         } else {
-          // A whip shorter than the smallest part is an impact that xpbd takes for an inelastic one.
+          // A whip shorter than the smallest part is an impact that xpbd takes for an inelastic
+          // one.
           EXPECT_LE(run.most, 0.08 * cart_swing);
         }
       }
@@ -181,8 +187,8 @@ TEST(LightCart, PartsAreAFunctionOfTheState) {
 }
 
 TEST(LightCart, TimesOfPartsAreThoseOfTheClock) {
-  // A cart that is driven to and fro has its own function of time to be at, whatever the substep is cut into: beside it, a
-  // light cart on which every swing is cut.
+  // A cart that is driven to and fro has its own function of time to be at, whatever the substep is
+  // cut into: beside it, a light cart on which every swing is cut.
   test::Machine m = cart_machine(1e-4, IntegratorKind::rattle, 1.0 / 60.0, 1);
   BodyDef drum = test::wheel("drum", {5.0, 0.0, 0.0}, 0.1, 1.0);
   drum.drive = DriveKind::speed;

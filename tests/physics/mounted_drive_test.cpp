@@ -60,7 +60,8 @@ TEST_P(MountedDrives, ATorqueActsOnRotorAndCarrierAlike) {
   EXPECT_NEAR(world.angular_velocity(BodyId{0}).z(), -0.3 / lumped_inertia(), 1e-12);
 }
 
-// At rest together, so J (W + w) + I W = 0 for ever, with w the speed against the carrier and W the carrier's.
+// At rest together, so J (W + w) + I W = 0 for ever, with w the speed against the carrier and W the
+// carrier's.
 TEST_P(MountedDrives, ASpeedIsOneAgainstTheCarrier) {
   Model model = floating();
   model.step = step_settings(0.01, 50);
@@ -158,8 +159,8 @@ TEST(MountedDrive, KeepsTheAngularMomentumOfCarrierAndRotor) {
   }
 }
 
-/// A pendulum of 1 kg, 0.5 m long, that swings from 60 degrees with a rotor in its bob, which turns by
-/// 3 s^2 - 2 s^3 times 4 rad in a second. Its angle at time 1.
+/// A pendulum of 1 kg, 0.5 m long, that swings from 60 degrees with a rotor in its bob, which turns
+/// by 3 s^2 - 2 s^3 times 4 rad in a second. Its angle at time 1.
 double swung_angle(double h) {
   Model model;
   model.gravity = test::down;

@@ -1,6 +1,7 @@
-// Friction at links whose spans no body can lengthen: their tension follows from their neighbours alone
-// (cable/cable_friction.cpp). Sums of a few numbers of some metres carry 1e-15 m of rounding; g h^2, the motion that a tension
-// holds back in a step of 0.01 s, is 1e-3 m, so tensions are known to 1e-12, and velocities after 50 steps to 1e-11.
+// Friction at links whose spans no body can lengthen: their tension follows from their neighbours
+// alone (cable/cable_friction.cpp). Sums of a few numbers of some metres carry 1e-15 m of rounding;
+// g h^2, the motion that a tension holds back in a step of 0.01 s, is 1e-3 m, so tensions are known
+// to 1e-12, and velocities after 50 steps to 1e-11.
 
 #include <array>
 #include <cmath>
@@ -50,8 +51,9 @@ class OpenSpan : public test::ForEveryCombination {
 INSTANTIATE_TEST_SUITE_P(All, OpenSpan, testing::ValuesIn(test::combinations),
                          test::combination_name);
 
-/// Weights m1 and m2 that hang from what turns the cable by half a turn in all, with the friction mu: with q = e^(mu pi),
-/// both have the acceleration a = (m2 - q m1) g / (m2 + q m1) where m2 > q m1, and each bend its share of q.
+/// Weights m1 and m2 that hang from what turns the cable by half a turn in all, with the friction
+/// mu: with q = e^(mu pi), both have the acceleration a = (m2 - q m1) g / (m2 + q m1) where m2 > q
+/// m1, and each bend its share of q.
 void expect_capstan(const test::Machine& m, double m1, double m2, double friction,
                     const std::vector<double>& bends) {
   constexpr double time = 0.5;
@@ -124,7 +126,8 @@ TEST_P(OpenSpan, FiveEyeletsOnHalfACircleAreOneCapstan) {
   }
 }
 
-/// A drum on the world winds a rope in and pays it out over a static post: speed, then rest, then back.
+/// A drum on the world winds a rope in and pays it out over a static post: speed, then rest, then
+/// back.
 test::Machine winch(StepSettings step) {
   test::Machine m;
   m.model.gravity = test::down;
@@ -171,7 +174,8 @@ TEST_P(OpenSpan, KeepsWhatTheLastSlipLeft) {
   Simulation s = test::start(winch(step_settings(h, 20)));
   const auto drum_side = [&] { return s.cable_reports()[0].spans[0].tension; };
   const double held = std::exp(0.5 * s.cable_reports()[0].links[1].wrap_angle);
-  // From 1.5 s to 2 s the drum rests after winding in and slowing down by 4 rad/s2; from 3 s on after paying out.
+  // From 1.5 s to 2 s the drum rests after winding in and slowing down by 4 rad/s2; from 3 s on
+  // after paying out.
   test::run(s.world, 1.9);
   EXPECT_NEAR(drum_side(), held * 20.0 * (g - 0.8), 1e-6);
   test::run(s.world, 3.5);
@@ -212,8 +216,8 @@ TEST_P(OpenSpan, AFeedPushesAndPullsThroughAFrictionalEyelet) {
   }
 }
 
-// A driven wheel under which the rope passes by half a turn, between two posts with a weight of m beyond each. It speeds
-// up by b, so the weights would have to move with R b t.
+// A driven wheel under which the rope passes by half a turn, between two posts with a weight of m
+// beyond each. It speeds up by b, so the weights would have to move with R b t.
 struct WheelBetweenPosts {
   double post_friction = 0.0;
   double wheel_friction = 0.0;
@@ -276,8 +280,8 @@ TEST_P(OpenSpan, ADrivenWheelDragsTheRopeOverPostsThatDoNot) {
 }
 
 TEST_P(OpenSpan, AnEyeletThatMovesTakesCableFromTheLighterSide) {
-  // It rises beside a fixed one at v and carries the heavier weight along; the lighter one rises as the span between them
-  // gets longer, by sqrt(1 + v^2 t^2) - 1.
+  // It rises beside a fixed one at v and carries the heavier weight along; the lighter one rises as
+  // the span between them gets longer, by sqrt(1 + v^2 t^2) - 1.
   constexpr double v = 0.3;
   constexpr double friction = 0.3;
   test::Machine m = machine();
@@ -299,7 +303,8 @@ TEST_P(OpenSpan, AnEyeletThatMovesTakesCableFromTheLighterSide) {
   const std::vector<double> t = tensions(report);
   EXPECT_NEAR(s.world.position({0}).y(), -3.0 + std::hypot(1.0, v) - 1.0, exact);
   EXPECT_NEAR(s.world.position({1}).y(), -3.0 + v, exact);
-  // `rattle` reports the mean of a substep, whose halves have the angles of its start and of its end.
+  // `rattle` reports the mean of a substep, whose halves have the angles of its start and of its
+  // end.
   const auto held = [&](double time) {
     return std::exp(friction * (0.5 * pi - std::atan(v * time)));
   };
@@ -309,7 +314,8 @@ TEST_P(OpenSpan, AnEyeletThatMovesTakesCableFromTheLighterSide) {
   EXPECT_EQ(report.links[2].slip, 0.0);
 }
 
-// A bob of 2 kg swings on a rope that it pulls over a frictional eyelet, against 1 kg on a level rail. In polar coordinates,
+// A bob of 2 kg swings on a rope that it pulls over a frictional eyelet, against 1 kg on a level
+// rail. In polar coordinates,
 // with q = e^(mu (pi / 2 - phi)):  (m2 + q m1) r'' = m2 (g cos phi + r phi'^2),  r phi'' + 2 r' phi' = -g sin phi.
 struct SlidingSwing {
   static constexpr double friction = 0.1;
@@ -370,8 +376,9 @@ TEST_P(OpenSpan, SlidingWithFrictionHasTheOrderOfTheIntegrator) {
 }
 
 TEST_P(OpenSpan, ABlockWithTwoFrictionalHolesRunsAlongItsRope) {
-  // Mass M on two strands with holes of a quarter turn each; the counterweight m rises by 2 x when it falls by x. What its
-  // strand pulls with, T, the dead end has e^(mu pi) times, so M a = M g - (1 + e^(mu pi)) T and T = m (g + 2 a).
+  // Mass M on two strands with holes of a quarter turn each; the counterweight m rises by 2 x when
+  // it falls by x. What its strand pulls with, T, the dead end has e^(mu pi) times, so M a = M g -
+  // (1 + e^(mu pi)) T and T = m (g + 2 a).
   for (const double friction : {0.05, 0.2, 0.5}) {
     const double block = 20.0;
     const double counterweight = 1.5;
@@ -399,8 +406,9 @@ TEST_P(OpenSpan, ABlockWithTwoFrictionalHolesRunsAlongItsRope) {
 }
 
 TEST_P(OpenSpan, ASheathOfFrictionalHolesHoldsItsTendon) {
-  // A bar on an axle, pulled down by a weight at 1 m, held by a tendon that runs through holes along it and ends on it:
-  // between holes the tendon cannot give, so the first span holds the bar with the moment of the weight.
+  // A bar on an axle, pulled down by a weight at 1 m, held by a tendon that runs through holes
+  // along it and ends on it: between holes the tendon cannot give, so the first span holds the bar
+  // with the moment of the weight.
   test::Machine m = machine();
   BodyDef bar = test::wheel("bar", {0, 0, 0}, 0.1, 0.5);
   bar.torque = {0.0, 0.0, -2.0 * g};
@@ -413,7 +421,8 @@ TEST_P(OpenSpan, ASheathOfFrictionalHolesHoldsItsTendon) {
   test::run(s.world, 1.0);
   const CableReport report = s.cable_reports()[0];
   EXPECT_NEAR(report.spans[0].length, 0.7, exact);
-  // Sweeps pull along the direction of the prediction, which is turned by a h^2 with a = 2 g / 0.5 kg m2.
+  // Sweeps pull along the direction of the prediction, which is turned by a h^2 with a = 2 g / 0.5
+  // kg m2.
   const bool swept = GetParam().solver == SolverKind::gauss_seidel && !GetParam().rattle();
   const double share = swept ? 2.0 * g / 0.5 * h * h : 1e-10;
   EXPECT_NEAR(report.spans[0].tension, 2.0 * g / 0.3, share * 2.0 * g / 0.3);

@@ -70,8 +70,8 @@ struct Cam {
     return rows[0].terms[0].angular.z();
   }
 
-  /// The lever arm of the tangent from (0, height) to the disc about (e cos, e sin), by elementary geometry: the line
-  /// makes the angle asin(r / d) with the line to the centre.
+  /// The lever arm of the tangent from (0, height) to the disc about (e cos, e sin), by elementary
+  /// geometry: the line makes the angle asin(r / d) with the line to the centre.
   [[nodiscard]] static double lever(double angle) {
     const double x = eccentricity * std::cos(angle);
     const double y = eccentricity * std::sin(angle) - height;
@@ -97,8 +97,8 @@ TEST(Cam, TorqueOfA256GonIsThatOfTheDiscWithinATenthOfAPercent) {
   for (int i = 0; i < 72; ++i) {
     const double angle = 2.0 * pi * i / 72.0;
     const double lever = Cam::lever(angle);
-    // The line passes through a corner, within r (1 - cos(pi / 256)) = 1.5e-5 m of the disc's tangent; the
-    // smallest arm is r - e = 0.1 m.
+    // The line passes through a corner, within r (1 - cos(pi / 256)) = 1.5e-5 m of the disc's
+    // tangent; the smallest arm is r - e = 0.1 m.
     EXPECT_NEAR(cam.torque(angle), -lever, 1.6e-5) << angle;
     EXPECT_LT(1.6e-5 / std::abs(lever), 1e-3);
   }
@@ -151,8 +151,8 @@ TEST(Outline, GradientsAreExactInSpaceBetweenPointAndPolygon) {
   }
 }
 
-/// Acceleration of weights of 1 kg and 2 kg over a regular polygon inscribed in a circle (0 corners: the circle), as an
-/// average over 1.5 s in which the wheel turns some 5 times.
+/// Acceleration of weights of 1 kg and 2 kg over a regular polygon inscribed in a circle (0
+/// corners: the circle), as an average over 1.5 s in which the wheel turns some 5 times.
 double polygon_acceleration(int corners) {
   constexpr double radius = 0.25;
   test::Machine m;
@@ -171,15 +171,16 @@ double polygon_acceleration(int corners) {
 }
 
 TEST(Outline, PolygonsConvergeToTheCircleInSecondOrder) {
-  // A polygon with n corners acts on average like a wheel with its perimeter, 2 n r sin(pi / n), which falls short of
-  // the circle's by pi^2 / 6 n^2. With J / r^2 = 0.8 kg beside 3 kg, a = g / (3 + J / r^2) falls
-  // by 2 * 0.8 / 3.8 of that share.
+  // A polygon with n corners acts on average like a wheel with its perimeter, 2 n r sin(pi / n),
+  // which falls short of the circle's by pi^2 / 6 n^2. With J / r^2 = 0.8 kg beside 3 kg, a = g /
+  // (3 + J / r^2) falls by 2 * 0.8 / 3.8 of that share.
   const double circle = polygon_acceleration(0);
   std::vector<double> errors;
   for (const int corners : {8, 16, 32, 64}) {
     const double error = (circle - polygon_acceleration(corners)) / circle;
     const double expected = 2.0 * 0.8 / 3.8 * pi * pi / 6.0 / (corners * corners);
-    // The average ends somewhere between two corners, where the lever arm is off its mean by up to the same share.
+    // The average ends somewhere between two corners, where the lever arm is off its mean by up to
+    // the same share.
     EXPECT_NEAR(error, expected, 0.25 * expected) << corners;
     errors.push_back(error);
   }
@@ -189,7 +190,8 @@ TEST(Outline, PolygonsConvergeToTheCircleInSecondOrder) {
 }
 
 TEST(Outline, ManyTurnsOfAPolygonMoveTheirPerimeters) {
-  // A square drum is driven; the load rises by one perimeter per turn, however fast it turns: here 1.7 turns per step.
+  // A square drum is driven; the load rises by one perimeter per turn, however fast it turns: here
+  // 1.7 turns per step.
   for (const double turns_per_step : {0.05, 0.4, 1.7}) {
     test::Machine m;
     m.model.step = test::settings(0.01, 1, 10);
@@ -208,7 +210,8 @@ TEST(Outline, ManyTurnsOfAPolygonMoveTheirPerimeters) {
     for (int i = 0; i < 20; ++i) ASSERT_TRUE(s.world.step().ok());
     const CableReport report = s.cable_reports()[0];
     const double perimeter = 4.0 * 0.1 * std::sqrt(2.0);
-    // 20 steps are a whole number of quarter turns; the direction of the span hardly changes over 100 m.
+    // 20 steps are a whole number of quarter turns; the direction of the span hardly changes over
+    // 100 m.
     EXPECT_NEAR(std::abs(report.links[1].stored_length - before), 20.0 * turns_per_step * perimeter,
                 0.01 * perimeter)
         << turns_per_step;

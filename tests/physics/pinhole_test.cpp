@@ -51,7 +51,8 @@ TEST(Pinhole, ChainsHaveOneTensionAndTheAccelerationOfAtwood) {
     const CableReport report = s.cable_reports()[0];
     const double tension = 2.0 * 1.0 * 2.0 * g / 3.0;
     for (const SpanReport& span : report.spans) {
-      // One row: the same multiplier, bit for bit. Its value: a step's force from positions of 20 m over h^2.
+      // One row: the same multiplier, bit for bit. Its value: a step's force from positions of 20 m
+      // over h^2.
       EXPECT_EQ(span.tension, report.spans[0].tension);
       EXPECT_NEAR(span.tension, tension, 1e-9 * tension) << count;
       EXPECT_NEAR(span.rest_length, span.length, 1e-12);
@@ -123,7 +124,8 @@ TEST(Pinhole, RestLengthsNeverGoNegativeWhenAnEndReachesAHole) {
 }
 
 TEST(Pinhole, OnAMovingBodyActsLikeAMovingPulley) {
-  // A ring of mass M hangs in a loop of cable between two fixed points; one end runs over a hole to the effort m:
+  // A ring of mass M hangs in a loop of cable between two fixed points; one end runs over a hole to
+  // the effort m:
   // 2 T - M g = M a, m g - T = 2 m a  =>  a = (2 m - M) g / (M + 4 m).
   test::Machine m;
   m.model.gravity = test::down;
@@ -143,8 +145,8 @@ TEST(Pinhole, OnAMovingBodyActsLikeAMovingPulley) {
 }
 
 TEST(Pinhole, AnElasticCableStretchesAsAWhole) {
-  // Of a material, L / EA for the whole length, wherever the hole is; the oscillator of the weight on it has the period
-  // 2 pi sqrt(m L / EA).
+  // Of a material, L / EA for the whole length, wherever the hole is; the oscillator of the weight
+  // on it has the period 2 pi sqrt(m L / EA).
   test::Machine m;
   m.model.gravity = test::down;
   m.model.step = test::settings(0.001, 10, 2);
@@ -162,8 +164,8 @@ TEST(Pinhole, AnElasticCableStretchesAsAWhole) {
   EXPECT_NEAR(report.spans[0].rest_length, 3.0 / (1.0 + 2.0 * g / 1000.0), 1e-6);
 }
 
-/// The rule as Algorithm 1 of the paper prints it (lines 9-16), for one pinhole between spans of the lengths l1, l2
-/// with the rest lengths r1, r2: each in turn takes the excess of the other.
+/// The rule as Algorithm 1 of the paper prints it (lines 9-16), for one pinhole between spans of
+/// the lengths l1, l2 with the rest lengths r1, r2: each in turn takes the excess of the other.
 void printed_rule(double l1, double l2, double& r1, double& r2) {
   const double excess1 = l1 - r1;
   const double excess2 = l2 - r2;
@@ -184,8 +186,9 @@ TEST(Pinhole, ThePrintedRuleSwapsTheExcessesAndCanTakeMoreThanThereIs) {
 }
 
 TEST(MasslessWheel, TackleAcceleratesInClosedFormWhateverTheInertia) {
-  // Between 0 and about 1e-4 kg m2 Gauss-Seidel needs more sweeps the lighter the wheels are: the rows of a light
-  // wheel's two spans are then nearly opposite. A cable on wheels without any inertia is one row.
+  // Between 0 and about 1e-4 kg m2 Gauss-Seidel needs more sweeps the lighter the wheels are: the
+  // rows of a light wheel's two spans are then nearly opposite. A cable on wheels without any
+  // inertia is one row.
   for (const double inertia : {0.0, 1e-3, 1.0}) {
     test::Tackle tackle{.strands = 4, .load = 8.0, .effort = 3.0};
     tackle.inertia = inertia;
@@ -219,9 +222,9 @@ TEST(MasslessWheel, HoldsItsCableWhenItIsDriven) {
 }
 
 TEST(Pinhole, ASpanWithBothEndsOnOneBodyPullsAtNothing) {
-  // A tendon's last stretch: from its end through a hole with friction in the same bone. The bone moves as if the tendon
-  // ended at the hole, but for what the direct solver's rounds leave in each of n = 100 steps: e = 1e-10 of 2 m, hence e / h
-  // of velocity, and n^2 e / 2 in the end.
+  // A tendon's last stretch: from its end through a hole with friction in the same bone. The bone
+  // moves as if the tendon ended at the hole, but for what the direct solver's rounds leave in each
+  // of n = 100 steps: e = 1e-10 of 2 m, hence e / h of velocity, and n^2 e / 2 in the end.
   for (const SolverKind solver : {SolverKind::gauss_seidel, SolverKind::direct}) {
     test::Machine m;
     m.model.gravity = test::down;

@@ -1,4 +1,5 @@
-// Bodies that keep a plane have fewer rows; what they do is what free bodies do that nothing pushes out of it.
+// Bodies that keep a plane have fewer rows; what they do is what free bodies do that nothing pushes
+// out of it.
 
 #include <cmath>
 
@@ -45,7 +46,8 @@ TEST(PlanarMotion, ABoxSlidesOnTwoPointsAsItDoesOnFour) {
     }
     EXPECT_EQ(planar.contacts().size(), 2U);
     EXPECT_EQ(free.contacts().size(), 4U);
-    // v = v0 - mu g t; both share friction by the last substep's normal forces, which tip the free box alike.
+    // v = v0 - mu g t; both share friction by the last substep's normal forces, which tip the free
+    // box alike.
     EXPECT_NEAR(planar.velocity({1}).x(), 2.0 - 0.3 * test::g * 0.5, 1e-3);
     EXPECT_NEAR(planar.velocity({1}).x(), free.velocity({1}).x(), 1e-3);
   }
@@ -128,7 +130,8 @@ World double_pendulum(Mobility mobility, const test::Method& method) {
 TEST(PlanarMotion, AHingeNeedsTwoRowsThere) {
   for (const test::Method& method : test::methods) {
     SCOPED_TRACE(test::name_of(method));
-    // The sum of what sweeps of xpbd do along gradients that turn meanwhile depends on the rows' order, to first order in h.
+    // The sum of what sweeps of xpbd do along gradients that turn meanwhile depends on the rows'
+    // order, to first order in h.
     if (method.solver == SolverKind::gauss_seidel && method.integrator == IntegratorKind::xpbd) {
       continue;
     }
@@ -138,7 +141,8 @@ TEST(PlanarMotion, AHingeNeedsTwoRowsThere) {
     EXPECT_EQ(free.features()[0]->row_count(), 10);
     test::run(planar, 1.0);
     test::run(free, 1.0);
-    // The solvers leave 1e-10 of the scene and, with sweeps, what 300 of them do; the motion is not chaotic yet.
+    // The solvers leave 1e-10 of the scene and, with sweeps, what 300 of them do; the motion is not
+    // chaotic yet.
     const double left = method.solver == SolverKind::direct ? 1e-7 : 1e-4;
     for (const int i : {0, 1}) {
       EXPECT_NEAR((planar.position({i}) - free.position({i})).norm(), 0.0, left) << i;

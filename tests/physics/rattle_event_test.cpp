@@ -1,9 +1,10 @@
 // What events do to the energy where no damping hides it.
 //
-// `rattle` conserves H + h^2 G + ... of a smooth motion, G being smooth in the state, so H oscillates by h^2 (G(t0) - G(t)).
-// An event ends one smooth motion and begins another with another G: over a run H is off by h^2 times a sum of such
-// differences. That is no work of the event, and falls as h^2. What the event itself does shows in the substep after it:
-// there H may change by no more than in the smooth substeps beside it.
+// `rattle` conserves H + h^2 G + ... of a smooth motion, G being smooth in the state, so H
+// oscillates by h^2 (G(t0) - G(t)). An event ends one smooth motion and begins another with another
+// G: over a run H is off by h^2 times a sum of such differences. That is no work of the event, and
+// falls as h^2. What the event itself does shows in the substep after it: there H may change by no
+// more than in the smooth substeps beside it.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,8 @@ namespace {
 
 using test::g;
 
-/// A body of 2.4 kg on a cable of which `stored` is wound on a wheel, as in scenes/paper/hybrid.json.
+/// A body of 2.4 kg on a cable of which `stored` is wound on a wheel, as in
+/// scenes/paper/hybrid.json.
 test::Machine unwinding(double stored, double h) {
   test::Machine m;
   m.model.gravity = test::down;
@@ -37,7 +39,8 @@ test::Machine unwinding(double stored, double h) {
   return m;
 }
 
-/// Energies after each substep, over the first, up to `time` or until the cable goes slack: what follows is an impact.
+/// Energies after each substep, over the first, up to `time` or until the cable goes slack: what
+/// follows is an impact.
 struct TautRun {
   std::vector<double> energy{0.0};
   std::vector<std::size_t> events;  ///< substeps at whose end they came
@@ -95,10 +98,11 @@ TEST(RattleEvents, WhatTheEnergyPassesItsStartByFallsAsTheSquareOfTheStep) {
 }
 
 TEST(RattleEvents, ATouchMakesWhatItsOvershootWeighs) {
-  // A cable of 1 m swings against a post of radius r at a = 0.5 m from its top and is bent by the angle p when it is found
-  // to touch. The way round the post is longer than the straight one by d = a b p^2 / (2 (a + b)), b the rest, and pulling
-  // the ball back by d under the tension T makes T d. p is what the free part has turned by in a substep at the most,
-  // v h / b. (Not to be kept out as at hybrid ends: cable that is not given back would be lost or return when it leaves.)
+  // A cable of 1 m swings against a post of radius r at a = 0.5 m from its top and is bent by the
+  // angle p when it is found to touch. The way round the post is longer than the straight one by d
+  // = a b p^2 / (2 (a + b)), b the rest, and pulling the ball back by d under the tension T makes T
+  // d. p is what the free part has turned by in a substep at the most, v h / b. (Not to be kept out
+  // as at hybrid ends: cable that is not given back would be lost or return when it leaves.)
   for (const double h : {1.0 / 240.0, 1.0 / 960.0}) {
     test::Machine m;
     m.model.gravity = test::down;

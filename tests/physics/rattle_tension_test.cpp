@@ -1,8 +1,9 @@
 // Forces of the second-order integrator: tensions and joint forces converge as positions do.
 //
-// The force of a substep, the mean of what acts in its two halves, is that of its middle to second order. The mean of the
-// forces of the substeps before and after a moment is therefore that of the moment, to second order, too. The force of an
-// xpbd substep acts at its end and is of first order wherever it is taken.
+// The force of a substep, the mean of what acts in its two halves, is that of its middle to second
+// order. The mean of the forces of the substeps before and after a moment is therefore that of the
+// moment, to second order, too. The force of an xpbd substep acts at its end and is of first order
+// wherever it is taken.
 
 #include <cmath>
 #include <functional>
@@ -53,7 +54,8 @@ double apart(const std::vector<double>& a, const std::vector<double>& b) {
   return most;
 }
 
-/// log2 of how errors fall from h to h / 2: against `exact`, or if there is none, of successive differences.
+/// log2 of how errors fall from h to h / 2: against `exact`, or if there is none, of successive
+/// differences.
 double force_order(const test::Machine& m, IntegratorKind integrator, double h, double time,
                    const ForceProbe& probe, const std::vector<double>& exact) {
   const auto forces = [&](double step) { return forces_at(m, integrator, step, time, probe); };
@@ -100,7 +102,8 @@ TEST(RattleForces, AtwoodIsExactAtAnyStep) {
 }
 
 TEST(RattleForces, JointsOfAHingedChainInSpace) {
-  // The forces along x, y and z that hold the three anchors; the two rows after them hold a hinge's axis.
+  // The forces along x, y and z that hold the three anchors; the two rows after them hold a hinge's
+  // axis.
   const auto probe = [](const Simulation& s) {
     std::vector<double> forces;
     const double h = s.world.model().step.dt;

@@ -39,8 +39,8 @@ std::vector<double> at_time(test::Machine m, IntegratorKind integrator, double h
   return probe(s);
 }
 
-/// Order of convergence of the worst of the numbers, from h, h / 2 and h / 4: differences of successive ones fall by
-/// 2^order (Richardson).
+/// Order of convergence of the worst of the numbers, from h, h / 2 and h / 4: differences of
+/// successive ones fall by 2^order (Richardson).
 double order(const test::Machine& m, IntegratorKind integrator, double h, double time,
              const Probe& probe) {
   std::vector<std::vector<double>> results;
@@ -102,8 +102,9 @@ TEST(Rattle, SwayingTackleWithMountedSheaves) {
 }
 
 TEST(Rattle, TensionAtTheMiddleOfTheStep) {
-  // A pendulum's tension m (g cos a + v^2 / l) = m g (3 cos a - 2 cos a0), with the angle at the middle of the last step
-  // from the mean of the positions at its ends (its error is of second order, too).
+  // A pendulum's tension m (g cos a + v^2 / l) = m g (3 cos a - 2 cos a0), with the angle at the
+  // middle of the last step from the mean of the positions at its ends (its error is of second
+  // order, too).
   const auto error = [](double h) {
     test::Machine m = test::cable_pendulum(1.0, 1.0, 1.0);
     use(m, IntegratorKind::rattle, h);
@@ -178,7 +179,8 @@ TEST(Rattle, EnergyOfAPendulumOnARollingCableNeitherGrowsNorDies) {
 }
 
 TEST(Rattle, SpringsKeepTheirEnergyAndStayStable) {
-  // A weight on a cable of compliance a: w = 1 / sqrt(m a), from resolved to 1000 times too stiff for the step.
+  // A weight on a cable of compliance a: w = 1 / sqrt(m a), from resolved to 1000 times too stiff
+  // for the step.
   for (const double stiffness : {1e1, 1e3, 1e5, 1e7, 1e9}) {
     test::Machine m;
     m.model.gravity = test::down;
@@ -202,7 +204,8 @@ TEST(Rattle, SpringsKeepTheirEnergyAndStayStable) {
 }
 
 TEST(Rattle, ResolvedSpringsHaveTheirFrequency) {
-  // Implicit midpoint: tan(w' h / 2) = w h / 2, so w' is too low by (w h)^2 / 12; 20 steps per period: 0.8 %, 120: 0.02 %.
+  // Implicit midpoint: tan(w' h / 2) = w h / 2, so w' is too low by (w h)^2 / 12; 20 steps per
+  // period: 0.8 %, 120: 0.02 %.
   test::Machine m;
   m.model.gravity = test::down;
   const BodyId weight = m.model.add(test::weight("weight", {0.0, -1.0, 0.0}, 1.0));
@@ -233,7 +236,8 @@ TEST(Rattle, ResolvedSpringsHaveTheirFrequency) {
 }
 
 TEST(Rattle, NoImpactMakesEnergy) {
-  // A ball thrown up on its rigid cable, which goes taut again and again; and the same with a spring.
+  // A ball thrown up on its rigid cable, which goes taut again and again; and the same with a
+  // spring.
   for (const double compliance : {0.0, 1e-4, 1e-2}) {
     test::Machine m = test::cable_pendulum(1.0, 1.0, 2.5);
     m.cables[0].compliance = compliance;

@@ -46,13 +46,15 @@ TEST_P(ReactionsOf, TheAxleOfAtwoodsMachine) {
   const double a = atwood.acceleration();
   const BearingReaction bearing = Reactions::of(simulation)->bearing(0);
   const double tensions = atwood.m1 * (g + a) + atwood.m2 * (g - a);
-  // Positions of 2 m are known to 4e-16 m; that over h^2 = 1e-4 s2, times 3 kg, and some operations.
+  // Positions of 2 m are known to 4e-16 m; that over h^2 = 1e-4 s2, times 3 kg, and some
+  // operations.
   EXPECT_NEAR(bearing.force.y(), tensions + 1.0 * g, 1e-9);
   EXPECT_NEAR(bearing.force.x(), 0.0, 1e-9);
   EXPECT_NEAR(bearing.torque.norm(), 0.0, 1e-9);
 }
 
-// A sheave in a block that rises with the acceleration a hangs from the rope's two strands and carries the rest of the block.
+// A sheave in a block that rises with the acceleration a hangs from the rope's two strands and
+// carries the rest of the block.
 TEST_P(ReactionsOf, TheAxleOfASheaveInAMovingBlock) {
   const test::Tackle tackle;
   test::Machine machine = tackle.machine();
@@ -67,7 +69,8 @@ TEST_P(ReactionsOf, TheAxleOfASheaveInAMovingBlock) {
       << "what hangs on the axle";
 }
 
-// A wheel with the spin s on an arm that turns at W about an axis across its axle: its momentum J s turns, too.
+// A wheel with the spin s on an arm that turns at W about an axis across its axle: its momentum J s
+// turns, too.
 TEST_P(ReactionsOf, AGyroscopesAxle) {
   test::Machine machine;
   machine.model.gravity.setZero();
@@ -174,7 +177,8 @@ TEST_P(ReactionsOf, ADriveOnACarrier) {
   EXPECT_NEAR(momentum(simulation.world, 1).angular.z(), 0.3, 1e-12) << "N m for a second";
 }
 
-// A block on a rail with dry friction F comes to rest; F has then done the work of its kinetic energy.
+// A block on a rail with dry friction F comes to rest; F has then done the work of its kinetic
+// energy.
 TEST_P(ReactionsOf, TheDryFrictionOfARail) {
   test::Machine machine;
   machine.model.gravity.setZero();

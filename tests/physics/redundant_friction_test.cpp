@@ -1,7 +1,9 @@
-// Dry friction on what a rigid drive holds through a rope: while all stands still, three rows say the same and the share of
-// friction is anything within its limit. The direct solver must choose one and not go round between them.
+// Dry friction on what a rigid drive holds through a rope: while all stands still, three rows say
+// the same and the share of friction is anything within its limit. The direct solver must choose
+// one and not go round between them.
 //
-// A weight of 100 kg with dry friction of 50 N in its guide hangs on a drum whose drive lifts it, slows down and stops.
+// A weight of 100 kg with dry friction of 50 N in its guide hangs on a drum whose drive lifts it,
+// slows down and stops.
 
 #include <cmath>
 #include <vector>
@@ -72,14 +74,16 @@ TEST_P(RedundantFriction, FindsASetOfRowsMovingAndAtRest) {
     }
   }
   EXPECT_EQ(fallbacks, 0);
-  // Half a radian at 1 rad/s at most; then it stands. xpbd and rattle both follow the drive's integral.
+  // Half a radian at 1 rad/s at most; then it stands. xpbd and rattle both follow the drive's
+  // integral.
   EXPECT_NEAR(s.world.position({0}).y(), -2.0 + 0.5 * drum_radius, 1e-10);
   EXPECT_NEAR(s.world.velocity({0}).y(), 0.0, 1e-10);
 }
 
-// A rope from the world through a hole near the rim of a wheel and back to where it comes from, so both spans say the same. A
-// torque M pulls the hole away: with the arm p, (T1 + T2) p = M. The rope is bent there by half a turn, so neither pull may be
-// more than e^(m pi) times the other, in either half of a substep of `rattle`.
+// A rope from the world through a hole near the rim of a wheel and back to where it comes from, so
+// both spans say the same. A torque M pulls the hole away: with the arm p, (T1 + T2) p = M. The
+// rope is bent there by half a turn, so neither pull may be more than e^(m pi) times the other, in
+// either half of a substep of `rattle`.
 TEST_P(RedundantFriction, PullsThatSayTheSameStayWithinTheConeInBothHalves) {
   constexpr double torque = 3.0;
   constexpr double friction = 0.01;

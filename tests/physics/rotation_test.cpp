@@ -89,9 +89,9 @@ TEST(FreeMotion, TumblingBodyConservesMomentumExactlyAndConvergesInSecondOrder) 
   RecordProperty("energy_ratio", std::to_string(fine.energy_error / finer.energy_error));
 }
 
-// A body with two equal moments J and the third K, without torque: the axis goes round L at the rate |L| / J, and the spin about
-// the axis stays w . u. That is followed exactly by any step, here of 3.7 turns per step; only rounding adds up, some 1e-16
-// of each step's angle in 200 steps.
+// A body with two equal moments J and the third K, without torque: the axis goes round L at the
+// rate |L| / J, and the spin about the axis stays w . u. That is followed exactly by any step, here
+// of 3.7 turns per step; only rounding adds up, some 1e-16 of each step's angle in 200 steps.
 TEST(FreeMotion, SymmetricBodiesPrecessExactlyInStepsOfAnyLength) {
   for (const double length : {0.05, 2.0}) {  // flat and long
     SCOPED_TRACE(length);

@@ -37,9 +37,9 @@ INSTANTIATE_TEST_SUITE_P(All, SlidingRun, testing::ValuesIn(test::combinations),
                          test::combination_name);
 
 TEST_P(SlidingRun, RoundARingNotEveryLinkSlides) {
-  // Two weights on a ring over a post. The tension comes back to itself round the ring, and is the same on both sides of the
-  // smooth hole: what the post gains the rough hole has to lose, so the one of them with the smaller exponent slides and the
-  // other one holds.
+  // Two weights on a ring over a post. The tension comes back to itself round the ring, and is the
+  // same on both sides of the smooth hole: what the post gains the rough hole has to lose, so the
+  // one of them with the smaller exponent slides and the other one holds.
   test::Machine m = machine();
   m.model.step.dt = 1e-3;
   BodyDef upper = test::lump("upper", {0.4, 1.2, 0}, 2.4);
@@ -59,7 +59,8 @@ TEST_P(SlidingRun, RoundARingNotEveryLinkSlides) {
   const double post_exponent = 0.24 * report.links[1].wrap_angle;
   const double hole_exponent = 0.3 * report.links[2].wrap_angle;
   ASSERT_LT(post_exponent, hole_exponent);
-  // Ratios are those of the directions of the start and the middle of a step, in which they turn by v h = 5e-5 rad.
+  // Ratios are those of the directions of the start and the middle of a step, in which they turn by
+  // v h = 5e-5 rad.
   constexpr double turned = 1e-4;
   ASSERT_GT(t[0], 1.0);
   EXPECT_NEAR(t[2] / t[0], 1.0, 1e-6);
@@ -68,10 +69,11 @@ TEST_P(SlidingRun, RoundARingNotEveryLinkSlides) {
 }
 
 TEST_P(SlidingRun, CableBetweenDryFrictionAndAHoleHasATensionThatHolds) {
-  // Sweeps end with either, and the velocities of `rattle` leave open what is redundant (docs/friction.md).
+  // Sweeps end with either, and the velocities of `rattle` leave open what is redundant
+  // (docs/friction.md).
   if (GetParam().solver != SolverKind::direct || GetParam().rattle()) GTEST_SKIP();
-  // A block that dry friction holds, a rough hole in the world, a weight: the block does not move, so nothing slides, and what
-  // the first span carries is within the cone of the hole.
+  // A block that dry friction holds, a rough hole in the world, a weight: the block does not move,
+  // so nothing slides, and what the first span carries is within the cone of the hole.
   test::Machine m = machine();
   BodyDef block = test::lump("block", {0, 0, 0}, 1.0);
   block.mobility = Mobility::planar;
@@ -97,8 +99,9 @@ TEST_P(SlidingRun, CableBetweenDryFrictionAndAHoleHasATensionThatHolds) {
 }
 
 TEST_P(SlidingRun, WhatSlidesHasStrainsInTheRatioOfItsTensions) {
-  // Also where dampers have a part of the tensions, or these are those of the middle of the step: what a run shares out is
-  // stretched in the ratio e^(m a) after every step, over spans of unlike lengths.
+  // Also where dampers have a part of the tensions, or these are those of the middle of the step:
+  // what a run shares out is stretched in the ratio e^(m a) after every step, over spans of unlike
+  // lengths.
   test::Machine m = machine();
   m.model.add(post("post", {0, 0, 0}, 0.2));
   m.model.add(test::weight("light", {-0.2, -1.0, 0}, 1.0));

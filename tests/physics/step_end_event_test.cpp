@@ -1,7 +1,8 @@
-// Events that fall on the very end of a substep, and a little to either side of it: rounding decides in which substep they
-// are found, and that must make no difference.
+// Events that fall on the very end of a substep, and a little to either side of it: rounding
+// decides in which substep they are found, and that must make no difference.
 //
-// Without gravity everything before and after an event moves evenly, so what follows is known to rounding.
+// Without gravity everything before and after an event moves evenly, so what follows is known to
+// rounding.
 
 #include <array>
 #include <cmath>
@@ -58,7 +59,8 @@ TEST(StepEndEvents, BallsThatMeetPart) {
 }
 
 TEST(StepEndEvents, ABallThatMeetsTheFloorBounces) {
-  // Under gravity, at rest 1 m above a floor that it meets after n steps, and so on: with e = 1 its energy is what it was.
+  // Under gravity, at rest 1 m above a floor that it meets after n steps, and so on: with e = 1 its
+  // energy is what it was.
   for (const test::Method& method : test::methods) {
     for (const double shift : event_shifts) {
       SCOPED_TRACE(test::name_of(method) + ", shift " + std::to_string(1e12 * shift) + "e-12");
@@ -70,7 +72,8 @@ TEST(StepEndEvents, ABallThatMeetsTheFloorBounces) {
       const BodyId ball = heap.put(test::ball(0.25), {0.0, 0.25 + height + shift, 0.0});
       World world = heap.start();
       take_steps(world, 59);
-      // `xpbd` has the velocity of the middle of a substep, and an impact that it moves by half of one.
+      // `xpbd` has the velocity of the middle of a substep, and an impact that it moves by half of
+      // one.
       const double lag = method.integrator == IntegratorKind::xpbd ? test::g * step_length : 1e-8;
       EXPECT_NEAR(world.velocity(ball).y(), test::g * step_length, lag);
       EXPECT_NEAR(world.position(ball).y(),

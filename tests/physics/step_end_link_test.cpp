@@ -1,7 +1,9 @@
-// What happens to a cable at its links and falls on the very end of a substep, and a little to either side of it: touch, leave,
-// attach, wind and break. Rounding decides in which substep they are found, and that must make no difference.
+// What happens to a cable at its links and falls on the very end of a substep, and a little to
+// either side of it: touch, leave, attach, wind and break. Rounding decides in which substep they
+// are found, and that must make no difference.
 //
-// Wheels are driven and weights keep cables taut, so where everything is follows from lengths alone.
+// Wheels are driven and weights keep cables taut, so where everything is follows from lengths
+// alone.
 
 #include <array>
 #include <cmath>
@@ -32,8 +34,9 @@ std::string link_trace(const test::Method& method, double shift) {
   return test::name_of(method) + ", shift " + std::to_string(1e12 * shift) + "e-12";
 }
 
-/// Of a cable between two points 1 m to either side of a peg of radius r whose top is `height` above their line: what it is
-/// longer by than the straight one. The tangents leave the peg at acos(r / d) from the directions to the points.
+/// Of a cable between two points 1 m to either side of a peg of radius r whose top is `height`
+/// above their line: what it is longer by than the straight one. The tangents leave the peg at
+/// acos(r / d) from the directions to the points.
 double detour(double radius, double height) {
   if (height <= 0.0) return 0.0;
   const double below = radius - height;  // of its centre
@@ -48,7 +51,8 @@ std::shared_ptr<PinholeLink> hole_at(double x) {
   return hole;
 }
 
-/// Two weights on a cable through two holes of the world, 2 m apart, and a peg below its middle that moves at `speed`.
+/// Two weights on a cable through two holes of the world, 2 m apart, and a peg below its middle
+/// that moves at `speed`.
 test::Machine pushed_cable(const test::Method& method, double top, double speed, bool lifted) {
   constexpr double radius = 0.1;
   test::Machine m;
@@ -111,8 +115,8 @@ TEST(StepEndLinks, WheelsThatLeave) {
 }
 
 TEST(StepEndLinks, EndsThatAttachAndAreWoundUpAgain) {
-  // A wheel turns by 4 t^2 - 4 t: its cable is used up at 0.25 s, and lies on it again from 0.75 s. In between it hangs on a
-  // point of the rim that has turned on by p.
+  // A wheel turns by 4 t^2 - 4 t: its cable is used up at 0.25 s, and lies on it again from 0.75 s.
+  // In between it hangs on a point of the rim that has turned on by p.
   constexpr double radius = 0.2;
   for (const test::Method& method : test::methods) {
     for (const double shift : link_shifts) {
@@ -142,8 +146,8 @@ TEST(StepEndLinks, EndsThatAttachAndAreWoundUpAgain) {
         const double length = 1.0 + radius * std::min(turned, 0.75);
         const double off = radius * (1.0 - std::cos(on));
         const double y = -radius * std::sin(on) - std::sqrt(length * length - off * off);
-        // An end that is found to be used up, or on the wheel again, a turn of a late takes the straight way for the arc:
-        // r (a - sin a), each time. The wheel turns at 2 rad/s then.
+        // An end that is found to be used up, or on the wheel again, a turn of a late takes the
+        // straight way for the arc: r (a - sin a), each time. The wheel turns at 2 rad/s then.
         const double times = t > 0.75 ? 2.0 : 1.0;
         const double late = t > 0.25 ? 2.0 * link_step * 1.04 : 0.0;
         EXPECT_NEAR(s.world.position(weight).y(), y,
@@ -160,8 +164,9 @@ TEST(StepEndLinks, EndsThatAttachAndAreWoundUpAgain) {
 }
 
 TEST(StepEndLinks, CablesThatBreak) {
-  // The tension of a substep is what a cable breaks by. Whatever it is off the strength by, the cable breaks after this substep
-  // or after the next one, whose tension is larger, and its bob flies on from there with the velocity that it has.
+  // The tension of a substep is what a cable breaks by. Whatever it is off the strength by, the
+  // cable breaks after this substep or after the next one, whose tension is larger, and its bob
+  // flies on from there with the velocity that it has.
   for (const test::Method& method : test::methods) {
     test::Machine m = test::cable_pendulum(1.0, 1.0, 1.0);
     m.model.step = link_settings(method);

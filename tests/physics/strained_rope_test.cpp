@@ -1,12 +1,14 @@
 // Cable of a material comes onto wheels with its strain (cable/cable_material.cpp).
 //
-// A drum winds up a load at constant speed: strain e = M g / EA, and in the time t the rim takes in R w t of stretched cable,
-// R w t / (1 + e) unstretched. What hangs has the length l = (1 + e) L, so the load rises by (1 + e) R w t / (1 + e) = R w t.
+// A drum winds up a load at constant speed: strain e = M g / EA, and in the time t the rim takes in
+// R w t of stretched cable, R w t / (1 + e) unstretched. What hangs has the length l = (1 + e) L,
+// so the load rises by (1 + e) R w t / (1 + e) = R w t.
 //
-// A belt that runs steadily passes everywhere the same unstretched length q per second. Onto the driving wheel it comes with
-// the strain e1 of the tight side, onto the driven one with e2 of the slack side, and each rim runs as what comes onto it:
-// v1 = (1 + e1) q, v2 = (1 + e2) q, so (v1 - v2) / v1 = (e1 - e2) / (1 + e1), Grashof's (T1 - T2) / EA to first order. On
-// each wheel EA (e1 - e2)^2 / 2 q is lost, together (T1 - T2) (v1 - v2).
+// A belt that runs steadily passes everywhere the same unstretched length q per second. Onto the
+// driving wheel it comes with the strain e1 of the tight side, onto the driven one with e2 of the
+// slack side, and each rim runs as what comes onto it: v1 = (1 + e1) q, v2 = (1 + e2) q, so (v1 -
+// v2) / v1 = (e1 - e2) / (1 + e1), Grashof's (T1 - T2) / EA to first order. On each wheel EA (e1 -
+// e2)^2 / 2 q is lost, together (T1 - T2) (v1 - v2).
 
 #include <array>
 #include <cmath>
@@ -50,8 +52,8 @@ std::shared_ptr<SpoolLink> drum_link(BodyId body, double stored) {
   return link;
 }
 
-/// A drum, body 0, about z; counter-clockwise cable comes off on its left side downwards; the load, body 1. The drum takes in
-/// when it turns clockwise.
+/// A drum, body 0, about z; counter-clockwise cable comes off on its left side downwards; the load,
+/// body 1. The drum takes in when it turns clockwise.
 test::Machine hoist(double strain, const Settings& settings, double h) {
   test::Machine m;
   m.model.gravity = test::down;
@@ -85,8 +87,9 @@ TEST(StrainedRope, ALoadRisesAsFastAsTheRim) {
   }
 }
 
-// What was wound up under the load comes off with the same strain, whatever lies below: the load is back where it was. (With
-// the mean strain of all that is on the drum it would hang 1 m x 4.9 % x 5/6 = 41 mm lower.)
+// What was wound up under the load comes off with the same strain, whatever lies below: the load is
+// back where it was. (With the mean strain of all that is on the drum it would hang 1 m x 4.9 % x
+// 5/6 = 41 mm lower.)
 TEST(StrainedRope, ALoadComesBackToWhereItWas) {
   for (const Settings& settings : all_settings) {
     test::Machine m = hoist(0.049, settings, 0.01);
@@ -100,7 +103,8 @@ TEST(StrainedRope, ALoadComesBackToWhereItWas) {
     const double before = s.world.position({1}).y();
     EXPECT_NEAR(before, -1.049 * hang, 1e-9);
     test::run(s.world, 8.0);
-    // The rim's way, and what the strain of the remaining rope lets it rise less or more while it swings.
+    // The rim's way, and what the strain of the remaining rope lets it rise less or more while it
+    // swings.
     EXPECT_GT(s.world.position({1}).y(), before + 0.9 * 4.0 * radius);
     test::run(s.world, 14.0);
     EXPECT_NEAR(s.world.position({1}).y(), before, 1e-8);
@@ -159,7 +163,8 @@ TEST(StrainedRope, WindingInUnderAChangingLoadConservesEnergy) {
   EXPECT_LT(result.error, 1e-6 * mass * g * hang);
 }
 
-// Turned by the load, it pays out under another tension than it took in, and loses what the report tells.
+// Turned by the load, it pays out under another tension than it took in, and loses what the report
+// tells.
 TEST(StrainedRope, PayingOutLosesWhatTheReportTells) {
   const Balance result = expect_second_order(swinging_hoist(3.0, 0.0), 2e-3);
   EXPECT_GT(result.creep, 1e-2);
@@ -219,7 +224,8 @@ TEST(StrainedRope, ABeltCreepsAsGrashofSays) {
   }
 }
 
-// By the reports alone: balances, springs and what rims move belong together in all of these machines, winding on and off.
+// By the reports alone: balances, springs and what rims move belong together in all of these
+// machines, winding on and off.
 TEST(StrainedRope, TheCertificateIsClean) {
   test::Machine back = hoist(0.049, all_settings[0], 0.01);
   back.cables[0].rest_lengths = {hang};

@@ -1,9 +1,11 @@
-// The law of a cable of a material over links that let it pass: T = EA e of every span, whatever has passed in the substep.
+// The law of a cable of a material over links that let it pass: T = EA e of every span, whatever
+// has passed in the substep.
 //
-// With the unstretched lengths L and the strains e = l / L - 1 that are reported, XPBD asks for T = EA e at the end of a
-// substep and `rattle` for the mean of both ends, T = EA (e0 + e1) / 2. Both are what a substep is solved for, so they hold to
-// where its rounds end: 1e-10 m of some metres of cable, whose stretch is e L. (Lengths that are shared out after the substep
-// miss it by the strain times what has passed, a share slip / L of the stretch: 1e-2 here.)
+// With the unstretched lengths L and the strains e = l / L - 1 that are reported, XPBD asks for T =
+// EA e at the end of a substep and `rattle` for the mean of both ends, T = EA (e0 + e1) / 2. Both
+// are what a substep is solved for, so they hold to where its rounds end: 1e-10 m of some metres of
+// cable, whose stretch is e L. (Lengths that are shared out after the substep miss it by the strain
+// times what has passed, a share slip / L of the stretch: 1e-2 here.)
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +29,8 @@ class StrainedRun : public test::ForEveryCombination {};
 INSTANTIATE_TEST_SUITE_P(All, StrainedRun, testing::ValuesIn(test::combinations),
                          test::combination_name);
 
-/// Two weights on a cable over a link at the origin's height; they start in free fall from where it has no strain.
+/// Two weights on a cable over a link at the origin's height; they start in free fall from where it
+/// has no strain.
 test::Machine swing(const std::shared_ptr<const LinkDef>& middle, test::Machine m,
                     double stiffness) {
   m.model.gravity = test::down;
@@ -73,7 +76,8 @@ TEST_P(StrainedRun, EverySpanHasTheForceOfItsStrainOverAHole) {
   for (const double stiffness : {1e3, 1e7}) {
     test::Machine m;
     m.model.step = step_settings(0.01, 200);
-    // Where cable slides against friction, strains are in the ratio of the tensions at the end, which those of `rattle` are not.
+    // Where cable slides against friction, strains are in the ratio of the tensions at the end,
+    // which those of `rattle` are not.
     const double friction = GetParam().rattle() ? 0.0 : 0.2;
     m = swing(eyelet(BodyId::world(), {0, 0, 0}, friction), m, stiffness);
     // 1e-10 of 3 m of cable, of the stretch under 20 N.

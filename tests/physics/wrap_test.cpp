@@ -49,8 +49,8 @@ std::shared_ptr<const Shape> box(const Vector3& size) {
   return shape;
 }
 
-/// An elastic cable of 2 m and 1e-3 m/N from (-1, 0, 0) to (1, 0, 0), both ends kinematic with the velocity `velocity`.
-/// Bodies: 0 and 1 its ends, then the obstacles.
+/// An elastic cable of 2 m and 1e-3 m/N from (-1, 0, 0) to (1, 0, 0), both ends kinematic with the
+/// velocity `velocity`. Bodies: 0 and 1 its ends, then the obstacles.
 test::Machine drawn_cable(const Vector3& velocity, std::vector<BodyDef> obstacles) {
   test::Machine m;
   m.model.gravity = Vector3::Zero();
@@ -91,10 +91,12 @@ TEST(Wrap, ACableIsPulledRoundAPostFromEitherSide) {
       // The ends are 0.5 m past their start, 0.2 m past the post's centre; radius 0.2 m.
       const double d = std::hypot(1.0, 0.2);
       const double tangent = std::sqrt(d * d - 0.04);
-      // Directions from the centre: to an end atan2(1, 0.2) off the way back, to the tangent point acos(r / d) further.
+      // Directions from the centre: to an end atan2(1, 0.2) off the way back, to the tangent point
+      // acos(r / d) further.
       const double half_arc = pi - std::atan2(1.0, 0.2) - std::acos(0.2 / d);
       const double length = 2.0 * tangent + 0.4 * half_arc;
-      // No friction: one tension throughout. The spring sees two spans, each with its own compliance.
+      // No friction: one tension throughout. The spring sees two spans, each with its own
+      // compliance.
       const double tension = (length - 2.0) / 2e-3;
       EXPECT_NEAR(wrap.link.stored_length, 0.4 * half_arc, 1e-9);
       EXPECT_NEAR(report.spans[0].tension, tension, 1e-6 * tension);
@@ -109,7 +111,8 @@ TEST(Wrap, ACableIsPulledRoundAPostFromEitherSide) {
 }
 
 TEST(Wrap, ACableComesOffWhereItCameOn) {
-  // A post, a box that stands on a corner, and one that lies flat; the lowest points of all are at y = 0.1.
+  // A post, a box that stands on a corner, and one that lies flat; the lowest points of all are at
+  // y = 0.1.
   BodyDef tilted = obstacle("box", box({0.2, 0.2, 0.2}), {0.0, 0.1 + 0.1 * std::sqrt(2.0), 0.0});
   tilted.orientation = rotation_by({0.0, 0.0, 0.25 * pi});
   for (const BodyDef& thing : {obstacle("post", cylinder(0.2), {0.0, 0.3, 0.0}), tilted,
@@ -188,7 +191,8 @@ TEST(Wrap, RoundABoxTheCableLiesAlongTheEdgesItNeeds) {
 }
 
 TEST(Wrap, ALongWallIsTouchedThoughItsCentreLiesBeyondTheCable) {
-  // The wall's end, x = 0.5, comes down between the cable's ends; its centre stays to the right of both.
+  // The wall's end, x = 0.5, comes down between the cable's ends; its centre stays to the right of
+  // both.
   BodyDef wall = obstacle("wall", box({4.0, 0.2, 0.2}), {2.5, 0.3, 0.0});
   wall.orientation = rotation_by({0.0, 0.0, 0.3});
   const Vector3 corner =
@@ -221,7 +225,8 @@ TEST(Wrap, ABallInSpaceIsWrappedInThePlaneOfCableAndCentre) {
 }
 
 TEST(Wrap, ALogIsWrappedWhereTheCableMeetsIt) {
-  // Free ends make the cable's plane unknown at the start; the log's axis is z, the cable passes 0.7 m along it.
+  // Free ends make the cable's plane unknown at the start; the log's axis is z, the cable passes
+  // 0.7 m along it.
   test::Machine m =
       drawn_cable({0.0, 0.5, 0.0}, {obstacle("log", cylinder(0.2, 2.0), {0.0, 0.3, -0.7})});
   m.model.bodies[0].velocity = {0.0, 0.5, 1e-9};  // leaves the plane, so the general way is taken
@@ -241,7 +246,8 @@ TEST(Wrap, ALogIsWrappedWhereTheCableMeetsIt) {
 }
 
 TEST(Wrap, FrictionOfAWrapIsTheCapstans) {
-  // The second end goes on to the right when both have gone up: cable is pulled over the post towards it.
+  // The second end goes on to the right when both have gone up: cable is pulled over the post
+  // towards it.
   const double friction = 0.3;
   test::Machine m =
       drawn_cable({0.0, 0.5, 0.0}, {obstacle("post", cylinder(0.2), {0.0, 0.3, 0.0})});
@@ -369,7 +375,8 @@ TEST(Wrap, AStateWithAnImpossibleCourseIsRefused) {
 }
 
 TEST(Wrap, RandomContactsLoseNoLength) {
-  // Two ends swing with frequencies that have no common period among posts, balls and boxes, in a plane and out of it.
+  // Two ends swing with frequencies that have no common period among posts, balls and boxes, in a
+  // plane and out of it.
   for (const double depth : {0.0, 0.3}) {
     std::vector<BodyDef> things;
     for (int i = 0; i < 9; ++i) {
@@ -399,7 +406,8 @@ TEST(Wrap, RandomContactsLoseNoLength) {
             s.cables->events().begin(), s.cables->events().end(), [&](const CableEvent& event) {
               return event.body == body && event.time == s.world.state().time;
             });
-        // Round the corner of a box, in a plane tilted by at most 0.6 m in 1.7 m, an edge of 8 cm counts 5 mm less.
+        // Round the corner of a box, in a plane tilted by at most 0.6 m in 1.7 m, an edge of 8 cm
+        // counts 5 mm less.
         const double tilt = depth > 0.0 ? 0.005 : 0.0;
         EXPECT_TRUE(wrap.link.stored_length >= -tilt || fresh) << body;
       }
@@ -414,7 +422,8 @@ TEST(Wrap, RandomContactsLoseNoLength) {
 }
 
 TEST(Wrap, ABeltCanLeaveAllItsListedWheels) {
-  // Two posts in a belt part and stretch it; the wheels that it ran over pass each other between its two sides.
+  // Two posts in a belt part and stretch it; the wheels that it ran over pass each other between
+  // its two sides.
   test::Machine m;
   m.model.gravity = Vector3::Zero();
   m.model.step = test::settings(0.005, 1, 50);

@@ -1,7 +1,8 @@
 #pragma once
 // One property over many seeds.
 //
-// SHEAVE_CASES says how many seeds (default: 100, fewer in slow builds), SHEAVE_SEED the first one, so
+// SHEAVE_CASES says how many seeds (default: 100, fewer in slow builds), SHEAVE_SEED the first one,
+// so
 //   SHEAVE_SEED=4711 SHEAVE_CASES=1 build/release/tests/test_property --gtest_filter='*Mirror*'
 // repeats one case. With either, a line of results is printed.
 
@@ -24,11 +25,13 @@ struct Finding {
   void worsen(double new_value, double new_limit, const std::string& where);
 };
 
-/// The same for any kind of machine; `draw` makes that of a seed, `usual_cases` is the number of seeds by default.
+/// The same for any kind of machine; `draw` makes that of a seed, `usual_cases` is the number of
+/// seeds by default.
 void run_campaign_on(const std::string& property, std::uint64_t usual_cases,
                      const std::function<RandomMachine(std::uint64_t seed)>& draw,
                      const std::function<Finding(const Machine&, std::uint64_t seed)>& check);
-/// Runs `check` on the machines of many seeds. Every failure fails the test and names its seed and its machine.
+/// Runs `check` on the machines of many seeds. Every failure fails the test and names its seed and
+/// its machine.
 void run_campaign(const std::string& property, const Traits& traits,
                   const std::function<Finding(const Machine&, std::uint64_t seed)>& check);
 

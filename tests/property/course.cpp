@@ -28,8 +28,8 @@ double motion_apart(const Moment& a, const Moment& b, double dt, double size) {
   return worst;
 }
 
-/// Of the spans in their order; of a belt in the order of their size, because it depends on the direction which span is the first
-/// when the first link has been left.
+/// Of the spans in their order; of a belt in the order of their size, because it depends on the
+/// direction which span is the first when the first link has been left.
 void append_tensions(const CableReport& report, Moment& moment) {
   const CableReport whole = report.with_wraps_in_place();
   std::vector<double>& tensions = moment.tensions.emplace_back();
@@ -74,7 +74,8 @@ std::vector<Apart> apart(const Course& a, const Course& b, double dt, double siz
   return result;
 }
 
-/// How far twins are from the machine, the worst so far. Shorter than the course if a twin ends before it.
+/// How far twins are from the machine, the worst so far. Shorter than the course if a twin ends
+/// before it.
 class Twins {
  public:
   Twins(const Machine& machine, const Course& course, double size, double weight)

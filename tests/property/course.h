@@ -1,10 +1,12 @@
 #pragma once
 // Runs of machines, compared step by step, and how far apart two runs may be.
 //
-// Two runs that ought to agree differ by rounding, and by what a solver leaves over; the machine makes more of it. How much
-// more is measured: twins of the machine, every number of which is changed by about as much, are run beside it. What they
-// differ by from the machine, times a safety factor of 30 (random changes miss the worst direction; each substep rounds
-// anew), is what the other run may differ by. Once twins differ by 1e-4 of the machine's size nothing can be said any more.
+// Two runs that ought to agree differ by rounding, and by what a solver leaves over; the machine
+// makes more of it. How much more is measured: twins of the machine, every number of which is
+// changed by about as much, are run beside it. What they differ by from the machine, times a safety
+// factor of 30 (random changes miss the worst direction; each substep rounds anew), is what the
+// other run may differ by. Once twins differ by 1e-4 of the machine's size nothing can be said any
+// more.
 
 #include <functional>
 #include <vector>
@@ -26,8 +28,8 @@ struct Course {
 };
 [[nodiscard]] Course follow(const Machine& machine, int steps);
 
-/// Between two moments: of motion in shares of the machine's size, turns and velocities times a step included; of tension in
-/// shares of the largest so far.
+/// Between two moments: of motion in shares of the machine's size, turns and velocities times a
+/// step included; of tension in shares of the largest so far.
 struct Apart {
   double motion = 0.0;
   double tension = 0.0;

@@ -1,12 +1,14 @@
-// Where the geometry of a span has no solution: wheels that overlap or coincide, points inside a wheel, spans of no length.
+// Where the geometry of a span has no solution: wheels that overlap or coincide, points inside a
+// wheel, spans of no length.
 //
-// The bodies here move as functions of time, so nothing but the geometry decides about C = rest length - length, which
-// the reports show. The gradient of C is a unit force at either end (and on the rims), so C changes by at most what the
-// ends move, as long as there is a tangent. Without one the length is 0 and the direction of the span turns with the
-// line between the centres: by motion / distance, which moves cable by that times the radii. So, in one plane,
+// The bodies here move as functions of time, so nothing but the geometry decides about C = rest
+// length - length, which the reports show. The gradient of C is a unit force at either end (and on
+// the rims), so C changes by at most what the ends move, as long as there is a tangent. Without one
+// the length is 0 and the direction of the span turns with the line between the centres: by motion
+// / distance, which moves cable by that times the radii. So, in one plane,
 //   |dC| <= M (1 + (|q1| + |q2|) / d),
-// with M the ends' motion and d the least distance of the centres in the substep; where the centres pass each other
-// within M the turn may be anything up to pi.
+// with M the ends' motion and d the least distance of the centres in the substep; where the centres
+// pass each other within M the turn may be anything up to pi.
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +25,8 @@ namespace {
 struct Encounter {
   Machine machine;
   double radii = 0.0;  ///< sum of the radii [m]
-  /// Continuity is asked for where the centres are this times the radii apart; beyond that states are finite and count.
+  /// Continuity is asked for where the centres are this times the radii apart; beyond that states
+  /// are finite and count.
   double clearance = 0.0;
   double gradient = 1.0;  ///< bound of the gradient of C
 };
@@ -75,7 +78,8 @@ Finding encounter_finding(const Encounter& encounter) {
   Result<Simulation> made = Simulation::create(encounter.machine.model, encounter.machine.cables);
   if (!made) return {false, 0.0, 0.0, ""};  // they overlap at time 0
   Simulation& s = *made;
-  // Where the wheels would wind more than the span has, its rest length stays 0 and cable slides over them: as much as is told.
+  // Where the wheels would wind more than the span has, its rest length stays 0 and cable slides
+  // over them: as much as is told.
   const auto value = [&] {
     const CableReport cable = s.cable_reports()[0];
     const double slid = cable.links[0].slip - cable.links[1].slip;
@@ -119,7 +123,8 @@ TEST(Degenerate, EncountersOfWheelsInOnePlaneAreContinuousAndCounted) {
   });
 }
 
-// What outlines that overlap have for a tangent is whatever pair of corners the search ends with, so C jumps there.
+// What outlines that overlap have for a tangent is whatever pair of corners the search ends with,
+// so C jumps there.
 TEST(Degenerate, EncountersOfOutlinesInOnePlaneAreContinuousUntilTheyOverlap) {
   run_campaign("encounters of boxes", {}, [](const Machine&, std::uint64_t seed) {
     Encounter encounter = random_encounter(seed, 0.0, true);
@@ -128,8 +133,9 @@ TEST(Degenerate, EncountersOfOutlinesInOnePlaneAreContinuousUntilTheyOverlap) {
   });
 }
 
-// The gradient has two more pairs of forces y = M^-T k (cable/span_row.h), |k| <= 2 r, |M| about the length of the
-// tangent as seen along the normals, which is at least sqrt(3) r cos 0.6 if the centres are 2 (r1 + r2) apart: 1.4 each.
+// The gradient has two more pairs of forces y = M^-T k (cable/span_row.h), |k| <= 2 r, |M| about
+// the length of the tangent as seen along the normals, which is at least sqrt(3) r cos 0.6 if the
+// centres are 2 (r1 + r2) apart: 1.4 each.
 TEST(Degenerate, EncountersOfSkewWheelsAreContinuousAtADistance) {
   run_campaign("encounters of skew wheels", {}, [](const Machine&, std::uint64_t seed) {
     Encounter encounter = random_encounter(seed, 0.3, false);
@@ -140,9 +146,9 @@ TEST(Degenerate, EncountersOfSkewWheelsAreContinuousAtADistance) {
 }
 
 // The same with bodies that the cable pulls at. Its row stays exact where there is no tangent
-// (SpanGradient.PlanarWithoutATangent), so the encounter makes no energy but what the second order of a substep does:
-// less than there was. Not where the centres nearly meet: as they pass, the span's end runs round the wheel by up to half a
-// turn at once, and winds that much cable on.
+// (SpanGradient.PlanarWithoutATangent), so the encounter makes no energy but what the second order
+// of a substep does: less than there was. Not where the centres nearly meet: as they pass, the
+// span's end runs round the wheel by up to half a turn at once, and winds that much cable on.
 Finding collision_finding(std::uint64_t seed) {
   Machine machine = random_encounter(seed, 0.0, false).machine;
   machine.model.step.iterations = 20;

@@ -1,19 +1,23 @@
 // No energy out of nothing: a conservative machine with a rigid cable loses energy or keeps it.
 //
-// With v' = v + h g + p (p: change by the constraints) and x' = x + h v', one substep changes the energy by
+// With v' = v + h g + p (p: change by the constraints) and x' = x + h v', one substep changes the
+// energy by
 //   dE = v'.M p - |v' - v|^2_M / 2,     v'.M p = sum_k l_k/h^2 grad C_k.(x' - x)
-// exactly, with the gradients where the sweeps took them. Were C linear, grad C.(x' - x) = C(x') - C(x) would be what
-// the solver left over now less what it had left over before. It is not, and the gradients are taken elsewhere, by
-// at most what the substep moves: s, and h^2 g. So with the tensions T = l/h^2
+// exactly, with the gradients where the sweeps took them. Were C linear, grad C.(x' - x) = C(x') -
+// C(x) would be what the solver left over now less what it had left over before. It is not, and the
+// gradients are taken elsewhere, by at most what the substep moves: s, and h^2 g. So with the
+// tensions T = l/h^2
 //   dE <= sum_k T_k (|r'| + |r| + K s (s + h^2 g)).
-// K bounds the second derivative of C: 1/l for the ends of a span of length l, 1/a for an arm a that turns; s counts
-// turns with a = 0.5 m; the factor 8 is for the up to four terms of a row, each counted from both. Free rotation is
-// integrated to second order: (h w)^3 of the energy of rotation. Places are rounded by some 16 eps of the machine's size,
-// which counts with the weight m g, the tensions, and through v = dx/h with the momentum over h.
+// K bounds the second derivative of C: 1/l for the ends of a span of length l, 1/a for an arm a
+// that turns; s counts turns with a = 0.5 m; the factor 8 is for the up to four terms of a row,
+// each counted from both. Free rotation is integrated to second order: (h w)^3 of the energy of
+// rotation. Places are rounded by some 16 eps of the machine's size, which counts with the weight m
+// g, the tensions, and through v = dx/h with the momentum over h.
 //
-// That is for xpbd with either solver. `rattle` does not damp, |v' - v|^2_M / 2 does not help it; but it takes each
-// half of T along the gradient at one end of the substep, so on a smooth motion its work differs from T (C(x') - C(x)) only
-// in the third order of the substep, and where a span goes taut it is inelastic: the same bound holds.
+// That is for xpbd with either solver. `rattle` does not damp, |v' - v|^2_M / 2 does not help it;
+// but it takes each half of T along the gradient at one end of the substep, so on a smooth motion
+// its work differs from T (C(x') - C(x)) only in the third order of the substep, and where a span
+// goes taut it is inelastic: the same bound holds.
 
 #include <algorithm>
 #include <cmath>
@@ -105,9 +109,9 @@ TEST(Property, EnergyDoesNotRiseOverWheels) {
                [](const Machine& m, std::uint64_t) { return energy_finding(m); });
 }
 
-// Only in one plane: a cable that comes at an angle a to an outline's plane and goes over to the next corner takes the
-// edge e between them at once, but its length changes by about e cos a, so C jumps by e (1 - cos a), and the solver
-// makes motion of that.
+// Only in one plane: a cable that comes at an angle a to an outline's plane and goes over to the
+// next corner takes the edge e between them at once, but its length changes by about e cos a, so C
+// jumps by e (1 - cos a), and the solver makes motion of that.
 TEST(Property, EnergyDoesNotRiseOverOutlinesInOnePlane) {
   Traits traits = conservative();
   traits.skew = false;

@@ -1,4 +1,5 @@
-// The generator itself: reproducible, accepted as a rule, and with all that it promises among its machines.
+// The generator itself: reproducible, accepted as a rule, and with all that it promises among its
+// machines.
 
 #include <cstdlib>
 #include <fstream>
@@ -49,7 +50,8 @@ TEST(RandomMachine, HasEveryKindOfLink) {
   }
 }
 
-// With SHEAVE_MACHINES=FOLDER their scenes are written there, SHEAVE_CASES of them: for tools that run scenes.
+// With SHEAVE_MACHINES=FOLDER their scenes are written there, SHEAVE_CASES of them: for tools that
+// run scenes.
 TEST(WideMachine, IsASceneThatMovesTheSame) {
   const char* folder = std::getenv("SHEAVE_MACHINES");
   const char* cases = std::getenv("SHEAVE_CASES");

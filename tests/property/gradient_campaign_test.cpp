@@ -1,9 +1,11 @@
-// Gradients of all rows of random machines against finite differences, at random configurations of random moments.
+// Gradients of all rows of random machines against finite differences, at random configurations of
+// random moments.
 //
-// Tolerance. Five-point differences with h = 1e-3 are wrong by h^4/30 f''''' and by the rounding of C, some 16 eps of
-// the lengths and places that make it up (10 m at least), over h. The fifth derivative of a distance l under motions of unit speed is at most 60/l^4 and of a tangent's
-// length the same with the tangent's length, so with the shortest span l: 2e-12/l^4 + 4e-12 size; one power of ten
-// more for the several terms of skew spans and of a body with an arm.
+// Tolerance. Five-point differences with h = 1e-3 are wrong by h^4/30 f''''' and by the rounding of
+// C, some 16 eps of the lengths and places that make it up (10 m at least), over h. The fifth
+// derivative of a distance l under motions of unit speed is at most 60/l^4 and of a tangent's
+// length the same with the tangent's length, so with the shortest span l: 2e-12/l^4 + 4e-12 size;
+// one power of ten more for the several terms of skew spans and of a body with an arm.
 
 #include <algorithm>
 #include <cmath>
@@ -30,8 +32,9 @@ double size_of(const Simulation& simulation) {
   return size;
 }
 
-/// Whether every span has a tangent where the bodies are now. Between outlines in skew planes there may be no pair of
-/// corners that suits both (cable/span_row.cpp): such spans are counted and warned of, and their values jump.
+/// Whether every span has a tangent where the bodies are now. Between outlines in skew planes there
+/// may be no pair of corners that suits both (cable/span_row.cpp): such spans are counted and
+/// warned of, and their values jump.
 bool all_have_tangents(const World& world, Substep& substep, ConstraintBatch& batch) {
   FeatureState next = world.state().features.back();
   substep.next = world.state();
@@ -39,8 +42,8 @@ bool all_have_tangents(const World& world, Substep& substep, ConstraintBatch& ba
   return substep.statistics.geometry_fallbacks == 0;
 }
 
-/// The row of a material has the gradient of its tension, not of its value, as tests/cable/span_gradient_test.cpp compares:
-/// here such a cable has a compliance instead.
+/// The row of a material has the gradient of its tension, not of its value, as
+/// tests/cable/span_gradient_test.cpp compares: here such a cable has a compliance instead.
 Machine without_material(Machine machine) {
   for (CableDef& cable : machine.cables) {
     if (!cable.axial_stiffness) continue;
@@ -71,8 +74,8 @@ Finding gradient_finding(const Machine& machine, std::uint64_t seed, double angl
           10.0 * (2e-12 / std::pow(shortest, 4) + 4e-12 * size_of(s)), check.worst};
 }
 
-// A drum's radius follows its angle, and in skew planes its rows miss a little (cable/cable_layers.cpp);
-// drums here have no layers.
+// A drum's radius follows its angle, and in skew planes its rows miss a little
+// (cable/cable_layers.cpp); drums here have no layers.
 Traits without_layers() {
   Traits traits;
   traits.layers = false;
@@ -86,8 +89,9 @@ TEST(Property, GradientsMatchDifferencesWithoutMountedRotors) {
                [](const Machine& m, std::uint64_t seed) { return gradient_finding(m, seed, 0.1); });
 }
 
-// The absolute spin of a mounted rotor is a quasi-coordinate: its rows miss by the angle by which the carrier has
-// turned in the substep (tests/engine/joint_gradient_test.cpp), so here nothing turns before the comparison.
+// The absolute spin of a mounted rotor is a quasi-coordinate: its rows miss by the angle by which
+// the carrier has turned in the substep (tests/engine/joint_gradient_test.cpp), so here nothing
+// turns before the comparison.
 TEST(Property, GradientsMatchDifferencesWithMountedRotorsAtTheStart) {
   run_campaign("gradients, mounted", without_layers(),
                [](const Machine& m, std::uint64_t seed) { return gradient_finding(m, seed, 0.0); });

@@ -1,7 +1,8 @@
 // Cable is neither made nor lost, and no machine makes numbers that are not finite.
 //
-// All lengths are multiples of a power of two of about 1e-15 of the cable (cable/cable_system.h), so their sums are
-// exact and the invariant is asked to hold to the last bit. Nothing is fed in these machines.
+// All lengths are multiples of a power of two of about 1e-15 of the cable (cable/cable_system.h),
+// so their sums are exact and the invariant is asked to hold to the last bit. Nothing is fed in
+// these machines.
 
 #include <algorithm>
 #include <cmath>
@@ -34,15 +35,16 @@ bool driven(const Machine& machine) {
                      [](const BodyDef& body) { return body.mobility == Mobility::kinematic; });
 }
 
-// Exact means up to 8 times the cable, where 53 bits end. Kinematic bodies can tear a rigid cable and spin its wheels
-// without limit; once lengths, or what a substep moves, are beyond half of that, each of the some 16 sums of a substep
-// may round by eps of the longest.
+// Exact means up to 8 times the cable, where 53 bits end. Kinematic bodies can tear a rigid cable
+// and spin its wheels without limit; once lengths, or what a substep moves, are beyond half of
+// that, each of the some 16 sums of a substep may round by eps of the longest.
 //
-// A machine is followed until a span has no tangent, because wheels that overlap are no machine; what is asked of them
-// is in degenerate_test.cpp.
-// Nor can a solver satisfy a rigid cable between bodies of which one is driven away and nothing can follow. At the dead
-// centre, where a pull no longer turns the wheel that holds the other end, each correction turns it the more, until
-// the run ends with a report that it diverged. So a run may end if a cable was torn by a hundredth before.
+// A machine is followed until a span has no tangent, because wheels that overlap are no machine;
+// what is asked of them is in degenerate_test.cpp.
+// Nor can a solver satisfy a rigid cable between bodies of which one is driven away and nothing can
+// follow. At the dead centre, where a pull no longer turns the wheel that holds the other end, each
+// correction turns it the more, until the run ends with a report that it diverged. So a run may end
+// if a cable was torn by a hundredth before.
 TEST(Property, LengthIsConservedAndStatesAreFinite) {
   run_campaign("length invariant", {}, [](const Machine& machine, std::uint64_t) {
     Simulation s = start(with_single_substeps(machine));
@@ -67,8 +69,9 @@ TEST(Property, LengthIsConservedAndStatesAreFinite) {
   });
 }
 
-/// Not for springs of constant compliance, which follow their law down to a rest length of 0 and beyond, and not for
-/// bodies that move whatever pulls at them: they wind up more cable than there is.
+/// Not for springs of constant compliance, which follow their law down to a rest length of 0 and
+/// beyond, and not for bodies that move whatever pulls at them: they wind up more cable than there
+/// is.
 constexpr Traits never_negative() {
   Traits traits;
   traits.elastic = false;
@@ -106,15 +109,15 @@ std::vector<TiltedOutline> tilted_outlines(const Simulation& s) {
   return outlines;
 }
 
-// A rest length is at least the length minus what the solver has left over. With 50 iterations that is far less than a
-// substep's motion, but rows that fight each other can keep more, so what they are short of counts, too. A stored length
-// below 0 makes a hybrid end attach and the cable leave a wheel, at the end of the same substep. What is left is what
-// the course's change then moves along the neighbouring links: by the substep's motion times radius / span length.
-// A belt does not leave the last two links, whatever is stored on them, and is followed no longer when it has come to
-// them.
-// An outline whose plane the span leaves by the angle t counts an edge e as between e cos t and e, so that no row jumps
-// (tilt_loss() in cable/span_row.cpp). So what is wound on at one tilt and off at another may leave up to
-// 1 / cos t - 1 of all that was counted on it and off it.
+// A rest length is at least the length minus what the solver has left over. With 50 iterations that
+// is far less than a substep's motion, but rows that fight each other can keep more, so what they
+// are short of counts, too. A stored length below 0 makes a hybrid end attach and the cable leave a
+// wheel, at the end of the same substep. What is left is what the course's change then moves along
+// the neighbouring links: by the substep's motion times radius / span length. A belt does not leave
+// the last two links, whatever is stored on them, and is followed no longer when it has come to
+// them. An outline whose plane the span leaves by the angle t counts an edge e as between e cos t
+// and e, so that no row jumps (tilt_loss() in cable/span_row.cpp). So what is wound on at one tilt
+// and off at another may leave up to 1 / cos t - 1 of all that was counted on it and off it.
 TEST(Property, NoLengthIsNegative) {
   run_campaign("negative lengths", never_negative(), [](const Machine& random, std::uint64_t) {
     Machine machine = with_single_substeps(random);

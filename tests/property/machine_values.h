@@ -13,7 +13,8 @@ namespace sheave::test {
 [[nodiscard]] std::shared_ptr<LinkDef> copy_of(const LinkDef& link);
 [[nodiscard]] std::shared_ptr<Shape> copy_of(const Shape& shape);
 
-/// The machine with `change` applied to each number of each setting that has a unit. Numbers of vectors one by one.
+/// The machine with `change` applied to each number of each setting that has a unit. Numbers of
+/// vectors one by one.
 [[nodiscard]] Machine with_values(const Machine& machine,
                                   const std::function<double(double value, const UnitPowers& powers,
                                                              const Field& field)>& change);
@@ -28,8 +29,9 @@ struct Units {
 /// The same machine in other units.
 [[nodiscard]] Machine in_units(const Machine& machine, const Units& units);
 
-/// The machine with every number times its own random factor of 1 +- `size`; what is 0 stays so. What must fit together
-/// still does: joints have their points in common, cables their rest lengths by default.
+/// The machine with every number times its own random factor of 1 +- `size`; what is 0 stays so.
+/// What must fit together still does: joints have their points in common, cables their rest lengths
+/// by default.
 [[nodiscard]] Machine perturbed(const Machine& machine, double size, std::uint64_t seed);
 
 /// The machine turned about the origin and moved, with everything that stands in the world.

@@ -69,7 +69,8 @@ void turn_round(JointCoordinate& c) {
   c.drive_amplitude = -c.drive_amplitude;
 }
 
-/// Axes of rotation are mirrored as axial vectors, so that angles keep their signs; directions of translation as polar ones.
+/// Axes of rotation are mirrored as axial vectors, so that angles keep their signs; directions of
+/// translation as polar ones.
 void mirror_joint(JointDef& any) {
   const auto polar = [](Vector3& v) { v = test::mirrored(v); };
   const auto axial = [](Vector3& v) { v = mirrored_axial(v); };

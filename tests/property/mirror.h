@@ -14,12 +14,12 @@ namespace sheave::test {
   return {q.w(), q.x(), -q.y(), -q.z()};
 }
 
-/// The mirror image of a machine in the plane x = 0. Body frames are mirrored, too, so normals and axes are mirrored as
-/// polar vectors and windings turn round.
+/// The mirror image of a machine in the plane x = 0. Body frames are mirrored, too, so normals and
+/// axes are mirrored as polar vectors and windings turn round.
 [[nodiscard]] Machine mirrored(const Machine& machine);
 
-/// The machine with its cables run through from the other end: a wheel that was passed counter-clockwise is passed
-/// clockwise. (A belt begins at the same link.)
+/// The machine with its cables run through from the other end: a wheel that was passed
+/// counter-clockwise is passed clockwise. (A belt begins at the same link.)
 [[nodiscard]] Machine reversed(const Machine& machine);
 
 }  // namespace sheave::test

@@ -1,8 +1,9 @@
 // The mirror image of a machine moves like the mirror image of its motion.
 //
-// Mirroring changes signs, and every rounding is the same for x and -x, so the motions agree to the last bit as long as
-// every sum has its terms in the same order. That is so but for outlines: their corners are counted counter-clockwise
-// from another corner, which rounds distances along them differently.
+// Mirroring changes signs, and every rounding is the same for x and -x, so the motions agree to the
+// last bit as long as every sum has its terms in the same order. That is so but for outlines: their
+// corners are counted counter-clockwise from another corner, which rounds distances along them
+// differently.
 
 #include "tests/property/mirror.h"
 
@@ -62,7 +63,8 @@ Finding mirror_finding(const Machine& machine, int steps,
   return worst;
 }
 
-/// How many steps of at most so many end before a rolling end has used up its cable: its attachment is kept as an angle.
+/// How many steps of at most so many end before a rolling end has used up its cable: its attachment
+/// is kept as an angle.
 int steps_without_attaching(const Machine& machine, int most_steps) {
   Simulation s = start(machine);
   for (int i = 0; i < most_steps; ++i) {
@@ -85,8 +87,8 @@ TEST(Property, MirrorImageMovesAlikeToTheLastBit) {
   });
 }
 
-/// How far, step by step, a machine goes from itself if its rest lengths are changed by `change` at time 0: what the
-/// solver's conditioning makes of a rounding error.
+/// How far, step by step, a machine goes from itself if its rest lengths are changed by `change` at
+/// time 0: what the solver's conditioning makes of a rounding error.
 std::vector<double> sensitivity(const Machine& machine, int steps, double change) {
   Simulation s = start(machine);
   Simulation other = start(machine);
@@ -109,11 +111,12 @@ std::vector<double> sensitivity(const Machine& machine, int steps, double change
   return result;
 }
 
-// With outlines and with hybrid ends, whose attachments are kept as angles, the value of each row is rounded
-// differently, by some 16 eps of the size of the machine in each of a substep's sweeps. What that comes to is measured:
-// the same machine with rest lengths changed by 1e-12 m. Errors of later substeps grow less than those of the first.
-// A machine that makes a million times as much of the change is about to pass a dead centre, where rounding decides
-// which way it goes; it is followed no further.
+// With outlines and with hybrid ends, whose attachments are kept as angles, the value of each row
+// is rounded differently, by some 16 eps of the size of the machine in each of a substep's sweeps.
+// What that comes to is measured: the same machine with rest lengths changed by 1e-12 m. Errors of
+// later substeps grow less than those of the first. A machine that makes a million times as much of
+// the change is about to pass a dead centre, where rounding decides which way it goes; it is
+// followed no further.
 TEST(Property, MirrorImageOfOutlinesAndChangingEndsMovesAlike) {
   run_campaign("mirror image", {}, [](const Machine& random, std::uint64_t) {
     const Machine machine = with_single_substeps(random);

@@ -188,7 +188,8 @@ std::shared_ptr<const LinkDef> LinkMaker::middle_link(const Place& place) {
   if (kind < 0.27) return point_link(place, false);
   const bool lifted = traits_.lifted && place.open && random_.chance(0.08);
   Place here = place;
-  // Well off the cable: a wheel that it cuts at time 0 would be wound on at once, all in one substep.
+  // Well off the cable: a wheel that it cuts at time 0 would be wound on at once, all in one
+  // substep.
   const double side = place.winding == Winding::clockwise ? -1.0 : 1.0;
   if (lifted) here.center += place.frame * Vector3(0.0, side * random_.between(1.2, 1.6), 0.0);
   auto link = std::static_pointer_cast<RollingLink>(wheel_link(here));
@@ -209,7 +210,8 @@ std::shared_ptr<const LinkDef> LinkMaker::end_link(const Place& place) {
   const double stored = random_.between(0.0, 1.0) * (random_.chance(0.5) ? 0.05 : 3.0);
   if (kind < 0.7 || !traits_.changing_ends) {
     auto link = roll(add_wheel(place, radius, false), place.winding);
-    // It has no other end to come to: used up, it would go on with a negative stored length, which hybrid ends are for.
+    // It has no other end to come to: used up, it would go on with a negative stored length, which
+    // hybrid ends are for.
     link->stored_length = 50.0 + stored;
     return link;
   }

@@ -1,5 +1,6 @@
-// The cable passes stations in a row (or, a belt, on a ring) that are far enough apart for tangents to exist. At each
-// station stands one link on a body of its own or on one that an earlier link uses, too.
+// The cable passes stations in a row (or, a belt, on a ring) that are far enough apart for tangents
+// to exist. At each station stands one link on a body of its own or on one that an earlier link
+// uses, too.
 
 #include "tests/property/random_machine.h"
 

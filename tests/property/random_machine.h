@@ -40,8 +40,8 @@ struct RandomMachine {
 /// The same of any numbers; solver and integrator are left as they are by default.
 [[nodiscard]] RandomMachine random_machine(Random& random, const Traits& traits = {});
 
-/// Chooses solver and integrator: any of the four pairs, equally often. Its draw is its own, so a seed's machine is the
-/// same whatever there is to choose from.
+/// Chooses solver and integrator: any of the four pairs, equally often. Its draw is its own, so a
+/// seed's machine is the same whatever there is to choose from.
 void choose_method(std::uint64_t seed, StepSettings& step);
 
 /// A machine in a few lines: bodies by mobility, and the links of the cables.

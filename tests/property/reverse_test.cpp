@@ -1,10 +1,12 @@
 // A cable moves the same from whichever end its links are counted.
 //
-// Counted from the other end the rows are visited in another order, so this holds for what the sweeps converge to (what
-// is left of that is measured by twice the number of sweeps). And even that depends on the order a little: XPBD pushes
-// along the gradient of the moment, and while things move by M a gradient turns by M times the second derivative of C,
-// at most K = 8 (1/l + 1/a) for a span of length l and an arm a = 0.5 m (energy_test.cpp). So the motions M after some
-// very short substeps from rest, about 1e-6 m, may differ by K M^2, a hundred-thousandth of M. A wrong force shows in M itself.
+// Counted from the other end the rows are visited in another order, so this holds for what the
+// sweeps converge to (what is left of that is measured by twice the number of sweeps). And even
+// that depends on the order a little: XPBD pushes along the gradient of the moment, and while
+// things move by M a gradient turns by M times the second derivative of C, at most K = 8 (1/l +
+// 1/a) for a span of length l and an arm a = 0.5 m (energy_test.cpp). So the motions M after some
+// very short substeps from rest, about 1e-6 m, may differ by K M^2, a hundred-thousandth of M. A
+// wrong force shows in M itself.
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +24,8 @@ namespace {
 constexpr int reverse_steps = 4;
 constexpr int reverse_sweeps = 1000;
 
-/// Positions after some substeps of length h. Orientations count through the turn of a point at 0.5 m.
+/// Positions after some substeps of length h. Orientations count through the turn of a point at 0.5
+/// m.
 struct Poses {
   bool followed = false;
   std::vector<BodyState> bodies;

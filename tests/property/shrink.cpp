@@ -13,7 +13,8 @@ namespace {
 using ShrinkJson = nlohmann::ordered_json;
 using Pointer = ShrinkJson::json_pointer;
 
-/// Places of all that could be left out, the largest things first: elements of lists of objects, then single settings.
+/// Places of all that could be left out, the largest things first: elements of lists of objects,
+/// then single settings.
 void collect_parts(const ShrinkJson& json, const Pointer& at, std::vector<Pointer>& lists,
                    std::vector<Pointer>& settings) {
   if (at.to_string() == "/step") return;

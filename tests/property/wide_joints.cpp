@@ -58,8 +58,8 @@ class JointMaker {
     }
   }
 
-  /// Whether a joint locks the body already. Two that lock it about different axes contradict each other as soon as it moves,
-  /// and rounding decides which of them gives way.
+  /// Whether a joint locks the body already. Two that lock it about different axes contradict each
+  /// other as soon as it moves, and rounding decides which of them gives way.
   [[nodiscard]] bool is_held(BodyId body) const {
     return std::any_of(model_.joints.begin(), model_.joints.end(), [&](const auto& joint) {
       const bool couples = joint->type() == GearJoint::type_name ||
@@ -172,7 +172,8 @@ class JointMaker {
       if (random_.chance(0.5)) joint->swing_limit = random_.between(0.1, 1.5);
       if (random_.chance(0.5)) joint->twist = angle();
     }
-    // Its dry friction at rest is limited along three directions, not by its size, and so not the same everywhere.
+    // Its dry friction at rest is limited along three directions, not by its size, and so not the
+    // same everywhere.
     if (random_.chance(0.3)) joint->damping = random_.between(0.0, 2.0);
     return joint;
   }

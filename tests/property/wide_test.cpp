@@ -1,7 +1,7 @@
 // Machines with all that there is (wide_machine.h): what must not matter to how they move.
 //
-// Each machine runs with both solvers and both integrators. A machine that fails is shrunk and shown as a scene; with
-// SHEAVE_FAULTS=FOLDER it is written there, too.
+// Each machine runs with both solvers and both integrators. A machine that fails is shrunk and
+// shown as a scene; with SHEAVE_FAULTS=FOLDER it is written there, too.
 
 #include <cmath>
 #include <cstdlib>
@@ -22,7 +22,8 @@
 namespace sheave::test {
 namespace {
 
-// Tests that begin with DISABLED_ have seeds that fail and are not yet explained: tools/campaign runs them, too.
+// Tests that begin with DISABLED_ have seeds that fail and are not yet explained: tools/campaign
+// runs them, too.
 
 constexpr int wide_steps = 30;
 /// Where the direct solver ends its rounds, in shares of the machine's size.
@@ -31,8 +32,9 @@ constexpr double round_noise = 1e-10;
 /// A machine and how it is told when it is counted, seen or placed otherwise.
 using Image = std::function<Machine(const Machine&)>;
 
-/// Compares with an image whose rows come in another order or have other directions. Sweeps give something else then until
-/// they have converged: there have to be many, and machines for which twice as many differ say nothing.
+/// Compares with an image whose rows come in another order or have other directions. Sweeps give
+/// something else then until they have converged: there have to be many, and machines for which
+/// twice as many differ say nothing.
 Finding alike_once_converged(const Machine& random, const Image& image, const Retold& retold,
                              std::uint64_t seed) {
   if (random.model.step.solver == SolverKind::direct) {
@@ -48,18 +50,20 @@ Finding alike_once_converged(const Machine& random, const Image& image, const Re
   return alike(machine, image(machine), retold, steps, converged, seed);
 }
 
-/// Rows that come in another order or lock other directions: sweeps converge to the same, but of stiff joints and dry friction
-/// not within as many as can be run here.
+/// Rows that come in another order or lock other directions: sweeps converge to the same, but of
+/// stiff joints and dry friction not within as many as can be run here.
 const Finding not_for_sweeps{false, 0.0, 0.0, ""};
 
 using Check = std::function<Finding(const Machine&, std::uint64_t seed)>;
 
-/// Whether a smaller machine shows the same fault: about as large, or at least as large as can be overlooked.
+/// Whether a smaller machine shows the same fault: about as large, or at least as large as can be
+/// overlooked.
 bool as_bad(const Finding& smaller, const Finding& finding) {
   return !smaller.holds() && smaller.value > std::min(0.1 * finding.value, 0.01);
 }
 
-/// The worst of a machine's four runs. One that fails is shrunk, told as a scene, and written if there is a folder for it.
+/// The worst of a machine's four runs. One that fails is shrunk, told as a scene, and written if
+/// there is a folder for it.
 Finding with_every_combination(const std::string& property, const Machine& drawn,
                                std::uint64_t seed, const Check& check) {
   Finding worst;
@@ -166,8 +170,9 @@ TEST(Property, DISABLED_WideMachinesMoveTheSameInOtherUnits) {
   });
 }
 
-// Factors that are powers of two round nothing: what differs is a length, mass or time that the program has of its own. Rounds
-// end when metres and radians fall short of one bound, so where there are rounds runs differ by that.
+// Factors that are powers of two round nothing: what differs is a length, mass or time that the
+// program has of its own. Rounds end when metres and radians fall short of one bound, so where
+// there are rounds runs differ by that.
 TEST(Property, DISABLED_WideMachinesMoveTheSameInUnitsOfPowersOfTwo) {
   run_wide_campaign("wide-binary-units", [](const Machine& machine, std::uint64_t seed) {
     const Units units{4.0, 0.125, 0.5};
@@ -179,7 +184,8 @@ TEST(Property, DISABLED_WideMachinesMoveTheSameInUnitsOfPowersOfTwo) {
   });
 }
 
-// Of masses there is none: nothing is compared with a mass or a force of its own, and rounds end at the same lengths.
+// Of masses there is none: nothing is compared with a mass or a force of its own, and rounds end at
+// the same lengths.
 TEST(Property, WideMachinesMoveTheSameWithTwiceTheMassesAndForces) {
   run_wide_campaign("wide-doubled", [](const Machine& machine, std::uint64_t seed) {
     const Units units{1.0, 2.0, 1.0};
@@ -197,7 +203,8 @@ TEST(Property, DISABLED_WideMachinesMoveTheSameWithCablesReversed) {
   });
 }
 
-// A state is all there is: going on from a copy, here or in a world made afresh, gives the same bits.
+// A state is all there is: going on from a copy, here or in a world made afresh, gives the same
+// bits.
 TEST(Property, WideMachinesGoOnFromTheMiddleToTheLastBit) {
   run_wide_campaign("wide-snapshot", [](const Machine& machine, std::uint64_t) {
     Simulation s = start(machine);
@@ -224,10 +231,12 @@ TEST(Property, WideMachinesGoOnFromTheMiddleToTheLastBit) {
   });
 }
 
-// What is reported of each substep belongs together (docs/certificate.md), as long as the machine asks for nothing that cannot
-// be: where rows contradict each other (drives that pull a rigid cable apart, joints that lock each other), the direct solver
-// makes all of them give way and counts these rounds (StepStatistics::compromises), and the certificate is right to doubt
-// what follows. What else it finds is for people to look at, and this runs when it is asked for: by tools/campaign.
+// What is reported of each substep belongs together (docs/certificate.md), as long as the machine
+// asks for nothing that cannot be: where rows contradict each other (drives that pull a rigid cable
+// apart, joints that lock each other), the direct solver makes all of them give way and counts
+// these rounds (StepStatistics::compromises), and the certificate is right to doubt what follows.
+// What else it finds is for people to look at, and this runs when it is asked for: by
+// tools/campaign.
 TEST(Property, DISABLED_WideMachinesAreCertified) {
   run_wide_campaign("wide-certificate", [](const Machine& machine, std::uint64_t) {
     if (machine.model.step.solver != SolverKind::direct) return Finding{false, 0.0, 0.0, ""};

@@ -23,7 +23,8 @@ namespace {
 
 constexpr double unit = 0.01;
 
-/// One joint between the world and a box of 1 x 0.1 x 0.06 m, its long side along x, in weightlessness.
+/// One joint between the world and a box of 1 x 0.1 x 0.06 m, its long side along x, in
+/// weightlessness.
 class JointPicture : public testing::Test {
  protected:
   World world(const std::shared_ptr<JointDef>& joint, const Vector3& velocity = Vector3::Zero()) {
@@ -69,7 +70,8 @@ TEST_F(JointPicture, AHingeIsAPinThatStandsOutOnBothSides) {
   ASSERT_EQ(list.solids.size(), 1U);
   const auto* pin = std::get_if<CylinderShape>(&list.solids[0].shape);
   ASSERT_NE(pin, nullptr);
-  // Half the thickness across the axis is 0.05 m, so the limit by the scene's size, 2.5 units, decides.
+  // Half the thickness across the axis is 0.05 m, so the limit by the scene's size, 2.5 units,
+  // decides.
   EXPECT_DOUBLE_EQ(pin->radius, 0.025);
   EXPECT_DOUBLE_EQ(pin->length, 0.06 + 2.0 * pin->radius);
   EXPECT_LT((list.solids[0].position - joint->anchor).norm(), 1e-12);
@@ -178,7 +180,8 @@ TEST_F(JointPicture, ARailReachesAsFarAsTheBodyCanTravel) {
 }
 
 TEST_F(JointPicture, TheRailIsThatOfTheBodyThatStands) {
-  // The bar is body_a and moves along -x against the world, which its own travel counts as positive.
+  // The bar is body_a and moves along -x against the world, which its own travel counts as
+  // positive.
   Model model;
   BodyDef body;
   body.name = "bar";

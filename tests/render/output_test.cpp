@@ -261,7 +261,8 @@ TEST_F(Output, AnEncoderThatEndsWellButLeavesNoVideoIsAnError) {
 
 TEST_F(Output, AnEncoderThatHangsIsGivenUp) {
   const std::string program = script(file("encoder"), "exec sleep 1000000\n");
-  // Few frames fit into what the system keeps for the encoder, so that it hangs at the end; many do not.
+  // Few frames fit into what the system keeps for the encoder, so that it hangs at the end; many do
+  // not.
   for (const int frames : {1, 1000}) {
     const Errors errors = video_of(file("v.mp4"), program, frames, 0.2);
     ASSERT_FALSE(errors.empty()) << frames;

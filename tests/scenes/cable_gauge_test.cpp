@@ -1,5 +1,6 @@
-// What is measured of cables at the end of a substep from lengths that it has found is what their reports tell, also where a
-// cable has just left or touched a wheel, was cut, or the state was restored.
+// What is measured of cables at the end of a substep from lengths that it has found is what their
+// reports tell, also where a cable has just left or touched a wheel, was cut, or the state was
+// restored.
 
 #include <gtest/gtest.h>
 

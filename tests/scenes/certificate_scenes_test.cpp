@@ -1,5 +1,5 @@
-// Every scene of the repository is clean with the direct solver, whatever the integrator: nothing that is reported contradicts
-// anything else. So are the machines of tools/faults that once
+// Every scene of the repository is clean with the direct solver, whatever the integrator: nothing
+// that is reported contradicts anything else. So are the machines of tools/faults that once
 // came out wrong silently and are mended.
 
 #include <gtest/gtest.h>
@@ -32,7 +32,8 @@ Certificate certify_scene(const Scene& scene, double time, int every) {
 class CertifiedScene : public testing::TestWithParam<std::filesystem::path> {};
 
 TEST_P(CertifiedScene, IsCleanWithTheDirectSolver) {
-  // A rope of 100 links in contact with wheels: with a few rounds per substep its joints open, and the certificate says so.
+  // A rope of 100 links in contact with wheels: with a few rounds per substep its joints open, and
+  // the certificate says so.
   if (GetParam().filename() == "naive-rope.json") GTEST_SKIP();
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     SceneResult loaded = load_scene(GetParam());
@@ -63,8 +64,8 @@ std::vector<std::filesystem::path> mended_machines() {
 INSTANTIATE_TEST_SUITE_P(faults, CertifiedScene, testing::ValuesIn(mended_machines()),
                          [](const auto& scene) { return test_name(scene.param); });
 
-// What the settings of the paper make of a driven drum under a load that they cannot hold: it runs backwards, while tension
-// and torque read right.
+// What the settings of the paper make of a driven drum under a load that they cannot hold: it runs
+// backwards, while tension and torque read right.
 TEST(CertificateOfScenes, ADrumThatRunsBackwardsIsDoubtful) {
   const SceneResult loaded =
       load_scene(std::string(SHEAVE_SOURCE_DIR) + "/tools/faults/a3-drum.json");

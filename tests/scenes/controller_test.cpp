@@ -1,4 +1,5 @@
-// Controllers and triggers of scenes: against the recursions and closed forms that they are made of.
+// Controllers and triggers of scenes: against the recursions and closed forms that they are made
+// of.
 
 #include <cmath>
 
@@ -66,8 +67,8 @@ struct Pid {
   }
 };
 
-// A torque that holds from sample to sample moves a rotor by parabolas, which `rattle` follows exactly: so the loop is the
-// recursion of its samples, at the limits, too.
+// A torque that holds from sample to sample moves a rotor by parabolas, which `rattle` follows
+// exactly: so the loop is the recursion of its samples, at the limits, too.
 TEST(Pid, IsTheRecursionOfItsSamples) {
   for (const double limit : {1e9, 3.0}) {
     Simulation simulation = start(rotor_scene(fmt::format(
@@ -89,7 +90,8 @@ TEST(Pid, IsTheRecursionOfItsSamples) {
   }
 }
 
-// J x'' = P (1 - x) - D x' has the poles -1 +- 4.8990 i for J = 0.5, P = 12.5, D = 1: a step response with known peaks.
+// J x'' = P (1 - x) - D x' has the poles -1 +- 4.8990 i for J = 0.5, P = 12.5, D = 1: a step
+// response with known peaks.
 TEST(Pid, HasThePolesOfItsLinearLoop) {
   Simulation simulation = start(rotor_scene(
       R"("controllers": [{"type": "pid", "name": "servo", "measures": "rotor.angle",
@@ -111,7 +113,8 @@ TEST(Pid, HasThePolesOfItsLinearLoop) {
     last = angle;
   }
   ASSERT_GE(peaks.size(), 3U);
-  // From peak to trough half a period, and the decay e^(-pi / w). Samples hold for 0.5 ms: what is 0.1 % of the pole's time.
+  // From peak to trough half a period, and the decay e^(-pi / w). Samples hold for 0.5 ms: what is
+  // 0.1 % of the pole's time.
   EXPECT_NEAR(times[1] - times[0], pi / w, 0.01 * pi / w);
   EXPECT_NEAR(std::log(std::abs(peaks[0] / peaks[1])) / (times[1] - times[0]), 1.0, 0.01);
   EXPECT_NEAR(peaks[0], std::exp(-pi / w), 0.01);
@@ -124,8 +127,8 @@ TEST(Pid, FeedsForward) {
            "control": "rotor.drive", "setpoint_times": [0, 1, 2], "setpoint_values": [0, 1, 4],
            "setpoint_interpolation": "cubic", "feed_forward": 0.5, "setpoint_gain": 2,
            "rate_gain": 3}])"));
-  // Through three points goes t^2, whose mean rate until the next sample is 2 t + dt: u = 0.5 + 2 t^2 + 3 (2 t + dt), held from
-  // sample to sample.
+  // Through three points goes t^2, whose mean rate until the next sample is 2 t + dt: u = 0.5 + 2
+  // t^2 + 3 (2 t + dt), held from sample to sample.
   run(simulation, 1.0);
   const auto u = [](double t) { return 0.5 + 2.0 * t * t + 3.0 * (2.0 * t + 0.005); };
   double speed = 0.0;
@@ -133,8 +136,9 @@ TEST(Pid, FeedsForward) {
   EXPECT_NEAR(simulation.world.angular_velocity(BodyId{0}).z(), speed, 1e-10);
 }
 
-// A rotor in drag c is switched between the torques 0 and 1: it runs up towards 1 / c and down towards 0 between two speeds, in
-// times J / c ln((1 / c - low) / (1 / c - high)) and J / c ln(high / low).
+// A rotor in drag c is switched between the torques 0 and 1: it runs up towards 1 / c and down
+// towards 0 between two speeds, in times J / c ln((1 / c - low) / (1 / c - high)) and J / c ln(high
+// / low).
 TEST(BangBang, RunsBetweenItsThresholds) {
   Simulation simulation = start(rotor_scene(
       R"("controllers": [{"type": "bang-bang", "name": "relay", "measures": "rotor.wz",
@@ -168,7 +172,8 @@ const char* const follower = R"("controllers": [
   {"name": "slower", "at": 1.5, "action": "off", "target": "servo"},
   {"name": "push", "at": 1.7, "action": "set", "target": "rotor.drive", "value": 0.25}])";
 
-// What they remember is part of the state: a run that is saved and loaded is the same to the last bit.
+// What they remember is part of the state: a run that is saved and loaded is the same to the last
+// bit.
 TEST(Supervisor, ReplaysFromASavedState) {
   Simulation whole = start(rotor_scene(follower));
   run(whole, 0.9);
@@ -232,7 +237,8 @@ TEST(Triggers, ReleaseAJoint) {
   EXPECT_NEAR(again.world.position(BodyId{1}).y(), -5.0, 1e-9);
 }
 
-// Released at 0.5 s, locked again 0.3 s later, 0.45 m lower, and once more; there it stays each time.
+// Released at 0.5 s, locked again 0.3 s later, 0.45 m lower, and once more; there it stays each
+// time.
 TEST(Triggers, LockAJointAgain) {
   const std::string scene = hanging_scene(
       R"({"name": "let go", "at": 0.5, "action": "release", "target": "clamp"},

@@ -1,5 +1,5 @@
-// Scenes as they were written by earlier versions: tests/scenes/corpus/VERSION/ is never changed, only added to. Between them the
-// scenes of a version have every type and every field that it knew.
+// Scenes as they were written by earlier versions: tests/scenes/corpus/VERSION/ is never changed,
+// only added to. Between them the scenes of a version have every type and every field that it knew.
 
 #include <array>
 #include <filesystem>
@@ -83,7 +83,8 @@ TEST_P(Corpus, scenes_of_earlier_versions_mean_what_they_meant) {
   }
   double length = 0.0;
   for (const CableReport& cable : simulation->cable_reports()) length += cable.total_length;
-  // Seventeen digits are written; sums over some bodies round by as many times half of the last of them.
+  // Seventeen digits are written; sums over some bodies round by as many times half of the last of
+  // them.
   EXPECT_NEAR(mass, kept.mass, 1e-13 * kept.mass);
   EXPECT_NEAR(length, kept.length, 1e-13 * kept.length);
 }

@@ -116,8 +116,8 @@ TEST(chain, hangs_together_at_any_angle_and_keeps_its_energy) {
     ASSERT_TRUE(scene);
     EXPECT_EQ(text(validate_scene(*scene)), "");
     EXPECT_EQ(scene->model.joints.size(), 6U);
-    // Joints are where their links end, so nothing jumps: after a step the ball has fallen freely at most, but for what
-    // the ball's weight adds to a link that turns.
+    // Joints are where their links end, so nothing jumps: after a step the ball has fallen freely
+    // at most, but for what the ball's weight adds to a link that turns.
     Simulation simulation = start(Machine{scene->model, scene->cables});
     ASSERT_TRUE(simulation.world.step().ok());
     EXPECT_LT(simulation.world.velocity({5}).norm(), 1.5 * options.gravity * scene->model.step.dt);
@@ -137,8 +137,8 @@ TEST(naive_rope, lies_on_its_wheels_and_hangs_together_for_any_number_of_segment
     ASSERT_EQ(scene->model.bodies.size(), count + 4);
     ASSERT_EQ(scene->model.joints.size(), count + 1);
     ASSERT_EQ(scene->model.colliders.size(), count + 2);
-    // Ends of neighbours coincide, and no segment is nearer to an axle than its radius beside the wheel's; numbers of a scene
-    // have 12 digits.
+    // Ends of neighbours coincide, and no segment is nearer to an axle than its radius beside the
+    // wheel's; numbers of a scene have 12 digits.
     const auto end = [&](std::size_t k, double side) {
       const BodyDef& body = scene->model.bodies[k + 4];
       const auto& capsule = dynamic_cast<const Capsule&>(*body.shapes[0].shape);

@@ -78,7 +78,8 @@ TEST(hilbert, spans_run_along_the_curve_and_wheels_keep_apart) {
     const CableReport cable = simulation.cable_reports()[0];
     for (std::size_t k = 0; k < cable.spans.size(); ++k) {
       const SpanReport& span = cable.spans[k];
-      // Along an edge: parallel to an axis, and on lines through points of the curve (half-integers).
+      // Along an edge: parallel to an axis, and on lines through points of the curve
+      // (half-integers).
       const Vector3 along = (span.end - span.start).normalized();
       EXPECT_NEAR(along.cwiseAbs().maxCoeff(), 1.0, 1e-12) << k;
       for (int axis = 0; axis < 3; ++axis) {

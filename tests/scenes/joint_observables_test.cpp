@@ -16,7 +16,8 @@
 namespace sheave::test {
 namespace {
 
-/// A lump on a driven hinge, one in a driven sleeve, one on a ball with an axis, and one on a rod that is too weak.
+/// A lump on a driven hinge, one in a driven sleeve, one on a ball with an axis, and one on a rod
+/// that is too weak.
 Machine jointed() {
   Machine m;
   m.model.gravity = down;
@@ -113,7 +114,8 @@ TEST_F(JointObservables, MeanWhatTheySay) {
   EXPECT_NEAR(value("sleeve.fy"), 2.0 * g, 1e-4);
   EXPECT_EQ(value("rod.broken"), 1.0);
   EXPECT_EQ(value("rod.force"), 0.0);
-  // The broken rod tells how far the lump has fallen since: first order, so by t g h / 2 = 0.025 m too far.
+  // The broken rod tells how far the lump has fallen since: first order, so by t g h / 2 = 0.025 m
+  // too far.
   EXPECT_NEAR(value("rod.extension"), 0.5 * g * 0.25, 0.05);
 }
 
@@ -169,8 +171,8 @@ TEST(JointQuantities, NameTheCoordinatesOfEveryType) {
   }
 }
 
-// A joint and a cable of one name share no quantity; a joint and a body share the angle, and the power of their drives, if
-// both have one, which is refused at load.
+// A joint and a cable of one name share no quantity; a joint and a body share the angle, and the
+// power of their drives, if both have one, which is refused at load.
 TEST(JointQuantities, AreSharedWithBodiesInTheAngleOnly) {
   for (const auto& type : joint_types()) {
     const auto joint = type.make();

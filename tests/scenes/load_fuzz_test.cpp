@@ -1,6 +1,6 @@
-// Damaged scenes: whatever is done to a text, it either loads, and then survives writing and loading,
-// or gives errors with a place in the text. Under the sanitizers this also shows that nothing is
-// read or written that should not be.
+// Damaged scenes: whatever is done to a text, it either loads, and then survives writing and
+// loading, or gives errors with a place in the text. Under the sanitizers this also shows that
+// nothing is read or written that should not be.
 
 #include <random>
 

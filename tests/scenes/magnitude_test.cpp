@@ -39,7 +39,8 @@ std::string scaled_scene(double mass, double length, double time) {
 }
 
 TEST(Magnitude, UpToTheStatedRangeAMachineMovesAsItDoesInOtherUnits) {
-  // Each unit to where the first number of the scene comes to the range's end: the acceleration of gravity is the largest.
+  // Each unit to where the first number of the scene comes to the range's end: the acceleration of
+  // gravity is the largest.
   struct Units {
     double mass, length, time;
   };

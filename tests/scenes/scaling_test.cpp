@@ -36,7 +36,8 @@ TEST(Scaling, PowersComeFromUnits) {
   EXPECT_FALSE(unit_powers("rad/s, rad or N m").has_value());
 }
 
-/// Every unit in the format must be one that scaling understands, or three of them, one for each kind of drive.
+/// Every unit in the format must be one that scaling understands, or three of them, one for each
+/// kind of drive.
 void expect_known_units(const ObjectFormat& format) {
   std::vector<TableFormat> tables = format.tables;
   for (const Variant& variant : format.variants) tables.push_back(variant.table);

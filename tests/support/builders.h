@@ -100,12 +100,13 @@ struct Tackle {
 /// A weight on a cable of `length` from the world's origin, at `angle` from the vertical; body 0.
 [[nodiscard]] Machine cable_pendulum(double mass, double length, double angle);
 
-/// A weight of 1 kg, body 1, that flies at 1 m/s without gravity on a cable which unwinds from a fixed round post of 0.2 m: its
-/// path is the involute. It starts with 1 m of free cable, across it, so the free length is l(t)^2 = 1 + 2 r v t and the
-/// tension v^2 / l.
+/// A weight of 1 kg, body 1, that flies at 1 m/s without gravity on a cable which unwinds from a
+/// fixed round post of 0.2 m: its path is the involute. It starts with 1 m of free cable, across
+/// it, so the free length is l(t)^2 = 1 + 2 r v t and the tension v^2 / l.
 [[nodiscard]] Machine involute();
 
-/// Three bodies of 1 kg in a row, each hinged to the last about an axis of its own, the first one to the world.
+/// Three bodies of 1 kg in a row, each hinged to the last about an axis of its own, the first one
+/// to the world.
 [[nodiscard]] Machine hinged_chain();
 
 /// Two wheels on fixed axles joined by a closed, uncrossed cable; bodies 0 (radius r1) and 1 (r2).

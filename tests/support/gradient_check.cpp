@@ -80,8 +80,8 @@ double predicted(const Row& row, const Motion& motion) {
   return sum;
 }
 
-/// Of the differences to either side alone, (-25 f0 + 48 f1 - 36 f2 + 16 f3 - 3 f4) / 12 h, the one closer to
-/// `expected` for each row.
+/// Of the differences to either side alone, (-25 f0 + 48 f1 - 36 f2 + 16 f3 - 3 f4) / 12 h, the one
+/// closer to `expected` for each row.
 std::vector<double> one_sided(Substep& substep, ConstraintBatch& batch, const Motion& motion,
                               const std::vector<double>& expected) {
   // Truncation h^4/5 times the fifth derivative and rounding 10 eps/h, reaching 1e-3 to one side.

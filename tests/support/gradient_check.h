@@ -23,8 +23,8 @@ struct GradientCheck {
 /// to `turn`. A rotor has its `turn` only; a mounted one's is its absolute spin about its carrier's
 /// axle, so it changes along that axle and stays when the carrier is rotated.
 ///
-/// A cable that goes over to another corner of an outline has a kink in its gradient. With `kinks` a derivative counts
-/// as right if the differences to one side of the place alone say so.
+/// A cable that goes over to another corner of an outline has a kink in its gradient. With `kinks`
+/// a derivative counts as right if the differences to one side of the place alone say so.
 [[nodiscard]] GradientCheck check_gradients(Substep& substep, ConstraintBatch& batch,
                                             bool kinks = false);
 

@@ -26,7 +26,8 @@ class Heap {
     model.step.solver = solver;
     model.step.integrator = integrator;
   }
-  /// Gravity as on a slope that falls towards +x by `angle`, so that its floor stays the plane y = 0.
+  /// Gravity as on a slope that falls towards +x by `angle`, so that its floor stays the plane y =
+  /// 0.
   Heap& incline(double angle) {
     model.gravity = g * Vector3(std::sin(angle), -std::cos(angle), 0.0);
     return *this;

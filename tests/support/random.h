@@ -1,6 +1,6 @@
 #pragma once
-// Numbers from a seed that are the same with every library and compiler: std::mt19937_64 is specified bit by bit, the
-// standard distributions are not.
+// Numbers from a seed that are the same with every library and compiler: std::mt19937_64 is
+// specified bit by bit, the standard distributions are not.
 
 #include <cstdint>
 #include <random>
@@ -13,8 +13,8 @@ namespace sheave::test {
 /// A stream of random numbers.
 class Random {
  public:
-  /// The first numbers are made of `bytes`, two for each, so that who changes a byte changes one choice; those that follow,
-  /// of the seed. `bytes` must outlive the stream.
+  /// The first numbers are made of `bytes`, two for each, so that who changes a byte changes one
+  /// choice; those that follow, of the seed. `bytes` must outlive the stream.
   explicit Random(std::uint64_t seed, std::span<const std::uint8_t> bytes = {})
       : source_(seed), bytes_(bytes) {}
 
@@ -38,7 +38,8 @@ class Random {
     if (bytes_.size() < 2) return source_();
     const auto value = static_cast<std::uint64_t>(bytes_[0] | bytes_[1] << 8);
     bytes_ = bytes_.subspan(2);
-    // The high bits are the value for `between`; the factor has no small divisor, so `below` gets every remainder.
+    // The high bits are the value for `between`; the factor has no small divisor, so `below` gets
+    // every remainder.
     return value * 0x0001000100010001U;
   }
 

@@ -1,4 +1,5 @@
-// sheave bench: which rows there are, that no time stands without its error, baselines and charts. No time is judged.
+// sheave bench: which rows there are, that no time stands without its error, baselines and charts.
+// No time is judged.
 
 #include <cstdlib>
 #include <string>
@@ -60,7 +61,8 @@ TEST_F(Bench, EveryTimeHasItsError) {
     EXPECT_GT(row["row_solves_per_frame"], 0.0);
     EXPECT_EQ(row["settings"]["dt"], 1.0 / 60.0);
   }
-  // One substep of xpbd falls a h t / 2 too far, whatever the solver; a = 2 m/s2 after 1 s, in a scene of some metres.
+  // One substep of xpbd falls a h t / 2 too far, whatever the solver; a = 2 m/s2 after 1 s, in a
+  // scene of some metres.
   const double scale = 0.5 * 2.0 / 60.0 / table["rows"][2]["error"]["position"].get<double>();
   EXPECT_GT(scale, 2.0);
   EXPECT_LT(scale, 5.0);

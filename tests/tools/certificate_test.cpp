@@ -1,4 +1,5 @@
-// A run that checks its own numbers: what it prints, its status, --trust, --strict and exit code 76.
+// A run that checks its own numbers: what it prints, its status, --trust, --strict and exit code
+// 76.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,8 +16,9 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-/// A planar drum of 5 kg on a hinge with a speed drive of 2 rad/s winds up a load of 200 kg: ten sweeps do not carry its weight to
-/// the drive, and the drum runs backwards while the tension reads exactly right.
+/// A planar drum of 5 kg on a hinge with a speed drive of 2 rad/s winds up a load of 200 kg: ten
+/// sweeps do not carry its weight to the drive, and the drum runs backwards while the tension reads
+/// exactly right.
 const std::string driven_drum = R"json({
   "format": "sheave-scene/1", "gravity": [0, -9.81, 0], "duration": 1,
   "step": {"solver": "gauss-seidel", "integrator": "xpbd", "iterations": 10},

@@ -1,6 +1,7 @@
 #pragma once
-// What a disk may hold after a power loss, from the recorded calls of a program: whatever was not synchronised may be missing,
-// and a name may have reached the disk before the content it names, or not at all.
+// What a disk may hold after a power loss, from the recorded calls of a program: whatever was not
+// synchronised may be missing, and a name may have reached the disk before the content it names, or
+// not at all.
 
 #include <map>
 #include <set>

@@ -1,5 +1,6 @@
-// Every call that brings something to a disk fails once, and from then on; every allocation fails. Whatever happens: an exit code
-// of the contract, the name of what failed, healthy outputs whole, what was written kept, nothing half under a final name.
+// Every call that brings something to a disk fails once, and from then on; every allocation fails.
+// Whatever happens: an exit code of the contract, the name of what failed, healthy outputs whole,
+// what was written kept, nothing half under a final name.
 
 #include <algorithm>
 #include <cstdlib>
@@ -48,7 +49,8 @@ Outcome execute(const Job& job, Fault fault) {
   const TemporaryFolder folder;
   const TemporaryFolder aside;
   folder.write("atwood.json", atwood_scene);
-  // A link must not lead to a file that is lost, and a file that was there is replaced whole or not at all.
+  // A link must not lead to a file that is lost, and a file that was there is replaced whole or not
+  // at all.
   for (const std::string& name : job.outputs) folder.write(name, before);
   std::vector<std::string> arguments;
   for (const std::string& word : job.arguments) {
@@ -133,7 +135,8 @@ TEST(FaultInjection, EveryOutputCallOfARunMayFail) {
       failed += found.result.exit_code == 74 ? 1 : 0;
     }
   }
-  // Only where names in a folder are not synchronised, or nothing was in a descriptor any more, is there nothing to tell.
+  // Only where names in a folder are not synchronised, or nothing was in a descriptor any more, is
+  // there nothing to tell.
   EXPECT_GT(failed, truth.log.calls);
 }
 

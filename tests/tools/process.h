@@ -39,7 +39,8 @@ class Process {
   void send(int signal) const;
   /// Whether it has not ended yet.
   [[nodiscard]] bool running() const;
-  /// Waits until a condition holds, however long that takes on a busy machine; false if the process ended before.
+  /// Waits until a condition holds, however long that takes on a busy machine; false if the process
+  /// ended before.
   bool wait_until(const std::function<bool()>& condition) const;
   /// Waits until its standard error, a terminal, has shown this text; false if it ended without.
   bool wait_for_terminal(const std::string& text);

@@ -17,7 +17,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// What an endless run says on standard error before it is stopped: on a terminal after it has drawn its progress.
+/// What an endless run says on standard error before it is stopped: on a terminal after it has
+/// drawn its progress.
 std::string endless_run_stderr(const ProcessOptions& options) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("endless.json", endless_scene);
@@ -25,7 +26,8 @@ std::string endless_run_stderr(const ProcessOptions& options) {
   if (options.terminal_stderr) {
     EXPECT_TRUE(process.wait_for_terminal(" left"));
   } else {
-    // It listens to signals before it opens its output. Then there is time for what must not come, whenever it would.
+    // It listens to signals before it opens its output. Then there is time for what must not come,
+    // whenever it would.
     EXPECT_TRUE(process.wait_until([&] { return folder.entries().size() >= 2; }));
     std::this_thread::sleep_for(std::chrono::seconds(1));
   }

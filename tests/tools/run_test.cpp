@@ -214,8 +214,8 @@ TEST(RunCommand, TellsWhatTriggersDidAndEndsWhereTheySay) {
   EXPECT_EQ(run["events"][0]["time"], 0.25);
   EXPECT_EQ(run["events"][1]["trigger"], "far");
   EXPECT_EQ(run["status"], "done");
-  // It falls to -0.3125 m at -2.5 m/s, and rises with 20 m/s2: 10 t^2 - 2.5 t = 1.3125, t = 0.508 s. What is seen before a step
-  // ends the run behind it.
+  // It falls to -0.3125 m at -2.5 m/s, and rises with 20 m/s2: 10 t^2 - 2.5 t = 1.3125, t = 0.508
+  // s. What is seen before a step ends the run behind it.
   EXPECT_NEAR(run["sim_time"].get<double>(), 0.25 + 0.508 + 0.015, 0.011);
   // What the controller wants is no number.
   ASSERT_EQ(run["warnings"].size(), 1U) << run["warnings"];
@@ -276,8 +276,8 @@ TEST(RunCommand, ASpanWithoutTangentIsAWarningWithItsName) {
 }
 
 TEST(RunCommand, ARigidCableThatDidNotHoldIsAWarning) {
-  // Wheels of a billionth of the weights' mass swallow what a sweep corrects: the weights fall freely, 4.9 m in a second,
-  // on a cable of which they hang 16 wheels apart.
+  // Wheels of a billionth of the weights' mass swallow what a sweep corrects: the weights fall
+  // freely, 4.9 m in a second, on a cable of which they hang 16 wheels apart.
   const TemporaryFolder folder;
   const std::string scene = folder.path("train.json");
   ASSERT_EQ(run_sheave({"generate", "wheel-train", "--wheel-mass", "1e-9", "--iterations", "10",
@@ -290,7 +290,8 @@ TEST(RunCommand, ARigidCableThatDidNotHoldIsAWarning) {
   EXPECT_EQ(rough["warnings"][0]["subject"], "cable");
   EXPECT_TRUE(
       run_json({scene, "--solver", "direct", "--integrator", "rattle"})["warnings"].empty());
-  // A cable that may stretch is not meant; but where the sweeps leave it without the force of its stretch, energy is wrong.
+  // A cable that may stretch is not meant; but where the sweeps leave it without the force of its
+  // stretch, energy is wrong.
   const json elastic = run_json({scene, "--set", "/cables/0/compliance=0.1"});
   ASSERT_EQ(elastic["warnings"].size(), 1U);
   EXPECT_EQ(elastic["warnings"][0]["kind"], "energy_gain");
@@ -306,7 +307,8 @@ TEST(RunCommand, TheTextShowsWrapsAndTheFirstEvents) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("rope.0 "));
   EXPECT_THAT(result.out, HasSubstr("rope, on \"post\" "));
-  // The ends' height 0.3 m sin(8 pi t) is that of the post's lowest point, 0.1 m, at 0.01352 s; substeps take 0.0025 s.
+  // The ends' height 0.3 m sin(8 pi t) is that of the post's lowest point, 0.1 m, at 0.01352 s;
+  // substeps take 0.0025 s.
   EXPECT_THAT(result.out, HasSubstr("0.015     rope     post  touch"));
   const json summary = run_json({scene});
   ASSERT_GT(summary["events"].size(), 11U);
@@ -365,7 +367,8 @@ TEST(RunCommand, TheTextHasATableOfJointsIfThereAreAny) {
 }
 
 TEST(RunCommand, SubstepsThatAreCutAreToldAndWarnedOf) {
-  // A weight on a cable of 1 m that runs 3 m in one step: no gradient of the start leads it back, but in parts it does.
+  // A weight on a cable of 1 m that runs 3 m in one step: no gradient of the start leads it back,
+  // but in parts it does.
   const TemporaryFolder folder;
   const std::string scene = folder.write("swing.json", R"json({
     "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 1,
@@ -423,7 +426,8 @@ TEST(RunCommand, RedundantRowsAreCountedAndNoneIsGivenUp) {
 }
 
 TEST(RunCommand, EstimatesTheErrorOfItsStep) {
-  // xpbd on a constant acceleration of 2 m/s2: a t h / 2 = 0.01 m too far after 1 s with h = 0.01 s, of order 1.
+  // xpbd on a constant acceleration of 2 m/s2: a t h / 2 = 0.01 m too far after 1 s with h = 0.01
+  // s, of order 1.
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::vector<std::string> options{scene,          "--solver", "direct",

@@ -105,7 +105,8 @@ inline const std::string overlap_scene = R"json({
 }
 )json";
 
-/// A cable whose ends go up and down 4 times a second, and each time wind it round a post above it for a moment.
+/// A cable whose ends go up and down 4 times a second, and each time wind it round a post above it
+/// for a moment.
 inline const std::string wrap_scene = R"json({
   "format": "sheave-scene/1",
   "gravity": [0, 0, 0],
@@ -128,8 +129,8 @@ inline const std::string wrap_scene = R"json({
 }
 )json";
 
-/// A cable that slides over a post with friction makes the direct solver's matrix asymmetric, and a crate that lands on four
-/// corners makes it singular.
+/// A cable that slides over a post with friction makes the direct solver's matrix asymmetric, and a
+/// crate that lands on four corners makes it singular.
 inline const std::string redundant_scene = R"json({
   "format": "sheave-scene/1",
   "gravity": [0, -10, 0],

@@ -1,4 +1,5 @@
-// Killed and interrupted at random times. When that is depends on the clock; what is left must be right whenever it is.
+// Killed and interrupted at random times. When that is depends on the clock; what is left must be
+// right whenever it is.
 
 #include <chrono>
 #include <csignal>
@@ -36,7 +37,8 @@ ProcessResult disturbed(const std::vector<std::string>& arguments, int signal, d
   return process.wait();
 }
 
-/// The content of an output, under its name or, of a run that was killed, under its temporary one; empty if there is none.
+/// The content of an output, under its name or, of a run that was killed, under its temporary one;
+/// empty if there is none.
 std::string output_of(const TemporaryFolder& folder, const std::string& name) {
   for (const std::string& entry : folder.entries()) {
     if (entry == name || entry.starts_with("." + name + ".")) return read_file(folder.path(entry));
@@ -97,7 +99,8 @@ TEST(Signals, KilledAtAnyTimeARunLeavesAPrefixOfTheTruth) {
   if (most_left == 0) GTEST_SKIP() << "the machine was so busy that no run got to its first write";
 }
 
-/// What an interrupted command may end as: before it listens, by the signal; else with 130, or done.
+/// What an interrupted command may end as: before it listens, by the signal; else with 130, or
+/// done.
 void expect_interrupted(const ProcessResult& result, int signal) {
   if (result.signal != 0) {
     EXPECT_EQ(result.signal, signal);

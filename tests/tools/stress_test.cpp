@@ -1,4 +1,5 @@
-// sheave stress: maps as text, JSON, Markdown and charts; that a cell's command gives what the map says.
+// sheave stress: maps as text, JSON, Markdown and charts; that a cell's command gives what the map
+// says.
 
 #include <cstdlib>
 

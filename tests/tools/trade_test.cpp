@@ -1,4 +1,5 @@
-// sheave trade: orders of both integrators, answers, what --apply writes, errors of options. No time is judged.
+// sheave trade: orders of both integrators, answers, what --apply writes, errors of options. No
+// time is judged.
 
 #include <algorithm>
 #include <atomic>
@@ -42,7 +43,8 @@ ProcessResult trade(const std::string& scene, std::vector<std::string> options) 
   return run_sheave(options);
 }
 
-/// A clock by which all time passes between two looks at it: a hundredth of a second, however much is done.
+/// A clock by which all time passes between two looks at it: a hundredth of a second, however much
+/// is done.
 measure::Clock ticking_clock() {
   const auto ticks = std::make_shared<std::atomic<int>>(0);
   return {[ticks] { return 0.01 * ++*ticks; }, [] { return 0.0; }};
@@ -73,8 +75,9 @@ double order_on_the_pendulum(const std::string& integrator, const std::string& s
 }
 
 TEST(Trade, FindsTheOrderOfTheIntegrators) {
-  // The error of a substep h is c h + O(h^2) and c h^2 + O(h^4) (rattle is symmetric). With w h = 7 rad/s x 0.7 ms = 0.005
-  // at most for xpbd, 0.08 for rattle, what is neglected changes the slope by the order of w h T / 2 = 0.02 and 0.006.
+  // The error of a substep h is c h + O(h^2) and c h^2 + O(h^4) (rattle is symmetric). With w h = 7
+  // rad/s x 0.7 ms = 0.005 at most for xpbd, 0.08 for rattle, what is neglected changes the slope
+  // by the order of w h T / 2 = 0.02 and 0.006.
   EXPECT_NEAR(order_on_the_pendulum("xpbd", "32,64,128,256"), 1.0, 0.03);
   EXPECT_NEAR(order_on_the_pendulum("rattle", "2,4,8,16"), 2.0, 0.03);
 }
@@ -114,7 +117,8 @@ TEST_F(TradeOfAFile, EveryTimeHasItsError) {
     EXPECT_GT(row["row_solves_per_simulated_second"], 0.0);
     EXPECT_LT(row["length_error"], 1e-12);
     on_front += row["on_front"].get<bool>() ? 1 : 0;
-    // A constant acceleration a: xpbd falls a h t / 2 too far whatever the solver, and rattle not at all if the tangents follow.
+    // A constant acceleration a: xpbd falls a h t / 2 too far whatever the solver, and rattle not
+    // at all if the tangents follow.
     const double error = row["error"]["position"];
     if (row["name"] == "direct 1, rattle") {
       EXPECT_LT(error, 1e-9);
@@ -255,7 +259,8 @@ TEST_F(TradeOfAFile, ResumesWhatItHasMeasured) {
   EXPECT_EQ(after["ladder"], before["ladder"]);
   EXPECT_EQ(after["reference"], before["reference"]);
   EXPECT_THAT(again.err, HasSubstr("8 settings are known"));
-  // Another half: only the settings that are new are run, against the same reference. An error is a number that both tell.
+  // Another half: only the settings that are new are run, against the same reference. An error is a
+  // number that both tell.
   json half = json::parse(read_file(journal));
   half["rows"].erase("direct 2");
   half.erase("times");
@@ -269,7 +274,8 @@ TEST_F(TradeOfAFile, ResumesWhatItHasMeasured) {
 }
 
 TEST_F(TradeOfAFile, GoesOnAfterAnInterrupt) {
-  // The first settings take milliseconds, the last one minutes, of which an interrupt waits for a frame: a second or two.
+  // The first settings take milliseconds, the last one minutes, of which an interrupt waits for a
+  // frame: a second or two.
   const std::string journal = folder.path("weights.trade");
   const std::vector<std::string> common{"trade",      path,        "--resume",     journal,
                                         "--tangents", "iteration", "--integrator", "xpbd"};
@@ -333,8 +339,8 @@ TEST_F(TradeOfAFile, OneThreadFindsWhatManyFind) {
 }
 
 TEST_F(TradeOfAFile, SkipsWhatTakesTooLongAndSaysSo) {
-  // By this clock each of 100 frames takes 0.01 s when one looks after each of them: 1 s in one substep, and so 64 s in 64, of which
-  // there are 6.
+  // By this clock each of 100 frames takes 0.01 s when one looks after each of them: 1 s in one
+  // substep, and so 64 s in 64, of which there are 6.
   tools::TradeOptions options;
   options.minutes = 0.1;
   options.grid.substeps = {1, 64};
@@ -366,7 +372,8 @@ TEST(Trade, KnowsAChaoticScene) {
   EXPECT_GT(table["compared_seconds"], 3.0);
   EXPECT_LT(table["compared_seconds"], 20.0);
   EXPECT_LE(table["reference"]["error_compared"]["position"], 1e-4);
-  // Within that time rattle is right; its energy to the end, long after positions mean anything: (w h)^2 = 1e-4 with 10 rad/s.
+  // Within that time rattle is right; its energy to the end, long after positions mean anything: (w
+  // h)^2 = 1e-4 with 10 rad/s.
   EXPECT_EQ(table["rows"][1]["name"], "direct 16, rattle");
   EXPECT_LT(table["rows"][1]["error"]["position"], 1e-3);
   EXPECT_LT(table["rows"][1]["error"]["energy"], 1e-3);

@@ -1,4 +1,5 @@
-// Each way in which a run can be wrong without an error has a warning, which a run that is right has not.
+// Each way in which a run can be wrong without an error has a warning, which a run that is right
+// has not.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,8 +37,8 @@ std::string warned(const std::vector<std::string>& arguments) {
 }
 
 TEST(Warnings, SweepsThatActLikeASpringAreAWarning) {
-  // The cable gives way and comes back, so that at the end it is hardly longer than at half time; accelerations are wrong by
-  // 25 %.
+  // The cable gives way and comes back, so that at the end it is hardly longer than at half time;
+  // accelerations are wrong by 25 %.
   const TemporaryFolder folder;
   const std::string swinging = train(
       folder, {"--wheel-mass", "1e-4", "--iterations", "10", "--dt", "1e-5", "--duration", "0.02"});
@@ -64,7 +65,8 @@ TEST(Warnings, AWindingTheWrongWayRoundIsAWarning) {
 }
 
 TEST(Warnings, AVibrationThatTheStepDampsIsAWarning) {
-  // w = 8.7 rad/s: in half a second xpbd takes w^2 h 0.5 s = 1.2 of it at 1/30 s, a hundredth of that at 1/3000 s.
+  // w = 8.7 rad/s: in half a second xpbd takes w^2 h 0.5 s = 1.2 of it at 1/30 s, a hundredth of
+  // that at 1/3000 s.
   const TemporaryFolder folder;
   const std::string scene = train(folder, {"--wheels", "1", "--iterations", "10", "--dt",
                                            "0.03333333333333333", "--duration", "0.5"});
@@ -80,8 +82,8 @@ TEST(Warnings, AVibrationThatTheStepDampsIsAWarning) {
 }
 
 TEST(Warnings, WhatTheIntegratorTakesIsToldAndAWarning) {
-  // Of Atwood's machine after t xpbd has taken a h t / 2 x (m2 - m1) g, and the kinetic energy is a t^2 / 2 x (m2 - m1) g: h / t of
-  // it. 1 s and 0.01 s: 1 %; a duration of 0.5 s: 2 %.
+  // Of Atwood's machine after t xpbd has taken a h t / 2 x (m2 - m1) g, and the kinetic energy is a
+  // t^2 / 2 x (m2 - m1) g: h / t of it. 1 s and 0.01 s: 1 %; a duration of 0.5 s: 2 %.
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
   const std::vector<std::string> run{"run",    "--json",       "--quiet", scene,        "--solver",
@@ -106,8 +108,8 @@ TEST(Warnings, MotionInTheRoundingOfPositionsIsAWarning) {
 }
 
 TEST(Warnings, WhatAStepCannotFollowIsAWarning) {
-  // A block of 16 t pulls the light effort of its tackle round the wheel at 400 m/s, where it swings by some radians per
-  // substep; ten times shorter ones resolve that.
+  // A block of 16 t pulls the light effort of its tackle round the wheel at 400 m/s, where it
+  // swings by some radians per substep; ten times shorter ones resolve that.
   const std::string scene = std::string(SHEAVE_SOURCE_DIR) + "/scenes/paper/pulley.json";
   const std::vector<std::string> extreme{scene,
                                          "--solver",
