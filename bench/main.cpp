@@ -5,6 +5,8 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/control_bench.h"
+#include "bench/drives_bench.h"
+#include "bench/edit_bench.h"
 #include "bench/step_bench.h"
 
 int main(int argc, char** argv) {
@@ -17,6 +19,8 @@ int main(int argc, char** argv) {
   benchmark::AddCustomContext("assertions", "ON: these times mean nothing");
 #endif
   sheave::bench::register_control_benchmarks();
+  sheave::bench::register_edit_benchmarks();
+  sheave::bench::register_drive_benchmarks();
   sheave::bench::register_step_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

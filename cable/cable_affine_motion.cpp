@@ -122,16 +122,16 @@ bool CableSystem::begin_affine(const AffineSubstep& substep, const FeatureState&
 }
 
 void CableSystem::end_slides_and_stalls() {
-  if (slides_) {
-    ++notes_edition_;
-    for (Stall& slide : slides_at_) slide.now = false;
-    slides_ = false;
+  if (notes_.slides) {
+    ++notes_.edition;
+    for (Stall& slide : notes_.slides_at) slide.now = false;
+    notes_.slides = false;
   }
   if (!driven_) return;
   for (const CompiledCable& cable : cables_) {
     for (const int link : cable.driven_links) {
-      Stall& stall = stalls_[at(link)];
-      if (stall.now) ++notes_edition_;
+      Stall& stall = notes_.stalls[at(link)];
+      if (stall.now) ++notes_.edition;
       stall.now = false;
     }
   }

@@ -14,6 +14,10 @@ void CableCompiler::go_to(const BodyFrames& frames) {
 }
 
 void CableCompiler::add(const CableDef& def, const CableStart& start) {
+  if (start.same_as >= 0 && before_ != nullptr) {
+    take(start.same_as);
+    return;
+  }
   go_to(start.defined_in);
   same_ = start.same_as >= 0;
   runs_ = same_ || start.running != nullptr;
@@ -34,6 +38,50 @@ void CableCompiler::add(const CableDef& def, const CableStart& start) {
   if (errors_.size() > before) return;
   if (!runs_) find_wrong_windings(def);
   store(def);
+}
+
+void CableCompiler::take(int then) {
+  CableSystem& s = *system_;
+  const CompiledCable& was = before_->cables_[at(then)];
+  CompiledCable cable = was;
+  const CableControl& defined = before_->defined_[at(then)];
+  cable.compliance = defined.compliance;
+  cable.breaking_tension = defined.breaking_tension;
+  cable.wrap_friction = defined.wrap_friction;
+  cable.added_length = 0.0;
+  cable.first_link = static_cast<int>(s.links_.size());
+  cable.first_span = static_cast<int>(s.spans_.size());
+  cable.first_plane = planes_;
+  if (!cable.candidates.empty()) planes_ += cable.link_count - cable.listed_links;
+  for (int& link : cable.driven_links) link += cable.first_link - was.first_link;
+  cable.course_changes = !cable.candidates.empty() || std::isfinite(cable.breaking_tension) ||
+                         std::isfinite(cable.cut_time);
+  path_ = "/cables/" + std::to_string(index_++);
+  name_ = cable.name;
+  for (int i = 0; i < cable.link_count; ++i) {
+    LinkGeometry link = before_->definitions_[at(was.first_link + i)];
+    cable.course_changes = cable.course_changes || link.lifts;
+    const bool end = !cable.closed && (i == 0 || i + 1 == cable.listed_links);
+    if (i < cable.listed_links) check_massless(link, end, "/links/" + std::to_string(i));
+    if (link.layer_pitch > 0.0) {
+      bare_radii_[static_cast<int>(s.links_.size())] = link.signed_radius;
+      link.signed_radius = wound_radius(link);
+    }
+    s.links_.push_back(link);
+  }
+  for (int k = 0; k < cable.span_count; ++k) {
+    SpanSetup setup = before_->span_definitions_[at(was.first_span + k)];
+    setup.cable = static_cast<int>(s.cables_.size());
+    setup.first += cable.first_link - was.first_link;
+    setup.second += cable.first_link - was.first_link;
+    s.spans_.push_back(setup);
+  }
+  rest_lengths_.resize(s.spans_.size(), 0.0);
+  remainders_.resize(s.spans_.size(), 0.0);
+  stored_lengths_.resize(s.links_.size(), 0.0);
+  start_strains_.resize(s.links_.size(), 0.0);
+  next_links_.resize(s.links_.size(), -1);
+  s.cables_.push_back(std::move(cable));
 }
 
 Result<std::unique_ptr<CableSystem>> CableCompiler::finish() {
@@ -90,21 +138,22 @@ void CableCompiler::make_room() {
   s.ends_.resize(spans);
   s.start_spans_.resize(spans);
   s.start_exponents_.resize(links);
-  s.fallbacks_.resize(spans);
+  s.notes_.fallbacks.resize(spans);
   s.sides_.resize(spans);
   s.fed_.resize(spans);
-  s.feed_shares_.resize(spans);
-  s.feed_rates_.resize(spans);
-  s.stalled_.resize(links);
-  s.locked_.resize(links);
-  s.slid_.resize(links);
-  s.stalls_.resize(links);
-  s.slides_at_.resize(links);
+  s.drive_work_.feed_shares.resize(spans);
+  s.drive_work_.feed_rates.resize(spans);
+  s.drive_work_.stalled.resize(links);
+  s.drive_work_.locked.resize(links);
+  s.drive_work_.slid.resize(links);
+  s.notes_.stalls.resize(links);
+  s.notes_.slides_at.resize(links);
   s.slip_.assign(links, 0);
   s.held_.assign(links, 0);
   s.pending_slip_ = s.flips_ = s.slip_;
   s.sweeps_.assign(s.cables_.size(), 0);
-  s.crowded_.resize(s.cables_.size());
+  s.notes_.crowded.resize(s.cables_.size());
+  s.notes_.edition = 1;
   s.stored_arcs_.resize(links);
 }
 
@@ -154,8 +203,9 @@ void CableCompiler::check_settings(const CableDef& def) {
 
 Result<std::unique_ptr<CableSystem>> CableSystem::create(const std::vector<CableDef>& cables,
                                                          const BodySet& bodies,
-                                                         std::span<const CableStart> starts) {
-  CableCompiler compiler(bodies);
+                                                         std::span<const CableStart> starts,
+                                                         const CableSystem* before) {
+  CableCompiler compiler(bodies, before);
   for (std::size_t c = 0; c < cables.size(); ++c) {
     compiler.add(cables[c], starts.empty() ? CableStart{} : starts[c]);
   }

@@ -9,12 +9,12 @@ namespace sheave {
 void CableCompiler::compile_links(const CableDef& def) {
   links_.clear();
   for (std::size_t i = 0; i < def.links.size(); ++i) {
-    const std::string path = path_ + "/links/" + std::to_string(i);
+    const std::string field = "/links/" + std::to_string(i);
+    const std::string path = path_ + field;
     const LinkDef& link = *def.links[i];
     const std::size_t before = errors_.size();
     if (!bodies_.contains(link.body)) {
-      fail("/links/" + std::to_string(i) + "/body",
-           "there is no body number " + std::to_string(link.body.index));
+      fail(field + "/body", "there is no body number " + std::to_string(link.body.index));
       continue;
     }
     // Those of a cable that runs have been read before.
@@ -35,15 +35,17 @@ void CableCompiler::compile_links(const CableDef& def) {
     if (placed.layer_pitch > 0.0) {
       // With what is on it at time 0; the definition keeps the bare drum.
       bare_radii_[static_cast<int>(system_->links_.size() + i)] = placed.signed_radius;
-      const double bare = placed.signed_radius;
-      placed.signed_radius =
-          placed.side *
-          std::sqrt(bare * bare + placed.layer_pitch * placed.given_stored_length / pi);
+      placed.signed_radius = wound_radius(placed);
     }
     const bool end = !def.closed && (i == 0 || i + 1 == def.links.size());
-    check_stored_length(*compiled, end, "/links/" + std::to_string(i));
-    check_passage(*compiled, end, "/links/" + std::to_string(i));
+    check_stored_length(*compiled, end, field);
+    check_passage(*compiled, end, field);
   }
+}
+
+double CableCompiler::wound_radius(const LinkGeometry& drum) {
+  const double bare = drum.signed_radius;
+  return drum.side * std::sqrt(bare * bare + drum.layer_pitch * drum.given_stored_length / pi);
 }
 
 void CableCompiler::lift_links(const RunningCable& running) {

@@ -1,6 +1,6 @@
 #pragma once
-// From what a user says about cables to what the step needs, with every check that needs geometry; internal to the cable
-// library.
+// From what a user says about cables to what the step needs, with every check that needs geometry;
+// internal to the cable library.
 
 #include <map>
 #include <memory>
@@ -15,7 +15,10 @@ namespace sheave {
 /// Builds a CableSystem cable by cable and collects all faults.
 class CableCompiler {
  public:
-  explicit CableCompiler(const BodySet& bodies) : bodies_(bodies) { go_to(nullptr); }
+  /// `before`: cables that were compiled for the same bodies, of which those that stay are taken;
+  /// may be null.
+  explicit CableCompiler(const BodySet& bodies, const CableSystem* before = nullptr)
+      : bodies_(bodies), before_(before) {}
 
   void add(const CableDef& def, const CableStart& start = {});
   Result<std::unique_ptr<CableSystem>> finish();
@@ -25,6 +28,9 @@ class CableCompiler {
   void go_to(const BodyFrames& frames);
   void fail(const std::string& field, const std::string& message);
   void check_settings(const CableDef& def);
+  /// A cable that has been compiled before. Of its part of the state it only makes room:
+  /// CableTransfer fills it.
+  void take(int then);
 
   // Links: cable/cable_compile_links.cpp.
   void compile_links(const CableDef& def);
@@ -33,6 +39,9 @@ class CableCompiler {
   /// What depends on where in the cable a link stands.
   void check_passage(const LinkGeometry& link, bool end, const std::string& field);
   void check_massless(const LinkGeometry& link, bool end, const std::string& field);
+  /// Of a drum with layers, whose radius is the bare drum's, with what is on it at time 0; with its
+  /// sign [m].
+  [[nodiscard]] static double wound_radius(const LinkGeometry& drum);
   void check_stored_length(const LinkGeometry& link, bool end, const std::string& field);
   [[nodiscard]] std::string link_name(int link) const;
 
@@ -55,7 +64,8 @@ class CableCompiler {
   [[nodiscard]] double start_strain(const CableDef& def, int link) const;
 
   // Course and wraps: cable/cable_compile_course.cpp.
-  /// Whether all links stay in one plane for ever, so that any two of them can be joined by a planar span.
+  /// Whether all links stay in one plane for ever, so that any two of them can be joined by a
+  /// planar span.
   void find_plane(CompiledCable& cable) const;
   [[nodiscard]] bool lies_in_plane(const Vector3& normal) const;
   void find_candidates(const CableDef& def, CompiledCable& cable);
@@ -73,6 +83,7 @@ class CableCompiler {
   void store_strains();
 
   const BodySet& bodies_;
+  const CableSystem* before_;
   State state_;
   std::optional<Substep> now_;
   std::unique_ptr<CableSystem> system_{new CableSystem};
@@ -88,7 +99,8 @@ class CableCompiler {
   int planes_ = 0;  ///< places for wraps of all cables
   // Of the cable that is being added.
   BodyFrames frames_;
-  /// It has run before: where it is now is not where it began, and is checked when its state is known.
+  /// It has run before: where it is now is not where it began, and is checked when its state is
+  /// known.
   bool runs_ = false;
   bool same_ = false;  ///< and has not been changed
   int index_ = 0;

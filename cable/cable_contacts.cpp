@@ -1,22 +1,26 @@
 // Bodies that a cable leaves and touches again (paper, section 4.2).
 //
-// Leave (merge): the stored length of a rolling link between the ends falls below 0, or at the corner of an outline,
-// which stores none, the angle by which the cable is bent round it. The spans before and after it become one, with the
-// rest length L1 + L2 + s; s is negative, and leaving it out would make cable. A listed link is lifted, a wrap on a
-// wrappable body is gone.
+// Leave (merge): the stored length of a rolling link between the ends falls below 0, or at the
+// corner of an outline, which stores none, the angle by which the cable is bent round it. The spans
+// before and after it become one, with the rest length L1 + L2 + s; s is negative, and leaving it
+// out would make cable. A listed link is lifted, a wrap on a wrappable body is gone.
 //
-// Touch (split): a span cuts the outline of a lifted link from the side on which the link's winding puts it, or that of a
-// wrappable body from the side on which the span was before (cable/wrap_candidate.h). The span becomes two with an arc s
-// between them, s being the angle between the tangents (of a material over 1 + its strain); the rest length that remains,
-// L - s, is shared in proportion to the lengths, so both spans have the strain that the one had, and with a material's stiffness the tension. Chord and arc
-// differ in the third order of the angle, so what C jumps by is far below the motion of a substep.
+// Touch (split): a span cuts the outline of a lifted link from the side on which the link's winding
+// puts it, or that of a wrappable body from the side on which the span was before
+// (cable/wrap_candidate.h). The span becomes two with an arc s between them, s being the angle
+// between the tangents (of a material over 1 + its strain); the rest length that remains, L - s, is
+// shared in proportion to the lengths, so both spans have the strain that the one had, and with a
+// material's stiffness the tension. Chord and arc differ in the third order of the angle, so what C
+// jumps by is far below the motion of a substep.
 //
-// A lifted link remembers whether the cable is on its winding's side: if it has been carried past to the other side, it
-// must come back and clear of the outline before it can touch, or it would be wound on all at once.
+// A lifted link remembers whether the cable is on its winding's side: if it has been carried past
+// to the other side, it must come back and clear of the outline before it can touch, or it would be
+// wound on all at once.
 //
-// Leaving comes first, then touching, then leaving where a touch has taken the cable off a neighbour, each along the
-// cable; what has left or touched does nothing else in the same substep. So there is at most one event per link and
-// substep, and their order is the same in every run. A span does not touch the bodies that its own two links are on.
+// Leaving comes first, then touching, then leaving where a touch has taken the cable off a
+// neighbour, each along the cable; what has left or touched does nothing else in the same substep.
+// So there is at most one event per link and substep, and their order is the same in every run. A
+// span does not touch the bodies that its own two links are on.
 
 #include <algorithm>
 #include <cmath>
@@ -96,7 +100,8 @@ bool CableSystem::comes_off(const Substep& substep, int span, int link,
   const LinkGeometry& wheel = links_[at(link)];
   const bool in_space = spans_[at(span)].kind == SpanKind::spatial;
   if (!wheel.outline || (stored < 0.0 && !in_space)) return stored < 0.0;
-  // At a corner there is no length, but an angle. (In space the length is not quite that of the edges, either.)
+  // At a corner there is no length, but an angle. (In space the length is not quite that of the
+  // edges, either.)
   if (stored > 0.5 * wheel.perimeter()) return false;
   const SpanSetup& setup = spans_[at(span)];
   const int after = span_after(cables_[at(setup.cable)], link);
@@ -250,8 +255,8 @@ bool CableSystem::touch_wrappable(const Substep& substep, int cable_index, int s
   const int end = cable.first_link + cable.link_count;
   while (place < end && next.integers[wrap_index(place)] != 0) ++place;
   if (place == end) {
-    Fallback& crowded = crowded_[at(cable_index)];
-    ++notes_edition_;
+    Fallback& crowded = notes_.crowded[at(cable_index)];
+    ++notes_.edition;
     if (crowded.substeps++ == 0) crowded.first_time = substep.next.time;
     return false;
   }
@@ -289,10 +294,13 @@ bool CableSystem::split(const Substep& substep, const CompiledCable& cable, int 
   const SpanGeometry out = geometry_of(substep, after);
   const LinkGeometry& wheel = links_[at(link)];
   const bool tangents = in.has_tangent && out.has_tangent && in.length + out.length > 0.0;
-  const double angle = tangents ? wrap_angle(substep, wheel, in, out, 0.0) : 0.0;
+  const double turn = tangents ? signed_wrap_angle(substep, wheel, in, out, 0.0) : 0.0;
+  const double angle = std::max(turn, 0.0);
   const double way = tangents ? arc_between(substep, wheel, in, out, angle) : 0.0;
-  // From a skew outline's edge the tangents may turn against the winding, although the span cuts it.
-  if (!tangents || way < 0.0 || (link > cable.last_listed_link() && !(angle > 0.0))) {
+  // The line may cut the wheel where the span does not reach, and from a skew outline's edge the
+  // tangents may turn against the winding although the span cuts it.
+  const bool beside = wheel.outline ? way < 0.0 : turn < 0.0;
+  if (!tangents || beside || (link > cable.last_listed_link() && !(angle > 0.0))) {
     remove_link(first, link, next);
     follow_course(substep.bodies, next);
     return false;
@@ -320,8 +328,8 @@ bool CableSystem::split(const Substep& substep, const CompiledCable& cable, int 
 std::vector<CableSystem::WrapWarning> CableSystem::wrap_warnings() const {
   std::vector<WrapWarning> warnings;
   for (std::size_t c = 0; c < cables_.size(); ++c) {
-    if (crowded_[c].substeps == 0) continue;
-    warnings.push_back({cables_[c].name, crowded_[c].substeps, crowded_[c].first_time});
+    if (notes_.crowded[c].substeps == 0) continue;
+    warnings.push_back({cables_[c].name, notes_.crowded[c].substeps, notes_.crowded[c].first_time});
   }
   return warnings;
 }

@@ -1,8 +1,9 @@
 // Drives that would need cable which is not there.
 //
-// A prescribed rotation turns whatever pulls at it, and a feed likewise. Between links over which cable does not pass unless
-// their bodies turn by themselves (driven wheels, what stands still, the cable's ends) lies a chain of spans, whose rest
-// lengths together change by what drives feed and draw. Two things limit what can be drawn:
+// A prescribed rotation turns whatever pulls at it, and a feed likewise. Between links over which
+// cable does not pass unless their bodies turn by themselves (driven wheels, what stands still, the
+// cable's ends) lies a chain of spans, whose rest lengths together change by what drives feed and
+// draw. Two things limit what can be drawn:
 //
 // - No rest length is below 0. What the chain has, and what is wound on a free drum at its end, is all that there is: a
 //   load has come up to its drum.
@@ -10,15 +11,17 @@
 //   one span what they take from the other), rest lengths are no shorter than the spans: a belt over two wheels that are
 //   driven at different speeds.
 //
-// And from a drum that is not round no more can be paid out than is on it. (A round one then holds the cable by its rim.)
+// And from a drum that is not round no more can be paid out than is on it. (A round one then holds
+// the cable by its rim.)
 //
-// What is drawn beyond that, nothing can give. The drives that draw then stall: of their way in the substep they do the share
-// for which it is enough, and at its end they have the speed at which they draw what is fed; the other drives go on. If a
-// drive that is slowed down feeds another chain, that one may be short in turn, and so on; shares only fall. So lengths stay
-// where they can be, none is lost, and the solver meets no rows that contradict each other.
+// What is drawn beyond that, nothing can give. The drives that draw then stall: of their way in the
+// substep they do the share for which it is enough, and at its end they have the speed at which
+// they draw what is fed; the other drives go on. If a drive that is slowed down feeds another
+// chain, that one may be short in turn, and so on; shares only fall. So lengths stay where they can
+// be, none is lost, and the solver meets no rows that contradict each other.
 //
-// A drum that has drawn all cable stays locked until its drive turns the other way or stops, though its load, thrown up as the
-// drum stops, may unwind a little: the load is at the drum.
+// A drum that has drawn all cable stays locked until its drive turns the other way or stops, though
+// its load, thrown up as the drum stops, may unwind a little: the load is at the drum.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +34,8 @@
 namespace sheave {
 namespace {
 
-/// What rounding leaves of lengths that are drawn and fed alike, relative to both together; the next substep finds it again.
+/// What rounding leaves of lengths that are drawn and fed alike, relative to both together; the
+/// next substep finds it again.
 constexpr double overlooked = 1e-9;
 
 /// By how much its drive turns body `index` in the substep if it does its whole share [rad].
@@ -48,10 +52,10 @@ double reach_of(const LinkGeometry& link) {
 }  // namespace
 
 void CableSystem::begin_drives(const FeatureState& state) {
-  std::fill(stalled_.begin(), stalled_.end(), 0);
+  std::fill(drive_work_.stalled.begin(), drive_work_.stalled.end(), 0);
   for (const CompiledCable& cable : cables_) {
     for (const int link : cable.driven_links) {
-      locked_[at(link)] = static_cast<int>(state.integers[stall_index(link)]);
+      drive_work_.locked[at(link)] = static_cast<int>(state.integers[stall_index(link)]);
     }
   }
 }
@@ -81,7 +85,7 @@ bool CableSystem::can_move(const BodySet& bodies, const LinkGeometry& link) {
 bool CableSystem::may_fall_short(const Substep& substep, const CompiledCable& cable) const {
   if (cable.may_lock) return true;
   for (const int link : cable.driven_links) {
-    if (locked_[at(link)] != 0) return true;
+    if (drive_work_.locked[at(link)] != 0) return true;
     const LinkGeometry& geometry = links_[at(link)];
     const BodyProperties& body = substep.bodies[geometry.body];
     double most = std::abs(geometry.feed_speed) * substep.h;
@@ -105,35 +109,36 @@ bool CableSystem::may_fall_short(const Substep& substep, const CompiledCable& ca
 }
 
 void CableSystem::limit_drives(Substep& substep) {
-  chains_.clear();
-  pulls_.clear();
-  for (auto& shares : feed_shares_) shares = {};
+  drive_work_.chains.clear();
+  drive_work_.pulls.clear();
+  for (auto& shares : drive_work_.feed_shares) shares = {};
   for (const CompiledCable& cable : cables_) {
     for (const int link : cable.driven_links) {
-      if (driven_way(substep, link) != locked_[at(link)]) locked_[at(link)] = 0;
+      if (driven_way(substep, link) != drive_work_.locked[at(link)])
+        drive_work_.locked[at(link)] = 0;
     }
     if (cable.driven_links.empty() || !may_fall_short(substep, cable)) continue;
     find_chains(substep, cable);
     add_stored_cable(substep, cable);
   }
-  if (chains_.empty()) return;
+  if (drive_work_.chains.empty()) return;
   // Slower drives may leave others short; where that goes on and on they stop.
   constexpr int patience = 50;
-  const int most = patience + static_cast<int>(pulls_.size());
+  const int most = patience + static_cast<int>(drive_work_.pulls.size());
   bool short_of_cable = true;
   for (int round = 0; short_of_cable && round < most; ++round) {
     short_of_cable = false;
-    for (const Chain& chain : chains_) {
+    for (const Chain& chain : drive_work_.chains) {
       short_of_cable = stall(substep, chain, round >= patience) || short_of_cable;
     }
   }
-  for (const Pull& pull : pulls_) {
+  for (const Pull& pull : drive_work_.pulls) {
     if (pull.span < 0) continue;
-    const DriveShare& share = feed_shares_[at(pull.span)][at(pull.end)];
+    const DriveShare& share = drive_work_.feed_shares[at(pull.span)][at(pull.end)];
     double& fed = fed_[at(pull.span)][at(pull.end)];
     references_[at(pull.span)].rest_length -= (1.0 - share.way) * fed;
     fed *= share.way;
-    feed_rates_[at(pull.span)] -= (1.0 - share.speed) * pull.speed;
+    drive_work_.feed_rates[at(pull.span)] -= (1.0 - share.speed) * pull.speed;
   }
 }
 
@@ -141,7 +146,8 @@ bool CableSystem::stall(Substep& substep, const Chain& chain, bool altogether) {
   std::array<double, 2> fed{};  // way [m] and speed [m/s] of cable
   std::array<double, 2> drawn{};
   double gross = 0.0;
-  const auto pulls = std::span(pulls_).subspan(at(chain.first_pull), at(chain.pull_count));
+  const auto pulls =
+      std::span(drive_work_.pulls).subspan(at(chain.first_pull), at(chain.pull_count));
   for (const Pull& pull : pulls) {
     const DriveShare& share = share_of(substep, pull);
     gross += share.way * pull.gross;
@@ -157,9 +163,9 @@ bool CableSystem::stall(Substep& substep, const Chain& chain, bool altogether) {
     DriveShare& share = share_of(substep, pull);
     share.way *= way;
     share.speed *= speed;
-    stalled_[at(pull.link)] = 1;
+    drive_work_.stalled[at(pull.link)] = 1;
     if (chain.moves && pull.span < 0) {
-      locked_[at(pull.link)] = driven_way(substep, pull.link);
+      drive_work_.locked[at(pull.link)] = driven_way(substep, pull.link);
     }
   }
   return true;
@@ -167,7 +173,7 @@ bool CableSystem::stall(Substep& substep, const Chain& chain, bool altogether) {
 
 DriveShare& CableSystem::share_of(Substep& substep, const Pull& pull) {
   return pull.span < 0 ? substep.drive_shares[at(links_[at(pull.link)].body)]
-                       : feed_shares_[at(pull.span)][at(pull.end)];
+                       : drive_work_.feed_shares[at(pull.span)][at(pull.end)];
 }
 
 void CableSystem::find_chains(Substep& substep, const CompiledCable& cable) {
@@ -203,25 +209,26 @@ void CableSystem::begin_chain(const Substep& substep, const CompiledCable& cable
   lengths = {};
   lengths.moves = cable.compliance > 0.0 || cable.inverse_stiffness > 0.0;
   Chain chain;
-  chain.first_pull = static_cast<int>(pulls_.size());
-  chains_.push_back(chain);
+  chain.first_pull = static_cast<int>(drive_work_.pulls.size());
+  drive_work_.chains.push_back(chain);
   add_drum(substep, cable, link, lengths);
 }
 
 void CableSystem::end_chain(const Substep& substep, const CompiledCable& cable, int link,
                             ChainLengths& lengths) {
   add_drum(substep, cable, link, lengths);
-  Chain& chain = chains_.back();
-  chain.pull_count = static_cast<int>(pulls_.size()) - chain.first_pull;
+  Chain& chain = drive_work_.chains.back();
+  chain.pull_count = static_cast<int>(drive_work_.pulls.size()) - chain.first_pull;
   chain.moves = lengths.moves;
   chain.available = lengths.moves ? lengths.rest_length : lengths.rest_length - lengths.length;
-  // Points that a drive moves change the spans, which matters where these have to be as long as they are.
-  const auto begin = pulls_.begin() + chain.first_pull;
+  // Points that a drive moves change the spans, which matters where these have to be as long as
+  // they are.
+  const auto begin = drive_work_.pulls.begin() + chain.first_pull;
   if (lengths.moves) {
-    for (auto pull = begin; pull != pulls_.end(); ++pull) {
+    for (auto pull = begin; pull != drive_work_.pulls.end(); ++pull) {
       pull->way -= pull->way_of_points;
       pull->speed -= pull->speed_of_points;
-      if (pull->way < 0.0 && locked_[at(pull->link)] != 0) chain.available = 0.0;
+      if (pull->way < 0.0 && drive_work_.locked[at(pull->link)] != 0) chain.available = 0.0;
     }
   }
 }
@@ -280,18 +287,20 @@ void CableSystem::add_stored_cable(const Substep& substep, const CompiledCable& 
     const double speed = substep.driven_speed(links_[at(link)].body);
     const double way = lever * turn;
     Chain chain;
-    chain.first_pull = static_cast<int>(pulls_.size());
+    chain.first_pull = static_cast<int>(drive_work_.pulls.size());
     chain.pull_count = 1;
     chain.available = stored_arcs_[at(link)];
-    chains_.push_back(chain);
-    pulls_.push_back({link, -1, 0, way, lever * speed, std::abs(way), 0.0, 0.0});
+    drive_work_.chains.push_back(chain);
+    drive_work_.pulls.push_back({link, -1, 0, way, lever * speed, std::abs(way), 0.0, 0.0});
   }
 }
 
 void CableSystem::add_pull(const Pull& pull) {
-  // A wheel that cable passes, or that has both ends of the chain, draws only what it does not feed.
-  for (std::size_t i = at(chains_.back().first_pull); i < pulls_.size(); ++i) {
-    Pull& other = pulls_[i];
+  // A wheel that cable passes, or that has both ends of the chain, draws only what it does not
+  // feed.
+  for (std::size_t i = at(drive_work_.chains.back().first_pull); i < drive_work_.pulls.size();
+       ++i) {
+    Pull& other = drive_work_.pulls[i];
     if (pull.span >= 0 || other.span >= 0) continue;
     if (links_[at(other.link)].body != links_[at(pull.link)].body) continue;
     if (pull.way < other.way) other.link = pull.link;
@@ -302,7 +311,7 @@ void CableSystem::add_pull(const Pull& pull) {
     other.speed_of_points += pull.speed_of_points;
     return;
   }
-  pulls_.push_back(pull);
+  drive_work_.pulls.push_back(pull);
 }
 
 void CableSystem::wind(int span, const SpanTransport& transport, FeatureState& next) {
@@ -326,9 +335,9 @@ void CableSystem::wind(int span, const SpanTransport& transport, FeatureState& n
       // The cable's end slides over the edge that it has come to.
       next.reals[slip_index(ends[end])] += (end == 0 ? -1.0 : 1.0) * (moved[end] - stored);
       moved[end] = stored;
-      slid_[at(ends[end])] = 1;
-      slides_ = true;
-      ++notes_edition_;
+      drive_work_.slid[at(ends[end])] = 1;
+      notes_.slides = true;
+      ++notes_.edition;
     }
     rest_length += moved[end];
     stored -= moved[end];
@@ -345,33 +354,35 @@ void CableSystem::slide_over_ends(int span, std::array<double, 2>& moved, Featur
     moved[end] += kept;
     missing -= kept;
     next.reals[slip_index(link)] += end == 0 ? kept : -kept;
-    slid_[at(link)] = 1;
-    slides_ = true;
-    ++notes_edition_;
+    drive_work_.slid[at(link)] = 1;
+    notes_.slides = true;
+    ++notes_.edition;
   }
 }
 
 void CableSystem::record_stalls(const Substep& substep, FeatureState& next) {
   const auto observe = [&](const CompiledCable& cable, int link, bool happens, Stall& stall,
                            CableEvent::Kind kind) {
-    if (happens || stall.now) ++notes_edition_;
+    if (happens || stall.now) ++notes_.edition;
     if (happens && !stall.now) record(substep, cable, link, kind);
     stall.now = happens;
     if (happens && stall.observed.substeps++ == 0) stall.observed.first_time = substep.next.time;
   };
   for (const CompiledCable& cable : cables_) {
     for (const int link : cable.driven_links) {
-      observe(cable, link, stalled_[at(link)] != 0, stalls_[at(link)], CableEvent::Kind::stall);
-      next.integers[stall_index(link)] = locked_[at(link)];
+      observe(cable, link, drive_work_.stalled[at(link)] != 0, notes_.stalls[at(link)],
+              CableEvent::Kind::stall);
+      next.integers[stall_index(link)] = drive_work_.locked[at(link)];
     }
-    if (!slides_) continue;
+    if (!notes_.slides) continue;
     for (int link = cable.first_link; link < cable.first_link + cable.link_count; ++link) {
-      observe(cable, link, slid_[at(link)] != 0, slides_at_[at(link)], CableEvent::Kind::slip);
-      slid_[at(link)] = 0;
+      observe(cable, link, drive_work_.slid[at(link)] != 0, notes_.slides_at[at(link)],
+              CableEvent::Kind::slip);
+      drive_work_.slid[at(link)] = 0;
     }
   }
-  slides_ = std::any_of(slides_at_.begin(), slides_at_.end(),
-                        [](const Stall& slide) { return slide.now; });
+  notes_.slides = std::any_of(notes_.slides_at.begin(), notes_.slides_at.end(),
+                              [](const Stall& slide) { return slide.now; });
 }
 
 std::vector<CableSystem::LinkWarning> CableSystem::link_warnings(

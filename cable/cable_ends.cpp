@@ -1,16 +1,21 @@
-// Ends of a cable that change: hybrid links and drums, whose cable may be used up, and attachments that feed cable.
+// Ends of a cable that change: hybrid links and drums, whose cable may be used up, and attachments
+// that feed cable.
 //
-// A hybrid end is wound one way (as defined), wound the other way, or attached. Wound, it becomes attached when its
-// stored length falls below 0: the cable then ends at the point of the rim that lies |s| before the tangent point in
-// the direction of the free cable, and the negative s goes into the span's rest length, so none is lost. Attached, it is
-// wound again when the free cable would run through the wheel, which is when its direction away from the wheel and the
-// radius to the attachment enclose more than a right angle; the arc between attachment and tangent is then stored.
+// A hybrid end is wound one way (as defined), wound the other way, or attached. Wound, it becomes
+// attached when its stored length falls below 0: the cable then ends at the point of the rim that
+// lies |s| before the tangent point in the direction of the free cable, and the negative s goes
+// into the span's rest length, so none is lost. Attached, it is wound again when the free cable
+// would run through the wheel, which is when its direction away from the wheel and the radius to
+// the attachment enclose more than a right angle; the arc between attachment and tangent is then
+// stored.
 //
-// Over a small arc r a the two descriptions of a path differ in length by r a^3 / 6, and a row whose value jumped by that
-// under a tension T would make the energy T r a^3 / 6: up to 6e-5 J per event in paper/hybrid at 240 Hz, which xpbd's
-// damping hides and `rattle` does not. So lengths are kept and arcs give way: what is stored is by how much the free cable
-// becomes shorter, and the attachment lies where the free cable is |s| shorter than from the tangent point. The attachment
-// moves along the rim by those r a^3 / 6, the one way at one end of its winding and the other way at the other.
+// Over a small arc r a the two descriptions of a path differ in length by r a^3 / 6, and a row
+// whose value jumped by that under a tension T would make the energy T r a^3 / 6: up to 6e-5 J per
+// event in paper/hybrid at 240 Hz, which xpbd's damping hides and `rattle` does not. So lengths are
+// kept and arcs give way: what is stored is by how much the free cable becomes shorter, and the
+// attachment lies where the free cable is |s| shorter than from the tangent point. The attachment
+// moves along the rim by those r a^3 / 6, the one way at one end of its winding and the other way
+// at the other.
 
 #include <algorithm>
 #include <cmath>
@@ -133,12 +138,14 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
   const SpanGeometry geometry = geometry_of(substep, span);
   const double strain = strain_of(cable, geometry.length, rest_length);
   if (mode != attached) {
-    // From the tangent point along the free cable: with the cable's run at its first link, against it at its last.
+    // From the tangent point along the free cable: with the cable's run at its first link, against
+    // it at its last.
     const double sense = first ? links_[at(index)].side : -links_[at(index)].side;
     const double missing = stored * (1.0 + strain);  // < 0
     const double wanted = geometry.length + missing;
     double angle = angle_of(first ? geometry.start : geometry.end) - sense * missing / radius;
-    // The free cable gets shorter by r per radian, but for a share of a^2 / 2, by which each round leaves less.
+    // The free cable gets shorter by r per radian, but for a share of a^2 / 2, by which each round
+    // leaves less.
     constexpr int rounds = 6;
     for (int round = 0; round < rounds && -missing < radius; ++round) {
       angle += sense * (attached_span(substep, index, span, angle).length - wanted) / radius;
@@ -187,13 +194,13 @@ void CableSystem::feed(const FeatureState& state, double h, int span) {
   const std::array wanted{first, second};
   first = std::max(first, -rest_length);
   second = std::max(second, -rest_length - first);
-  feed_rates_[at(span)] = 0.0;
+  drive_work_.feed_rates[at(span)] = 0.0;
   for (const std::size_t end : {0U, 1U}) {
     const int link = end == 0 ? setup.first : setup.second;
     if (fed_[at(span)][end] > wanted[end]) {
-      stalled_[at(link)] = 1;
+      drive_work_.stalled[at(link)] = 1;
     } else {
-      feed_rates_[at(span)] += links_[at(link)].feed_end_speed;
+      drive_work_.feed_rates[at(span)] += links_[at(link)].feed_end_speed;
     }
   }
 }

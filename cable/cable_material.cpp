@@ -1,35 +1,41 @@
 // Cable of a material (`axial_stiffness` EA) that comes onto wheels and off them with its strain.
 //
-// Lengths in the state are unstretched: L of a span, s of a link. A rim that turns by an arc moves arc / (1 + strain) of
-// that, with the strain e = l / L - 1 of the span for what comes onto the link, and the strain w with which it lies there for
-// what comes off (cable/stored_strain.h). With the arcs `on` and G = the unstretched length that `off` brings,
+// Lengths in the state are unstretched: L of a span, s of a link. A rim that turns by an arc moves
+// arc / (1 + strain) of that, with the strain e = l / L - 1 of the span for what comes onto the
+// link, and the strain w with which it lies there for what comes off (cable/stored_strain.h). With
+// the arcs `on` and G = the unstretched length that `off` brings,
 //   dL = dG - d(on) / (1 + e)     =>     L de = dl + d(on) - (1 + e) dG.
-// Energy: of the span EA e^2 L / 2, of what is stored EA / 2 times the integral of w^2 over its unstretched length. With
-// the tension T = EA e and d(off) = (1 + w) dG,
+// Energy: of the span EA e^2 L / 2, of what is stored EA / 2 times the integral of w^2 over its
+// unstretched length. With the tension T = EA e and d(off) = (1 + w) dG,
 //   d(energy) = T (dl + d(on) - d(off)) - EA (e - w)^2 / 2 dG.
-// So the force is T along the span's direction and T R on the rims, as of a rigid cable: the row's gradient stays what it
-// is. And what comes off with another strain than the span's loses EA (e - w)^2 / 2 per unstretched length: the creep of
-// belts (Grashof). A driving wheel's rim runs with the tight side, a driven one's with the slack side, so the rims' speeds
-// have the ratio (1 + e_slack) / (1 + e_tight), 1 - (T1 - T2) / EA to first order. `creep_loss` adds it up.
+// So the force is T along the span's direction and T R on the rims, as of a rigid cable: the row's
+// gradient stays what it is. And what comes off with another strain than the span's loses EA (e -
+// w)^2 / 2 per unstretched length: the creep of belts (Grashof). A driving wheel's rim runs with
+// the tight side, a driven one's with the slack side, so the rims' speeds have the ratio (1 +
+// e_slack) / (1 + e_tight), 1 - (T1 - T2) / EA to first order. `creep_loss` adds it up.
 //
-// Over a substep, with e0 and L0 at its start and both on and G linear in between (trapezoidal, so of second order),
+// Over a substep, with e0 and L0 at its start and both on and G linear in between (trapezoidal, so
+// of second order),
 //   A (e1 - e0) = l1 - l0 + on - (1 + e0) G,   A = L0 + G - on / (2 (1 + e0)).
-// That is a spring of the length A: the row's value is -A e1, its compliance A / EA, and L1 = l1 / (1 + e1), which leaves
-// no difference between the force's law and the geometry. A is written with y = on / (2 (1 + e0)) as
-// B^2 / (B + y), B = L0 + G, the same to second order and positive however much is wound on. For on = 0 it is L0 + G, the
-// value L0 + G - l1. A slack span has e = 0; then the value is L0 + G - on - l1, as of a rigid cable.
+// That is a spring of the length A: the row's value is -A e1, its compliance A / EA, and L1 = l1 /
+// (1 + e1), which leaves no difference between the force's law and the geometry. A is written with
+// y = on / (2 (1 + e0)) as B^2 / (B + y), B = L0 + G, the same to second order and positive however
+// much is wound on. For on = 0 it is L0 + G, the value L0 + G - l1. A slack span has e = 0; then
+// the value is L0 + G - on - l1, as of a rigid cable.
 //
-// Spans of a run share one strain e, times the weights k_i that friction gives their tensions, so they share one equation, too:
-// what is left of the run when it has run on and off its links is what its spans have in the end,
+// Spans of a run share one strain e, times the weights k_i that friction gives their tensions, so
+// they share one equation, too: what is left of the run when it has run on and off its links is
+// what its spans have in the end,
 //   F(e) = sum (L0_i + G_i - on_i / (1 + (e0_i + k_i e) / 2) - l_i / (1 + k_i e)) = 0.
-// Their rows then have the lengths of the end, A_i = L1_i = l_i / (1 + k_i e), and the values -A_i k_i e, and finish() gives
-// the spans just these. (With the A of each span by itself, and cable passed on afterwards, the sum of A_i e_i is not that of
-// L1_i e_i: what has passed makes a difference of the strain times the slip, which is 1 % of the stretch and more where that
-// is small.) Where F(0) > 0 the run is slack.
+// Their rows then have the lengths of the end, A_i = L1_i = l_i / (1 + k_i e), and the values -A_i
+// k_i e, and finish() gives the spans just these. (With the A of each span by itself, and cable
+// passed on afterwards, the sum of A_i e_i is not that of L1_i e_i: what has passed makes a
+// difference of the strain times the slip, which is 1 % of the stretch and more where that is
+// small.) Where F(0) > 0 the run is slack.
 //
-// The residual value + compliance T, whose zero solvers seek, changes by -(dl + d(on) - d(off)) for T = EA e0 and w = e0,
-// and by a share e1 - e0 or w - e0 of the arcs besides. So Newton's method with the row's gradient is exact but for changes
-// of strain, which also vanish for stiff cables.
+// The residual value + compliance T, whose zero solvers seek, changes by -(dl + d(on) - d(off)) for
+// T = EA e0 and w = e0, and by a share e1 - e0 or w - e0 of the arcs besides. So Newton's method
+// with the row's gradient is exact but for changes of strain, which also vanish for stiff cables.
 
 #include <algorithm>
 #include <cmath>
@@ -146,19 +152,19 @@ void CableSystem::strain_rows(const CompiledCable& cable, std::span<const Stretc
 
 std::optional<double> CableSystem::end_strain(const Substep& substep, const CompiledCable& cable,
                                               Run run) {
-  run_stretched_.resize(at(run.count));
-  run_weights_.resize(std::max(run_weights_.size(), at(run.count)));
+  run_work_.stretched.resize(at(run.count));
+  run_work_.weights.resize(std::max(run_work_.weights.size(), at(run.count)));
   double heaviest = 0.0;
   Row row;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     row.clear();
-    evaluate(substep, k, row, &run_stretched_[at(i)]);
-    run_weights_[at(i)] = multipliers_[at(k)];
+    evaluate(substep, k, row, &run_work_.stretched[at(i)]);
+    run_work_.weights[at(i)] = multipliers_[at(k)];
     heaviest = std::max(heaviest, multipliers_[at(k)]);
   }
-  const std::span weights = std::span(run_weights_).first(at(run.count));
+  const std::span weights = std::span(run_work_.weights).first(at(run.count));
   for (double& weight : weights) weight = heaviest > 0.0 ? weight / heaviest : 1.0;
-  const std::optional<double> strain = run_strain(run_stretched_, weights);
+  const std::optional<double> strain = run_strain(run_work_.stretched, weights);
   // What is stretched without a pull (a damper has all of it) keeps its own strains.
   return heaviest > 0.0 || strain == 0.0 ? strain : std::nullopt;
 }
@@ -172,7 +178,7 @@ void CableSystem::keep_end_strains(const Substep& substep) {
       const std::optional<double> strain = end_strain(substep, cable, run);
       if (!strain) return;
       for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
-        end_strains_[at(k)] = run_weights_[at(i)] * *strain;
+        end_strains_[at(k)] = run_work_.weights[at(i)] * *strain;
       }
     });
   }
@@ -232,7 +238,8 @@ void CableSystem::keep_strains(FeatureState& next) {
     const int place = strain_places_[i];
     if (place < 0) continue;
     const auto link = static_cast<int>(i);
-    // What is below the quantum stays with the spans; the end where the cable came off or on last has the strain of either.
+    // What is below the quantum stays with the spans; the end where the cable came off or on last
+    // has the strain of either.
     StoredStrain& stored = stored_end_[at(place)];
     const StoredStrain::Piece total = stored.total();
     stored.fit(End::outgoing, next.reals[stored_length_index(link)], total.strain());

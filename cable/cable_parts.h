@@ -10,6 +10,7 @@
 
 #include "cable/cable.h"
 #include "cable/span_row.h"
+#include "engine/substep.h"
 
 namespace sheave::cable_parts {
 
@@ -56,13 +57,16 @@ struct Stall {
   Fallback observed;
 };
 
-/// What a system of cables has noted for its reports; of the events, which only become more, their number.
+/// What a system of cables has noted for its reports. Its events, which only become more, are
+/// elsewhere.
 struct Notes {
-  std::vector<Fallback> fallbacks, crowded;
-  std::vector<Stall> stalls, slides_at;
-  bool slides = false;
-  std::size_t events = 0;
-  std::uint64_t edition = 0;
+  std::vector<Fallback> fallbacks;  ///< per span that had no tangent
+  std::vector<Fallback> crowded;    ///< per cable: wraps that found no place
+  std::vector<Stall> stalls;        ///< per link
+  std::vector<Stall> slides_at;     ///< per link: over which cable slid that ought not to
+  bool slides = false;              ///< whether it does over any link, or did in the last substep
+  std::size_t events = 0;           ///< of a mark: how many there were
+  std::uint64_t edition = 0;  ///< changes with them, but for the events; of a mark before any 0
 };
 
 /// Spans first, first + 1, ... of a cable (cyclic if it is closed) that share one multiplier.
@@ -76,7 +80,8 @@ struct RunWeights {
   double start = 0.0;
 };
 
-/// The sum of the values of a run's rows [m], and its change since the start of the substep where it is damped.
+/// The sum of the values of a run's rows [m], and its change since the start of the substep where
+/// it is damped.
 struct RunValue {
   double error = 0.0;
   double change = 0.0;
@@ -99,8 +104,8 @@ struct Piece {
   double rise = 0.0;  ///< of the pull from its first span to its last, where it is not Kind::moves
   /// Friction times wrap angle at `link`; NaN: not asked for yet.
   double grip = std::numeric_limits<double>::quiet_NaN();
-  // Of one too long or too short: the pull that either side would give it, NaN if there is none, the pieces where that
-  // comes from, and which of them do.
+  // Of one too long or too short: the pull that either side would give it, NaN if there is none,
+  // the pieces where that comes from, and which of them do.
   double from_before = std::numeric_limits<double>::quiet_NaN();
   double from_behind = std::numeric_limits<double>::quiet_NaN();
   std::size_t before = 0;
@@ -157,6 +162,27 @@ struct ChainLengths {
   double rest_length = 0.0;  ///< and what is on free drums at its ends [m]
   double length = 0.0;       ///< of the spans [m]
   bool moves = false;        ///< elastic, or forces can move one of its links
+};
+
+/// Scratch of CableSystem::limit_drives().
+struct DriveWork {
+  std::vector<Chain> chains;
+  std::vector<Pull> pulls;
+  std::vector<std::array<DriveShare, 2>> feed_shares;  ///< per span, of its ends
+  std::vector<double> feed_rates;                      ///< per span that is fed [m/s]
+  std::vector<char> stalled;                           ///< per link, in this substep
+  std::vector<int> locked;  ///< per link: which way its drive has stalled, as in the state
+  std::vector<char> slid;   ///< per link, in this substep
+};
+
+/// Scratch of the rows of runs.
+struct RunWork {
+  std::vector<Row> rows;
+  std::vector<SpanGeometry> spans;
+  std::vector<double> weights;
+  std::vector<StretchedSpan> stretched;
+  std::vector<RowTerm> gradient;  ///< per body; `body` is not used
+  std::vector<double> spare, lengths, tensions;
 };
 
 }  // namespace sheave::cable_parts

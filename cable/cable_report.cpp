@@ -8,14 +8,16 @@
 namespace sheave {
 namespace {
 
-/// The angle over which the stored length is wound; layers lie on growing radii (cable/cable_ends.cpp).
+/// The angle over which the stored length is wound; layers lie on growing radii
+/// (cable/cable_ends.cpp).
 double wound_angle(const LinkGeometry& definition, const LinkGeometry& link, double stored_length) {
   if (!(link.layer_pitch > 0.0)) return 2.0 * pi * stored_length / link.perimeter();
   const double grown = std::abs(link.signed_radius) - std::abs(definition.signed_radius);
   return 2.0 * pi * grown / link.layer_pitch;
 }
 
-/// Corners from `entry` to `exit`, -1 where there is none, and so many whole turns more that the stored length is used.
+/// Corners from `entry` to `exit`, -1 where there is none, and so many whole turns more that the
+/// stored length is used.
 std::vector<Vector3> outline_path(const Substep& now, const LinkGeometry& link, int entry, int exit,
                                   double stored_length) {
   const Outline& curve = link.outline->curve;
@@ -84,7 +86,7 @@ LinkReport CableSystem::link_report(const CableView& view, int index, int incomi
   report.most_strain = stored_strain(own, index).most_strain();
   if (link.wraps()) report.wrap_angle = wound_angle(definition, link, arc);
   const double passed = own.reals[slip_index(index)];
-  report.stalled = stalls_[at(index)].now;
+  report.stalled = notes_.stalls[at(index)].now;
   (definitions_[at(index)].feeds ? report.fed : report.slip) = passed;
   const bool lifted = own.integers[mode_index(index)] >= RunningLink::lifted_mode;
   if (lifted || (incoming < 0 && outgoing < 0)) {
@@ -140,7 +142,8 @@ void CableSystem::append_wraps(const CableView& view, const CompiledCable& cable
 void CableSystem::measure(const CableView& view, const CompiledCable& cable, int cut_span,
                           CableReport& report) const {
   const bool rigid = compliance_of(cable, 1.0) == 0.0;
-  // Of a span that is all but used up there is no stretch worth the name; it counts against this share of the cable.
+  // Of a span that is all but used up there is no stretch worth the name; it counts against this
+  // share of the cable.
   constexpr double shortest = 1e-6;
   const auto add_span = [&](const SpanReport& span) {
     report.total_length += span.rest_length;

@@ -24,19 +24,22 @@ struct LinkReport {
   /// two does not exist, both are the one that does.
   Vector3 entry = Vector3::Zero();
   Vector3 exit = Vector3::Zero();
-  /// Outlines: the cable's way along the body from entry to exit, corner by corner [m]. At the end of an open cable from
-  /// the last point of the stored cable. Empty for circles and points.
+  /// Outlines: the cable's way along the body from entry to exit, corner by corner [m]. At the end
+  /// of an open cable from the last point of the stored cable. Empty for circles and points.
   std::vector<Vector3> path;
   double stored_length = 0.0;  ///< cable on the body, of a material unstretched [m]
-  /// By how much what is stored is longer as it lies there, with the strain that it came on with [m]; of a material.
+  /// By how much what is stored is longer as it lies there, with the strain that it came on with
+  /// [m]; of a material.
   double stored_stretch = 0.0;
   double most_strain = 0.0;  ///< the largest strain with which any of it lies there
-  /// Stored length, stretched, in turns of the link's perimeter, as an angle [rad]; any number of turns. Of a pinhole the angle by
-  /// which the cable's direction changes there, 0 ... pi.
+  /// Stored length, stretched, in turns of the link's perimeter, as an angle [rad]; any number of
+  /// turns. Of a pinhole the angle by which the cable's direction changes there, 0 ... pi.
   double wrap_angle = 0.0;
-  /// Cable that has slid over the link towards the next span since time 0 [m]; what rolled with a wheel is not counted.
+  /// Cable that has slid over the link towards the next span since time 0 [m]; what rolled with a
+  /// wheel is not counted.
   double slip = 0.0;
-  /// The drive of the link's body, or the link's feed, stood still or slowed down in the last substep, for want of cable.
+  /// The drive of the link's body, or the link's feed, stood still or slowed down in the last
+  /// substep, for want of cable.
   bool stalled = false;
   double fed = 0.0;  ///< cable that an attachment with a feed speed has paid out since time 0 [m]
 };
@@ -49,8 +52,11 @@ struct CableEvent {
     attach,  ///< a hybrid end's cable was used up
     wind,    ///< and is wound up again
     cut,     ///< the cable was cut or broke, in the span that begins at the link
-    stall,  ///< the drive of the link's body, or the link's feed, needs more cable than there is and stops or slows down
-    slip,  ///< cable began to slide over a link on which it ought not to, because there is no more of it
+    /// The drive of the link's body, or the link's feed, needs more cable than there is and stops
+    /// or slows down
+    stall,
+    /// Cable began to slide over a link on which it ought not to, because there is no more of it
+    slip,
   };
   double time = 0.0;  ///< end of the substep [s]
   std::string cable;
@@ -83,7 +89,8 @@ struct CableGauge {
   double total_length = 0.0;  ///< as CableReport::total_length [m]
   double length_error = 0.0;  ///< as CableReport::length_error
   double max_stretch = 0.0;   ///< as CableReport::max_stretch
-  /// How much longer than allowed the spans of a rigid cable are, all together [m]. What is left of one that is cut hangs free.
+  /// How much longer than allowed the spans of a rigid cable are, all together [m]. What is left of
+  /// one that is cut hangs free.
   double excess = 0.0;
 };
 
@@ -92,25 +99,28 @@ struct CableReport {
   std::string_view name;
   bool closed = false;
   std::vector<LinkReport> links;  ///< as listed
-  /// Span k begins at link k and ends at the next one that is touched (cyclic if closed), be it a link or a wrap.
+  /// Span k begins at link k and ends at the next one that is touched (cyclic if closed), be it a
+  /// link or a wrap.
   std::vector<SpanReport> spans;
   std::vector<WrapReport> wraps;  ///< in their order along the cable
   bool cut = false;
   /// Of a cut cable the lengths of its two pieces, from the first link and from the last [m].
   std::array<double, 2> pieces{};
   double total_length = 0.0;  ///< sum of rest lengths and stored lengths [m]
-  /// (total_length - its value at time 0 - what was fed, or put in by placements) / that value; the length invariant.
+  /// (total_length - its value at time 0 - what was fed, or put in by placements) / that value; the
+  /// length invariant.
   double length_error = 0.0;
-  /// Energy lost since time 0 where cable of a material came off a wheel with another strain than its span's [J]: the
-  /// creep of belts (cable/cable_material.cpp).
+  /// Energy lost since time 0 where cable of a material came off a wheel with another strain than
+  /// its span's [J]: the creep of belts (cable/cable_material.cpp).
   double creep_loss = 0.0;
-  /// Largest (length - rest length) / rest length of a rigid span; of one shorter than 1e-6 of the cable over that.
+  /// Largest (length - rest length) / rest length of a rigid span; of one shorter than 1e-6 of the
+  /// cable over that.
   double max_stretch = 0.0;
 
   /// The part of it that a gauge has.
   [[nodiscard]] CableGauge gauge() const;
-  /// The same with the wraps among links and spans, each at its place, for those that follow the cable's whole way;
-  /// `places` gets the place that each link has in this report, -1 for wraps.
+  /// The same with the wraps among links and spans, each at its place, for those that follow the
+  /// cable's whole way; `places` gets the place that each link has in this report, -1 for wraps.
   [[nodiscard]] CableReport with_wraps_in_place(std::vector<int>* places = nullptr) const;
 };
 

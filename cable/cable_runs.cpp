@@ -1,27 +1,32 @@
 // Spans that share a tension.
 //
-// Cable passes freely through a pinhole without friction and over a massless wheel, and it slides over a link with
-// friction once the tensions on both sides differ by the factor e^(m a) (Euler-Eytelwein; a: wrap angle). A maximal
-// row of spans joined by such links is a run. What moves between its spans cannot move anything else, so only the sum
-// of their rest lengths counts, and one multiplier l gives all tensions, T_i = k_i l / h^2, with k_i the product of the
-// e^(+-m a) up to span i (1 without friction). One step of XPBD for the run, with C_i = rest length - length:
+// Cable passes freely through a pinhole without friction and over a massless wheel, and it slides
+// over a link with friction once the tensions on both sides differ by the factor e^(m a)
+// (Euler-Eytelwein; a: wrap angle). A maximal row of spans joined by such links is a run. What
+// moves between its spans cannot move anything else, so only the sum of their rest lengths counts,
+// and one multiplier l gives all tensions, T_i = k_i l / h^2, with k_i the product of the e^(+-m a)
+// up to span i (1 without friction). One step of XPBD for the run, with C_i = rest length - length:
 //
 //   sum_i (C_i + k_i a~_i l) = 0,   motion  x += W sum_i grad C_i d(k_i l)
 //   =>  l' = (-sum C_i + sum_j w_j l_j) / sum_j k_j (w_j + a~_j),   w_j = (sum_i grad C_i) W grad C_j^T
 //
-// with l_j the multiplier that span j has so far. Damping acts on the change of the sum, too, because what passes between
-// the spans stretches nothing: of that, span i has the share a_i k_i, so g = b / h sum a_i^2 k_i / sum a_i k_i. Without friction that is one ordinary row, so any number of pinholes
-// is exact in one visit. (The paper's Algorithm 1 instead moves rest length across each pinhole so that the ratios of
-// length to rest length become equal; as printed it swaps the two excesses, see tests/physics/pinhole_test.cpp.)
+// with l_j the multiplier that span j has so far. Damping acts on the change of the sum, too,
+// because what passes between the spans stretches nothing: of that, span i has the share a_i k_i,
+// so g = b / h sum a_i^2 k_i / sum a_i k_i. Without friction that is one ordinary row, so any
+// number of pinholes is exact in one visit. (The paper's Algorithm 1 instead moves rest length
+// across each pinhole so that the ratios of length to rest length become equal; as printed it swaps
+// the two excesses, see tests/physics/pinhole_test.cpp.)
 //
 // Whether a link with friction sticks or slides is found in the sweeps: cable/cable_friction.cpp.
 //
-// A span of constant compliance c can be stretched by all of its length and has no cable left to give then, so that what it
-// shares with the next one ends: it has its length / c, and the link is held until the other side pulls less.
+// A span of constant compliance c can be stretched by all of its length and has no cable left to
+// give then, so that what it shares with the next one ends: it has its length / c, and the link is
+// held until the other side pulls less.
 //
-// When the substep is complete, rest length is moved within each run so that every span has its tension; what passed a
-// link is its slip, or turns the massless wheel. A slack run is not touched, except that a span that has become longer
-// than its rest length takes what it lacks from the nearest spans that have some to spare.
+// When the substep is complete, rest length is moved within each run so that every span has its
+// tension; what passed a link is its slip, or turns the massless wheel. A slack run is not touched,
+// except that a span that has become longer than its rest length takes what it lacks from the
+// nearest spans that have some to spare.
 
 #include <algorithm>
 #include <cmath>
@@ -32,8 +37,9 @@
 namespace sheave {
 namespace {
 
-/// Takes what spans with a negative entry of `spare` lack from the nearest ones with a positive entry. Of two equally
-/// near, each gives the same share as far as it can, so a cable's mirror image does the mirror image.
+/// Takes what spans with a negative entry of `spare` lack from the nearest ones with a positive
+/// entry. Of two equally near, each gives the same share as far as it can, so a cable's mirror
+/// image does the mirror image.
 void pull_slack(std::vector<double>& spare) {
   const auto count = static_cast<int>(spare.size());
   for (int i = 0; i < count; ++i) {
@@ -53,9 +59,10 @@ void pull_slack(std::vector<double>& spare) {
   }
 }
 
-/// Makes the lengths of spans [m] the rest lengths with which their springs have forces in the ratios of `tensions` [N]. Not those
-/// themselves: dampers have their part of them, and those of `rattle` are of the middle of the substep, or half of that in the
-/// course of its rounds. So all strains are s times what tensions say, with the s for which the sum of `rest_lengths` remains;
+/// Makes the lengths of spans [m] the rest lengths with which their springs have forces in the
+/// ratios of `tensions` [N]. Not those themselves: dampers have their part of them, and those of
+/// `rattle` are of the middle of the substep, or half of that in the course of its rounds. So all
+/// strains are s times what tensions say, with the s for which the sum of `rest_lengths` remains;
 /// none of them is below 0.
 void shorten_by_strain(const CompiledCable& cable, const std::vector<double>& rest_lengths,
                        const std::vector<double>& tensions, std::vector<double>& lengths) {
@@ -134,24 +141,24 @@ double CableSystem::evaluate_run(const Substep& substep, const CompiledCable& ca
                                  RunValue& value) {
   double heaviest = 0.0;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
-    Row& row = run_rows_[at(i)];
+    Row& row = run_work_.rows[at(i)];
     row.clear();
-    run_spans_[at(i)] = evaluate(substep, k, row, &run_stretched_[at(i)]);
+    run_work_.spans[at(i)] = evaluate(substep, k, row, &run_work_.stretched[at(i)]);
     value.error += row.value;
     if (row.damping > 0.0) value.change += substep_change(row, substep.moving);
     for (const RowTerm& term : row.active_terms()) {
-      RowTerm& sum = run_gradient_[at(term.body)];
+      RowTerm& sum = run_work_.gradient[at(term.body)];
       sum.linear += term.linear;
       sum.angular += term.angular;
     }
-    double& weight = run_weights_[at(i)];
+    double& weight = run_work_.weights[at(i)];
     weight = 0.0;
     if (i == 0) continue;
     const int link = spans_[at(k)].first;
-    weight = run_weights_[at(i - 1)];
+    weight = run_work_.weights[at(i - 1)];
     if (!links_[at(link)].frictionless()) {
-      weight += slip_[at(link)] *
-                friction_exponent(substep, link, run_spans_[at(i - 1)], run_spans_[at(i)]);
+      weight += slip_[at(link)] * friction_exponent(substep, link, run_work_.spans[at(i - 1)],
+                                                    run_work_.spans[at(i)]);
     }
     heaviest = std::max(heaviest, weight);
   }
@@ -163,29 +170,29 @@ double CableSystem::weigh_run(const CompiledCable& cable, std::size_t count, dou
   double deflection = 0.0;
   double damped = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    run_weights_[i] = std::exp(run_weights_[i] - heaviest);
+    run_work_.weights[i] = std::exp(run_work_.weights[i] - heaviest);
   }
   if (strains_runs(cable)) {
-    const std::span rows = std::span(run_rows_).first(count);
-    strain_rows(cable, run_stretched_, run_weights_, rows);
+    const std::span rows = std::span(run_work_.rows).first(count);
+    strain_rows(cable, run_work_.stretched, run_work_.weights, rows);
     value.error = 0.0;
     for (const Row& row : rows) value.error += row.value;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    const double share = run_weights_[i] * run_rows_[i].compliance;
+    const double share = run_work_.weights[i] * run_work_.rows[i].compliance;
     deflection += share;
-    damped += share * run_rows_[i].compliance * cable.damping;
+    damped += share * run_work_.rows[i].compliance * cable.damping;
   }
   return damped > 0.0 ? damped / deflection / h : 0.0;
 }
 
 double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run run) {
   const auto count = at(run.count);
-  run_rows_.resize(std::max(run_rows_.size(), count));
-  run_spans_.resize(std::max(run_spans_.size(), count));
-  run_stretched_.resize(count);
-  run_weights_.resize(std::max(run_weights_.size(), count));
-  run_gradient_.resize(substep.moving.size());
+  run_work_.rows.resize(std::max(run_work_.rows.size(), count));
+  run_work_.spans.resize(std::max(run_work_.spans.size(), count));
+  run_work_.stretched.resize(count);
+  run_work_.weights.resize(std::max(run_work_.weights.size(), count));
+  run_work_.gradient.resize(substep.moving.size());
   const double inverse_square = 1.0 / (substep.h * substep.h);
 
   RunValue value;
@@ -196,12 +203,12 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   double denominator = 0.0;
   double parts = 0.0;  // the same without what cancels between the spans
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
-    const Row& row = run_rows_[at(i)];
-    const double weight = run_weights_[at(i)];
+    const Row& row = run_work_.rows[at(i)];
+    const double weight = run_work_.weights[at(i)];
     double yield = 0.0;  // w_j
     for (const RowTerm& term : row.active_terms()) {
       const MovingBody& body = substep.moving[at(term.body)];
-      const RowTerm& sum = run_gradient_[at(term.body)];
+      const RowTerm& sum = run_work_.gradient[at(term.body)];
       if (body.translates) {
         const Vector3 moved = times(body.inverse_mass, term.linear);
         yield += dot(sum.linear, moved);
@@ -218,20 +225,22 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
     denominator += weight * (yield + row.compliance * inverse_square);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    for (const RowTerm& term : run_rows_[i].active_terms()) run_gradient_[at(term.body)] = {};
+    for (const RowTerm& term : run_work_.rows[i].active_terms())
+      run_work_.gradient[at(term.body)] = {};
   }
-  // Where nothing but wheels that the cable slides over can move, rounding is left of w; it is no yield.
+  // Where nothing but wheels that the cable slides over can move, rounding is left of w; it is no
+  // yield.
   constexpr double cancelled = 64.0 * std::numeric_limits<double>::epsilon();
   if (!(denominator > cancelled * parts)) return 0.0;
   const double multiplier = std::max(numerator / denominator, 0.0);
   double largest = 0.0;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
-    const double increment = run_weights_[at(i)] * multiplier - multipliers_[at(k)];
+    const double increment = run_work_.weights[at(i)] * multiplier - multipliers_[at(k)];
     if (increment == 0.0) continue;
     multipliers_[at(k)] += increment;
     RowResponse response;
-    respond(run_rows_[at(i)], substep.moving, response);
-    apply_multiplier(run_rows_[at(i)], response, increment, substep.moving);
+    respond(run_work_.rows[at(i)], substep.moving, response);
+    apply_multiplier(run_work_.rows[at(i)], response, increment, substep.moving);
     largest = std::max(largest, std::abs(increment));
   }
   return largest * denominator;
@@ -244,14 +253,16 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
   RunWeights weights;
   RunWeights heaviest;
   SpanGeometry last;
-  // Where nothing can yield a multiplier does nothing: the links around decide what the spans carry.
+  // Where nothing can yield a multiplier does nothing: the links around decide what the spans
+  // carry.
   const bool open = cable.has_friction && is_open(substep, cable, run);
   // What spans were strained by at the start of the substep they need not have shared.
   const bool strains = run.count > 1 && strains_runs(cable) && substep.time != substep.start.time;
-  if (strains) run_stretched_.resize(at(run.count));
+  if (strains) run_work_.stretched.resize(at(run.count));
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     Row& row = rows.emplace_back();
-    const SpanGeometry span = evaluate(substep, k, row, strains ? &run_stretched_[at(i)] : nullptr);
+    const SpanGeometry span =
+        evaluate(substep, k, row, strains ? &run_work_.stretched[at(i)] : nullptr);
     row.index = k;
     if (open) row.upper = 0.0;
     row.active = was_taut_[at(k)] != 0;
@@ -276,27 +287,27 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     rows[i].start_weight = relative(rows[i].start_weight, heaviest.start);
   }
   if (!strains) return;
-  run_weights_.clear();
+  run_work_.weights.clear();
   for (std::size_t i = start; i < rows.size(); ++i) {
-    run_weights_.push_back(rows[i].start_weight);
+    run_work_.weights.push_back(rows[i].start_weight);
   }
-  strain_rows(cable, run_stretched_, run_weights_, std::span(rows).subspan(start));
+  strain_rows(cable, run_work_.stretched, run_work_.weights, std::span(rows).subspan(start));
 }
 
 bool CableSystem::shorten_run(const Substep& substep, const CompiledCable& cable, Run run) {
-  run_tensions_.clear();
+  run_work_.tensions.clear();
   const double inverse_square = 1.0 / (substep.h * substep.h);
   bool taut = false;
   Row row;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     row.clear();
     const SpanGeometry span = evaluate(substep, k, row);
-    run_tensions_.push_back(multipliers_[at(k)] * inverse_square);
-    taut = taut || run_tensions_.back() > 0.0;
-    run_spare_.push_back(rest_length_of(cable, row, span.length));
-    run_lengths_.push_back(span.length);
+    run_work_.tensions.push_back(multipliers_[at(k)] * inverse_square);
+    taut = taut || run_work_.tensions.back() > 0.0;
+    run_work_.spare.push_back(rest_length_of(cable, row, span.length));
+    run_work_.lengths.push_back(span.length);
   }
-  if (taut) shorten_by_strain(cable, run_spare_, run_tensions_, run_lengths_);
+  if (taut) shorten_by_strain(cable, run_work_.spare, run_work_.tensions, run_work_.lengths);
   return taut;
 }
 
@@ -305,19 +316,20 @@ bool CableSystem::stretch_run(const Substep& substep, const CompiledCable& cable
   bool taut = false;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     taut = taut || multipliers_[at(k)] > 0.0;
-    const StretchedSpan& span = run_stretched_[at(i)];
-    const double own = run_weights_[at(i)] * strain.value_or(0.0);
-    run_lengths_.push_back(span.length / (1.0 + own));
-    run_spare_.push_back(strain ? rest_length_at(span, own)
-                                : rest_length_under(span.value, span.spring_length, span.length));
+    const StretchedSpan& span = run_work_.stretched[at(i)];
+    const double own = run_work_.weights[at(i)] * strain.value_or(0.0);
+    run_work_.lengths.push_back(span.length / (1.0 + own));
+    run_work_.spare.push_back(strain
+                                  ? rest_length_at(span, own)
+                                  : rest_length_under(span.value, span.spring_length, span.length));
   }
   return taut;
 }
 
 const std::vector<double>& CableSystem::run_spare(const Substep& substep,
                                                   const CompiledCable& cable, Run run) {
-  std::vector<double>& spare = run_spare_;
-  std::vector<double>& lengths = run_lengths_;
+  std::vector<double>& spare = run_work_.spare;
+  std::vector<double>& lengths = run_work_.lengths;
   spare.clear();
   lengths.clear();
   const bool taut =

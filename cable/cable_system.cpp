@@ -36,7 +36,8 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     was_taut_[k] = state.reals[tension_index(static_cast<int>(k))] > 0.0 ? 1 : 0;
     const LinkGeometry& first = links_[at(setup.first)];
     const LinkGeometry& second = links_[at(setup.second)];
-    // What is smaller than the quantum counts in the row, too: left out of 1e5 spans, it amounts to more than gravity does.
+    // What is smaller than the quantum counts in the row, too: left out of 1e5 spans, it amounts to
+    // more than gravity does.
     const int span_index = static_cast<int>(k);
     const double below_quantum =
         state.reals[remainder_index(span_index, 0)] + state.reals[remainder_index(span_index, 1)];
@@ -78,7 +79,7 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row,
   const LinkGeometry& second = links_[at(setup.second)];
   const SpanReference& reference = references_[at(span)];
   row.lower = 0.0;  // a cable pulls and never pushes
-  row.rate = first.feeds || second.feeds ? feed_rates_[at(span)] : 0.0;
+  row.rate = first.feeds || second.feeds ? drive_work_.feed_rates[at(span)] : 0.0;
   const bool frozen = cable.tangent_update == TangentUpdate::substep;
   SpanTransport transport;
   // A conditional, so that the span is made where it is kept.
@@ -189,8 +190,9 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
       grows ? layered_.transport
             : span_transport(substep, setup, first, second, references_[at(k)], span);
   if (!span.has_tangent) {
-    ++notes_edition_;
-    if (fallbacks_[at(k)].substeps++ == 0) fallbacks_[at(k)].first_time = substep.next.time;
+    ++notes_.edition;
+    if (notes_.fallbacks[at(k)].substeps++ == 0)
+      notes_.fallbacks[at(k)].first_time = substep.next.time;
     ++substep.statistics.geometry_fallbacks;
   }
   if (cable.inverse_stiffness > 0.0) {
@@ -229,7 +231,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     }
   }
   if (!stored_end_.empty()) keep_strains(next);
-  if (driven_ || slides_) record_stalls(substep, next);
+  if (driven_ || notes_.slides) record_stalls(substep, next);
   for (const CompiledCable& cable : cables_) {
     if (cable.shares) share_lengths(substep, cable, next);
   }
@@ -258,10 +260,11 @@ void CableSystem::count_numerical_damping(Substep& substep, const FeatureState& 
   }
 }
 
-// Implicit Euler on a spring: with the change dx of its length, a dv of the relative velocity and the mass m of both ends,
-// energy falls by dx^2 / 2a + m dv^2 / 2 per substep, and in a vibration both parts are equal in the mean. Without damping
-// dx = a dT; with damping b the row asks for a T = x + a b dx / h. A slack span has no spring, and at time 0 tensions are not
-// known: 0 means either.
+// Implicit Euler on a spring: with the change dx of its length, a dv of the relative velocity and
+// the mass m of both ends, energy falls by dx^2 / 2a + m dv^2 / 2 per substep, and in a vibration
+// both parts are equal in the mean. Without damping dx = a dT; with damping b the row asks for a T
+// = x + a b dx / h. A slack span has no spring, and at time 0 tensions are not known: 0 means
+// either.
 double CableSystem::numerical_damping(const CompiledCable& cable, std::array<double, 2> tensions,
                                       double stretch, double rest_length, double h) const {
   // Less damping than this share of the spring's force is lost in the rounding of the stretch.
@@ -283,25 +286,19 @@ double CableSystem::numerical_damping(const CompiledCable& cable, std::array<dou
 void CableSystem::mark_notes(NoteMark mark) {
   Notes& notes = marked_notes_[static_cast<std::size_t>(mark)];
   notes.events = events_.size();
-  if (notes.edition == notes_edition_) return;
-  notes.edition = notes_edition_;
-  notes.fallbacks = fallbacks_;
-  notes.crowded = crowded_;
-  notes.stalls = stalls_;
-  notes.slides_at = slides_at_;
-  notes.slides = slides_;
+  if (notes.edition == notes_.edition) return;
+  const std::size_t events = notes.events;
+  notes = notes_;
+  notes.events = events;
 }
 
 void CableSystem::return_to(NoteMark mark) {
   Notes& notes = marked_notes_[static_cast<std::size_t>(mark)];
-  fallbacks_ = notes.fallbacks;
-  crowded_ = notes.crowded;
-  stalls_ = notes.stalls;
-  slides_at_ = notes.slides_at;
-  slides_ = notes.slides;
+  const std::uint64_t edition = notes_.edition;
+  notes_ = notes;
   events_.resize(notes.events);
   // Editions do not come back: another mark may hold what has just been forgotten.
-  notes.edition = ++notes_edition_;
+  notes.edition = notes_.edition = edition + 1;
 }
 
 SpanGeometry CableSystem::geometry_of(const Substep& substep, int span) const {
@@ -344,7 +341,7 @@ double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
 std::vector<CableSystem::TangentWarning> CableSystem::tangent_warnings() const {
   std::vector<TangentWarning> warnings;
   for (int k = 0; k < row_count(); ++k) {
-    const Fallback& fallback = fallbacks_[at(k)];
+    const Fallback& fallback = notes_.fallbacks[at(k)];
     if (fallback.substeps == 0) continue;
     const CompiledCable& cable = cables_[at(spans_[at(k)].cable)];
     const int span = k - cable.first_span;

@@ -28,10 +28,13 @@ namespace sheave {
 /// The feature "cables" of a world; its state is laid out as cable/cable_state_layout.h says.
 class CableSystem final : public ConstraintBatch, public CableStateLayout {
  public:
-  /// Checks and compiles the cables. Errors have paths "/cables/i/...". `starts`, per cable: see CableTransfer.
+  /// Checks and compiles the cables; faults have paths "/cables/i/...". `starts`, per cable: see
+  /// CableTransfer. `before`: what they refer to, if it was made for these bodies; it is not
+  /// compiled again.
   static Result<std::unique_ptr<CableSystem>> create(const std::vector<CableDef>& cables,
                                                      const BodySet& bodies,
-                                                     std::span<const CableStart> starts = {});
+                                                     std::span<const CableStart> starts = {},
+                                                     const CableSystem* before = nullptr);
 
   [[nodiscard]] const std::vector<CompiledCable>& cables() const { return cables_; }
   /// One report per cable for a state of the world this system is a feature of; `own` is the
@@ -45,13 +48,13 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
     std::vector<double> added;  ///< per cable: length that has been put in [m]
     std::string fault;          ///< why they cannot be put there; empty: they can
   };
-  /// Bodies go from where `start` has them to where `end` has them, and nothing else happens. `keeps_tension`: what the spans
-  /// need for that comes in or goes out; else lengths stay.
+  /// Bodies go from where `start` has them to where `end` has them, and nothing else happens.
+  /// `keeps_tension`: what the spans need for that comes in or goes out; else lengths stay.
   [[nodiscard]] Placed place(const BodySet& bodies, const State& start, const State& end,
                              const FeatureState& own, bool keeps_tension);
 
-  /// Measures of each cable at the end of the last substep, whose part of the state is `own`; false if it does not know,
-  /// because the course of one has changed there.
+  /// Measures of each cable at the end of the last substep, whose part of the state is `own`; false
+  /// if it does not know, because the course of one has changed there.
   bool gauge(const FeatureState& own, std::vector<CableGauge>& gauges) const;
 
   using TangentWarning = cable_parts::TangentWarning;
@@ -63,19 +66,22 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
     return winding_warnings_;
   }
   using LinkWarning = cable_parts::LinkWarning;
-  /// Drives and feeds that would have needed cable which was not there, and did not go on (cable/cable_drives.cpp).
-  [[nodiscard]] std::vector<LinkWarning> stall_warnings() const { return link_warnings(stalls_); }
+  /// Drives and feeds that would have needed cable which was not there, and did not go on
+  /// (cable/cable_drives.cpp).
+  [[nodiscard]] std::vector<LinkWarning> stall_warnings() const {
+    return link_warnings(notes_.stalls);
+  }
   /// Links that cable slid over because there was no more of it, where it ought not to slide.
   [[nodiscard]] std::vector<LinkWarning> slide_warnings() const {
-    return link_warnings(slides_at_);
+    return link_warnings(notes_.slides_at);
   }
   /// What happened since the system was created, in order.
   [[nodiscard]] const std::vector<CableEvent>& events() const { return events_; }
   /// The same, and forgets them; between steps.
   [[nodiscard]] std::vector<CableEvent> take_events() { return std::exchange(events_, {}); }
 
-  // What is wrong with setting something of a cable, or of one of its listed links (cable/cable_controls.cpp); empty if
-  // nothing is. They name what they are about.
+  // What is wrong with setting something of a cable, or of one of its listed links
+  // (cable/cable_controls.cpp); empty if nothing is. They name what they are about.
   [[nodiscard]] std::string compliance_fault(int cable, double compliance) const;
   [[nodiscard]] std::string breaking_fault(int cable, double tension) const;
   [[nodiscard]] std::string wrap_friction_fault(int cable, double friction) const;
@@ -137,7 +143,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   // Placements: cable/cable_placement.cpp.
   [[nodiscard]] std::string placement_fault(const Substep& substep, const CompiledCable& cable,
                                             const FeatureState& next) const;
-  // Spans of which nothing turns: cable/cable_affine.cpp, and where all are such, cable/cable_affine_motion.cpp.
+  // Spans of which nothing turns: cable/cable_affine.cpp, cable/cable_affine_motion.cpp.
   void begin_affine_spans(const Substep& substep);
   /// Of spans_, with bodies as at time 0. `ends_stay`: hybrid ends are what they are in links_.
   [[nodiscard]] std::vector<AffineSpan> affine_spans(const BodySet& bodies, bool ends_stay) const;
@@ -154,7 +160,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   using Run = cable_parts::Run;
   [[nodiscard]] int next_span(const CompiledCable& cable, int span) const;
   [[nodiscard]] bool shared(int link) const;
-  /// Finds the frictionless links beside drained spans of a cable of constant compliance that pass nothing in the substep.
+  /// Finds the frictionless links beside drained spans of a cable of constant compliance that pass
+  /// nothing in the substep.
   void hold_drained(const CompiledCable& cable, const FeatureState& start);
   template <class Visit>
   void for_each_run(const CompiledCable& cable, Visit visit) const;
@@ -169,15 +176,17 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   using RunWeights = cable_parts::RunWeights;
   void linearise_run(Substep& substep, const CompiledCable& cable, Run run, RowList& rows);
   using RunValue = cable_parts::RunValue;
-  /// Evaluates the spans of a run; sums their gradients body by body and their values, and collects the logarithms of the
-  /// weights k_i. Returns the largest of these.
+  /// Evaluates the spans of a run; sums their gradients body by body and their values, and collects
+  /// the logarithms of the weights k_i. Returns the largest of these.
   double evaluate_run(const Substep& substep, const CompiledCable& cable, Run run, RunValue& value);
-  /// Makes the weights of a run of `count` spans relative to the heaviest, so that no number of turns overflows, and returns
-  /// the share g of its damping. Of a material it finds the run's strain and makes the value that of the rows then.
+  /// Makes the weights of a run of `count` spans relative to the heaviest, so that no number of
+  /// turns overflows, and returns the share g of its damping. Of a material it finds the run's
+  /// strain and makes the value that of the rows then.
   double weigh_run(const CompiledCable& cable, std::size_t count, double heaviest, double h,
                    RunValue& value);
   double solve_run(Substep& substep, const CompiledCable& cable, Run run);
-  /// Into run_spare_ the rest lengths before anything passes the links, into run_lengths_ those with the tensions [m]; whether any has one.
+  /// Into run_work_.spare the rest lengths before anything passes the links [m], into
+  /// run_work_.lengths those with the tensions; whether any has one.
   bool shorten_run(const Substep& substep, const CompiledCable& cable, Run run);
   /// The same of a material.
   bool stretch_run(const Substep& substep, const CompiledCable& cable, Run run);
@@ -191,7 +200,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] double friction_exponent(const Substep& substep, int link,
                                          const SpanGeometry& incoming,
                                          const SpanGeometry& outgoing) const;
-  /// Keeps what the links' friction is worth where the bodies start; the spans there have just been evaluated.
+  /// Keeps what the links' friction is worth where the bodies start and the spans are evaluated.
   void remember_friction(const Substep& substep, const CompiledCable& cable);
   /// Whether the run is rigid and nothing that the solver does can lengthen it.
   [[nodiscard]] bool is_open(const Substep& substep, const CompiledCable& cable, Run run) const;
@@ -200,19 +209,21 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   double grip(const Substep& substep, std::size_t piece);
   /// Of the links between two pieces.
   void set_slip(std::size_t from, std::size_t to, int slip);
-  /// Of pieces `first` to `last`, between dead ends: lets cable slide into those too short and out of those too long.
+  /// Of pieces `first` to `last`, between dead ends: lets cable slide into those too short and out
+  /// of those too long.
   void serve_pieces(const Substep& substep, std::size_t first, std::size_t last);
   void serve(std::size_t index);
   void judge_links(const Substep& substep, const CompiledCable& cable, std::size_t first,
                    std::size_t last);
   /// Whether the spans of the run, of constant compliance, have no rest length left.
   [[nodiscard]] bool is_drained(const CompiledCable& cable, Run run) const;
-  /// Holds a link of a ring all of whose links would slide; returns what passes over the ring's first link then [m]. `spare`:
-  /// run_spare().
+  /// Holds a link of a ring all of whose links would slide; returns what passes over the ring's
+  /// first link then [m]. `spare`: run_spare().
   double hold_ring(const Substep& substep, const CompiledCable& cable, Run run,
                    const std::vector<double>& spare);
   void update_slip(const Substep& substep, const CompiledCable& cable);
-  /// Gives spans whose tension is open one that their neighbours hold. `start`: the state at the start of the substep.
+  /// Gives spans whose tension is open one that their neighbours hold. `start`: the state at the
+  /// start of the substep.
   void hold_tensions(const Substep& substep, const CompiledCable& cable, const FeatureState& start);
   void hold_between(const Substep& substep, const CompiledCable& cable, const FeatureState& start,
                     std::size_t first, std::size_t last);
@@ -233,29 +244,33 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] static double rest_length_of(const CompiledCable& cable, const Row& row,
                                              double length);
   [[nodiscard]] static double rest_length_under(double value, double spring_length, double length);
-  /// Unstretched transport of a span of a material at the end of the substep [m]; moves strain and counts creep.
+  /// Unstretched transport of a span of a material at the end of the substep [m]; moves strain and
+  /// counts creep.
   SpanTransport material_transport(const CompiledCable& cable, int span, const SpanTransport& arcs,
                                    double length, FeatureState& next);
   [[nodiscard]] StoredStrain stored_strain(const FeatureState& own, int link) const;
   void save_strain(const StoredStrain& stored, int link, FeatureState& own) const;
-  /// Whether the spans of a run have one strain (times their weights), which its rows and finish() find together.
+  /// Whether the spans of a run have one strain (times their weights), which its rows and finish()
+  /// find together.
   [[nodiscard]] static bool strains_runs(const CompiledCable& cable) {
     return cable.inverse_stiffness > 0.0 && cable.tangent_update != TangentUpdate::substep;
   }
-  /// Rest length of a span of a material at the end of the substep [m], before anything passes its links, if it has `strain`
-  /// then.
+  /// Rest length of a span of a material at the end of the substep [m], before anything passes its
+  /// links, if it has `strain` then.
   [[nodiscard]] static double rest_length_at(const StretchedSpan& span, double strain);
-  /// The strain e of a run whose spans end with weight x e each; 0 if it is slack, none if it is used up.
+  /// The strain e of a run whose spans end with weight x e each; 0 if it is slack, none if it is
+  /// used up.
   [[nodiscard]] static std::optional<double> run_strain(std::span<const StretchedSpan> spans,
                                                         std::span<const double> weights);
   /// Gives the rows of a run that strain.
   void strain_rows(const CompiledCable& cable, std::span<const StretchedSpan> spans,
                    std::span<const double> weights, std::span<Row> rows);
-  /// The strain with which a run ends, with the ratios of its tensions as weights; leaves these and the spans in run_weights_
-  /// and run_stretched_. None if its spans keep strains of their own.
+  /// The strain with which a run ends, with the ratios of its tensions as weights; leaves these and
+  /// the spans in run_work_.weights and run_work_.stretched. None if its spans keep strains of their own.
   std::optional<double> end_strain(const Substep& substep, const CompiledCable& cable, Run run);
   void keep_end_strains(const Substep& substep);
-  /// Lets the link's strain follow a stored length that has changed at `end`; what is new has `strain`.
+  /// Lets the link's strain follow a stored length that has changed at `end`; what is new has
+  /// `strain`.
   void fit_strain(int link, StoredStrain::End end, double strain, FeatureState& own) const;
   void keep_strains(FeatureState& next);
   /// Length of the stored cable as it lies there, stretched [m].
@@ -308,7 +323,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   /// Lets the span touch the first body that it cuts; false if there is none.
   bool touch_on_span(const Substep& substep, int cable, int span, FeatureState& next);
   [[nodiscard]] int listed_before(const CompiledCable& cable, int span) const;
-  /// Winds on or off what a span's end moves along its link, of a material with `strain`; what the span gains [m].
+  /// Winds on or off what a span's end moves along its link, of a material with `strain`; what the
+  /// span gains [m].
   double shift_contact(const Substep& substep, const CompiledCable& cable, int link,
                        const SpanGeometry& from, const SpanGeometry& to, bool first, double strain,
                        FeatureState& next) const;
@@ -343,7 +359,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
                 ChainLengths& lengths) const;
   void add_to_chain(const Substep& substep, int span, ChainLengths& lengths);
   void add_pull(const Pull& pull);
-  /// Whether the cable ends on the link, which is not round and so cannot hold it by its rim when all is paid out.
+  /// Whether the cable ends on the link, which is not round and so cannot hold it by its rim when
+  /// all is paid out.
   [[nodiscard]] bool runs_out(const CompiledCable& cable, int link) const {
     const bool end =
         !cable.closed && (link == cable.first_link || link == cable.last_listed_link());
@@ -351,7 +368,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   }
   /// What drives pay out from drums on which the cable ends.
   void add_stored_cable(const Substep& substep, const CompiledCable& cable);
-  /// Lets the drives of a chain that is short of cable draw only what there is; false if it is not short.
+  /// Lets the drives of a chain short of cable draw only what there is; false if it is not short.
   bool stall(Substep& substep, const Chain& chain, bool altogether);
   DriveShare& share_of(Substep& substep, const Pull& pull);
   void begin_drives(const FeatureState& state);
@@ -368,7 +385,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   void feed(const FeatureState& state, double h, int span);
   void turn_massless_wheel(Substep& substep, int link, double length) const;
   void count_numerical_damping(Substep& substep, const FeatureState& next) const;
-  /// Energy that implicit Euler takes from a span's vibration in a substep [J], from its tensions before and now [N].
+  /// Energy that implicit Euler takes from a span's vibration in a substep [J], from its tensions
+  /// before and now [N].
   [[nodiscard]] double numerical_damping(const CompiledCable& cable, std::array<double, 2> tensions,
                                          double stretch, double rest_length, double h) const;
   [[nodiscard]] double compliance_of(const CompiledCable& cable, double rest_length) const;
@@ -403,12 +421,11 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<AffineSpan> affine_;        ///< per span, of spans_; empty: not known yet
   std::vector<MovingSpan> moving_spans_;  ///< per span, where all cables are affine
   std::vector<int> bounded_links_;        ///< where stored cable can come to an end
-  const BodySet* affine_bodies_ = nullptr;
-  // Scratch of a substep, filled by begin().
+  const BodySet* affine_bodies_ =
+      nullptr;                   // what follows is scratch of a substep, filled by begin()
   std::vector<char> is_affine_;  ///< per span, in this substep
   std::uint32_t edition_ = 0;    ///< of the rows of affine spans
-  /// Length of the substep, and the share of loads, that their bodies' inverse masses are for.
-  std::array<double, 2> edition_is_for_{};
+  std::array<double, 2> edition_is_for_{};  ///< length of substep and share of loads there
   std::vector<SpanReference> references_;
   std::vector<double> strains_;      ///< per span, of a material, at the start
   std::vector<double> end_strains_;  ///< and at the end where it shares that of a run; < 0: its own
@@ -419,7 +436,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<int> pending_slip_;
   std::vector<char> held_;  ///< per link: whether it passes nothing although it has no friction
   std::vector<int> revised_;
-  /// Per span, for finish(): the tension at the start [N], and the length at the end of the substep [m].
+  /// Per span, for finish(): tension at the start [N], length at the end of the substep [m].
   std::vector<std::array<double, 2>> ends_;
   bool knows_lengths_ = false;            ///< the latter are still those of the spans
   std::vector<int> sweeps_;               ///< per cable, in this substep
@@ -429,41 +446,24 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<StoredStrain> stored_end_;  ///< and at the end
   Row row_;                               ///< scratch of solve_span()
   LayeredSpan layered_;                   ///< scratch of finish()
-  // Scratch of limit_drives().
-  std::vector<Chain> chains_;
-  std::vector<Pull> pulls_;
-  std::vector<std::array<DriveShare, 2>> feed_shares_;  ///< per span, of its ends
-  std::vector<double> feed_rates_;                      ///< per span that is fed [m/s]
-  std::vector<char> stalled_;                           ///< per link, in this substep
-  std::vector<int> locked_;  ///< per link: which way its drive has stalled, as in the state
-  std::vector<char> slid_;   ///< per link, in this substep
-  // Scratch of solve_run().
-  std::vector<Row> run_rows_;
-  std::vector<SpanGeometry> run_spans_;
-  std::vector<double> run_weights_;
-  std::vector<StretchedSpan> run_stretched_;
-  std::vector<RowTerm> run_gradient_;  ///< per body; `body` is not used
-  std::vector<double> run_spare_, run_lengths_, run_tensions_;
+  cable_parts::DriveWork drive_work_;
+  cable_parts::RunWork run_work_;
   std::vector<Piece> pieces_;  ///< of one cable
   // Of `rattle`, whose multipliers act as at the start of the substep.
   bool knows_start_ = false;
   std::vector<SpanGeometry> start_spans_;  ///< of cables with friction, per span, as last evaluated
   std::vector<double> start_exponents_;    ///< per link: friction times wrap angle at the start
-  // Of leave_and_touch(): on which side of its candidates a span was at the start, span by span; and what has left.
+  // Of leave_and_touch(): on which side of its candidates a span was at the start, span by span;
+  // and what has left.
   std::vector<std::vector<WrapSide>> sides_;
   std::vector<char> changed_links_;
   std::vector<int> left_bodies_;
   // Diagnostics, no part of the simulation.
   using Fallback = cable_parts::Fallback;
-  std::vector<Fallback> fallbacks_;
-  std::vector<Stall> stalls_;      ///< per link
-  std::vector<Stall> slides_at_;   ///< per link: over which cable slid that ought not to
-  bool slides_ = false;            ///< whether it does over any link, or did in the last substep
-  std::vector<Fallback> crowded_;  ///< per cable: wraps that found no place
-  std::vector<CableEvent> events_;
   using Notes = cable_parts::Notes;
-  std::uint64_t notes_edition_ = 1;    ///< changes with them, but for the events
+  Notes notes_;                        ///< but for the events
   std::array<Notes, 2> marked_notes_;  ///< per NoteMark
+  std::vector<CableEvent> events_;
   std::vector<WindingWarning> winding_warnings_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "cable/links/attachment.h"
 #include "engine/field_check.h"
@@ -14,6 +15,10 @@ RunningLink CableTransfer::running_link(int cable, int link, const FeatureState&
   const CompiledCable& compiled = system_.cables_[at(cable)];
   const int index = compiled.first_link + link;
   RunningLink running;
+  running.was = index;
+  if (const auto next = own.integers[system_.next_index(index)]; next >= 0) {
+    running.went_to = compiled.first_link + static_cast<int>(next);
+  }
   running.stored_length = own.reals[system_.stored_length_index(index)];
   running.slipped = own.reals[system_.slip_index(index)];
   running.angle = own.reals[system_.angle_index(index)];
@@ -35,6 +40,7 @@ RunningLink CableTransfer::running_link(int cable, int link, const FeatureState&
                                 compiled.first_plane + link - compiled.listed_links));
     std::copy_n(first, running.plane.size(), running.plane.begin());
   }
+  running.size = size_of(compiled, index, running.body);
   if (link < compiled.span_count && own.integers[system_.next_index(index)] >= 0) {
     const int span = compiled.first_span + link;
     running.span = RunningSpan{
@@ -47,6 +53,20 @@ RunningLink CableTransfer::running_link(int cable, int link, const FeatureState&
 
 RunningCable CableTransfer::running_cable(int cable, const CableDef& definition,
                                           const FeatureState& own, const Controls& controls) const {
+  RunningCable running = course_of(cable, definition, own, controls);
+  std::map<int, int> came_from;
+  for (const RunningLink& link : running.links) {
+    if (link.went_to >= 0) came_from.emplace(link.went_to, link.was);
+  }
+  for (RunningLink& link : running.links) {
+    const auto found = came_from.find(link.was);
+    if (found != came_from.end()) link.came_from = found->second;
+  }
+  return running;
+}
+
+RunningCable CableTransfer::course_of(int cable, const CableDef& definition,
+                                      const FeatureState& own, const Controls& controls) const {
   const CompiledCable& compiled = system_.cables_[at(cable)];
   RunningCable running;
   running.quantum = compiled.quantum;
@@ -80,6 +100,22 @@ RunningCable CableTransfer::running_cable(int cable, const CableDef& definition,
     break;
   }
   return running;
+}
+
+double CableTransfer::size_of(const CompiledCable& cable, int link, int body) const {
+  if (body < 0) return system_.definitions_[at(link)].perimeter();
+  const auto candidate =
+      std::find_if(cable.candidates.begin(), cable.candidates.end(),
+                   [&](const WrapCandidate& known) { return known.body == body; });
+  return candidate != cable.candidates.end() ? candidate->reach : 0.0;
+}
+
+std::string CableTransfer::size_fault(const CompiledCable& cable, int link,
+                                      const RunningLink& running) const {
+  if (running.was < 0 || !running.is_on_course()) return {};
+  if (size_of(cable, link, running.body) == running.size) return {};
+  return "cable \"" + cable.name + "\" lies on link " + std::to_string(link - cable.first_link) +
+         ", which would have another size; take the cable off it before, and lead it over it again";
 }
 
 void CableTransfer::put_link(int cable, int link, const RunningLink& running, FeatureState& own) {
@@ -117,59 +153,90 @@ void CableTransfer::put_link(int cable, int link, const RunningLink& running, Fe
   own.reals[system_.remainder_index(span, 1)] = there.remainder[1];
 }
 
-std::string CableTransfer::share_with_fresh(int cable, RunningCable& running) const {
-  const CompiledCable& compiled = system_.cables_[at(cable)];
-  const auto length_at = [&](int listed) {  // as compiled, of spans and links where they are now
-    return system_.initial_.reals[system_.rest_length_index(compiled.first_span + listed)];
-  };
-  const auto arc_at = [&](int listed) {
-    return system_.initial_.reals[system_.stored_length_index(compiled.first_link + listed)];
-  };
-  const std::string name = "cable \"" + compiled.name + "\"";
-  std::vector<RunningLink>& links = running.links;
-  for (std::size_t place = 0, listed = 0; place < links.size(); ++place) {
-    if (!links[place].is_listed()) continue;
-    const auto first = static_cast<int>(listed++);
-    std::size_t end = place + 1;
-    while (end < links.size() && links[end].is_fresh) ++end;
-    if (end == place + 1) continue;
-    if (end < links.size() && links[end].is_wrap()) {
-      return name + " lies on another body behind its span " + std::to_string(first) +
-             "; a link can be inserted where it does not";
-    }
-    const auto fresh = static_cast<int>(end - place) - 1;
-    double spans = length_at(first);
-    double arcs = 0.0;
-    for (int i = 1; i <= fresh; ++i) {
-      spans += length_at(first + i);
-      arcs += arc_at(first + i);
-    }
-    const double whole = links[place].span->rest_length;
-    // A material is strained on the links, too.
-    const bool strained = compiled.inverse_stiffness > 0.0 && whole < spans + arcs;
-    const double on_links = strained ? whole / (spans + arcs) : 1.0;
-    double left = whole;
-    for (int i = 1; i <= fresh; ++i) {
-      RunningLink& link = links[place + at(i)];
-      link.stored_length = CompiledCable::quantised(on_links * arc_at(first + i), running.quantum,
-                                                    1.0 / running.quantum);
-      link.stored_strain = strained ? 1.0 / on_links - 1.0 : 0.0;
-      left -= link.stored_length;
-    }
-    if (!(left > 0.0) || !(spans > 0.0)) {
-      return name + " has " + number_text(whole) + " m in its span " + std::to_string(first) +
-             ", too little to lie on that";
-    }
-    const double share = left / spans;
-    for (int i = 0; i < fresh; ++i) {
-      double& rest_length = links[place + at(i)].span->rest_length;
-      rest_length = CompiledCable::quantised(share * length_at(first + i), running.quantum,
-                                             1.0 / running.quantum);
-      left -= rest_length;
-    }
-    links[end - 1].span->rest_length = left;
+namespace {
+
+/// Gives the link the way by which a contact has moved on it, out of the span there.
+void move_contact(double way, StoredStrain::End end, const CompiledCable& cable, RunningLink& link,
+                  RunningSpan& span) {
+  const double strain = span.tension * cable.inverse_stiffness;
+  double length = way / (1.0 + strain);
+  StoredStrain stored;
+  if (!link.strain.empty()) {
+    stored = StoredStrain(std::span<const double>(link.strain).first(StoredStrain::real_count));
+    if (way < 0.0) length = -stored.rest_of(end, -way, strain);
   }
-  return {};
+  length = cable.quantised(length);
+  link.stored_length += length;
+  span.rest_length -= length;
+  if (link.strain.empty()) return;
+  stored.fit(end, link.stored_length, strain);
+  stored.save(std::span<double>(link.strain).first(StoredStrain::real_count));
+}
+
+}  // namespace
+
+void CableTransfer::move_contacts(int cable, RunningCable& running, const TransferFrom& from) {
+  if (from.system == nullptr) return;
+  CableSystem& before = *from.system;
+  system_.follow_state(*from.now, system_.initial_);
+  before.follow_state(*from.then, *from.state);
+  const CompiledCable& own = system_.cables_[at(cable)];
+  struct Stop {
+    int link;           // among those of all cables
+    std::size_t place;  // in the running cable
+  };
+  std::vector<Stop> course;
+  int listed = own.first_link;
+  int wrap = own.first_link + own.listed_links;
+  for (std::size_t i = 0; i < running.links.size(); ++i) {
+    const RunningLink& link = running.links[i];
+    const int number = link.is_listed() ? listed++ : wrap++;
+    if (link.is_on_course()) course.push_back({number, i});
+  }
+  const auto span_behind = [](const CableSystem& system, int link) {
+    const auto in =
+        std::find_if(system.cables_.begin(), system.cables_.end(),
+                     [&](const CompiledCable& c) { return link < c.first_link + c.link_count; });
+    return in->first_span + link - in->first_link;
+  };
+  const auto moved = [&](const Stop& stop, int old_first, int new_span, RunningSpan& span) {
+    const LinkGeometry& geometry = system_.links_[at(stop.link)];
+    if (old_first < 0 || !geometry.wraps()) return;
+    const SpanGeometry was = before.geometry_of(*from.then, span_behind(before, old_first));
+    const SpanGeometry is = system_.geometry_of(*from.now, new_span);
+    if (!is.has_tangent) return;
+    RunningLink& link = running.links[stop.place];
+    const bool exits = old_first == link.was;
+    const double way =
+        geometry.side * contact_shift(*from.now, geometry, was, is, exits) * (exits ? 1.0 : -1.0);
+    move_contact(way, exits ? StoredStrain::End::outgoing : StoredStrain::End::incoming, own, link,
+                 span);
+  };
+  const std::size_t spans = course.empty() || own.closed ? course.size() : course.size() - 1;
+  for (std::size_t i = 0; i < spans; ++i) {
+    const Stop& first = course[i];
+    const Stop& second = course[(i + 1) % course.size()];
+    const RunningLink& a = running.links[first.place];
+    const RunningLink& b = running.links[second.place];
+    if (b.was >= 0 && a.went_to == b.was) continue;
+    // Links that have just come have no length of their own yet.
+    std::size_t holder = first.place;
+    while (holder > 0 && running.links[holder].is_fresh) --holder;
+    if (!running.links[holder].span) continue;
+    RunningSpan& span = *running.links[holder].span;
+    const int new_span = span_behind(system_, first.link);
+    moved(first, a.went_to >= 0 ? a.was : -1, new_span, span);
+    moved(second, b.came_from, new_span, span);
+  }
+  // The shorter way round led past it; but where there is no other wheel it cannot leave this one.
+  for (const Stop& stop : course) {
+    RunningLink& link = running.links[stop.place];
+    const LinkGeometry& geometry = system_.links_[at(stop.link)];
+    if (!own.closed || course.size() > 2 || !geometry.wraps() || !link.span) continue;
+    if (link.stored_length >= 0.0) continue;
+    move_contact(geometry.perimeter(), StoredStrain::End::outgoing, own, link, *link.span);
+  }
+  before.knows_lengths_ = system_.knows_lengths_ = false;
 }
 
 std::string CableTransfer::put_cable(int cable, const RunningCable& running, FeatureState& own) {
@@ -195,6 +262,8 @@ std::string CableTransfer::put_cable(int cable, const RunningCable& running, Fea
              std::to_string(compiled.link_count - compiled.listed_links) + ", would allow";
     }
     const int index = link.is_listed() ? listed++ : wrap++;
+    std::string fault = size_fault(compiled, compiled.first_link + index, link);
+    if (!fault.empty()) return fault;
     put_link(cable, index, link, own);
     if (system_.definitions_[at(compiled.first_link + index)].feeds)
       compiled.start_length -= link.slipped;
@@ -218,8 +287,8 @@ bool CableTransfer::has_layout_of(int cable, const CableSystem& before, int then
              [](const WrapCandidate& c, const WrapCandidate& d) { return c.body == d.body; });
 }
 
-void CableTransfer::copy_cable(int cable, CableSystem& before, int then, const FeatureState& from,
-                               FeatureState& own) {
+std::string CableTransfer::copy_cable(int cable, CableSystem& before, int then,
+                                      const FeatureState& from, FeatureState& own) {
   CompiledCable& now = system_.cables_[at(cable)];
   now.quantum = before.cables()[at(then)].quantum;
   now.start_length = before.cables()[at(then)].start_length;
@@ -228,6 +297,8 @@ void CableTransfer::copy_cable(int cable, CableSystem& before, int then, const F
     RunningLink link = CableTransfer(before).running_link(then, i, from, none);
     const int old_index = before.cables()[at(then)].first_link + i;
     const int index = now.first_link + i;
+    std::string fault = size_fault(now, index, link);
+    if (!fault.empty()) return fault;
     // All of it as it is, wraps by their numbers.
     if (i < now.span_count) {
       const int span = before.cables()[at(then)].first_span + i;
@@ -241,28 +312,53 @@ void CableTransfer::copy_cable(int cable, CableSystem& before, int then, const F
     own.integers[system_.wrap_index(index)] = from.integers[before.wrap_index(old_index)];
   }
   own.integers[system_.cut_index(cable)] = from.integers[before.cut_index(then)];
+  return {};
 }
 
-Errors CableTransfer::continue_from(CableSystem* before, const FeatureState* from,
-                                    std::span<const CableStart> starts) {
+LinkWays CableTransfer::ways_of(int cable) const {
+  const CompiledCable& own = system_.cables_[at(cable)];
+  const std::vector<double>& reals = system_.initial_.reals;
+  LinkWays ways;
+  for (int i = 0; i < own.listed_links; ++i) {
+    const bool ends = !own.closed && i + 1 == own.listed_links;
+    ways.arcs.push_back(reals[system_.stored_length_index(own.first_link + i)]);
+    ways.spans.push_back(ends ? 0.0 : reals[system_.rest_length_index(own.first_span + i)]);
+  }
+  return ways;
+}
+
+std::string CableTransfer::put_changed(int cable, const RunningCable& changed,
+                                       const TransferFrom& from) {
+  RunningCable running = changed;
+  const bool any_fresh = std::any_of(running.links.begin(), running.links.end(),
+                                     [](const RunningLink& link) { return link.is_fresh; });
+  const LinkWays ways = any_fresh ? ways_of(cable) : LinkWays{};
+  std::string fault = put_cable(cable, running, system_.initial_);
+  if (!fault.empty()) return fault;
+  move_contacts(cable, running, from);
+  if (any_fresh) fault = share_with_fresh_links(system_.cables_[at(cable)], ways, running);
+  if (fault.empty()) fault = put_cable(cable, running, system_.initial_);
+  return fault;
+}
+
+Errors CableTransfer::continue_from(const TransferFrom& from, std::span<const CableStart> starts) {
   Errors errors;
+  CableSystem* const before = from.system;
   for (std::size_t c = 0; c < starts.size(); ++c) {
     const auto cable = static_cast<int>(c);
     const CableStart& start = starts[c];
     std::string fault;
     if (start.running != nullptr) {
-      RunningCable running = *start.running;
-      fault = share_with_fresh(cable, running);
-      if (fault.empty()) fault = put_cable(cable, running, system_.initial_);
+      fault = put_changed(cable, *start.running, from);
     } else if (start.same_as >= 0 && has_layout_of(cable, *before, start.same_as)) {
-      copy_cable(cable, *before, start.same_as, *from, system_.initial_);
+      fault = copy_cable(cable, *before, start.same_as, *from.state, system_.initial_);
     } else if (start.same_as >= 0) {
       // A body has come or gone that it could touch.
       CableDef listed;
       listed.links.assign(at(system_.cables_[c].listed_links),
                           std::make_shared<const AttachmentLink>());
       RunningCable running =
-          CableTransfer(*before).running_cable(start.same_as, listed, *from, Controls{});
+          CableTransfer(*before).running_cable(start.same_as, listed, *from.state, Controls{});
       fault = put_cable(cable, running, system_.initial_);
       system_.cables_[c].start_length = before->cables()[at(start.same_as)].start_length;
     }

@@ -32,6 +32,12 @@ EditDraft::EditDraft(LiveRevision& from, std::uint32_t& generation)
 const Errors& Edit::errors() const { return draft_.errors; }
 void Edit::fail(std::string message) { draft_.fail(std::move(message)); }
 
+BodyId Edit::id(BodyHandle body) {
+  if (body == BodyHandle{}) return BodyId::world();
+  static_cast<void>(draft_.check(draft_.bodies, body, "body"));
+  return {body.slot};
+}
+
 BodyHandle Edit::add(BodyDef body) {
   const BodyHandle handle = draft_.bodies.add(-1, draft_.next_generation++);
   const std::size_t slot = at(handle.slot);
@@ -75,7 +81,7 @@ void Edit::remove(BodyHandle body) {
   definition = no_body(at(body.slot));
   draft_.is_new[at(body.slot)] = 1;
   std::erase_if(draft_.model.colliders,
-                [&](const ColliderDef& own) { return own.body == id(body); });
+                [&](const ColliderDef& own) { return own.body.index == body.slot; });
 }
 
 void Edit::remove(JointHandle joint) {
@@ -94,8 +100,8 @@ void Edit::remove(CableHandle cable) {
 
 void Edit::remove_collider(BodyHandle body) {
   if (!draft_.check(draft_.bodies, body, "body")) return;
-  const auto removed = std::erase_if(draft_.model.colliders,
-                                     [&](const ColliderDef& own) { return own.body == id(body); });
+  const auto removed = std::erase_if(
+      draft_.model.colliders, [&](const ColliderDef& own) { return own.body.index == body.slot; });
   if (removed == 0) {
     draft_.fail("body \"" + draft_.model.bodies[at(body.slot)].name + "\" has no collider");
   }

@@ -86,7 +86,7 @@ bool holds_by_itself(const RunningLink& link) {
   return link.is_listed() && link.link->type() == AttachmentLink::type_name;
 }
 
-void run_off(DraftCable& cable) {
+std::string run_off(DraftCable& cable) {
   for (const CableEnd end : {CableEnd::first, CableEnd::last}) {
     std::optional<double>& loose = cable.loose[number(end)];
     while (loose && !cable.running.links.empty()) {
@@ -100,7 +100,15 @@ void run_off(DraftCable& cable) {
     // One piece of cable that lies about.
     cable.loose[0] = cable.loose[0].value_or(0.0) + cable.loose[1].value_or(0.0);
     cable.loose[1] = 0.0;
+    return {};
   }
+  for (const CableEnd end : {CableEnd::first, CableEnd::last}) {
+    if (cable.definition.closed || !cable.running.links[end_of(cable.running, end)].is_fresh)
+      continue;
+    return "cable \"" + cable.definition.name + "\" would have an inserted link at its " +
+           std::string(name_of(end)) + " end, where nothing is left to share; attach it there";
+  }
+  return {};
 }
 
 std::string EditDraft::cable_name(CableHandle handle) const {
@@ -139,34 +147,50 @@ DraftCable* EditDraft::running(CableHandle handle, bool may_be_cut) {
     return nullptr;
   }
   if (cable.running.is_cut && !may_be_cut) {
-    fail(name + " is cut; split it, which makes two of it");
+    fail(name + " is cut; split it, which makes two of it, or open it if it is a belt");
     return nullptr;
   }
   return &cable;
 }
 
+/// Place of the link behind which the cable shall come apart; none, and a fault, if it cannot
+/// there.
+std::optional<std::size_t> EditDraft::place_to_part(const DraftCable& cable, int span,
+                                                    double share) {
+  const std::string who = "cable \"" + cable.definition.name + "\"";
+  const RunningCable& running = cable.running;
+  if (!(share >= 0.0 && share <= 1.0)) {
+    fail(who + ": the share of the span at which it comes apart must be from 0 to 1, not " +
+         number_text(share));
+    return std::nullopt;
+  }
+  if (running.is_cut) span = running.cut_span;
+  const int spans = running.listed_count() - (cable.definition.closed ? 0 : 1);
+  if (span >= 0 && span < spans && running.links[running.place_of(span)].span) {
+    const std::size_t place = running.place_of(span);
+    const std::size_t next = running.place_of((span + 1) % running.listed_count());
+    if (!running.links[place].is_fresh && !running.links[next].is_fresh) return place;
+    fail(who + " has just got a link beside its span number " + std::to_string(span) +
+         ", and how long that is comes out at the end of the edit; let it come apart first, or " +
+         "in an edit of its own");
+    return std::nullopt;
+  }
+  fail(who + " has no span number " + std::to_string(span) + " that it could come apart in");
+  return std::nullopt;
+}
+
 CableHandle Edit::split(CableHandle cable, int span, double share, std::string name) {
   DraftCable* whole = draft_.running(cable, true);
   if (whole == nullptr) return {};
-  const std::string who = "cable \"" + whole->definition.name + "\"";
   if (whole->definition.closed) {
-    draft_.fail(who + " is closed; only an open one can be split in two");
+    draft_.fail("cable \"" + whole->definition.name +
+                "\" is closed, so there are no two of it; open it");
     return {};
   }
-  if (!(share >= 0.0 && share <= 1.0)) {
-    draft_.fail(who + ": the share of the span at which it is split must be from 0 to 1, not " +
-                number_text(share));
-    return {};
-  }
+  const std::optional<std::size_t> parted = draft_.place_to_part(*whole, span, share);
+  if (!parted) return {};
+  const std::size_t place = *parted;
   RunningCable& running = whole->running;
-  if (running.is_cut) span = running.cut_span;
-  const int listed = running.listed_count();
-  const bool there = span >= 0 && span + 1 < listed && running.links[running.place_of(span)].span;
-  if (!there) {
-    draft_.fail(who + " has no span number " + std::to_string(span) + " that it could be split in");
-    return {};
-  }
-  const std::size_t place = running.place_of(span);
   DraftCable rest;
   rest.runs = true;
   rest.excess = whole->excess;
@@ -196,13 +220,52 @@ CableHandle Edit::split(CableHandle cable, int span, double share, std::string n
   return handle;
 }
 
+void Edit::open(CableHandle belt, int span, double share) {
+  DraftCable* own = draft_.running(belt, true);
+  if (own == nullptr) return;
+  if (!own->definition.closed) {
+    return draft_.fail("cable \"" + own->definition.name + "\" is open; split it");
+  }
+  const std::optional<std::size_t> place = draft_.place_to_part(*own, span, share);
+  if (!place) return;
+  RunningCable& running = own->running;
+  RunningSpan& parted = *running.links[*place].span;
+  const double last = quantised(share * parted.rest_length, running.quantum);
+  double first = parted.rest_length - last;
+  running.links[*place].span.reset();
+  std::rotate(running.links.begin(),
+              running.links.begin() + static_cast<std::ptrdiff_t>(*place) + 1, running.links.end());
+  // What it lies on right behind there is not listed, and holds nothing.
+  while (running.links.front().is_wrap()) first += take_first(running);
+  own->loose = {first, last};
+  own->definition.closed = false;
+  own->definition.cut_time.reset();
+  running.is_cut = false;
+}
+
+void EditDraft::close(DraftCable& cable) {
+  const std::string who = "cable \"" + cable.definition.name + "\"";
+  RunningCable& running = cable.running;
+  if (!cable.loose[0] || !cable.loose[1]) {
+    return fail(who + " cannot be joined to itself: both its ends must be loose; detach them");
+  }
+  if (running.listed_count() < 2) {
+    return fail(who + " cannot be joined to itself: a belt needs at least 2 links");
+  }
+  RunningSpan span;
+  span.rest_length = *cable.loose[0] + *cable.loose[1];
+  running.links[last_touched(running.links, running.links.size())].span = span;
+  cable.loose = {};
+  cable.definition.closed = true;
+}
+
 void Edit::join(CableHandle cable, CableHandle next) {
   DraftCable* first = draft_.running(cable);
   DraftCable* second = draft_.running(next);
   if (first == nullptr || second == nullptr) return;
   const std::string names =
       "cables \"" + first->definition.name + "\" and \"" + second->definition.name + "\"";
-  if (first == second) return draft_.fail(names + " are one; it cannot be joined to itself");
+  if (first == second) return draft_.close(*first);
   if (!first->loose[1] || !second->loose[0]) {
     return draft_.fail(names +
                        " cannot be joined: the last end of the one and the first end of the "

@@ -53,13 +53,17 @@ struct EditDraft {
   }
   /// The cable, taken apart; null, and a fault, if it cannot be changed.
   DraftCable* running(CableHandle handle, bool may_be_cut = false);
+  [[nodiscard]] std::optional<std::size_t> place_to_part(const DraftCable& cable, int span,
+                                                         double share);
+  /// Joins its loose ends.
+  void close(DraftCable& cable);
   [[nodiscard]] std::string cable_name(CableHandle handle) const;
 };
 
 /// A body that stands where there is none.
 [[nodiscard]] BodyDef no_body(std::size_t slot);
 [[nodiscard]] bool holds_by_itself(const RunningLink& link);
-/// Lets loose ends run off what does not hold them.
-void run_off(DraftCable& cable);
+/// Lets loose ends run off what does not hold them; why what is left is no cable.
+[[nodiscard]] std::string run_off(DraftCable& cable);
 
 }  // namespace sheave

@@ -13,9 +13,13 @@ std::span<const Field> LinkDef::common_field_table() {
 
 bool on_one_outline(const LinkGeometry& a, const LinkGeometry& b) {
   constexpr double tolerance = 1e-9;
-  if (!a.outline || !b.outline || a.body != b.body) return false;
-  const bool parallel = cross(a.normal, b.normal).norm() <= tolerance;
-  return parallel && std::abs(dot(a.normal, a.center - b.center)) <= tolerance * a.perimeter();
+  if (a.body != b.body || !a.wraps() || !b.wraps() || (!a.outline) != (!b.outline)) return false;
+  const Vector3 between = a.center - b.center;
+  const double near = tolerance * a.perimeter();
+  if (cross(a.normal, b.normal).norm() > tolerance || std::abs(dot(a.normal, between)) > near)
+    return false;
+  // Of circles of one body there may be several.
+  return a.outline != nullptr || between.norm() <= near;
 }
 
 }  // namespace sheave

@@ -47,7 +47,8 @@ struct LinkGeometry {
   bool slides = false;
   /// Capstan coefficient of a link over which the cable can slide; NaN: it cannot.
   double friction = std::numeric_limits<double>::quiet_NaN();
-  /// The link's rotor has no inertia, so the tension is the same on both sides and the cable's motion turns it.
+  /// The link's rotor has no inertia, so the tension is the same on both sides and the cable's
+  /// motion turns it.
   bool massless = false;
   bool ends_here = false;      ///< the link type is one for the end of an open cable only
   bool starts_lifted = false;  ///< the cable passes it by at time 0
@@ -71,7 +72,8 @@ struct LinkGeometry {
   [[nodiscard]] bool wraps() const { return side != 0; }
   /// Whether geometry depends on the cable's state, not only on the bodies.
   [[nodiscard]] bool changes() const { return hybrid || layer_pitch > 0.0; }
-  /// Whether cable can pass from the span before the link to the one after it other than by rolling.
+  /// Whether cable can pass from the span before the link to the one after it other than by
+  /// rolling.
   [[nodiscard]] bool passes() const { return massless || !std::isnan(friction); }
   [[nodiscard]] bool frictionless() const { return massless || friction == 0.0; }
   /// Length of cable once round the link [m]; 0 for a point.
@@ -80,7 +82,8 @@ struct LinkGeometry {
   }
 };
 
-/// Whether both are outlines of one body in one plane: no span can be between them.
+/// Whether both are outlines of one body in one plane, or one circle twice: no span can be between
+/// them.
 [[nodiscard]] bool on_one_outline(const LinkGeometry& a, const LinkGeometry& b);
 
 /// Settings of one link of a cable; derived types add their own.

@@ -83,6 +83,18 @@ class SlotTable {
   std::vector<Slot> slots_;
 };
 
+/// While it lives what there is must stay, also if a callback throws.
+class Busy {
+ public:
+  explicit Busy(bool& is_busy) : is_busy_(is_busy) { is_busy = true; }
+  ~Busy() { is_busy_ = false; }
+  Busy(const Busy&) = delete;
+  Busy& operator=(const Busy&) = delete;
+
+ private:
+  bool& is_busy_;
+};
+
 /// A cable as its handle knows it.
 struct CableRecord {
   CableDef definition;  ///< of what is between its holds
@@ -101,7 +113,7 @@ struct LiveRevision {
   SlotTable<JointTag> joints;            ///< index among Model::joints
   SlotTable<CableTag> cables;            ///< index is the slot
   std::vector<CableRecord> records;      ///< per slot
-  Substep view;                          ///< for readers of joints: where their bodies are
+  std::optional<Substep> view;           ///< for readers of joints, if any: where bodies are
   std::vector<JointPlace> joint_places;  ///< in the order of the model
   std::vector<int> breakable_joints;
   std::vector<JointHandle> joint_handles;  ///< in the order of the model

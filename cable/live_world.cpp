@@ -59,9 +59,11 @@ LiveRevision::LiveRevision(Simulation made, SlotTable<BodyTag> body_slots,
       joints(std::move(joint_slots)),
       cables(std::move(cable_slots)),
       records(std::move(cable_records)),
-      view(simulation.world.bodies(), simulation.world.state(), simulation.world.model().step.dt,
-           1),
       joint_places(number_joints(simulation.world.model(), simulation.world.features())) {
+  const World& world = simulation.world;
+  if (!joint_places.empty()) {
+    view.emplace(world.bodies(), world.state(), world.model().step.dt, 1);
+  }
   for (std::size_t j = 0; j < joint_places.size(); ++j) {
     const JointDef& joint = *simulation.world.model().joints[j];
     if (joint.breaking_force || joint.breaking_torque) {
@@ -216,6 +218,9 @@ void LiveWorld::note_events(LiveReport& report) const {
 }
 
 LiveReport LiveWorld::step(const StopRequest& stop, const std::function<void()>& before_substep) {
+  LiveReport report;
+  report.stopped = is_busy_;
+  if (is_busy_) return report;
   std::vector<int> intact;
   for (const int joint : revision_->breakable_joints) {
     if (!is_broken(joint)) intact.push_back(joint);
@@ -227,10 +232,8 @@ LiveReport LiveWorld::step(const StopRequest& stop, const std::function<void()>&
       if (before_substep) before_substep();
     };
   }
-  LiveReport report;
-  is_busy_ = true;
+  const Busy busy(is_busy_);
   static_cast<StepReport&>(report) = running().world.step(stop, set ? set : before_substep);
-  is_busy_ = false;
   note_events(report);
   for (const int joint : intact) {
     if (is_broken(joint)) {
@@ -300,7 +303,7 @@ Result<Wrench> LiveWorld::force(JointHandle joint) const {
     for (const int body : {id.index, world.bodies()[id.index].mount}) {
       if (body < 0) continue;
       const BodyState& now = state().bodies[at(body)];
-      MovingBody& moving = revision_->view.moving[at(body)];
+      MovingBody& moving = revision_->view->moving[at(body)];
       moving.position = now.position;
       moving.orientation = now.orientation;
     }
@@ -310,7 +313,7 @@ Result<Wrench> LiveWorld::force(JointHandle joint) const {
   look_at(definition.carrier_body());
   for (std::size_t f = 0; f < world.features().size(); ++f) {
     if (world.features()[f].get() != place.feature) continue;
-    return place.feature->wrench_of(place.index, revision_->view, world.feature_state(f));
+    return place.feature->wrench_of(place.index, *revision_->view, world.feature_state(f));
   }
   return because("joint \"" + definition.name + "\" does nothing");
 }
@@ -326,6 +329,17 @@ Errors LiveWorld::restore(const State& state) {
     static_cast<void>(revision_->system()->take_events());
   }
   return errors;
+}
+
+LiveSnapshot LiveWorld::snapshot() const { return {state(), revision_, identity_}; }
+
+Errors LiveWorld::restore(const LiveSnapshot& snapshot) {
+  if (is_busy_) return {{"", busy_fault()}};
+  if (snapshot.identity_ != identity_) {
+    return {{"", "the snapshot is one of another world"}};
+  }
+  revision_ = snapshot.revision_;
+  return restore(snapshot.state_);
 }
 
 }  // namespace sheave

@@ -11,8 +11,9 @@
 //     show(*world->tension(rope, 2));
 //   }
 //
-// Bodies, joints and cables are told by handles. Errors are values: what cannot be done says why and what can, and nothing has
-// changed. Readers look at the state as it is between two steps; but for energy() none of them allocates or searches.
+// Bodies, joints and cables are told by handles. Errors are values: what cannot be done says why
+// and what can, and nothing has changed. Readers look at the state as it is between two steps; but
+// for energy() none of them allocates or searches.
 
 #include <functional>
 #include <memory>
@@ -37,7 +38,8 @@ struct BodyPose {
 
 /// What is kept of the cables when a body is put elsewhere.
 enum class Keep {
-  length,  ///< their lengths: they get slack, or taut where they are elastic. A rigid one must be long enough
+  /// Their lengths: they get slack, or taut where they are elastic. A rigid one must be long enough
+  length,
   tension,  ///< their tensions, and their slack: what spans need comes in or goes out
 };
 
@@ -62,7 +64,8 @@ struct LiveReport : StepReport {
 
 struct LiveRevision;
 
-/// A state of a LiveWorld with all that it is a state of, so that it can be gone back to across edits.
+/// A state of a LiveWorld with all that it is a state of, so that it can be gone back to across
+/// edits.
 class LiveSnapshot {
  public:
   [[nodiscard]] const State& state() const { return state_; }
@@ -102,7 +105,9 @@ class LiveWorld {
   [[nodiscard]] std::vector<JointHandle> joints() const;
   [[nodiscard]] std::vector<CableHandle> cables() const;
 
-  /// As Simulation::step(), with what happened. `before_substep` is called after controllers and triggers, and may set controls.
+  /// As Simulation::step(), with what happened. `before_substep` is called after controllers and
+  /// triggers, and may set controls. From within a step or an edit there is no step: it is told as
+  /// stopped.
   [[nodiscard]] LiveReport step(const StopRequest& stop = {},
                                 const std::function<void()>& before_substep = {});
 
@@ -119,9 +124,11 @@ class LiveWorld {
   /// Unstretched length of a span, and of what lies on a listed link [m].
   [[nodiscard]] Result<double> rest_length(CableHandle cable, int span) const;
   [[nodiscard]] Result<double> stored_length(CableHandle cable, int link) const;
-  /// Whether something of the cable is between two holds; otherwise it lies or hangs loose. False if the handle refers to nothing.
+  /// Whether something of the cable is between two holds; otherwise it lies or hangs loose. False
+  /// if the handle refers to nothing.
   [[nodiscard]] bool pulls(CableHandle cable) const;
-  /// All of it, loose ends too [m]; of one without a loose end this is what its report calls total length. Allocates.
+  /// All of it, loose ends too [m]; of one without a loose end this is what its report calls total
+  /// length. Allocates.
   [[nodiscard]] Result<double> length(CableHandle cable) const;
   /// Length beyond the link that holds a loose end [m]; nothing if the end is not loose.
   [[nodiscard]] Result<std::optional<double>> loose_length(CableHandle cable, CableEnd end) const;
@@ -159,17 +166,20 @@ class LiveWorld {
   [[nodiscard]] Errors set_feed_speed(CableHandle cable, int link, const DriveTarget& target);
   [[nodiscard]] Errors clear_feed_speed(CableHandle cable, int link);
 
-  /// Several controls, all or none: what `set` has set and cleared is as it was if it returns faults.
+  /// Several controls, all or none: what `set` has set and cleared is as it was if it returns
+  /// faults.
   [[nodiscard]] Errors set_together(const std::function<Errors()>& set);
 
-  /// Puts a free, planar or slider body that no joint holds elsewhere, with what is mounted on it; it keeps its velocity. The
-  /// origin of its frame goes to `position` [m]. Cables follow: wheels take and give the arcs in between. Whether bodies then
-  /// overlap nobody asks; the next step takes them apart.
+  /// Puts a free, planar or slider body that no joint holds elsewhere, with what is mounted on it;
+  /// it keeps its velocity. The origin of its frame goes to `position` [m]. Cables follow: wheels
+  /// take and give the arcs in between. Whether bodies then overlap nobody asks; the next step
+  /// takes them apart.
   [[nodiscard]] Result<Placement> place(BodyHandle body, const Vector3& position,
                                         std::optional<Quaternion> orientation, Keep keep);
 
-  /// Changes what the world is made of, all or nothing: cable/edit.h. Scenes' controllers and triggers find what they refer to by
-  /// name; an edit that takes it away fails. Not from within a step or another edit, as place() and restore() are not.
+  /// Changes what the world is made of, all or nothing: cable/edit.h. Scenes' controllers and
+  /// triggers find what they refer to by name; an edit that takes it away fails. Not from within a
+  /// step or another edit, as place() and restore() are not.
   [[nodiscard]] Result<EditReport> edit(const std::function<void(Edit&)>& changes);
 
   /// The state, to hash, to keep and to go back to as long as nothing is edited.
@@ -179,8 +189,9 @@ class LiveWorld {
   [[nodiscard]] LiveSnapshot snapshot() const;
   [[nodiscard]] Errors restore(const LiveSnapshot& snapshot);
 
-  /// Everything else that can be asked of it: reports, certificates. An edit or restoring a snapshot makes another one. Bodies that
-  /// have been removed stand in its model as static ones without a shape.
+  /// Everything else that can be asked of it: reports, certificates. An edit or restoring a
+  /// snapshot makes another one. Bodies that have been removed stand in its model as static ones
+  /// without a shape.
   [[nodiscard]] const Simulation& simulation() const;
 
  private:
@@ -189,7 +200,8 @@ class LiveWorld {
   [[nodiscard]] std::string fault_of(BodyHandle body) const;
   [[nodiscard]] std::string fault_of(JointHandle joint) const;
   [[nodiscard]] std::string fault_of(CableHandle cable) const;
-  /// Of a joint or cable that is there: its index in the simulation; of a cable of which nothing pulls -1.
+  /// Of a joint or cable that is there: its index in the simulation; of a cable of which nothing
+  /// pulls -1.
   [[nodiscard]] int index_of(JointHandle joint) const;
   [[nodiscard]] int index_of(CableHandle cable) const;
   /// The fault of a cable that is not between holds.

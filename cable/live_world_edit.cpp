@@ -1,11 +1,12 @@
-// An edit at work: a new world is made beside the old one, what stays takes its state along, and if nothing is wrong the new one
-// takes the place of the old one.
+// An edit at work: a new world is made beside the old one, what stays takes its state along, and if
+// nothing is wrong the new one takes the place of the old one.
 
 #include <algorithm>
 #include <set>
 
 #include "cable/cable_transfer.h"
 #include "cable/edit_draft.h"
+#include "cable/edit_references.h"
 #include "cable/live_world.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
@@ -27,10 +28,6 @@ class EditMaker {
     double allowed = 0.0;
   };
 
-  void check_references();
-  void check_cable_references();
-  /// `is_new`: what refers to the body comes with this edit.
-  void refer(BodyId body, bool is_new, const std::string& who);
   void list_joints();
   void place_rotors();
   [[nodiscard]] BodyState state_of(int body, const State& initial) const;
@@ -40,71 +37,48 @@ class EditMaker {
   void check_cables();
   [[nodiscard]] Controls controls() const;
   void map_cable_controls(Controls& controls) const;
-  void map_joint_controls(Controls& controls, std::span<const JointPlace> places) const;
+  void map_joint_controls(Controls& controls, const World& world) const;
   [[nodiscard]] std::vector<CableRecord> records() const;
-  void fail(std::string message) { draft_.fail(std::move(message)); }
+  void fail(std::string path, std::string message) {
+    draft_.errors.push_back({std::move(path), std::move(message)});
+  }
+  /// Faults of the new model and its cables; their paths get the slots of handles for the places in
+  /// lists.
+  void take(const Errors& found);
 
   EditDraft& draft_;
   const World& old_;
   State then_;
   std::shared_ptr<const BodySet> bodies_;
-  State now_;  // of bodies
+  State now_;                                          // of bodies
+  std::optional<Substep> then_substep_, now_substep_;  // where cables change
   BodyFrames frames_;
   std::vector<Kept> kept_;
   std::vector<CableDef> definitions_;
   CableSystem* system_ = nullptr;
+  std::vector<BodyId> collider_bodies_;  // in the order of the new model
   SlotTable<JointTag> joints_;
 };
 
-void EditMaker::refer(BodyId body, bool is_new, const std::string& who) {
-  if (body.is_world()) return;
-  const auto& slots = draft_.bodies.slots();
-  const bool known = body.index >= 0 && at(body.index) < slots.size();
-  if (known && !is_new && draft_.is_new[at(body.index)] != 0) {
-    // Another one may have its place by now.
-    fail(who + " is on body \"" + slots[at(body.index)].last_name + "\", which is removed");
-  } else if (!known || slots[at(body.index)].generation == 0) {
-    fail(who + " is on a body that is not there, number " + std::to_string(body.index));
-  }
-}
-
-void EditMaker::check_references() {
-  for (std::size_t i = 0; i < draft_.model.bodies.size(); ++i) {
-    const BodyDef& body = draft_.model.bodies[i];
-    if (body.mount) refer(*body.mount, draft_.is_new[i] != 0, "body \"" + body.name + "\"");
-  }
-  for (const DraftJoint& joint : draft_.own_joints) {
-    const std::string who = "joint \"" + joint.definition->name + "\"";
-    const JointDef& own = *joint.definition;
-    for (const BodyId body : {own.body_a, own.body_b, own.carrier_body()}) {
-      refer(body, joint.added != nullptr, who);
+void EditMaker::take(const Errors& found) {
+  for (const Error& error : found) {
+    const std::size_t begin = error.path.find('/', 1) + 1;
+    const std::string list = error.path.substr(0, begin);
+    const std::size_t end = std::min(error.path.find('/', begin), error.path.size());
+    const bool known = list == "/joints/" || list == "/cables/" || list == "/colliders/";
+    if (!known) {
+      draft_.errors.push_back(error);
+      continue;
     }
-  }
-  for (const ColliderDef& collider : draft_.model.colliders) {
-    refer(collider.body, true, "a collider");
-  }
-  check_cable_references();
-}
-
-void EditMaker::check_cable_references() {
-  std::set<const LinkDef*> known;
-  for (const CableRecord& record : draft_.before.records) {
-    for (const auto& link : record.definition.links) known.insert(link.get());
-  }
-  std::set<std::string> names;
-  const auto& slots = draft_.cables.slots();
-  for (std::size_t i = 0; i < slots.size(); ++i) {
-    if (slots[i].generation == 0) continue;
-    const auto own = draft_.own_cables.find(static_cast<int>(i));
-    const CableDef& cable = own != draft_.own_cables.end() ? own->second.definition
-                                                           : draft_.before.records[i].definition;
-    const std::string who = "cable \"" + cable.name + "\"";
-    if (cable.name.empty()) fail("a cable needs a name that is not empty");
-    if (!names.insert(cable.name).second)
-      fail(who + ": two cables have this name; names must differ");
-    for (const auto& link : cable.links) {
-      if (link != nullptr) refer(link->body, !known.contains(link.get()), who);
+    const auto place = static_cast<std::size_t>(std::stoul(error.path.substr(begin, end - begin)));
+    std::size_t slot = 0;
+    if (list == "/joints/") slot = draft_.own_joints[place].slot;
+    if (list == "/cables/") slot = at(kept_[place].slot);
+    if (list == "/colliders/") {
+      const BodyId body = collider_bodies_[place];
+      slot = body.is_world() ? place : at(body.index);
     }
+    fail(list + std::to_string(slot) + error.path.substr(end), error.message);
   }
 }
 
@@ -117,7 +91,8 @@ void EditMaker::list_joints() {
   }
 }
 
-/// Mounted rotors are told where they are now; a model tells them where they are when their carrier is as at time 0.
+/// Mounted rotors are told where they are now; a model tells them where they are when their carrier
+/// is as at time 0.
 void EditMaker::place_rotors() {
   for (std::size_t i = 0; i < draft_.model.bodies.size(); ++i) {
     BodyDef& body = draft_.model.bodies[i];
@@ -151,10 +126,13 @@ BodyState EditMaker::state_of(int body, const State& initial) const {
 }
 
 void EditMaker::move_bodies() {
-  const State initial = bodies_->initial_state();
+  const bool any_new = std::any_of(draft_.is_new.begin(), draft_.is_new.end(),
+                                   [](char is_new) { return is_new != 0; });
+  const State initial = any_new ? bodies_->initial_state() : State{};
   now_.steps = then_.steps;
   now_.time = then_.time;
   now_.memory = then_.memory;
+  now_.bodies.reserve(at(bodies_->count()));
   for (int i = 0; i < bodies_->count(); ++i) now_.bodies.push_back(state_of(i, initial));
   for (int i = 0; i < bodies_->count(); ++i) {
     const BodyProperties& rotor = (*bodies_)[i];
@@ -171,6 +149,7 @@ void EditMaker::move_bodies() {
     state.angular_velocity = carrier.angular_velocity + axis * axis.dot(spin);
   }
   auto frames = std::make_shared<std::vector<BodyFrame>>();
+  frames->reserve(at(bodies_->count()));
   for (int i = 0; i < bodies_->count(); ++i) {
     const BodyState& state = now_.bodies[at(i)];
     frames->push_back(
@@ -197,7 +176,8 @@ void EditMaker::list_cables() {
       definitions_.push_back(own->second.definition);
     } else {
       DraftCable& cable = own->second;
-      run_off(cable);
+      std::string fault = run_off(cable);
+      if (!fault.empty()) fail(edit_path("cables", i), std::move(fault));
       cable.definition.links.clear();
       for (const RunningLink& link : cable.running.links) {
         if (link.is_listed()) cable.definition.links.push_back(link.link);
@@ -217,25 +197,34 @@ std::unique_ptr<CableSystem> EditMaker::make_cables() {
     if (kept.start.same_as < 0) kept.start.defined_in = frames_;
     starts.push_back(kept.start);
   }
-  Result<std::unique_ptr<CableSystem>> made = CableSystem::create(definitions_, *bodies_, starts);
+  Result<std::unique_ptr<CableSystem>> made = CableSystem::create(
+      definitions_, *bodies_, starts, draft_.has_other_bodies ? nullptr : draft_.before.system());
   if (!made) {
-    for (const Error& error : made.errors()) draft_.errors.push_back(error);
+    take(made.errors());
     return nullptr;
   }
-  const FeatureState* from = draft_.before.system() != nullptr ? &then_.features.back() : nullptr;
-  for (Error& error : CableTransfer(**made).continue_from(draft_.before.system(), from, starts)) {
-    draft_.errors.push_back(std::move(error));
+  TransferFrom from;
+  from.system = draft_.before.system();
+  if (from.system != nullptr) from.state = &then_.features.back();
+  const bool any_changed = std::any_of(starts.begin(), starts.end(), [](const CableStart& start) {
+    return start.running != nullptr;
+  });
+  if (any_changed) {
+    then_substep_.emplace(old_.bodies(), then_, draft_.model.step.dt, 1);
+    now_substep_.emplace(*bodies_, now_, draft_.model.step.dt, 1);
+    from.then = &*then_substep_;
+    from.now = &*now_substep_;
   }
+  take(CableTransfer(**made).continue_from(from, starts));
   return std::move(*made);
 }
 
 void EditMaker::check_cables() {
-  const Substep now(*bodies_, now_, draft_.model.step.dt, 1);
   for (std::size_t c = 0; c < kept_.size(); ++c) {
     if (kept_[c].start.running == nullptr) continue;
     std::string fault =
-        CableTransfer(*system_).start_fault(now, static_cast<int>(c), kept_[c].allowed);
-    if (!fault.empty()) fail(std::move(fault));
+        CableTransfer(*system_).start_fault(*now_substep_, static_cast<int>(c), kept_[c].allowed);
+    if (!fault.empty()) fail(edit_path("cables", at(kept_[c].slot)), std::move(fault));
   }
 }
 
@@ -266,16 +255,18 @@ void EditMaker::map_cable_controls(Controls& controls) const {
   }
 }
 
-void EditMaker::map_joint_controls(Controls& controls, std::span<const JointPlace> places) const {
+void EditMaker::map_joint_controls(Controls& controls, const World& world) const {
   if (!then_.controls.joint_drives.any()) return;
   std::map<const JointDef*, int> first;
   for (std::size_t j = 0; j < old_.model().joints.size(); ++j) {
     first[old_.model().joints[j].get()] = draft_.before.joint_places[j].first_coordinate;
   }
   std::size_t count = 0;
-  for (const auto& joint : draft_.model.joints) count += joint->coordinates().size();
-  for (std::size_t j = 0; j < draft_.model.joints.size(); ++j) {
-    const JointDef& joint = *draft_.model.joints[j];
+  const auto& joints = world.model().joints;
+  const std::vector<JointPlace> places = number_joints(world.model(), world.features());
+  for (const auto& joint : joints) count += joint->coordinates().size();
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const JointDef& joint = *joints[j];
     const auto found = first.find(&joint);
     if (found == first.end()) continue;
     for (int k = 0; k < static_cast<int>(joint.coordinates().size()); ++k) {
@@ -326,7 +317,7 @@ std::vector<CableRecord> EditMaker::records() const {
 Result<std::shared_ptr<LiveRevision>> EditMaker::make() {
   list_cables();
   list_joints();
-  check_references();
+  check_references(draft_);
   if (!draft_.errors.empty()) return draft_.errors;
   if (draft_.has_other_bodies) {
     place_rotors();
@@ -347,10 +338,10 @@ Result<std::shared_ptr<LiveRevision>> EditMaker::make() {
     if (made != nullptr) features.push_back(std::move(made));
   }
   if (draft_.errors.empty() && system_ != nullptr) check_cables();
-  Result<World> world = World::create(draft_.model, bodies_, std::move(features));
-  if (!world) {
-    for (const Error& error : world.errors()) draft_.errors.push_back(error);
-  }
+  for (const ColliderDef& collider : draft_.model.colliders)
+    collider_bodies_.push_back(collider.body);
+  Result<World> world = World::create(std::move(draft_.model), bodies_, std::move(features));
+  if (!world) take(world.errors());
   if (!draft_.errors.empty()) return draft_.errors;
   now_.features = world->state().features;
   for (std::size_t f = 0; f < world->features().size(); ++f) {
@@ -363,7 +354,7 @@ Result<std::shared_ptr<LiveRevision>> EditMaker::make() {
   }
   now_.controls = controls();
   world->memory().assign(now_.memory.size(), 0.0);
-  map_joint_controls(now_.controls, number_joints(world->model(), world->features()));
+  map_joint_controls(now_.controls, *world);
   Errors errors = world->restore(now_);
   if (!errors.empty()) return errors;
   Simulation simulation(std::move(*world), system_,
@@ -405,9 +396,10 @@ Result<EditReport> LiveWorld::edit(const std::function<void(Edit&)>& changes) {
   if (is_busy_) return Error{"", busy_fault()};
   EditDraft draft(*revision_, next_generation_);
   Edit edit(draft);
-  is_busy_ = true;
-  changes(edit);
-  is_busy_ = false;
+  {
+    const Busy busy(is_busy_);
+    changes(edit);
+  }
   if (!draft.errors.empty()) return draft.errors;
   Result<std::shared_ptr<LiveRevision>> made = EditMaker(draft, state()).make();
   if (!made) return made.errors();
@@ -433,17 +425,6 @@ Result<EditReport> LiveWorld::edit(const std::function<void(Edit&)>& changes) {
   report.energy = {after.kinetic - before.kinetic, after.potential - before.potential,
                    after.elastic - before.elastic};
   return report;
-}
-
-LiveSnapshot LiveWorld::snapshot() const { return {state(), revision_, identity_}; }
-
-Errors LiveWorld::restore(const LiveSnapshot& snapshot) {
-  if (is_busy_) return {{"", busy_fault()}};
-  if (snapshot.identity_ != identity_) {
-    return {{"", "the snapshot is one of another world"}};
-  }
-  revision_ = snapshot.revision_;
-  return restore(snapshot.state_);
 }
 
 }  // namespace sheave

@@ -1,5 +1,6 @@
 #pragma once
-// A cable of a running world, link by link; internal to the cable library. What an edit takes apart and puts together.
+// A cable of a running world, link by link; internal to the cable library. What an edit takes apart
+// and puts together.
 
 #include <array>
 #include <cstdint>
@@ -24,9 +25,15 @@ struct RunningSpan {
 /// What the state of the cables says of one link (cable/cable_state_layout.h).
 struct RunningLink {
   std::shared_ptr<const LinkDef> link;  ///< null: a wrap
-  double stored_length = 0.0;           ///< [m]
-  double slipped = 0.0;                 ///< [m]; of an attachment what was fed
-  double angle = 0.0;                   ///< of a hybrid end's attachment [rad]
+  // Numbers among all links of the world before: its own, and those before and behind it on its
+  // course; -1: none.
+  int was = -1;
+  int came_from = -1;
+  int went_to = -1;
+  double size = 0.0;           ///< of what it lies on there [m]
+  double stored_length = 0.0;  ///< [m]
+  double slipped = 0.0;        ///< [m]; of an attachment what was fed
+  double angle = 0.0;          ///< of a hybrid end's attachment [rad]
   std::int64_t slip = 0;
   std::int64_t mode = 0;
   std::int64_t stall = 0;

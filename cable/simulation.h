@@ -20,8 +20,8 @@ namespace sheave {
 
 struct Simulation;
 
-/// Sets controls in the course of a simulation: controllers and triggers. It has no state of its own: what it remembers is
-/// State::memory.
+/// Sets controls in the course of a simulation: controllers and triggers. It has no state of its
+/// own: what it remembers is State::memory.
 class Supervisor {
  public:
   Supervisor() = default;
@@ -33,7 +33,8 @@ class Supervisor {
   [[nodiscard]] virtual std::vector<double> initial_memory() const = 0;
   /// Called before each substep.
   virtual void supervise(Simulation& simulation) const = 0;
-  /// The same for a simulation that has been edited, in which it finds what it controls by name; its memory stays as it is.
+  /// The same for a simulation that has been edited, in which it finds what it controls by name;
+  /// its memory stays as it is.
   [[nodiscard]] virtual Result<std::shared_ptr<const Supervisor>> again(
       const Simulation& simulation) const = 0;
   /// Whether the run shall end with this state.
@@ -63,14 +64,16 @@ struct Simulation {
   static Errors check(const Model& model, const std::vector<CableDef>& cables);
   /// One report per cable, for the world's current state.
   [[nodiscard]] std::vector<CableReport> cable_reports() const;
-  /// Measures of each cable, for the world's current state; in the course of a run much cheaper than reports.
+  /// Measures of each cable, for the world's current state; in the course of a run much cheaper
+  /// than reports.
   void gauge_cables(std::vector<CableGauge>& gauges) const;
-  /// What a check of the last substep finds (cable/certificate.h). Nothing at time 0 and after World::restore(), until the
-  /// next step.
+  /// What a check of the last substep finds (cable/certificate.h). Nothing at time 0 and after
+  /// World::restore(), until the next step.
   [[nodiscard]] std::optional<Certificate> certificate() const;
 
-  // Controls of cables, by their indices in the list of definitions, and of listed links by theirs in their cable. As those of
-  // World they hold until they are set anew or cleared, are part of the state, and where one cannot be met nothing changes.
+  // Controls of cables, by their indices in the list of definitions, and of listed links by theirs
+  // in their cable. As those of World they hold until they are set anew or cleared, are part of the
+  // state, and where one cannot be met nothing changes.
 
   /// [m/N], > 0, of each span; of a cable that has a compliance.
   [[nodiscard]] Errors set_compliance(int cable, double compliance);
@@ -84,17 +87,10 @@ struct Simulation {
   /// Capstan coefficient, > 0; of a link that has one above 0.
   [[nodiscard]] Errors set_friction(int cable, int link, double friction);
   [[nodiscard]] Errors clear_friction(int cable, int link);
-  /// [m/s]; of an attachment with a feed speed, which may be 0. It gets there as a drive to a speed does.
+  /// [m/s]; of an attachment with a feed speed, which may be 0. It gets there as a drive to a speed
+  /// does.
   [[nodiscard]] Errors set_feed_speed(int cable, int link, const DriveTarget& target);
   [[nodiscard]] Errors clear_feed_speed(int cable, int link);
-
- private:
-  [[nodiscard]] std::string cable_fault(int cable) const;
-  [[nodiscard]] Errors set_cable(int cable, const char* key, const std::string& fault,
-                                 double CableControl::*member, double value);
-  [[nodiscard]] Errors set_link(int cable, int link, const char* key, const std::string& fault,
-                                const LinkControl& control);
-  [[nodiscard]] LinkControl link_control(int cable, int link) const;
 };
 
 }  // namespace sheave

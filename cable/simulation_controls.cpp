@@ -1,4 +1,5 @@
-// The setters of Simulation: each checks, then writes one entry of the state's controls.
+// The setters of Simulation: each checks, then writes one entry of the state's controls. Texts are
+// made where there is a fault alone.
 
 #include "cable/simulation.h"
 #include "engine/control_check.h"
@@ -7,120 +8,135 @@
 namespace sheave {
 namespace {
 
-std::string path_of(int cable, const char* key) {
-  return "/cables/" + std::to_string(cable) + "/" + key;
+bool has_cable(const Simulation& simulation, int cable) {
+  return cable >= 0 && simulation.cables != nullptr &&
+         at(cable) < simulation.cables->cables().size();
 }
 
-}  // namespace
-
-std::string Simulation::cable_fault(int cable) const {
-  const int count = cables == nullptr ? 0 : static_cast<int>(cables->cables().size());
-  if (cable >= 0 && cable < count) return {};
+[[gnu::cold, gnu::noinline]] std::string cable_fault(const Simulation& simulation, int cable) {
+  const std::size_t count = simulation.cables == nullptr ? 0 : simulation.cables->cables().size();
   return "there is no cable number " + std::to_string(cable) + "; there are " +
          std::to_string(count);
 }
 
-Errors Simulation::set_cable(int cable, const char* key, const std::string& fault,
-                             double CableControl::*member, double value) {
-  if (!fault.empty()) return {{path_of(cable, key), fault}};
-  ControlTable<CableControl>& table = world.controls_of_features().cables;
-  const CableControl* before = table.find(cable);
-  CableControl control = before != nullptr ? *before : CableControl{};
-  control.*member = value;
-  table.put(cable, cables->cables().size(), control);
+[[gnu::cold, gnu::noinline]] Errors refuse(int cable, const std::string& key, std::string fault) {
+  return {{"/cables/" + std::to_string(cable) + "/" + key, std::move(fault)}};
+}
+
+[[gnu::cold, gnu::noinline]] Errors refuse_link(int cable, int link, const char* key,
+                                                std::string fault) {
+  return refuse(cable, "links/" + std::to_string(link) + "/" + key, std::move(fault));
+}
+
+/// `change(entry)` sets something of a cable.
+template <class Change>
+Errors change_cable(Simulation& simulation, int cable, const Change& change) {
+  simulation.world.controls_of_features().cables.change(cable, simulation.cables->cables().size(),
+                                                        change);
   return {};
 }
 
+int link_index(const Simulation& simulation, int cable, int link) {
+  return simulation.cables->cables()[at(cable)].first_link + link;
+}
+
+/// Likewise of a link.
+template <class Change>
+Errors change_link(Simulation& simulation, int cable, int link, const Change& change) {
+  simulation.world.controls_of_features().links.change(link_index(simulation, cable, link),
+                                                       at(simulation.cables->link_count()), change);
+  return {};
+}
+
+}  // namespace
+
 Errors Simulation::set_compliance(int cable, double compliance) {
-  std::string fault = cable_fault(cable);
-  if (fault.empty()) fault = cables->compliance_fault(cable, compliance);
-  return set_cable(cable, "compliance", fault, &CableControl::compliance, compliance);
+  if (!has_cable(*this, cable)) return refuse(cable, "compliance", cable_fault(*this, cable));
+  std::string fault = cables->compliance_fault(cable, compliance);
+  if (!fault.empty()) return refuse(cable, "compliance", std::move(fault));
+  return change_cable(*this, cable, [&](CableControl& set) { set.compliance = compliance; });
 }
 
 Errors Simulation::clear_compliance(int cable) {
-  return set_cable(cable, "compliance", cable_fault(cable), &CableControl::compliance, not_set);
+  if (!has_cable(*this, cable)) return refuse(cable, "compliance", cable_fault(*this, cable));
+  return change_cable(*this, cable, [](CableControl& set) { set.compliance = not_set; });
 }
 
 Errors Simulation::set_breaking_tension(int cable, double tension) {
-  std::string fault = cable_fault(cable);
-  if (fault.empty()) fault = cables->breaking_fault(cable, tension);
-  return set_cable(cable, "breaking_tension", fault, &CableControl::breaking_tension, tension);
+  if (!has_cable(*this, cable)) return refuse(cable, "breaking_tension", cable_fault(*this, cable));
+  std::string fault = cables->breaking_fault(cable, tension);
+  if (!fault.empty()) return refuse(cable, "breaking_tension", std::move(fault));
+  return change_cable(*this, cable, [&](CableControl& set) { set.breaking_tension = tension; });
 }
 
 Errors Simulation::clear_breaking_tension(int cable) {
-  return set_cable(cable, "breaking_tension", cable_fault(cable), &CableControl::breaking_tension,
-                   not_set);
+  if (!has_cable(*this, cable)) return refuse(cable, "breaking_tension", cable_fault(*this, cable));
+  return change_cable(*this, cable, [](CableControl& set) { set.breaking_tension = not_set; });
 }
 
 Errors Simulation::set_wrap_friction(int cable, double friction) {
-  std::string fault = cable_fault(cable);
-  if (fault.empty()) fault = cables->wrap_friction_fault(cable, friction);
-  return set_cable(cable, "wrap_friction", fault, &CableControl::wrap_friction, friction);
+  if (!has_cable(*this, cable)) return refuse(cable, "wrap_friction", cable_fault(*this, cable));
+  std::string fault = cables->wrap_friction_fault(cable, friction);
+  if (!fault.empty()) return refuse(cable, "wrap_friction", std::move(fault));
+  return change_cable(*this, cable, [&](CableControl& set) { set.wrap_friction = friction; });
 }
 
 Errors Simulation::clear_wrap_friction(int cable) {
-  return set_cable(cable, "wrap_friction", cable_fault(cable), &CableControl::wrap_friction,
-                   not_set);
-}
-
-LinkControl Simulation::link_control(int cable, int link) const {
-  const int index = cables->cables()[at(cable)].first_link + link;
-  const LinkControl* before = world.state().controls.links.find(index);
-  return before != nullptr ? *before : LinkControl{};
-}
-
-Errors Simulation::set_link(int cable, int link, const char* key, const std::string& fault,
-                            const LinkControl& control) {
-  if (!fault.empty()) {
-    return {{path_of(cable, "links/") + std::to_string(link) + "/" + key, fault}};
-  }
-  const int index = cables->cables()[at(cable)].first_link + link;
-  world.controls_of_features().links.put(index, at(cables->link_count()), control);
-  return {};
+  if (!has_cable(*this, cable)) return refuse(cable, "wrap_friction", cable_fault(*this, cable));
+  return change_cable(*this, cable, [](CableControl& set) { set.wrap_friction = not_set; });
 }
 
 Errors Simulation::set_friction(int cable, int link, double friction) {
-  std::string fault = cable_fault(cable);
-  if (fault.empty()) fault = cables->friction_fault(cable, link, friction);
-  LinkControl control = fault.empty() ? link_control(cable, link) : LinkControl{};
-  control.friction = friction;
-  return set_link(cable, link, "friction", fault, control);
+  if (!has_cable(*this, cable)) {
+    return refuse_link(cable, link, "friction", cable_fault(*this, cable));
+  }
+  std::string fault = cables->friction_fault(cable, link, friction);
+  if (!fault.empty()) return refuse_link(cable, link, "friction", std::move(fault));
+  return change_link(*this, cable, link, [&](LinkControl& set) { set.friction = friction; });
 }
 
 Errors Simulation::clear_friction(int cable, int link) {
-  std::string fault = cable_fault(cable);
-  if (fault.empty()) fault = cables->friction_fault(cable, link, 1.0);
-  LinkControl control = fault.empty() ? link_control(cable, link) : LinkControl{};
-  control.friction = not_set;
-  return set_link(cable, link, "friction", fault, control);
+  if (!has_cable(*this, cable)) {
+    return refuse_link(cable, link, "friction", cable_fault(*this, cable));
+  }
+  std::string fault = cables->friction_fault(cable, link, 1.0);
+  if (!fault.empty()) return refuse_link(cable, link, "friction", std::move(fault));
+  return change_link(*this, cable, link, [](LinkControl& set) { set.friction = not_set; });
 }
 
 Errors Simulation::set_feed_speed(int cable, int link, const DriveTarget& target) {
-  std::string fault = cable_fault(cable);
-  if (fault.empty()) fault = cables->feed_fault(cable, link);
-  LinkControl control;
-  if (fault.empty()) {
-    control = link_control(cable, link);
-    const double time = world.state().time;
-    const double now =
-        control.has_feed ? control.feed_speed.at(time) : cables->defined_feed(cable, link);
-    control.has_feed = true;
-    const DriveNow ask{DriveMeaning::speed, now, 0.0, time, world.control_interval()};
-    if (!make_ramp(ask, target, control.feed_speed)) {
-      fault = "the feed of cable \"" + cables->cables()[at(cable)].name + "\"" +
-              ramp_fault(ask, target);
-    }
+  if (!has_cable(*this, cable)) {
+    return refuse_link(cable, link, "feed_speed", cable_fault(*this, cable));
   }
-  return set_link(cable, link, "feed_speed", fault, control);
+  std::string fault = cables->feed_fault(cable, link);
+  if (!fault.empty()) return refuse_link(cable, link, "feed_speed", std::move(fault));
+  const double time = world.state().time;
+  const LinkControl* before = world.state().controls.links.find(link_index(*this, cable, link));
+  const double speed = before != nullptr && before->has_feed ? before->feed_speed.at(time)
+                                                             : cables->defined_feed(cable, link);
+  const DriveNow now{DriveMeaning::speed, speed, 0.0, time, world.control_interval()};
+  Ramp ramp;
+  if (!make_ramp(now, target, ramp)) {
+    return refuse_link(
+        cable, link, "feed_speed",
+        "the feed of cable \"" + cables->cables()[at(cable)].name + "\"" + ramp_fault(now, target));
+  }
+  return change_link(*this, cable, link, [&](LinkControl& set) {
+    set.has_feed = true;
+    set.feed_speed = ramp;
+  });
 }
 
 Errors Simulation::clear_feed_speed(int cable, int link) {
-  std::string fault = cable_fault(cable);
-  if (fault.empty()) fault = cables->feed_fault(cable, link);
-  LinkControl control = fault.empty() ? link_control(cable, link) : LinkControl{};
-  control.has_feed = false;
-  control.feed_speed = Ramp{};
-  return set_link(cable, link, "feed_speed", fault, control);
+  if (!has_cable(*this, cable)) {
+    return refuse_link(cable, link, "feed_speed", cable_fault(*this, cable));
+  }
+  std::string fault = cables->feed_fault(cable, link);
+  if (!fault.empty()) return refuse_link(cable, link, "feed_speed", std::move(fault));
+  return change_link(*this, cable, link, [](LinkControl& set) {
+    set.has_feed = false;
+    set.feed_speed = Ramp{};
+  });
 }
 
 }  // namespace sheave

@@ -21,7 +21,8 @@ double normal_angle(const Substep& substep, const LinkGeometry& link, const Vect
 
 namespace {
 
-/// Whether a piece of the line from `start` along `direction`, both in the outline's plane, lies within its corners.
+/// Whether a piece of the line from `start` along `direction`, both in the outline's plane, lies
+/// within its corners.
 bool runs_through(const Outline& curve, const Vector3& start, const Vector3& direction,
                   double length) {
   double from = 0.0;
@@ -55,7 +56,8 @@ Clearance clearance(const Substep& substep, const LinkGeometry& link, const Span
   left /= share;
   const Vector3 corner = center_of(substep, link, touched_corner(substep, link, span.direction, 0));
   const Vector3 center = link_center(substep, link) - span.start;
-  const double along = dot(span.direction, center);
+  // Of the points of the span, the one that is nearest to the center as seen along the normal.
+  const double along = dot(cross(left, normal), center) / share;
   bool between = along > 0.0 && along < span.length;
   if (link.outline) {
     const auto in_plane = [&](const Vector3& vector) {
@@ -65,8 +67,9 @@ Clearance clearance(const Substep& substep, const LinkGeometry& link, const Span
     between =
         runs_through(link.outline->curve, in_plane(-center), in_plane(span.direction), span.length);
   }
-  // How thick the body is at the groove is not known; as far as its mean radius to either side counts as thick enough.
-  const double aside = std::abs(dot(normal, center - along * span.direction));
+  // How thick the body is at the groove is not known; as far as its mean radius to either side
+  // counts as thick enough.
+  const double aside = std::abs(dot(normal, center - dot(span.direction, center) * span.direction));
   between = between && aside <= link.perimeter() / (2.0 * pi);
   return {link.side * dot(left, corner - span.start) - std::abs(link.signed_radius),
           link.side * dot(left, center), between};

@@ -19,8 +19,8 @@ bool tangent_point(const LinkCircle& circle, const Vector3& target, bool incomin
   return span.has_tangent;
 }
 
-/// An end on its circle: `radial` from the centre to the tangent point and `tangent` counter-clockwise along the circle,
-/// unit vectors in its plane.
+/// An end on its circle: `radial` from the centre to the tangent point and `tangent`
+/// counter-clockwise along the circle, unit vectors in its plane.
 struct RimPoint {
   Vector3 radial;
   Vector3 tangent;
@@ -37,19 +37,20 @@ struct RimPoint {
 struct NewtonLimits {
   int rounds;
   double step;  ///< of an end in one round [rad]
-  /// Of the share of an error that solving for the ends in turn leaves per round: below 1 that would find this solution.
+  /// Of the share of an error that solving for the ends in turn leaves per round: below 1 that
+  /// would find this solution.
   double contraction;
-  bool
-      from_near;  ///< whether a longer step tells that there is no solution near; otherwise it is shortened
+  /// Whether a longer step tells that there is no solution near; otherwise it is shortened
+  bool from_near;
 };
 /// From anywhere near: the ends have been solved for in turn before.
 constexpr NewtonLimits anywhere{30, 0.5, std::numeric_limits<double>::infinity(), false};
 /// From where the span was: only to the solution that the search from anywhere would find, too.
 constexpr NewtonLimits nearby{6, 0.1, 0.5, true};
 
-/// Newton's method on the tangency conditions G1 = e1.(a2 - c1) - r1 and G2 = e2.(a1 - c2) - r2 (matrix:
-/// cable/span_row.h). Moves `start` and `end` to a solution; false if there is none near them that runs the way the
-/// windings ask for.
+/// Newton's method on the tangency conditions G1 = e1.(a2 - c1) - r1 and G2 = e2.(a1 - c2) - r2
+/// (matrix: cable/span_row.h). Moves `start` and `end` to a solution; false if there is none near
+/// them that runs the way the windings ask for.
 bool refine_tangents(const LinkCircle& first, const LinkCircle& second, const NewtonLimits& limits,
                      Vector3& start, Vector3& end) {
   constexpr double tolerance = 1e-14;
@@ -97,8 +98,8 @@ bool refine_tangents(const LinkCircle& first, const LinkCircle& second, const Ne
          second.signed_radius * dot(direction, rim2.tangent) >= 0.0;
 }
 
-/// What the last round left where there is no tangent: the straight line between the points of the rims, which is where
-/// the tangent's ends go as it ceases to exist.
+/// What the last round left where there is no tangent: the straight line between the points of the
+/// rims, which is where the tangent's ends go as it ceases to exist.
 SpanGeometry line_between(const Vector3& start, const Vector3& end, bool has_tangent) {
   SpanGeometry span = straight_span(start, end);
   span.has_tangent = has_tangent;
@@ -107,8 +108,8 @@ SpanGeometry line_between(const Vector3& start, const Vector3& end, bool has_tan
 
 /// The span between two circles, neither of which is a point.
 SpanGeometry span_of_circles(const LinkCircle& first, const LinkCircle& second) {
-  // Each round shrinks the error by about (r1/d)(r2/d); once it is small, or where the rounds circle round the solution,
-  // Newton's method takes over.
+  // Each round shrinks the error by about (r1/d)(r2/d); once it is small, or where the rounds
+  // circle round the solution, Newton's method takes over.
   constexpr int max_rounds = 30;
   constexpr double tolerance = 4e-15;
   constexpr double near = 0.02;
@@ -132,7 +133,8 @@ SpanGeometry span_of_circles(const LinkCircle& first, const LinkCircle& second) 
         return line_between(refined_start, refined_end, true);
       }
     }
-    // Small changes do not mean a small error where the rounds converge slowly, but there Newton's method has been tried.
+    // Small changes do not mean a small error where the rounds converge slowly, but there Newton's
+    // method has been tried.
     if (change <= tolerance * allowed) {
       return line_between(start, end, both);
     }
@@ -159,8 +161,8 @@ SpanGeometry spatial_span(const LinkCircle& first, const LinkCircle& second,
     if (!second_is_point) has_tangent = tangent_point(second, start, true, end);
     return line_between(start, end, has_tangent);
   }
-  // Circles that overlap may have several tangents, or one that the search from anywhere does not find; which one counts
-  // must not depend on where the span was.
+  // Circles that overlap may have several tangents, or one that the search from anywhere does not
+  // find; which one counts must not depend on where the span was.
   const double reach = std::abs(first.signed_radius) + std::abs(second.signed_radius);
   const Vector3 apart = second.center - first.center;
   if (guess != nullptr && dot(apart, apart) > reach * reach) {

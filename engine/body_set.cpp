@@ -171,6 +171,7 @@ const std::string& BodySet::name(int index) const {
 
 State BodySet::initial_state() const {
   State state;
+  state.bodies.reserve(at(count()));
   for (int i = 0; i < count(); ++i) {
     const BodyDef& def = definition(i);
     BodyState body;

@@ -105,11 +105,12 @@ std::string ControlCheck::fault_of(BodyId body) const {
 }
 
 std::string ControlCheck::drive_fault(int body) const {
-  if (bodies_[body].driven_by() != DriveKind::none) return {};
+  if (has_drive(body)) return {};
   return body_name(body) + " has no drive; give it one in the model: speed, angle or torque";
 }
 
 std::string ControlCheck::force_fault(int body) const {
+  if (takes_force(body)) return {};
   const BodyProperties& own = bodies_[body];
   const auto deny = [&](const char* why) {
     return body_name(body) + " " + why + ", so no force moves it";
@@ -117,12 +118,11 @@ std::string ControlCheck::force_fault(int body) const {
   if (own.mobility == Mobility::fixed) return deny("is static");
   if (own.mobility == Mobility::kinematic) return deny("is kinematic");
   if (own.prescribed() && own.mount < 0) return deny("is turned by its drive");
-  if (own.massless()) return deny("is a massless wheel, which its cable turns");
-  return {};
+  return deny("is a massless wheel, which its cable turns");
 }
 
 std::string ControlCheck::motion_fault(int body) const {
-  if (bodies_[body].mobility == Mobility::kinematic) return {};
+  if (is_kinematic(body)) return {};
   return body_name(body) + " is " +
          std::string(mobility_names[static_cast<std::size_t>(bodies_[body].mobility)]) +
          "; only kinematic bodies go where they are told to";
@@ -205,22 +205,27 @@ std::string ControlCheck::joint_fault(int joint, int coordinate) const {
     return joint_name(joint) + " has no coordinate number " + std::to_string(coordinate) +
            "; it has " + std::to_string(coordinates.size());
   }
-  const JointPlace& place = joints_[at(joint)];
-  if (place.feature->drive(place.index, coordinate) != nullptr) return {};
+  if (find_drive(joint, coordinate) != nullptr) return {};
   return joint_name(joint) + " has no drive of its " +
          std::string(coordinates[at(coordinate)].name) + "; give it one in the model";
 }
 
-const JointEffect& ControlCheck::drive_of(int joint, int coordinate) const {
+const JointEffect* ControlCheck::find_drive(int joint, int coordinate) const {
+  if (joint < 0 || joint >= static_cast<int>(joints_.size())) return nullptr;
   const JointPlace& place = joints_[at(joint)];
-  return *place.feature->drive(place.index, coordinate);
+  return place.feature->drive(place.index, coordinate);
+}
+
+bool ControlCheck::takes_limit(const JointEffect& drive, double limit) const {
+  return drive.kind != JointEffect::Kind::force && limit >= 0.0 && std::isfinite(limit);
 }
 
 std::string ControlCheck::limit_fault(int joint, int coordinate, double limit) const {
-  if (drive_of(joint, coordinate).kind == JointEffect::Kind::force) {
+  const JointEffect& drive = *find_drive(joint, coordinate);
+  if (takes_limit(drive, limit)) return {};
+  if (drive.kind == JointEffect::Kind::force) {
     return joint_name(joint) + ": the drive's force is what its target says; it has no limit";
   }
-  if (limit >= 0.0 && std::isfinite(limit)) return {};
   return joint_name(joint) + ": the limit of a drive must be finite and at least 0, not " +
          number_text(limit);
 }

@@ -1,5 +1,6 @@
 #pragma once
-// What is wrong with controls; internal to the engine, but for make_ramp(). Faults are texts, empty where there is none.
+// What is wrong with controls; internal to the engine, but for make_ramp(). Faults are texts, empty
+// where there is none.
 
 #include <memory>
 #include <span>
@@ -56,7 +57,18 @@ class ControlCheck {
   }
   /// The fault of one that is not.
   [[nodiscard]] std::string fault_of(BodyId body) const;
-  // Whether the body can have such a control at all. It must be one of the model's.
+  // Whether the body can have such a control at all, and why not. It must be one of the model's.
+  [[nodiscard]] bool has_drive(int body) const {
+    return bodies_[body].driven_by() != DriveKind::none;
+  }
+  [[nodiscard]] bool is_kinematic(int body) const {
+    return bodies_[body].mobility == Mobility::kinematic;
+  }
+  [[nodiscard]] bool takes_force(int body) const {
+    const BodyProperties& own = bodies_[body];
+    return own.mobility != Mobility::fixed && own.mobility != Mobility::kinematic &&
+           !(own.prescribed() && own.mount < 0) && !own.massless();
+  }
   [[nodiscard]] std::string drive_fault(int body) const;
   [[nodiscard]] std::string force_fault(int body) const;
   [[nodiscard]] std::string motion_fault(int body) const;
@@ -67,14 +79,16 @@ class ControlCheck {
   /// Whether there is such a joint.
   [[nodiscard]] std::string fault_of_joint(int joint) const;
   [[nodiscard]] std::string joint_fault(int joint, int coordinate) const;
-  /// The drive of a coordinate without such a fault.
-  [[nodiscard]] const JointEffect& drive_of(int joint, int coordinate) const;
+  /// The drive of a coordinate; null if there is such a fault.
+  [[nodiscard]] const JointEffect* find_drive(int joint, int coordinate) const;
+  [[nodiscard]] bool takes_limit(const JointEffect& drive, double limit) const;
   [[nodiscard]] std::string limit_fault(int joint, int coordinate, double limit) const;
   [[nodiscard]] int coordinate_count() const;
-
- private:
+  /// What texts call them.
   [[nodiscard]] std::string joint_name(int joint) const;
   [[nodiscard]] std::string body_name(int body) const;
+
+ private:
   [[nodiscard]] std::string joints_fault(const ControlTable<DriveControl>& drives) const;
   [[nodiscard]] std::string bodies_fault(const Controls& controls) const;
 

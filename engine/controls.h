@@ -1,13 +1,15 @@
 #pragma once
 // What is set while a world runs: drives, forces, gravity, motions, cables.
 //
-// Controls are part of the state: they are hashed, saved and restored with it, and a run that is given the same ones at the
-// same times is the same run to the last bit. A world that sets none has none; a control, once set, holds until it is set
-// again or cleared. One that stands for something in the model (a drive's table, a body's motion, gravity, a cable's friction)
-// replaces it until then.
+// Controls are part of the state: they are hashed, saved and restored with it, and a run that is
+// given the same ones at the same times is the same run to the last bit. A world that sets none has
+// none; a control, once set, holds until it is set again or cleared. One that stands for something
+// in the model (a drive's table, a body's motion, gravity, a cable's friction) replaces it until
+// then.
 //
-// They are set with checked functions, World::set_...() for bodies and joints and Simulation::set_...() for cables, and not
-// here. Whoever computes something from a state asks here first, at the index of the body, joint coordinate, cable or link:
+// They are set with checked functions, World::set_...() for bodies and joints and
+// Simulation::set_...() for cables, and not here. Whoever computes something from a state asks here
+// first, at the index of the body, joint coordinate, cable or link:
 //
 //   if (const DriveControl* set = state.controls.body_drives.find(body)) ... set->target.at(time) ...
 
@@ -32,8 +34,9 @@ inline constexpr double not_set = std::numeric_limits<double>::quiet_NaN();
 /// Of a body's drive or that of a joint's coordinate.
 struct DriveControl {
   bool has_target = false;
-  /// What the drive asks for instead of its table: speed [rad/s or m/s], angle or position [rad or m], torque or force [N m or
-  /// N], as its kind says. Of a body's angle only the change counts, as of its table.
+  /// What the drive asks for instead of its table: speed [rad/s or m/s], angle or position [rad or
+  /// m], torque or force [N m or N], as its kind says. Of a body's angle only the change counts, as
+  /// of its table.
   Ramp target;
   double limit =
       not_set;  ///< of a joint's drive: the largest force or torque it has [N or N m], >= 0
@@ -53,16 +56,20 @@ struct ForceControl {
   ForceFrame frame = ForceFrame::world;  ///< of `force` and `torque`
   Vector3 force = Vector3::Zero();       ///< [N]
   Vector3 torque = Vector3::Zero();      ///< besides that of the force [N m]
-  /// Where the force acts, from the centre of mass, own frame [m]: a point that moves with the body.
+  /// Where the force acts, from the centre of mass, own frame [m]: a point that moves with the
+  /// body.
   Vector3 arm = Vector3::Zero();
 
   [[nodiscard]] bool is_set() const { return acts; }
+  /// Whether it is a force at the centre of mass alone.
+  [[nodiscard]] bool is_central() const { return is_zero(torque) && is_zero(arm); }
   /// In the world frame for a body with this orientation.
   [[nodiscard]] Vector3 force_in_world(const Quaternion& orientation) const {
     return frame == ForceFrame::world ? force : rotated(orientation, force);
   }
   /// About the centre of mass, with that of the force.
   [[nodiscard]] Vector3 torque_in_world(const Quaternion& orientation) const {
+    if (is_central()) return Vector3::Zero();
     const Vector3 own = frame == ForceFrame::world ? torque : rotated(orientation, torque);
     return own + cross(rotated(orientation, arm), force_in_world(orientation));
   }
@@ -121,10 +128,16 @@ class ControlTable {
   [[nodiscard]] bool any() const { return count_ > 0; }
   /// Sets that at `index` of `size`. Allocates when it is the first one of the table.
   void put(int index, std::size_t size, const Control& control) {
+    change(index, size, [&](Control& entry) { entry = control; });
+  }
+  /// The same, where `change(entry)` makes of what is there what is to be.
+  template <class Change>
+  void change(int index, std::size_t size, const Change& change) {
     if (entries_.size() < size) entries_.resize(size);
     Control& entry = entries_[static_cast<std::size_t>(index)];
-    count_ += (control.is_set() ? 1 : 0) - (entry.is_set() ? 1 : 0);
-    entry = control;
+    const int before = entry.is_set() ? 1 : 0;
+    change(entry);
+    count_ += (entry.is_set() ? 1 : 0) - before;
   }
   void clear(int index) {
     if (find(index) != nullptr) put(index, entries_.size(), Control{});

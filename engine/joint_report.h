@@ -20,30 +20,32 @@ struct JointHold;
 struct JointCoordinateReport {
   std::string_view name;  ///< "angle", "travel", ...
   bool angle = false;     ///< its units have rad for m
-  double value =
-      0.0;  ///< since time 0 [m], angles with all turns; the swing of a ball joint: against the other axis
+  /// Since time 0 [m], angles with all turns; the swing of a ball joint: against the other axis
+  double value = 0.0;
   double rate = 0.0;  ///< [m/s]
   double friction_force =
       0.0;                   ///< of its dry friction in the last substep, along the coordinate [N]
   double drive_force = 0.0;  ///< of its drive in the last substep, along the coordinate [N]
   double drive_target =
       0.0;  ///< what that asks for now: a position [m], a speed [m/s], a force [N]
-  /// By how much it is off what a drive without compliance asks for: of one to a position the value [m], of one to a speed the
-  /// rate [m/s]. Drives that have reached their limit, and those to a force, ask for nothing.
+  /// By how much it is off what a drive without compliance asks for: of one to a position the value
+  /// [m], of one to a speed the rate [m/s]. Drives that have reached their limit, and those to a
+  /// force, ask for nothing.
   double drive_error = 0.0;
 };
 
 struct JointReport {
   std::string name;
   std::string_view type;  ///< key in the registry, e.g. "hinge"
-  /// What the joint did to body_b in the last substep, in the world frame: the mean force, and its torque about body_b's
-  /// anchor. Drives, springs, stops and friction are part of it. The opposite acts on body_a.
+  /// What the joint did to body_b in the last substep, in the world frame: the mean force, and its
+  /// torque about body_b's anchor. Drives, springs, stops and friction are part of it. The opposite
+  /// acts on body_a.
   Vector3 force = Vector3::Zero();                 ///< [N]
   Vector3 torque = Vector3::Zero();                ///< [N m]
   std::vector<JointCoordinateReport> coordinates;  ///< JointDef::coordinates()
   std::optional<double> broken_at;                 ///< when it broke [s]
-  /// The largest errors of what holds rigidly: how far anchors are apart that coincide, axes from where they ought to be,
-  /// stops overrun, gears out of mesh. 0 of a broken joint.
+  /// The largest errors of what holds rigidly: how far anchors are apart that coincide, axes from
+  /// where they ought to be, stops overrun, gears out of mesh. 0 of a broken joint.
   double error = 0.0;        ///< of lengths [m]
   double angle_error = 0.0;  ///< of angles [rad]
 };
@@ -53,18 +55,20 @@ class JointFeature : public ConstraintBatch {
  public:
   /// Of all its joints, which it has in the order of the model.
   [[nodiscard]] virtual std::string_view type() const = 0;
-  /// What its joint at `index` did, for a substep that begins `now` and with the feature's state `own`.
+  /// What its joint at `index` did, for a substep that begins `now` and with the feature's state
+  /// `own`.
   [[nodiscard]] virtual JointReport report(int index, const Substep& now,
                                            const FeatureState& own) const = 0;
-  /// The force and the torque of that report alone, without allocation; of `now` it needs the poses of the joint's bodies.
+  /// The force and the torque of that report alone, without allocation; of `now` it needs the poses
+  /// of the joint's bodies.
   [[nodiscard]] virtual Wrench wrench_of(int index, const Substep& now,
                                          const FeatureState& own) const = 0;
   /// Whether it has broken.
   [[nodiscard]] virtual bool is_broken(int index, const FeatureState& own) const = 0;
   /// Makes it one that broke at `time`, if it has not broken before.
   virtual void release(int index, double time, FeatureState& own) const = 0;
-  /// What its joint at `index` must hold so that it holds its bodies where they are `now`; an error if there are stops or drives
-  /// that would not let it.
+  /// What its joint at `index` must hold so that it holds its bodies where they are `now`; an error
+  /// if there are stops or drives that would not let it.
   [[nodiscard]] virtual Result<JointHold> hold_here(int index, const Substep& now,
                                                     const FeatureState& own) const = 0;
   /// Makes it one that has not broken and holds that.
@@ -73,7 +77,8 @@ class JointFeature : public ConstraintBatch {
   [[nodiscard]] virtual JointHold hold(int index, const FeatureState& own) const = 0;
   /// What drives a coordinate of its joint at `index`; null if nothing does.
   [[nodiscard]] virtual const JointEffect* drive(int index, int coordinate) const = 0;
-  /// Tells where the coordinates of its joints begin among those of all joints of the model, for Controls::joint_drives.
+  /// Tells where the coordinates of its joints begin among those of all joints of the model, for
+  /// Controls::joint_drives.
   virtual void number_coordinates(std::span<const int> first) = 0;
 };
 

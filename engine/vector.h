@@ -48,6 +48,11 @@ constexpr double pi = 3.14159265358979323846;
   return v[2] == 0.0 && v[0] == 0.0 && v[1] == 0.0;
 }
 
+/// Whether no component is infinite or NaN, of which a product with 0 makes NaN.
+[[nodiscard]] inline bool is_finite(const Vector3& v) {
+  return 0.0 * v[0] + 0.0 * v[1] + 0.0 * v[2] == 0.0;
+}
+
 /// q v, in Eigen's order of operations.
 [[nodiscard, gnu::always_inline]] inline Vector3 rotated(const Quaternion& q, const Vector3& v) {
   const Vector3 axis{q.x(), q.y(), q.z()};

@@ -15,10 +15,11 @@ struct World::Content {
   Substep substep;
   std::vector<Stage> stages;
   SubstepDriver driver;
-  State step_start;                // of a step that may be stopped
-  std::size_t contacts = 0;        // which feature; means something if the model has colliders
-  std::vector<JointPlace> joints;  // in the order of the model
-  double control_interval = 0.0;   // how long what is set now has [s]
+  State step_start;                  // of a step that may be stopped
+  std::size_t contacts = 0;          // which feature; means something if the model has colliders
+  std::vector<JointPlace> joints;    // in the order of the model
+  std::size_t coordinate_count = 0;  // of all joints
+  double control_interval = 0.0;     // how long what is set now has [s]
 
   Content(Model m, std::shared_ptr<const BodySet> b,
           std::vector<std::unique_ptr<ConstraintBatch>> f, State s)
@@ -31,9 +32,11 @@ struct World::Content {
         driver(model, features, stages, substep, state),
         joints(number_joints(model, features)),
         control_interval(model.step.dt) {
+    coordinate_count = at(check().coordinate_count());
     substep.next = state;
   }
 
+  [[nodiscard]] ControlCheck check() const { return {model, *bodies, joints}; }
   /// Index of the feature that the joint is in.
   [[nodiscard]] std::size_t feature_of(const JointPlace& place) const {
     std::size_t i = 0;

@@ -12,14 +12,6 @@
 namespace sheave {
 namespace {
 
-std::string path_of(BodyId body, const char* key) {
-  return "/bodies/" + std::to_string(body.index) + "/" + key;
-}
-
-std::string joint_path(int joint, const char* key = "/drive") {
-  return "/joints/" + std::to_string(joint) + key;
-}
-
 DriveMeaning meaning_of(DriveKind kind) {
   if (kind == DriveKind::speed) return DriveMeaning::speed;
   return kind == DriveKind::angle ? DriveMeaning::position : DriveMeaning::force;
@@ -39,46 +31,158 @@ Vector3 turn_to(const Quaternion& from, const Quaternion& to) {
   return change.vec() * (2.0 * std::atan2(sine, change.w()) / sine);
 }
 
-/// A motion from `from` to `to`, turned by `turn`, within `over` seconds from `time` on; smooth or straight.
-void set_way(const BodyState& from, const BodyState& to, const Vector3& turned_by, double time,
-             double over, bool smooth, MotionControl& motion) {
+/// A motion from `from` to `end` [m], turned by `turned_by` [rad], within `over` seconds from
+/// `time` on, but for its rates.
+void set_way(const BodyState& from, const Vector3& end, const Vector3& turned_by, double time,
+             double over, MotionControl& motion) {
   motion.moves = true;
+  motion.returns = false;
   motion.start_orientation = from.orientation;
   RampOf<Vector3>& way = motion.position;
   RampOf<Vector3>& turn = motion.turn;
   way.from = turn.from = time;
   way.to = turn.to = time + over;
   way.start = from.position;
-  way.end = to.position;
+  way.end = end;
+  turn.start.setZero();
   turn.end = turned_by;
-  if (smooth) {
-    way.start_rate = from.velocity;
-    way.end_rate = way.rate_after = to.velocity;
-    turn.start_rate = from.angular_velocity;
-    turn.end_rate =
-        is_zero(turned_by) ? to.angular_velocity : turn_rate(turned_by, to.angular_velocity);
-    turn.rate_after = to.angular_velocity;
-  } else {
-    way.start_rate = way.end_rate = (way.end - way.start) / over;
-    turn.start_rate = turn.end_rate = turned_by / over;
-  }
 }
 
+/// It begins as `from` moves and arrives with these velocities.
+void set_smooth_rates(const BodyState& from, const Vector3& velocity,
+                      const Vector3& angular_velocity, MotionControl& motion) {
+  RampOf<Vector3>& way = motion.position;
+  RampOf<Vector3>& turn = motion.turn;
+  way.start_rate = from.velocity;
+  way.end_rate = way.rate_after = velocity;
+  turn.start_rate = from.angular_velocity;
+  turn.end_rate = is_zero(turn.end) ? angular_velocity : turn_rate(turn.end, angular_velocity);
+  turn.rate_after = angular_velocity;
+}
+
+/// It goes straight at these rates, and stops.
+void set_straight_rates(const Vector3& velocity, const Vector3& angular_velocity,
+                        MotionControl& motion) {
+  motion.position.start_rate = motion.position.end_rate = velocity;
+  motion.position.rate_after.setZero();
+  motion.turn.start_rate = motion.turn.end_rate = angular_velocity;
+  motion.turn.rate_after.setZero();
+}
+
+Vector3 over_time(const Vector3& way, double time) {
+  return {way[0] / time, way[1] / time, way[2] / time};
+}
+
+bool has_unit_length(const Quaternion& orientation) {
+  constexpr double slop = 1e-6;
+  return std::abs(orientation.norm() - 1.0) < slop;
+}
+
+bool absent_or_finite(const std::optional<Vector3>& v) { return !v || is_finite(*v); }
+
+bool is_sound(const PointForce& force) {
+  return is_finite(force.force) && is_finite(force.torque) && absent_or_finite(force.point);
+}
+
+bool is_sound(const MotionTarget& target, double over) {
+  return is_finite(target.position) && absent_or_finite(target.velocity) &&
+         absent_or_finite(target.angular_velocity) &&
+         (!target.orientation || has_unit_length(*target.orientation)) &&
+         (!target.angular_velocity || target.velocity) && over > 0.0 && std::isfinite(over);
+}
+
+/// Why it is not.
 std::string fault_of(const MotionTarget& target, double over) {
-  const auto finite = [](const std::optional<Vector3>& v) { return !v || v->allFinite(); };
-  if (!target.position.allFinite() || !finite(target.velocity) ||
-      !finite(target.angular_velocity)) {
+  if (!is_finite(target.position) || !absent_or_finite(target.velocity) ||
+      !absent_or_finite(target.angular_velocity)) {
     return "position and velocities of a motion must be finite";
   }
-  constexpr double slop = 1e-6;
-  if (target.orientation && !(std::abs(target.orientation->norm() - 1.0) < slop)) {
+  if (target.orientation && !has_unit_length(*target.orientation)) {
     return "an orientation must have length 1, not " + number_text(target.orientation->norm());
   }
   if (target.angular_velocity && !target.velocity) {
     return "an angular velocity needs a velocity beside it; give 0 if there is none";
   }
-  if (over > 0.0 && std::isfinite(over)) return {};
   return "a motion takes a finite time above 0, not " + number_text(over) + " s";
+}
+
+/// Where such a motion ends.
+BodyState end_of(const MotionTarget& target, const BodyState& from) {
+  BodyState end;
+  end.position = target.position;
+  end.orientation = from.orientation;
+  if (target.orientation) end.orientation = target.orientation->normalized();
+  if (target.velocity) end.velocity = *target.velocity;
+  if (target.angular_velocity) end.angular_velocity = *target.angular_velocity;
+  return end;
+}
+
+// Programs set hundreds of controls in every step. So whether something can be set is found out
+// without a text, and the texts that tell why not are made in functions of their own, which ask all
+// of it again.
+
+Errors refuse_body(BodyId body, const char* key, std::string fault) {
+  return {{"/bodies/" + std::to_string(body.index) + "/" + key, std::move(fault)}};
+}
+
+Errors refuse_joint(int joint, const char* key, std::string fault) {
+  return {{"/joints/" + std::to_string(joint) + key, std::move(fault)}};
+}
+
+[[gnu::cold, gnu::noinline]] Errors refuse_gravity() {
+  return {{"/gravity", "gravity must be finite"}};
+}
+
+[[gnu::cold, gnu::noinline]] Errors refuse_force(ControlCheck check, BodyId body) {
+  std::string fault = check.fault_of(body);
+  if (fault.empty()) fault = check.force_fault(body.index);
+  if (fault.empty())
+    fault = check.body_name(body.index) + ": force, torque and point must be finite";
+  return refuse_body(body, "force", std::move(fault));
+}
+
+[[gnu::cold, gnu::noinline]] Errors refuse_drive(ControlCheck check, BodyId body) {
+  std::string fault = check.fault_of(body);
+  if (fault.empty()) fault = check.drive_fault(body.index);
+  return refuse_body(body, "drive", std::move(fault));
+}
+
+[[gnu::cold, gnu::noinline]] Errors refuse_ramp(ControlCheck check, BodyId body,
+                                                const DriveNow& now, const DriveTarget& target) {
+  return refuse_body(body, "drive",
+                     "the drive of " + check.body_name(body.index) + ramp_fault(now, target));
+}
+
+[[gnu::cold, gnu::noinline]] Errors refuse_motion(ControlCheck check, BodyId body,
+                                                  const MotionTarget& target, double over,
+                                                  const State& state) {
+  std::string fault = check.fault_of(body);
+  if (fault.empty()) fault = check.motion_fault(body.index);
+  if (!fault.empty()) return refuse_body(body, "position", std::move(fault));
+  const std::string name = check.body_name(body.index);
+  if (!is_sound(target, over)) {
+    return refuse_body(body, "position", name + ": " + fault_of(target, over));
+  }
+  fault = check.way_fault(body.index, end_of(target, state.bodies[at(body.index)]));
+  if (fault.empty()) fault = name + " cannot get there in " + number_text(over) + " s";
+  return refuse_body(body, "position", std::move(fault));
+}
+
+[[gnu::cold, gnu::noinline]] Errors refuse_joint_drive(ControlCheck check, int joint,
+                                                       int coordinate, const char* key) {
+  return refuse_joint(joint, key, check.joint_fault(joint, coordinate));
+}
+
+[[gnu::cold, gnu::noinline]] Errors refuse_limit(ControlCheck check, int joint, int coordinate,
+                                                 double limit) {
+  return refuse_joint(joint, "/drive_limit", check.limit_fault(joint, coordinate, limit));
+}
+
+[[gnu::cold, gnu::noinline]] Errors refuse_joint_ramp(ControlCheck check, int joint,
+                                                      const DriveNow& now,
+                                                      const DriveTarget& target) {
+  return refuse_joint(joint, "/drive",
+                      "the drive of " + check.joint_name(joint) + ramp_fault(now, target));
 }
 
 }  // namespace
@@ -91,7 +195,7 @@ Controls& World::controls_of_features() {
 }
 
 Errors World::set_gravity(const Vector3& gravity) {
-  if (!gravity.allFinite()) return {{"/gravity", "gravity must be finite"}};
+  if (!is_finite(gravity)) return refuse_gravity();
   Controls& controls = controls_of_features();
   controls.has_gravity = true;
   controls.gravity = gravity;
@@ -102,9 +206,9 @@ std::vector<double>& World::memory() { return content_->state.memory; }
 
 Errors World::release_joint(int joint) {
   Content& c = *content_;
-  const ControlCheck check(c.model, *c.bodies, c.joints);
+  const ControlCheck check = c.check();
   std::string fault = check.fault_of_joint(joint);
-  if (!fault.empty()) return {{joint_path(joint, ""), std::move(fault)}};
+  if (!fault.empty()) return refuse_joint(joint, "", std::move(fault));
   const JointPlace& place = c.joints[at(joint)];
   const std::size_t feature = c.feature_of(place);
   for (State* state : {&c.state, &c.substep.next}) {
@@ -115,16 +219,16 @@ Errors World::release_joint(int joint) {
 
 Errors World::lock_joint(int joint) {
   Content& c = *content_;
-  const ControlCheck check(c.model, *c.bodies, c.joints);
+  const ControlCheck check = c.check();
   std::string fault = check.fault_of_joint(joint);
-  if (!fault.empty()) return {{joint_path(joint, ""), std::move(fault)}};
+  if (!fault.empty()) return refuse_joint(joint, "", std::move(fault));
   const JointPlace& place = c.joints[at(joint)];
   const std::size_t feature = c.feature_of(place);
   const FeatureState& own = c.state.features[feature];
   if (!place.feature->is_broken(place.index, own)) return {};
   const Substep now(*c.bodies, c.state, c.substep.h, 1);
   const Result<JointHold> hold = place.feature->hold_here(place.index, now, own);
-  if (!hold) return {{joint_path(joint, ""), hold.errors().front().message}};
+  if (!hold) return refuse_joint(joint, "", hold.errors().front().message);
   for (State* state : {&c.state, &c.substep.next}) {
     place.feature->lock(place.index, *hold, state->features[feature]);
   }
@@ -138,122 +242,112 @@ void World::clear_gravity() {
 }
 
 Errors World::set_force(BodyId body, const PointForce& force) {
-  const ControlCheck check(content_->model, *content_->bodies, content_->joints);
-  if (!check.is_body(body)) return {{path_of(body, "force"), check.fault_of(body)}};
-  std::string fault = check.force_fault(body.index);
-  if (fault.empty() && !(force.force.allFinite() && force.torque.allFinite() &&
-                         (!force.point || force.point->allFinite()))) {
-    fault = "body \"" + content_->bodies->name(body.index) +
-            "\": force, torque and point must be finite";
+  const Content& c = *content_;
+  const ControlCheck check = c.check();
+  if (!check.is_body(body) || !check.takes_force(body.index) || !is_sound(force)) {
+    return refuse_force(check, body);
   }
-  if (!fault.empty()) return {{path_of(body, "force"), fault}};
-  ForceControl control{true, force.frame, force.force, force.torque, Vector3::Zero()};
-  if (force.point) {
-    control.arm = *force.point - (*content_->bodies)[body.index].center_of_mass;
-  }
-  controls_of_features().forces.put(body.index, at(content_->bodies->count()), control);
+  controls_of_features().forces.change(body.index, at(c.bodies->count()), [&](ForceControl& set) {
+    set.acts = true;
+    set.frame = force.frame;
+    set.force = force.force;
+    set.torque = force.torque;
+    if (force.point) {
+      set.arm = *force.point - (*c.bodies)[body.index].center_of_mass;
+    } else {
+      set.arm.setZero();
+    }
+  });
   return {};
 }
 
 Errors World::clear_force(BodyId body) {
-  const ControlCheck check(content_->model, *content_->bodies, content_->joints);
-  std::string fault = check.fault_of(body);
-  if (!fault.empty()) return {{path_of(body, "force"), std::move(fault)}};
+  const ControlCheck check = content_->check();
+  if (!check.is_body(body)) return refuse_force(check, body);
   controls_of_features().forces.clear(body.index);
   return {};
 }
 
 Errors World::set_drive(BodyId body, const DriveTarget& target) {
   const Content& c = *content_;
-  const ControlCheck check(c.model, *c.bodies, c.joints);
-  if (!check.is_body(body)) return {{path_of(body, "drive"), check.fault_of(body)}};
+  const ControlCheck check = c.check();
+  if (!check.is_body(body) || !check.has_drive(body.index)) return refuse_drive(check, body);
   const BodyProperties& own = (*c.bodies)[body.index];
-  if (own.driven_by() == DriveKind::none) {
-    return {{path_of(body, "drive"), check.drive_fault(body.index)}};
-  }
   const BodyDrive drive(own, c.state.controls, body.index);
   DriveNow now{meaning_of(own.driven_by()), 0.0, 0.0, c.state.time, c.control_interval};
   if (now.meaning == DriveMeaning::position) {
-    // An angle starts from where the body is, which counts from time 0; where it is asked to be may count from anywhere.
+    // An angle starts from where the body is, which counts from time 0; where it is asked to be may
+    // count from anywhere.
     now.value = c.state.bodies[at(body.index)].angle;
     now.rate = drive.rate(now.time);
   } else {
     now.value = drive.at(now.time);
   }
-  DriveControl control;
-  control.has_target = true;
-  if (!make_ramp(now, target, control.target)) {
-    return {{path_of(body, "drive"),
-             "the drive of body \"" + c.bodies->name(body.index) + "\"" + ramp_fault(now, target)}};
-  }
-  controls_of_features().body_drives.put(body.index, at(c.bodies->count()), control);
+  Ramp ramp;
+  if (!make_ramp(now, target, ramp)) return refuse_ramp(check, body, now, target);
+  controls_of_features().body_drives.change(body.index, at(c.bodies->count()),
+                                            [&](DriveControl& set) {
+                                              set.has_target = true;
+                                              set.target = ramp;
+                                              set.limit = not_set;
+                                            });
   return {};
 }
 
 Errors World::clear_drive(BodyId body) {
-  const ControlCheck check(content_->model, *content_->bodies, content_->joints);
-  std::string fault = check.fault_of(body);
-  if (fault.empty()) fault = check.drive_fault(body.index);
-  if (!fault.empty()) return {{path_of(body, "drive"), fault}};
+  const ControlCheck check = content_->check();
+  if (!check.is_body(body) || !check.has_drive(body.index)) return refuse_drive(check, body);
   controls_of_features().body_drives.clear(body.index);
   return {};
 }
 
 Errors World::set_motion(BodyId body, const MotionTarget& target) {
   const Content& c = *content_;
-  const ControlCheck check(c.model, *c.bodies, c.joints);
+  const ControlCheck check = c.check();
   const double over = target.over.value_or(c.control_interval);
-  // Programs set motions every frame: texts are made for faults alone.
-  const auto refuse = [&](std::string fault) -> Errors {
-    return {{path_of(body, "position"), std::move(fault)}};
-  };
-  const auto name = [&] { return "body \"" + c.bodies->name(body.index) + "\""; };
-  if (!check.is_body(body)) return refuse(check.fault_of(body));
-  if ((*c.bodies)[body.index].mobility != Mobility::kinematic) {
-    return refuse(check.motion_fault(body.index));
+  if (!check.is_body(body) || !check.is_kinematic(body.index) || !is_sound(target, over)) {
+    return refuse_motion(check, body, target, over, c.state);
   }
-  std::string fault = sheave::fault_of(target, over);
-  if (!fault.empty()) return refuse(name() + ": " + fault);
   const BodyState& from = c.state.bodies[at(body.index)];
-  BodyState to;
-  to.position = target.position;
+  const bool smooth = target.velocity.has_value();
+  const Vector3 speed = smooth ? from.velocity : over_time(target.position - from.position, over);
+  if (!is_finite(speed) || (check.keeps_to_a_way(body.index) &&
+                            !check.way_fault(body.index, end_of(target, from)).empty())) {
+    return refuse_motion(check, body, target, over, c.state);
+  }
   Vector3 turn = Vector3::Zero();
-  to.orientation = from.orientation;
-  if (target.orientation) {
-    to.orientation = target.orientation->normalized();
-    turn = turn_to(from.orientation, to.orientation);
-  }
-  if (target.velocity) to.velocity = *target.velocity;
-  if (target.angular_velocity) to.angular_velocity = *target.angular_velocity;
-  if (check.keeps_to_a_way(body.index)) {
-    fault = check.way_fault(body.index, to);
-    if (!fault.empty()) return refuse(std::move(fault));
-  }
-  MotionControl motion;
-  set_way(from, to, turn, c.state.time, over, target.velocity.has_value(), motion);
-  if (!motion.position.start_rate.allFinite()) {
-    return refuse(name() + " cannot get there in " + number_text(over) + " s");
-  }
-  controls_of_features().motions.put(body.index, at(c.bodies->count()), motion);
+  if (target.orientation) turn = turn_to(from.orientation, target.orientation->normalized());
+  controls_of_features().motions.change(
+      body.index, at(c.bodies->count()), [&](MotionControl& motion) {
+        set_way(from, target.position, turn, c.state.time, over, motion);
+        if (smooth) {
+          const Vector3 none = Vector3::Zero();
+          const Vector3& spin = target.angular_velocity ? *target.angular_velocity : none;
+          set_smooth_rates(from, *target.velocity, spin, motion);
+        } else {
+          set_straight_rates(speed, over_time(turn, over), motion);
+        }
+      });
   return {};
 }
 
 Errors World::clear_motion(BodyId body, std::optional<double> over) {
   const Content& c = *content_;
-  const ControlCheck check(c.model, *c.bodies, c.joints);
+  const ControlCheck check = c.check();
   const double time = over.value_or(c.control_interval);
   std::string fault = check.fault_of(body);
   if (fault.empty()) fault = check.motion_fault(body.index);
   if (fault.empty() && !(time > 0.0 && std::isfinite(time))) {
     fault = "the way back takes a finite time above 0, not " + number_text(time) + " s";
   }
-  if (!fault.empty()) return {{path_of(body, "position"), fault}};
+  if (!fault.empty()) return refuse_body(body, "position", std::move(fault));
   const MotionControl* set = c.state.controls.motions.find(body.index);
   if (set == nullptr || set->returns) return {};
   const BodyState to = c.bodies->kinematic_state(body.index, c.state.time + time);
   const BodyState& from = c.state.bodies[at(body.index)];
   MotionControl motion;
-  set_way(from, to, turn_to(from.orientation, to.orientation), c.state.time, time, true, motion);
+  set_way(from, to.position, turn_to(from.orientation, to.orientation), c.state.time, time, motion);
+  set_smooth_rates(from, to.velocity, to.angular_velocity, motion);
   motion.returns = true;
   controls_of_features().motions.put(body.index, at(c.bodies->count()), motion);
   return {};
@@ -261,44 +355,39 @@ Errors World::clear_motion(BodyId body, std::optional<double> over) {
 
 Errors World::set_joint_drive(int joint, int coordinate, const DriveTarget& target) {
   const Content& c = *content_;
-  const ControlCheck check(c.model, *c.bodies, c.joints);
-  std::string fault = check.joint_fault(joint, coordinate);
-  if (!fault.empty()) return {{joint_path(joint), fault}};
-  const JointEffect& effect = check.drive_of(joint, coordinate);
-  const DriveDemand demand(effect, c.state.controls);
-  const DriveControl* before = c.state.controls.joint_drives.find(effect.control);
-  DriveControl control = before != nullptr ? *before : DriveControl{};
+  const ControlCheck check = c.check();
+  const JointEffect* effect = check.find_drive(joint, coordinate);
+  if (effect == nullptr) return refuse_joint_drive(check, joint, coordinate, "/drive");
+  const DriveDemand demand(*effect, c.state.controls);
   const double time = c.state.time;
-  const DriveNow now{meaning_of(effect.kind), demand.at(time), demand.rate(time), time,
-                     c.control_interval};
-  control.has_target = true;
-  if (!make_ramp(now, target, control.target)) {
-    return {{joint_path(joint), "the drive of joint \"" + c.model.joints[at(joint)]->name + "\"" +
-                                    ramp_fault(now, target)}};
-  }
-  controls_of_features().joint_drives.put(effect.control, at(check.coordinate_count()), control);
+  DriveNow now{meaning_of(effect->kind), demand.at(time), 0.0, time, c.control_interval};
+  if (target.rate) now.rate = demand.rate(time);
+  Ramp ramp;
+  if (!make_ramp(now, target, ramp)) return refuse_joint_ramp(check, joint, now, target);
+  controls_of_features().joint_drives.change(effect->control, c.coordinate_count,
+                                             [&](DriveControl& set) {
+                                               set.has_target = true;
+                                               set.target = ramp;
+                                             });
   return {};
 }
 
 Errors World::set_joint_drive_limit(int joint, int coordinate, double limit) {
   const Content& c = *content_;
-  const ControlCheck check(c.model, *c.bodies, c.joints);
-  std::string fault = check.joint_fault(joint, coordinate);
-  if (fault.empty()) fault = check.limit_fault(joint, coordinate, limit);
-  if (!fault.empty()) return {{joint_path(joint, "/drive_limit"), fault}};
-  const int place = check.drive_of(joint, coordinate).control;
-  const DriveControl* before = c.state.controls.joint_drives.find(place);
-  DriveControl control = before != nullptr ? *before : DriveControl{};
-  control.limit = limit;
-  controls_of_features().joint_drives.put(place, at(check.coordinate_count()), control);
+  const ControlCheck check = c.check();
+  const JointEffect* effect = check.find_drive(joint, coordinate);
+  if (effect == nullptr) return refuse_joint_drive(check, joint, coordinate, "/drive_limit");
+  if (!check.takes_limit(*effect, limit)) return refuse_limit(check, joint, coordinate, limit);
+  controls_of_features().joint_drives.change(effect->control, c.coordinate_count,
+                                             [&](DriveControl& set) { set.limit = limit; });
   return {};
 }
 
 Errors World::clear_joint_drive(int joint, int coordinate) {
-  const ControlCheck check(content_->model, *content_->bodies, content_->joints);
-  std::string fault = check.joint_fault(joint, coordinate);
-  if (!fault.empty()) return {{joint_path(joint), std::move(fault)}};
-  controls_of_features().joint_drives.clear(check.drive_of(joint, coordinate).control);
+  const ControlCheck check = content_->check();
+  const JointEffect* effect = check.find_drive(joint, coordinate);
+  if (effect == nullptr) return refuse_joint_drive(check, joint, coordinate, "/drive");
+  controls_of_features().joint_drives.clear(effect->control);
   return {};
 }
 

@@ -1,4 +1,5 @@
-// A hoist lets its hook down, hangs a crate on it, lifts it and leaves it on a shelf: edits of a world that runs.
+// A hoist lets its hook down, hangs a crate on it, lifts it and leaves it on a shelf: edits of a
+// world that runs.
 
 #include <cstdio>
 
@@ -48,8 +49,8 @@ int main() {
   const auto hung = world->edit([&](Edit& edit) {
     FixedJoint shackle;
     shackle.name = "shackle";
-    shackle.body_a = Edit::id(tackle);
-    shackle.body_b = Edit::id(edit.add(crate));
+    shackle.body_a = edit.id(tackle);
+    shackle.body_b = edit.id(edit.add(crate));
     shackle.anchor = crate.position;
     edit.add(std::make_shared<FixedJoint>(shackle));
   });

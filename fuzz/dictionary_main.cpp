@@ -1,5 +1,6 @@
-// Prints a dictionary for libFuzzer: the words of scenes, from the field tables, with the argument "live" those of a live
-// session's requests, or with "command_line" those of the command line, from its options.
+// Prints a dictionary for libFuzzer: the words of scenes, from the field tables, with the argument
+// "live" those of a live session's requests, or with "command_line" those of the command line, from
+// its options.
 
 #include <algorithm>
 #include <cstdio>
@@ -29,15 +30,19 @@ void add_table(const TableFormat& table, Words& words) {
 
 void add_format(const ObjectFormat& format, std::set<const ObjectFormat*>& seen, Words& words) {
   if (!seen.insert(&format).second) return;
+  const auto add_members = [&](const std::vector<Member>& members) {
+    for (const Member& member : members) {
+      words.insert("\"" + std::string(member.name) + (member.list ? "\": [" : "\": {"));
+      add_format(*member.format, seen, words);
+    }
+  };
   for (const TableFormat& table : format.tables) add_table(table, words);
   for (const Variant& variant : format.variants) {
     words.insert("\"type\": \"" + std::string(variant.name) + "\"");
     add_table(variant.table, words);
+    add_members(variant.members);
   }
-  for (const Member& member : format.members) {
-    words.insert("\"" + std::string(member.name) + (member.list ? "\": [" : "\": {"));
-    add_format(*member.format, seen, words);
-  }
+  add_members(format.members);
 }
 
 Words scene_words() {

@@ -5,8 +5,8 @@
 //   64 bytes        the frame: which kind of machine, its step settings, changes of single fields
 //   what is left    the machine itself
 //
-// Two bytes decide one choice (tests/support/random.h). Whatever is missing follows from the seed, so any input is a machine, and
-// a short one is a random one.
+// Two bytes decide one choice (tests/support/random.h). Whatever is missing follows from the seed,
+// so any input is a machine, and a short one is a random one.
 
 #include "fuzz/target.h"
 #include "tests/support/builders.h"
@@ -19,8 +19,8 @@ inline constexpr int run_steps = 20;
 /// A machine and how it is to be run.
 struct Trial {
   test::Machine machine;
-  bool changed =
-      false;  ///< fields were given values that no generator gives: it may be refused, or be extreme
+  /// Fields were given values that no generator gives: it may be refused, or be extreme
+  bool changed = false;
   int pause = 0;  ///< after so many steps its state is saved and restored
 };
 

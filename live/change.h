@@ -1,7 +1,7 @@
 #pragma once
-// What every change of an edit must provide. Adding one: a file in live/edits/ and a line in change_registry.cpp.
+// What every change of an edit must provide. Adding one: a file in live/edits/ and a line in
+// change_registry.cpp.
 
-#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -10,23 +10,10 @@
 #include "cable/edit.h"
 #include "engine/field.h"
 #include "engine/result.h"
-#include "live/names.h"
+#include "live/edit_names.h"
 #include "scenes/format.h"
 
 namespace sheave::live {
-
-/// What changes of one edit are told by: the names that there are, and those that come with it.
-struct EditNames {
-  const Names& names;
-  std::map<std::string, CableHandle, std::less<>> new_cables{};
-
-  [[nodiscard]] Result<CableHandle> cable(const std::string& name,
-                                          const std::string& pointer = "/cable") const {
-    const auto found = new_cables.find(name);
-    if (found != new_cables.end()) return found->second;
-    return names.cable(name, pointer);
-  }
-};
 
 /// One change of what the world is made of. Settings; derived types add all of them.
 class EditChange {
@@ -37,7 +24,16 @@ class EditChange {
 
   [[nodiscard]] virtual std::string_view type() const = 0;  ///< key in the registry
   [[nodiscard]] virtual const void* settings() const = 0;   ///< this, as its own type
-  /// Tells the edit; faults of names have pointers within the change. What cannot be is a fault of the edit.
+  /// The objects that it has.
+  [[nodiscard]] virtual std::span<const Member> members() const { return {}; }
+  /// Reads these from the object `node`; tells the reader of bodies that come and go.
+  virtual void read(json::NodeId node, EditReader& reader) {
+    static_cast<void>(node), static_cast<void>(reader);
+  }
+  /// How many parts it adds: bodies and their shapes, joints, cables and their links.
+  [[nodiscard]] virtual std::size_t parts() const { return 0; }
+  /// Tells the edit; faults of names have pointers within the change. What cannot be is a fault of
+  /// the edit.
   [[nodiscard]] virtual Errors apply(Edit& edit, EditNames& names) const = 0;
 
  protected:
@@ -52,7 +48,9 @@ class CableChange : public EditChange {
   static constexpr std::string_view cable_meaning = "name of the cable";
   [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const final {
     const Result<CableHandle> handle = names.cable(cable);
-    return handle ? change(edit, *handle, names) : handle.errors();
+    if (!handle) return handle.errors();
+    names.tell_change(part_path("cables", *handle), "", false);
+    return change(edit, *handle, names);
   }
 
  protected:
@@ -71,12 +69,21 @@ template <class Type>
 }
 
 // By the files in live/edits/.
+[[nodiscard]] TypeEntry<EditChange> add_body_change();
+[[nodiscard]] TypeEntry<EditChange> add_joint_change();
+[[nodiscard]] TypeEntry<EditChange> add_cable_change();
+[[nodiscard]] TypeEntry<EditChange> add_collider_change();
+[[nodiscard]] TypeEntry<EditChange> insert_link_change();
+[[nodiscard]] TypeEntry<EditChange> change_body_change();
+[[nodiscard]] TypeEntry<EditChange> set_step_change();
 [[nodiscard]] TypeEntry<EditChange> remove_body_change();
 [[nodiscard]] TypeEntry<EditChange> remove_joint_change();
 [[nodiscard]] TypeEntry<EditChange> remove_cable_change();
+[[nodiscard]] TypeEntry<EditChange> remove_collider_change();
 [[nodiscard]] TypeEntry<EditChange> detach_change();
 [[nodiscard]] TypeEntry<EditChange> attach_change();
 [[nodiscard]] TypeEntry<EditChange> split_change();
+[[nodiscard]] TypeEntry<EditChange> open_change();
 [[nodiscard]] TypeEntry<EditChange> join_change();
 [[nodiscard]] TypeEntry<EditChange> pay_out_change();
 [[nodiscard]] TypeEntry<EditChange> remove_link_change();

@@ -47,7 +47,11 @@ void Names::refresh() {
   bodies_ = {};
   joints_ = {};
   cables_ = {};
-  for (const BodyHandle body : world_.bodies()) bodies_.add(*world_.name(body), body);
+  body_slots_ = 0;
+  for (const BodyHandle body : world_.bodies()) {
+    bodies_.add(*world_.name(body), body);
+    body_slots_ = std::max(body_slots_, body.slot + 1);
+  }
   for (const JointHandle joint : world_.joints()) joints_.add(*world_.name(joint), joint);
   for (const CableHandle cable : world_.cables()) cables_.add(*world_.name(cable), cable);
 }

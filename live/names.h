@@ -10,7 +10,8 @@
 
 namespace sheave::live {
 
-/// The names of a world, found at once. A fault is told at `pointer`, and says which name may have been meant.
+/// The names of a world, found at once. A fault is told at `pointer`, and says which name may have
+/// been meant.
 class Names {
  public:
   /// `world` must outlive this.
@@ -20,6 +21,10 @@ class Names {
   Names(const Names&) = delete;
   Names& operator=(const Names&) = delete;
 
+  /// Of all bodies, in the order of their handles.
+  [[nodiscard]] const std::vector<std::string>& bodies() const { return bodies_.names; }
+  /// How many slots their handles have.
+  [[nodiscard]] int body_slots() const { return body_slots_; }
   [[nodiscard]] Result<BodyHandle> body(const std::string& name,
                                         const std::string& pointer = "/body") const;
   [[nodiscard]] Result<JointHandle> joint(const std::string& name,
@@ -44,6 +49,7 @@ class Names {
   };
 
   const LiveWorld& world_;
+  int body_slots_ = 0;
   Index<BodyHandle> bodies_;
   Index<JointHandle> joints_;
   Index<CableHandle> cables_;

@@ -1,18 +1,22 @@
 #pragma once
-// What every type of request must provide. Adding one: a file in live/requests/ and a line in request_registry.cpp.
+// What every type of request must provide. Adding one: a file in live/requests/ and a line in
+// request_registry.cpp.
 
 #include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "engine/field.h"
 #include "engine/result.h"
-#include "scenes/field_reader.h"
+#include "live/answer_format.h"
+#include "live/names.h"
 #include "scenes/format.h"
+#include "scenes/part_reader.h"
 
 namespace sheave::live {
 
@@ -41,14 +45,17 @@ class Request {
       const {
     return {};
   }
-  /// Reads its lists from the object `node`.
-  virtual void read_members(const json::Document& document, json::NodeId node,
-                            FieldReader& reader) {
-    static_cast<void>(document), static_cast<void>(node), static_cast<void>(reader);
+  /// Reads its lists from the object `node`, for a world with these names.
+  virtual void read_members(json::NodeId node, PartReader& reader, const Names& names) {
+    static_cast<void>(node), static_cast<void>(reader), static_cast<void>(names);
   }
-  /// Does it, and adds to the answer what there is to say. Faults have pointers within the request; then nothing has changed.
+  /// What its answer has besides what all have.
+  [[nodiscard]] virtual std::vector<AnswerKey> answer_keys() const { return {}; }
+  /// Does it, and adds to the answer what there is to say. Faults have pointers within the request;
+  /// then nothing has changed.
   [[nodiscard]] virtual Errors run(SessionState& session, Json& answer) const = 0;
-  /// Whether it belongs into a log. What is not logged is how the world comes to its steps: of those the log has the number.
+  /// Whether it belongs into a log. What is not logged is how the world comes to its steps: of
+  /// those the log has the number.
   [[nodiscard]] virtual bool is_logged() const { return true; }
 
  protected:

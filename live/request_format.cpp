@@ -1,5 +1,7 @@
 #include "live/request_format.h"
 
+#include <algorithm>
+
 #include "live/protocol.h"
 #include "live/request.h"
 #include "scenes/format_tables.h"
@@ -21,6 +23,20 @@ std::vector<ObjectFormat> make_formats() {
     formats.push_back(std::move(format));
   }
   return formats;
+}
+
+constexpr std::string_view scene_page = "../scenes/REFERENCE.md";  // from docs/
+
+/// A format and those in it that are not told on the page of scenes.
+void collect(const ObjectFormat& format, std::vector<const ObjectFormat*>& formats) {
+  if (is_in_scenes(format) || std::find(formats.begin(), formats.end(), &format) != formats.end()) {
+    return;
+  }
+  formats.push_back(&format);
+  for (const Member& member : format.members) collect(*member.format, formats);
+  for (const Variant& variant : format.variants) {
+    for (const Member& member : variant.members) collect(*member.format, formats);
+  }
 }
 
 }  // namespace
@@ -62,13 +78,14 @@ std::string protocol_reference() {
   ObjectFormat all = any_request_format();
   all.variants.clear();
   append_reference(all, text);
-  std::string lists;
+  std::vector<const ObjectFormat*> inner;
   for (const ObjectFormat& format : request_formats()) {
     const Variant& type = format.variants.front();
     append_reference({type.name, type.meaning, false, {type.table}, {}, format.members, {}}, text);
-    for (const Member& member : format.members) append_reference(*member.format, lists);
+    for (const Member& member : format.members) collect(*member.format, inner);
   }
-  return text + lists;
+  for (const ObjectFormat* format : inner) append_reference(*format, text, scene_page);
+  return text + answer_reference();
 }
 
 }  // namespace sheave::live

@@ -30,13 +30,14 @@ struct Read {
   std::optional<double> id;
 };
 
-Read read_request(const Document& document, json::Faults& faults) {
+Read read_request(const Document& document, const Names& names, json::Faults& faults) {
   Read read;
   const NodeId root = document.root();
   if (root == no_node) return read;
   const NodeId id = document.member(root, "id");
   if (id != no_node && document.kind(id) == Kind::number) read.id = document.number(id);
-  FieldReader reader(document, faults);
+  PartReader parts(document, faults);
+  FieldReader& reader = parts.fields();
   const Variant* chosen = reader.read_type(root, any_request_format());
   if (chosen == nullptr) return read;
   for (std::size_t i = 0; i < request_types().size(); ++i) {
@@ -48,7 +49,7 @@ Read read_request(const Document& document, json::Faults& faults) {
     void* settings = const_cast<void*>(read.request->settings());  // NOLINT(*-const-cast)
     const ObjectFormat& format = request_formats()[i];
     reader.read_object(root, format, common, format.variant(type.name), settings);
-    read.request->read_members(document, root, reader);
+    read.request->read_members(root, parts, names);
   }
   return read;
 }
@@ -65,11 +66,12 @@ Json fault_json(const Document& document, const json::Fault& fault) {
 
 /// The fault of something that was read and cannot be done.
 Json fault_json(const Document& document, const Error& error) {
-  const Document::Target target = document.find(error.path);
+  const std::string pointer = pointer_in_text(document, error.path);
+  const Document::Target target = document.find(pointer);
   const NodeId node = target.node != no_node ? target.node : document.root();
   const std::string value = target.exact ? document.excerpt(node) : std::string();
-  return fault_json(
-      document, {document.offset(node), error.path, error.message, value, {}, FaultCode::meaning});
+  return fault_json(document,
+                    {document.offset(node), pointer, error.message, value, {}, FaultCode::meaning});
 }
 
 /// The request as it goes into the log, when the world was at `step`.
@@ -88,7 +90,7 @@ std::string logged_text(const Document& document, std::string_view line, std::in
 Session::Session(const Scene& scene, Simulation simulation, Hooks hooks, const Limits& limits)
     : state_(
           std::make_unique<SessionState>(scene, std::move(simulation), std::move(hooks), limits)) {
-  state_->snapshots.emplace("start", state_->world.snapshot());
+  state_->snapshots.emplace("start", state_->keep());
   state_->logged_to = state_->world.state().steps;
 }
 
@@ -116,7 +118,7 @@ std::string Session::answer(std::string_view line) {
   }
   const Document document = Document::parse(
       line, "request", {limits.line_bytes, limits.depth, limits.values, limits.faults}, faults);
-  const Read read = read_request(document, faults);
+  const Read read = read_request(document, state.names, faults);
   Json list = Json::array();
   for (const json::Fault& fault : faults.in_order()) list.push_back(fault_json(document, fault));
   Json details = Json::object();

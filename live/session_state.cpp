@@ -48,6 +48,16 @@ void SessionState::refresh() {
   }
 }
 
+std::size_t SessionState::part_count() const {
+  const Model& model = world.simulation().world.model();
+  std::size_t count = model.bodies.size() + model.joints.size() + world.cables().size();
+  for (const BodyDef& body : model.bodies) count += body.shapes.size();
+  for (const CableDef& cable : *world.simulation().cable_definitions) count += cable.links.size();
+  return count;
+}
+
+KeptSnapshot SessionState::keep() const { return {world.snapshot(), revision, part_count()}; }
+
 std::optional<std::string> SessionState::stopped_by() const {
   const Supervisor* own = world.simulation().supervisor.get();
   if (own == nullptr || !own->has_stopped(world.state())) return {};

@@ -18,11 +18,13 @@ namespace sheave::live {
 
 /// What a session asks of the program that it is in. All of them may be empty.
 struct Hooks {
-  /// Takes an event, a line without its end. One that is not needed may be left out where nobody takes it in time.
+  /// Takes an event, a line without its end. One that is not needed may be left out where nobody
+  /// takes it in time.
   std::function<void(const std::string& line, bool needed)> event{};
   /// Takes a line of the log: a request without the end of its line.
   std::function<void(const std::string& line)> log{};
-  /// Called before each step of a request, with the time that the world will have [s], and whether it may go on.
+  /// Called before each step of a request, with the time that the world will have [s], and whether
+  /// it may go on.
   std::function<bool(double time)> before_step{};
   /// Ends a step that has begun, which then has not been.
   StopRequest stop{};
@@ -33,6 +35,13 @@ struct Subscription {
   int every = 1;      ///< steps: at those that are multiples of it
   Readings readings;  ///< may be empty
   bool events = false;
+};
+
+/// A state that is kept, with what it is a state of.
+struct KeptSnapshot {
+  LiveSnapshot snapshot;
+  std::int64_t revision = 0;  ///< SessionState::revision
+  std::size_t parts = 0;      ///< that the world had
 };
 
 /// Why a world goes no further.
@@ -51,8 +60,12 @@ struct SessionState {
   /// Those of the world, named when they are first asked for: that takes time and memory.
   [[nodiscard]] const QuantityIndex& quantities();
 
-  /// To be called when the world has been edited.
+  /// To be called when the world has been edited or is another one.
   void refresh();
+  /// The state as it is now, to be kept.
+  [[nodiscard]] KeptSnapshot keep() const;
+  /// Bodies with their shapes, joints, cables with their links.
+  [[nodiscard]] std::size_t part_count() const;
   /// Steps once, and tells subscribers. `reason` is why it ended, if it did.
   [[nodiscard]] Ending step(std::string& reason);
   /// The name of the trigger that has stopped the run, if one has.
@@ -72,7 +85,9 @@ struct SessionState {
   Names names;
   const Hooks hooks;
   const Limits limits;
-  std::map<std::string, LiveSnapshot> snapshots;
+  std::map<std::string, KeptSnapshot> snapshots;
+  std::int64_t revision = 0;   ///< what the world is made of: one number for each edit
+  std::int64_t revisions = 1;  ///< that have been
   std::map<std::string, Subscription> subscriptions;
   bool running = false;        ///< steps by itself
   std::optional<double> pace;  ///< of a run, the world's seconds per second; none: the program's

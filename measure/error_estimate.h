@@ -1,10 +1,11 @@
 #pragma once
-// What the step alone makes a run wrong by: the run beside itself with half and with a quarter of its substep.
+// What the step alone makes a run wrong by: the run beside itself with half and with a quarter of
+// its substep.
 //
-// No balance of forces or of energy can see that: a step may obey its own rule to the last digit, and the rule be that of a
-// motion a little different. Comparing with finer steps shows it, and nothing else: what the model leaves out, and what all three
-// runs do alike, it does not. The three go side by side, frame by frame, so that a long run needs no more memory than a short
-// one.
+// No balance of forces or of energy can see that: a step may obey its own rule to the last digit,
+// and the rule be that of a motion a little different. Comparing with finer steps shows it, and
+// nothing else: what the model leaves out, and what all three runs do alike, it does not. The three
+// go side by side, frame by frame, so that a long run needs no more memory than a short one.
 //
 //   auto estimator = *ErrorEstimator::create(scene, simulation.world.state());
 //   while (simulation.step().ok() && ...) estimator.observe(simulation);
@@ -25,9 +26,12 @@ namespace sheave::measure {
 
 /// What the differences of positions, or of tensions, are ruled by.
 enum class StepErrorKind {
-  rounding,  ///< there are none but for rounding and the solver's tolerance: below 1e-9 of their scale
+  /// There are none but for rounding and the solver's tolerance: below 1e-9 of their scale
+  rounding,
   regular,  ///< the step: they have an order
-  events,  ///< no order, and things happened at moments that depend on the step: contacts, slack, links left, breaks
+  /// No order, and things happened at moments that depend on the step: contacts, slack, links left,
+  /// breaks
+  events,
   chaos,   ///< no order, no events, and differences that grow exponentially
   sweeps,  ///< no order, and Gauss-Seidel sweeps, of which half the step has twice as many
   coarse,  ///< no order for none of these reasons: the step is too long for one to show
@@ -35,18 +39,20 @@ enum class StepErrorKind {
 inline constexpr std::array<std::string_view, 6> step_error_kind_names{
     "rounding", "regular", "events", "chaos", "sweeps", "coarse"};
 
-/// The scene's size, below: the larger of BodySet::scale(), the diagonal of the box round its bodies, and of the box round the
-/// ends of its spans, both at the start.
+/// The scene's size, below: the larger of BodySet::scale(), the diagonal of the box round its
+/// bodies, and of the box round the ends of its spans, both at the start.
 struct BodyDifference {
   std::string name;
   StepDifference position;  ///< of the body frame's origin [m]; scale: the size of the scene
-  /// [rad]; scale: the turn that moves the surface by the size of the scene. A body without a shape: 1 rad.
+  /// [rad]; scale: the turn that moves the surface by the size of the scene. A body without a
+  /// shape: 1 rad.
   StepDifference turn;
 };
 
 struct SpanDifference {
   std::string name;  ///< "<cable>.<span>"
-  /// [N]; scale: the largest root of the mean square over time of all spans of its cable and all three runs.
+  /// [N]; scale: the largest root of the mean square over time of all spans of its cable and all
+  /// three runs.
   StepDifference tension;
 };
 
@@ -63,11 +69,12 @@ struct RunChanges {
 struct ErrorEstimate {
   std::array<int, 3> substeps{};  ///< of the run, and of those beside it
   double end = 0.0;               ///< of what was compared [s]
-  /// Root of the mean square over all bodies of their displacements, turns at their surface included, as in
-  /// measure/run_error.h [m]; scale: the size of the scene.
+  /// Root of the mean square over all bodies of their displacements, turns at their surface
+  /// included, as in measure/run_error.h [m]; scale: the size of the scene.
   StepDifference position{};
   StepErrorKind position_kind = StepErrorKind::rounding;
-  /// Root of the mean square over all spans [N]; scale: the root of the mean square of all spans and frames.
+  /// Root of the mean square over all spans [N]; scale: the root of the mean square of all spans
+  /// and frames.
   StepDifference tension{};
   StepErrorKind tension_kind = StepErrorKind::rounding;
   double motion =
@@ -75,7 +82,8 @@ struct ErrorEstimate {
   RunChanges changes;  ///< of the run
   std::optional<double>
       growth{};  ///< of differences of positions, if they grow exponentially [1/s]
-  /// If kinds are neither `rounding` nor `regular`: until when differences of positions stay below 0.1 % of the size [s].
+  /// If kinds are neither `rounding` nor `regular`: until when differences of positions stay below
+  /// 0.1 % of the size [s].
   double trusted_time = 0.0;
   std::vector<BodyDifference>
       bodies{};  ///< that move otherwise than as a function of time, in the order of the model
@@ -86,12 +94,12 @@ struct ErrorEstimate {
 
 class ErrorEstimator {
  public:
-  /// For a run of this scene that begins at `start`. Errors: the scene does not build, or four times its substeps are more
-  /// than a step can have ("/step/substeps").
+  /// For a run of this scene that begins at `start`. Errors: the scene does not build, or four
+  /// times its substeps are more than a step can have ("/step/substeps").
   static Result<ErrorEstimator> create(const Scene& scene, const State& start);
 
-  /// To be called after every step of the run; takes the finer runs as far. Once `stop` has ended one of their steps the
-  /// comparison is over: the estimate is of what came before.
+  /// To be called after every step of the run; takes the finer runs as far. Once `stop` has ended
+  /// one of their steps the comparison is over: the estimate is of what came before.
   void observe(const Simulation& run, const StopRequest& stop = {});
   [[nodiscard]] ErrorEstimate estimate() const;
 

@@ -31,9 +31,9 @@ bool FieldReader::read_object(NodeId node, const ObjectFormat& format,
   }
   check_keys(node, format, variant);
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    read_table(node, format.tables[i].fields, objects[i]);
+    read_table(node, format.tables[i].fields, objects[i], format.partial);
   }
-  if (variant != nullptr) read_table(node, variant->table.fields, settings);
+  if (variant != nullptr) read_table(node, variant->table.fields, settings, format.partial);
   if (format.named) check_name(document_.member(node, "name"));
   return true;
 }
@@ -45,8 +45,11 @@ void FieldReader::check_keys(NodeId node, const ObjectFormat& format, const Vari
     for (const Field& field : fields) known.push_back(field.name);
   };
   for (const TableFormat& table : format.tables) add_fields(table.fields);
-  if (variant != nullptr) add_fields(variant->table.fields);
   for (const Member& member : format.members) known.push_back(member.name);
+  if (variant != nullptr) {
+    add_fields(variant->table.fields);
+    for (const Member& member : variant->members) known.push_back(member.name);
+  }
   for (const auto& [one, other] : format.exclusive) {
     const NodeId second = document_.member(node, other);
     if (document_.member(node, one) == no_node || second == no_node) continue;
@@ -69,9 +72,11 @@ void FieldReader::check_keys(NodeId node, const ObjectFormat& format, const Vari
   }
 }
 
-void FieldReader::read_table(NodeId node, std::span<const Field> fields, void* object) {
+void FieldReader::read_table(NodeId node, std::span<const Field> fields, void* object,
+                             bool partial) {
   for (const Field& field : fields) {
     const NodeId value = document_.member(node, field.name);
+    if (partial && (value == no_node || document_.kind(value) == Kind::null)) continue;
     if (value != no_node) {
       read_value(document_, faults_, bodies_, field, value, field.slot(object));
     } else if (field.presence == Presence::required) {
@@ -128,6 +133,14 @@ const Variant* FieldReader::read_type(NodeId node, const ObjectFormat& format) {
   return variant;
 }
 
+NodeId FieldReader::member(NodeId object, const Member& member) {
+  const NodeId node = document_.member(object, member.name);
+  if (node == no_node && member.required && document_.kind(object) == Kind::object) {
+    report_missing(object, member.name, fmt::format("an object ({})", member.meaning));
+  }
+  return node;
+}
+
 std::span<const NodeId> FieldReader::list(NodeId object, const Member& member) {
   const NodeId node = document_.member(object, member.name);
   const std::string wanted = fmt::format("a list of objects ({})", member.meaning);
@@ -167,14 +180,11 @@ std::unordered_map<std::string_view, int> FieldReader::unique_names(
   return first;
 }
 
-void FieldReader::declare_bodies(std::span<const NodeId> bodies) {
-  bodies_ = {unique_names(bodies, "bodies"), {}};
-  for (const NodeId body : bodies) {
-    const NodeId name = document_.member(body, "name");
-    if (name != no_node && document_.kind(name) == Kind::string) {
-      bodies_.in_order.push_back(document_.string(name));
-    }
-  }
+void FieldReader::declare_body(std::string_view name, int number) {
+  bodies_.indices.insert_or_assign(name, number);
+  bodies_.in_order.push_back(name);
 }
+
+void FieldReader::forget_body(std::string_view name) { bodies_.indices.erase(name); }
 
 }  // namespace sheave

@@ -26,13 +26,19 @@ class FieldReader {
                    const Variant* variant = nullptr, void* settings = nullptr);
   /// The variant that the key "type" of an object chooses; null, reported, if it chooses none.
   const Variant* read_type(json::NodeId node, const ObjectFormat& format);
-  /// The elements of a list member of an object; none if it is missing, which is reported if it is required, no list or too
-  /// long.
+  /// The elements of a list member of an object; none if it is missing, which is reported if it is
+  /// required, no list or too long.
   std::span<const json::NodeId> list(json::NodeId object, const Member& member);
 
-  /// Declares the bodies that references may name, in the order of their indices; reports names
-  /// that occur twice. `bodies` are the nodes of their definitions.
-  void declare_bodies(std::span<const json::NodeId> bodies);
+  /// The value of an object member of an object; no_node if it is missing, which is reported if it
+  /// is required.
+  json::NodeId member(json::NodeId object, const Member& member);
+
+  /// Tells a body that references may name from now on, and what its BodyId is. `name` must outlive
+  /// the reader.
+  void declare_body(std::string_view name, int number);
+  /// References may not name it any more.
+  void forget_body(std::string_view name);
   /// Reports names that occur twice among `entities`, objects called `what`; returns the index of
   /// each name's first occurrence. Values that are no strings are reported by read_object.
   std::unordered_map<std::string_view, int> unique_names(std::span<const json::NodeId> entities,
@@ -43,7 +49,7 @@ class FieldReader {
 
  private:
   void check_keys(json::NodeId node, const ObjectFormat& format, const Variant* variant);
-  void read_table(json::NodeId node, std::span<const Field> fields, void* object);
+  void read_table(json::NodeId node, std::span<const Field> fields, void* object, bool partial);
   void check_name(json::NodeId node);
   void report_missing(json::NodeId node, std::string_view key, std::string allowed);
 

@@ -35,6 +35,7 @@ struct Variant {
   std::string_view name;
   std::string_view meaning;
   TableFormat table;
+  std::vector<Member> members{};
 };
 
 /// What may stand in an object of a scene file.
@@ -47,6 +48,8 @@ struct ObjectFormat {
   std::vector<Member> members;
   std::vector<std::pair<std::string_view, std::string_view>>
       exclusive;  ///< keys not to be given both
+  /// It changes something that is there: what is not given stays, and null gives the default.
+  bool partial = false;
 
   [[nodiscard]] const Variant* variant(std::string_view type) const;
   [[nodiscard]] const Member* member(std::string_view key) const;
@@ -87,7 +90,8 @@ inline constexpr double quaternion_tolerance = 1e-6;
 [[nodiscard]] bool same_value(const Field& field, const void* a, const void* b);
 /// Gives `to` the value of a field of `from`; both are objects of a table's type.
 void copy_value(const Field& field, const void* from, void* to);
-/// Whether an optional slot holds no value; false for slots that always do. A quaternion of zeros is none.
+/// Whether an optional slot holds no value; false for slots that always do. A quaternion of zeros
+/// is none.
 [[nodiscard]] bool is_absent(const FieldSlot& slot);
 
 /// What a field accepts, for messages and documentation: "a number > 0 [kg]".

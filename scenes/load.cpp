@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "scenes/field_reader.h"
+#include "scenes/part_reader.h"
 #include "scenes/scene.h"
 #include "scenes/validate.h"
 
@@ -23,43 +23,37 @@ constexpr std::array<std::string_view, 1> implied_objects{"/step"};
 class SceneReader {
  public:
   SceneReader(const json::Document& document, json::Faults& faults)
-      : document_(document), reader_(document, faults) {}
+      : document_(document), parts_(document, faults), reader_(parts_.fields()) {}
 
   Scene read() {
     Scene scene;
     const NodeId root = document_.root();
     if (!reader_.read_object(root, scene_format(), pointers(&scene))) return scene;
-    reader_.declare_bodies(list(root, scene_format(), "bodies"));
+    declare_bodies();
     read_step(scene);
-    scene.model.bodies.reserve(list(root, scene_format(), "bodies").size());
-    for (const NodeId node : list(root, scene_format(), "bodies")) read_body(node, scene.model);
-    for (const NodeId node : list(root, scene_format(), "joints")) read_joint(node, scene.model);
-    for (const NodeId node : list(root, scene_format(), "cables")) {
-      read_cable(node, scene.cables.emplace_back());
-    }
-    for (const NodeId node : list(root, scene_format(), "controllers")) {
-      auto controller = read_typed(node, controller_format(), controller_types(),
-                                   [](ControllerDef& common) { return &common; });
+    read_model(scene);
+    for (const NodeId node : list("controllers")) {
+      auto controller = parts_.read_typed(node, controller_format(), controller_types(),
+                                          [](ControllerDef& common) { return &common; });
       if (controller) scene.controllers.push_back(std::move(controller));
     }
-    for (const NodeId node : list(root, scene_format(), "triggers")) {
+    for (const NodeId node : list("triggers")) {
       reader_.read_object(node, trigger_format(), pointers(&scene.triggers.emplace_back()));
     }
-    for (const NodeId node : list(root, scene_format(), "colliders")) {
-      reader_.read_object(node, collider_format(), pointers(&scene.model.colliders.emplace_back()));
+    for (const NodeId node : list("colliders")) {
+      scene.model.colliders.push_back(parts_.read_collider(node));
     }
     if (has("ground")) read_plain("ground", ground_format(), &scene.model.ground.emplace());
     if (has("camera")) read_plain("camera", camera_format(), &scene.camera.emplace());
-    for (const NodeId node : list(root, scene_format(), "paint")) {
+    for (const NodeId node : list("paint")) {
       reader_.read_object(node, paint_format(), pointers(&scene.paint.emplace_back()));
     }
-    for (const NodeId node : list(root, scene_format(), "checks")) {
+    for (const NodeId node : list("checks")) {
       reader_.read_object(node, check_format(), pointers(&scene.checks.emplace_back()));
     }
-    reader_.unique_names(list(root, scene_format(), "joints"), "joints");
-    reader_.unique_names(list(root, scene_format(), "cables"), "cables");
-    reader_.unique_names(list(root, scene_format(), "controllers"), "controllers");
-    reader_.unique_names(list(root, scene_format(), "triggers"), "triggers");
+    for (const char* key : {"joints", "cables", "controllers", "triggers"}) {
+      reader_.unique_names(list(key), key);
+    }
     return scene;
   }
 
@@ -68,17 +62,39 @@ class SceneReader {
   [[nodiscard]] bool has(std::string_view key) const {
     return document_.member(document_.root(), key) != no_node;
   }
-  /// The elements of a list; faults of the list itself are reported once, with its first use.
-  std::span<const NodeId> list(NodeId object, const ObjectFormat& format, std::string_view key) {
-    const NodeId node = document_.member(object, key);
-    const auto known = lists_.find(node);
+  /// The elements of a list of the scene; faults of the list itself are reported once, with its
+  /// first use.
+  std::span<const NodeId> list(std::string_view key) {
+    const auto known = lists_.find(key);
     if (known != lists_.end()) return known->second;
-    return lists_[node] = reader_.list(object, *format.member(key));
+    return lists_[key] = reader_.list(document_.root(), *scene_format().member(key));
   }
   void read_plain(std::string_view key, const ObjectFormat& format, void* object) {
     if (has(key)) {
       reader_.read_object(document_.member(document_.root(), key), format, pointers(object));
     }
+  }
+
+  /// A body's number is its place in the list.
+  void declare_bodies() {
+    const std::span<const NodeId> bodies = list("bodies");
+    const auto first = reader_.unique_names(bodies, "bodies");
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const NodeId name = document_.member(bodies[i], "name");
+      if (name == no_node || document_.kind(name) != json::Kind::string) continue;
+      const int number = first.at(document_.string(name));
+      if (number == static_cast<int>(i)) reader_.declare_body(document_.string(name), number);
+    }
+  }
+
+  void read_model(Scene& scene) {
+    Model& model = scene.model;
+    model.bodies.reserve(list("bodies").size());
+    for (const NodeId node : list("bodies")) model.bodies.push_back(parts_.read_body(node));
+    for (const NodeId node : list("joints")) {
+      if (auto joint = parts_.read_joint(node)) model.joints.push_back(std::move(joint));
+    }
+    for (const NodeId node : list("cables")) scene.cables.push_back(parts_.read_cable(node));
   }
 
   /// The preset first, because the settings that are given replace its own.
@@ -97,77 +113,15 @@ class SceneReader {
     }
   }
 
-  /// A new object of the type that the node's key "type" chooses, with its settings; null if it
-  /// chooses none. `common` gives the object of the table that all types share.
-  template <class Base, class Common>
-  std::shared_ptr<const Base> read_typed(NodeId node, const ObjectFormat& format,
-                                         std::span<const TypeEntry<Base>> types,
-                                         const Common& common) {
-    const Variant* variant = reader_.read_type(node, format);
-    if (variant == nullptr) return nullptr;
-    const auto entry = std::find_if(types.begin(), types.end(), [&](const TypeEntry<Base>& type) {
-      return type.name == variant->name;
-    });
-    std::shared_ptr<Base> object = entry->make();
-    // The object is ours and not constant; settings() is only the way to its own type.
-    void* settings = const_cast<void*>(object->settings());  // NOLINT(*-const-cast)
-    reader_.read_object(node, format, pointers(common(*object)), variant, settings);
-    return object;
-  }
-
-  void read_shape(NodeId node, BodyDef& body) {
-    PlacedShape placed;
-    placed.shape = read_typed(node, shape_format(), shape_types(), [&](Shape&) { return &placed; });
-    if (placed.shape) body.shapes.push_back(std::move(placed));
-  }
-
-  void read_body(NodeId node, Model& model) {
-    BodyDef& body = model.bodies.emplace_back();
-    if (!reader_.read_object(node, body_format(), pointers(&body))) return;
-    const NodeId single = document_.member(node, "shape");
-    if (single != no_node) read_shape(single, body);
-    for (const NodeId shape : list(node, body_format(), "shapes")) read_shape(shape, body);
-  }
-
-  void read_joint(NodeId node, Model& model) {
-    auto joint =
-        read_typed(node, joint_format(), joint_types(), [](JointDef& common) { return &common; });
-    if (joint) model.joints.push_back(std::move(joint));
-  }
-
-  void read_cable(NodeId node, CableDef& cable) {
-    if (!reader_.read_object(node, cable_format(), pointers(&cable))) return;
-    for (const NodeId child : list(node, cable_format(), "links")) {
-      auto link =
-          read_typed(child, link_format(), link_types(), [](LinkDef& common) { return &common; });
-      if (link) cable.links.push_back(std::move(link));
-    }
-  }
-
   const json::Document& document_;
-  FieldReader reader_;
-  std::unordered_map<NodeId, std::span<const NodeId>> lists_;
+  PartReader parts_;
+  FieldReader& reader_;
+  std::unordered_map<std::string_view, std::span<const NodeId>> lists_;
 };
-
-/// The pointer by which the file knows a setting: a body's only shape may be written in two ways.
-std::string pointer_in_file(const json::Document& document, const std::string& path) {
-  if (document.find(path).exact) return path;
-  for (const auto& [ours, other] : {std::pair<std::string, std::string>{"/shape", "/shapes/0"},
-                                    std::pair<std::string, std::string>{"/shapes/0", "/shape"}}) {
-    const std::size_t at = path.find(ours);
-    if (at == std::string::npos) continue;
-    const std::size_t end = at + ours.size();
-    if (end < path.size() && path[end] != '/') continue;  // "/shape" is no part of "/shapes/1"
-    const std::string replaced = path.substr(0, at) + other + path.substr(end);
-    const std::string shape = path.substr(0, at) + other;
-    if (document.find(shape).exact) return replaced;
-  }
-  return path;
-}
 
 void add_errors(const Errors& errors, const json::Document& document, json::Faults& faults) {
   for (const Error& error : errors) {
-    const std::string pointer = pointer_in_file(document, error.path);
+    const std::string pointer = pointer_in_text(document, error.path);
     const json::Document::Target target = document.find(pointer);
     const bool scalar = target.exact && document.kind(target.node) != json::Kind::object;
     faults.add({document.offset(target.node),
@@ -178,8 +132,9 @@ void add_errors(const Errors& errors, const json::Document& document, json::Faul
   }
 }
 
-/// Takes out of the text what a drive has beside it and cannot have as the kind that an override makes it: its times, values
-/// and limits if it is none now. What overrides themselves have set stays, and is told if it does not fit.
+/// Takes out of the text what a drive has beside it and cannot have as the kind that an override
+/// makes it: its times, values and limits if it is none now. What overrides themselves have set
+/// stays, and is told if it does not fit.
 void drop_companions(json::Document& document, const Override& changed,
                      const std::string& file_name) {
   const std::string_view pointer = changed.pointer;

@@ -115,6 +115,16 @@ void add_fields(const TableFormat& table, std::string& text) {
   }
 }
 
+void add_members(std::span<const Member> members, std::string_view scene_page, std::string& text) {
+  for (const Member& member : members) {
+    const std::string_view page = is_in_scenes(*member.format) ? scene_page : std::string_view();
+    text += fmt::format("| `{}` | {} [{}]({}#{}) | {}| {} |\n", member.name,
+                        member.list ? "a list of" : "a", member.format->name, page,
+                        anchor_of(member.format->name), member.required ? "required " : "",
+                        cell(member.meaning));
+  }
+}
+
 /// The formats in the order in which they are first mentioned.
 void collect(const ObjectFormat& format, std::vector<const ObjectFormat*>& formats) {
   if (std::find(formats.begin(), formats.end(), &format) != formats.end()) return;
@@ -124,7 +134,22 @@ void collect(const ObjectFormat& format, std::vector<const ObjectFormat*>& forma
 
 }  // namespace
 
-void append_reference(const ObjectFormat& format, std::string& text) {
+std::string anchor_of(std::string_view heading) {
+  std::string anchor(heading);
+  std::replace(anchor.begin(), anchor.end(), ' ', '-');
+  return anchor;
+}
+
+bool is_in_scenes(const ObjectFormat& format) {
+  static const std::vector<const ObjectFormat*> formats = [] {
+    std::vector<const ObjectFormat*> found;
+    collect(scene_format(), found);
+    return found;
+  }();
+  return std::find(formats.begin(), formats.end(), &format) != formats.end();
+}
+
+void append_reference(const ObjectFormat& format, std::string& text, std::string_view scene_page) {
   text += fmt::format("\n## {}\n\n{}.\n", format.name, format.meaning);
   const auto has_fields = [](const TableFormat& table) { return !table.fields.empty(); };
   if (!format.variants.empty() || !format.members.empty() ||
@@ -133,16 +158,13 @@ void append_reference(const ObjectFormat& format, std::string& text) {
   }
   if (!format.variants.empty()) text += "| `type` | one of the types below | required | |\n";
   for (const TableFormat& table : format.tables) add_fields(table, text);
-  for (const Member& member : format.members) {
-    text += fmt::format("| `{}` | {} [{}](#{}) | {}| {} |\n", member.name,
-                        member.list ? "a list of" : "a", member.format->name, member.format->name,
-                        member.required ? "required " : "", cell(member.meaning));
-  }
+  add_members(format.members, scene_page, text);
   for (const Variant& variant : format.variants) {
     text += fmt::format("\n### {} `\"{}\"`\n\n{}.\n", format.name, variant.name, variant.meaning);
-    if (variant.table.fields.empty()) continue;
+    if (variant.table.fields.empty() && variant.members.empty()) continue;
     add_table_head(text);
     add_fields(variant.table, text);
+    add_members(variant.members, scene_page, text);
   }
 }
 

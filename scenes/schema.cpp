@@ -9,6 +9,7 @@
 #include "scenes/field_json.h"
 #include "scenes/format.h"
 #include "scenes/json/pretty.h"
+#include "scenes/reference.h"
 #include "scenes/scene.h"
 
 namespace sheave {
@@ -65,9 +66,12 @@ struct SlotSchema {
   }
 };
 
-Json field_schema(const Field& field, const TableFormat& table, bool is_entity_name) {
+Json field_schema(const Field& field, const TableFormat& table, bool is_entity_name, bool partial) {
   const FieldSlot slot = slot_of(field, table.defaults.get());
   Json schema = std::visit([&](const auto& s) { return SlotSchema{field}(s); }, slot);
+  if (partial) {
+    schema = {{"anyOf", Json::array({std::move(schema), {{"type", "null"}}})}};
+  }
   std::string description(field.meaning);
   if (!field.unit.empty()) description += fmt::format(" [{}]", field.unit);
   schema["description"] = description;
@@ -81,6 +85,9 @@ Json field_schema(const Field& field, const TableFormat& table, bool is_entity_n
   return schema;
 }
 
+/// References have no spaces.
+std::string definition_name(const ObjectFormat& format) { return anchor_of(format.name); }
+
 /// The schema of an object of `format`, of the given type if it has several.
 Json object_schema(const ObjectFormat& format, const Variant* variant) {
   Json properties = Json::object();
@@ -92,20 +99,25 @@ Json object_schema(const ObjectFormat& format, const Variant* variant) {
   const auto add_table = [&](const TableFormat& table) {
     for (const Field& field : table.fields) {
       const bool is_entity_name = format.named && field.name == "name";
-      properties[std::string(field.name)] = field_schema(field, table, is_entity_name);
+      properties[std::string(field.name)] =
+          field_schema(field, table, is_entity_name, format.partial);
       if (field.presence == Presence::required) required.push_back(field.name);
     }
   };
-  for (const TableFormat& table : format.tables) add_table(table);
-  if (variant != nullptr) add_table(variant->table);
-  for (const Member& member : format.members) {
-    Json reference{{"$ref", fmt::format("#/definitions/{}", member.format->name)}};
+  const auto add_member = [&](const Member& member) {
+    Json reference{{"$ref", fmt::format("#/definitions/{}", definition_name(*member.format))}};
     // Draft-07 ignores what stands beside a $ref, so the description needs a level of its own.
     properties[std::string(member.name)] =
         member.list ? list_schema(std::move(reference))
                     : Json{{"allOf", Json::array({std::move(reference)})}};
     properties[std::string(member.name)]["description"] = member.meaning;
     if (member.required) required.push_back(member.name);
+  };
+  for (const TableFormat& table : format.tables) add_table(table);
+  if (variant != nullptr) add_table(variant->table);
+  for (const Member& member : format.members) add_member(member);
+  if (variant != nullptr) {
+    for (const Member& member : variant->members) add_member(member);
   }
   Json schema{{"type", "object"},
               {"description", variant != nullptr ? variant->meaning : format.meaning},
@@ -128,11 +140,15 @@ Json format_schema(const ObjectFormat& format) {
 }
 
 void add_definitions(const ObjectFormat& format, Json& definitions) {
-  for (const Member& member : format.members) {
-    const std::string name(member.format->name);
-    if (definitions.contains(name)) continue;
+  const auto add = [&](const Member& member) {
+    const std::string name = definition_name(*member.format);
+    if (definitions.contains(name)) return;
     definitions[name] = format_schema(*member.format);
     add_definitions(*member.format, definitions);
+  };
+  for (const Member& member : format.members) add(member);
+  for (const Variant& variant : format.variants) {
+    for (const Member& member : variant.members) add(member);
   }
 }
 

@@ -151,7 +151,9 @@ struct ValueReader {
     }
     Suggestion suggestion(name);
     if (bodies.in_order.size() <= max_suggestions && !faults.full()) {
-      for (const std::string_view candidate : bodies.in_order) suggestion.consider(candidate);
+      for (const std::string_view candidate : bodies.in_order) {
+        if (bodies.indices.contains(candidate)) suggestion.consider(candidate);
+      }
       suggestion.consider("world");
     }
     fail(node, FaultCode::unknown_body, "there is no body of this name" + suggestion.question(),

@@ -14,7 +14,7 @@ namespace sheave {
 /// The bodies that references may name.
 struct BodyNames {
   std::unordered_map<std::string_view, int> indices;
-  std::vector<std::string_view> in_order;
+  std::vector<std::string_view> in_order;  ///< some of which may not be there any more
 };
 
 /// Reads `node` into a slot of `field`; reports what the field does not accept.

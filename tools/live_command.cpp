@@ -38,6 +38,7 @@ struct LiveOptions {
   std::optional<double> realtime;
   std::string load_state, log;
   bool schema = false;
+  bool answer_schema = false;
   bool reference = false;
 };
 
@@ -173,6 +174,10 @@ ExitCode run_live(const LiveOptions& options) {
     print(live::protocol_schema());
     return ExitCode::done;
   }
+  if (options.answer_schema) {
+    print(live::answer_schema());
+    return ExitCode::done;
+  }
   if (options.reference) {
     print(live::protocol_reference());
     return ExitCode::done;
@@ -220,6 +225,8 @@ Action declare_live(CLI::App& app) {
       ->option_text("FILE");
   app.add_flag("--schema", options->schema,
                "print the JSON Schema (draft-07) of requests, and nothing else");
+  app.add_flag("--answer-schema", options->answer_schema,
+               "print the JSON Schema (draft-07) of answers and events, and nothing else");
   app.add_flag("--reference", options->reference,
                "print the reference of requests (Markdown), and nothing else");
   app.footer(R"(Examples:

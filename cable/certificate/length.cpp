@@ -1,5 +1,5 @@
-// Cable is neither made nor lost: the sum of rest lengths and stored lengths is that of time 0 and what was fed, a span gains
-// what its wheels and holes give, and nothing is shorter than 0.
+// Cable is neither made nor lost: the sum of rest lengths and stored lengths is that of time 0 and
+// what was fed, a span gains what its wheels and holes give, and nothing is shorter than 0.
 
 #include <algorithm>
 #include <cmath>
@@ -43,6 +43,31 @@ void check_cable(const Evidence& evidence, const CableEvidence& cable, Findings&
                 whole);
   const double size = std::min(length, evidence.bodies.scale());
   findings.note(Kind::length, "m", -shortest, size, 1e-12 * longest, whole);
+}
+
+/// What is stored on a round wheel between two spans is the arc from one to the other, up to whole
+/// turns.
+void check_arcs(const Evidence& evidence, const CableEvidence& cable, Findings& findings) {
+  const CableReport& end = cable.end;
+  if (end.cut) return;
+  const double size = std::min(end.total_length, evidence.bodies.scale());
+  const auto check = [&](const LinkReport& link) {
+    if (!link.touched || link.winding == 0 || !(link.radius > 0.0) || !link.path.empty()) return;
+    const Vector3 entry = link.entry - link.center;
+    const Vector3 exit = link.exit - link.center;
+    const double angle = std::atan2(link.normal.dot(entry.cross(exit)), entry.dot(exit));
+    const double lies = link.stored_length + link.stored_stretch;
+    const double perimeter = 2.0 * pi * link.radius;
+    const double off = std::remainder(lies - link.winding * link.radius * angle, perimeter);
+    findings.note(Kind::length, "m", std::abs(off), size, 1e-12 * (size + end.total_length), [&] {
+      return "\"" + std::string(cable.name) + "\" on " +
+             evidence.body_name(link.body.is_world() ? evidence.bodies.count() : link.body.index);
+    });
+  };
+  for (std::size_t i = 0; i < end.links.size(); ++i) {
+    if (end.closed || (i > 0 && i + 1 < end.links.size())) check(end.links[i]);
+  }
+  for (const WrapReport& wrap : end.wraps) check(wrap.link);
 }
 
 /// What an attachment with a feed speed pays out, as long as there is cable to take in.
@@ -118,7 +143,8 @@ double unrolled(const Evidence& evidence, const CableEvidence& cable, const Span
   const double first = rim_travel(evidence, span.from, -1.0, rolled);
   const double second = rim_travel(evidence, span.to, 1.0, rolled - first);
   if (!cable.definition->axial_stiffness) return rolled - first - second;
-  // What comes onto a rim has the strain of the span, what comes off it one with which some of it lies there.
+  // What comes onto a rim has the strain of the span, what comes off it one with which some of it
+  // lies there.
   double strain = 0.0;
   for (const End when : {first_end, last_end}) {
     if (span.rest_length[when] > 0.0) {
@@ -140,6 +166,7 @@ double unrolled(const Evidence& evidence, const CableEvidence& cable, const Span
 void check_lengths(const Evidence& evidence, Findings& findings) {
   for (const CableEvidence& cable : evidence.cables) {
     check_cable(evidence, cable, findings);
+    check_arcs(evidence, cable, findings);
     check_spans_of(evidence, cable, findings);
     check_feeds(evidence, cable, findings);
   }

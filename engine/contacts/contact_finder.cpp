@@ -1,8 +1,9 @@
-// How far bodies may be apart at the start of a substep and still be looked at: as far as their velocities, what they gain
-// by free fall and their rotation can bring surfaces together within the substep, and a skin of a hundredth of the smaller
-// form, so that what rests keeps its points. A point that is apart has a row that does nothing until the gap is closed;
-// that is what stops a fast body at a thin wall. Not seen is a motion that forces bend within one substep by more than the
-// skin, and what a body that turns fast sweeps sideways.
+// How far bodies may be apart at the start of a substep and still be looked at: as far as their
+// velocities, what they gain by free fall and their rotation can bring surfaces together within the
+// substep, and a skin of a hundredth of the smaller form, so that what rests keeps its points. A
+// point that is apart has a row that does nothing until the gap is closed; that is what stops a
+// fast body at a thin wall. Not seen is a motion that forces bend within one substep by more than
+// the skin, and what a body that turns fast sweeps sideways.
 
 #include "engine/contacts/contact_finder.h"
 
@@ -128,7 +129,7 @@ void ContactFinder::place(const Substep& substep) {
     if (moving.translates) {
       acceleration =
           times(moving.inverse_mass, substep.bodies[carrier].mass * substep.gravity +
-                                         load_on(substep, carrier, substep.start.bodies).force);
+                                         force_on(substep, carrier, substep.start.bodies));
     }
     const Quaternion own_to_world = substep.orientation(form.body);
     const Vector3 position = substep.position(form.body) + own_to_world * form.position;

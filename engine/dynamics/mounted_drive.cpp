@@ -1,6 +1,6 @@
-// One row per drive, along the angle c of the rotor against its carrier: the gradient is the axle a on the rotor and -a on the
-// carrier, so whatever the drive does to one it does to the other in the opposite sense, and angular momentum is kept. The rows
-// are those of a driven hinge:
+// One row per drive, along the angle c of the rotor against its carrier: the gradient is the axle a
+// on the rotor and -a on the carrier, so whatever the drive does to one it does to the other in the
+// opposite sense, and angular momentum is kept. The rows are those of a driven hinge:
 //
 //   angle    C = c - (table(t) - table(0))
 //   speed    C = c - c0 - integral of the table
@@ -27,6 +27,7 @@ class MountedDrives final : public ConstraintBatch {
     }
     multipliers_.resize(drives_.size());
     acted_.resize(drives_.size());
+    demands_.resize(drives_.size());
   }
 
   [[nodiscard]] std::string_view name() const override { return mounted_drives_name; }
@@ -38,6 +39,7 @@ class MountedDrives final : public ConstraintBatch {
   void begin(const Substep& /*substep*/, const FeatureState& state) override {
     std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
     for (std::size_t i = 0; i < drives_.size(); ++i) acted_[i] = state.reals[i] != 0.0 ? 1 : 0;
+    for (Demand& demand : demands_) demand.time = not_set;
   }
 
   double sweep(Substep& substep) override {
@@ -45,7 +47,7 @@ class MountedDrives final : public ConstraintBatch {
     Row row;
     for (std::size_t i = 0; i < drives_.size(); ++i) {
       row.clear();
-      evaluate(substep, drives_[i], row);
+      evaluate(substep, i, row);
       correction = std::max(correction, solve_row(row, substep.h, multipliers_[i], substep.moving));
     }
     return correction;
@@ -54,7 +56,7 @@ class MountedDrives final : public ConstraintBatch {
   void linearise(Substep& substep, RowList& rows) override {
     for (std::size_t i = 0; i < drives_.size(); ++i) {
       Row& row = rows.emplace_back();
-      evaluate(substep, drives_[i], row);
+      evaluate(substep, i, row);
       row.index = static_cast<int>(i);
       row.active = acted_[i] != 0;
     }
@@ -83,14 +85,16 @@ class MountedDrives final : public ConstraintBatch {
   }
 
  private:
-  static void evaluate(const Substep& substep, int rotor, Row& row) {
+  /// What a drive asks for; the same in all rounds of a substep.
+  struct Demand {
+    double time = not_set;  ///< of the positions that it is for [s]
+    double way = 0.0;       ///< the angle [rad], or that since the start of the substep
+    double rate = 0.0;      ///< [rad/s]
+    double torque = 0.0;    ///< mean over the substep [N m]
+  };
+
+  static Demand demand_of(const Substep& substep, int rotor) {
     const BodyProperties& body = substep.bodies[rotor];
-    const MovingBody& carrier = substep.moving[at(body.mount)];
-    const Vector3 axle = rotated(carrier.orientation, body.axis);
-    const double start = substep.start.bodies[at(rotor)].angle;
-    const double turned = dot(axle, substep.moving[at(rotor)].turn - carrier.turn);
-    row.add(rotor, Vector3::Zero(), axle);
-    row.add(body.mount, Vector3::Zero(), -axle);
     const BodyDrive drive(body, substep.start.controls, rotor);
     const double from = substep.start.time;
     const double to = substep.time;
@@ -98,25 +102,50 @@ class MountedDrives final : public ConstraintBatch {
       case DriveKind::none:
         break;
       case DriveKind::angle:
-        row.value = start + turned - drive.at(to);
-        row.rate = -drive.rate(to);
-        break;
+        return {to, drive.at(to), drive.rate(to)};
       case DriveKind::speed:
-        row.value = turned - drive.integral(from, to);
-        row.rate = -drive.at(to);
-        break;
+        return {to, to > from ? drive.integral(from, to) : 0.0, drive.at(to)};
       case DriveKind::torque: {
         const double end = substep.next.time;
-        row.value = turned;
-        row.lower = row.upper = drive.integral(from, end) / (end - from) * substep.h * substep.h;
-        break;
+        return {to, 0.0, 0.0, drive.integral(from, end) / (end - from)};
       }
+    }
+    return {to};
+  }
+
+  void evaluate(const Substep& substep, std::size_t index, Row& row) {
+    const int rotor = drives_[index];
+    const BodyProperties& body = substep.bodies[rotor];
+    const MovingBody& carrier = substep.moving[at(body.mount)];
+    const Vector3 axle = rotated(carrier.orientation, body.axis);
+    const double start = substep.start.bodies[at(rotor)].angle;
+    const double turned = dot(axle, substep.moving[at(rotor)].turn - carrier.turn);
+    row.add(rotor, Vector3::Zero(), axle);
+    row.add(body.mount, Vector3::Zero(), -axle);
+    Demand& demand = demands_[index];
+    if (demand.time != substep.time) demand = demand_of(substep, rotor);
+    switch (body.mounted_drive) {
+      case DriveKind::none:
+        break;
+      case DriveKind::angle:
+        row.value = start + turned - demand.way;
+        row.rate = -demand.rate;
+        break;
+      case DriveKind::speed:
+        row.value = turned - demand.way;
+        row.rate = -demand.rate;
+        break;
+      case DriveKind::torque:
+        row.value = turned;
+        row.lower = row.upper = demand.torque * substep.h * substep.h;
+        break;
     }
   }
 
   std::vector<int> drives_;  // their rotors
   // Scratch of a substep.
   std::vector<double> multipliers_;
+  std::vector<Demand> demands_;
   std::vector<char> acted_;  // whether the drive had a torque in the last substep
 };
 

@@ -27,44 +27,46 @@ Vector3 rotor_momentum(const Substep& substep, const BodyProperties& carrier,
   return sum;
 }
 
-namespace {
-
-/// What has been set on the body and its rotors, besides their constant loads.
-void add_set_loads(const Substep& substep, int i, std::span<const BodyState> poses, Load& load) {
+Vector3 force_on(const Substep& substep, int i, std::span<const BodyState> poses) {
   const ControlTable<ForceControl>& forces = substep.start.controls.forces;
+  const std::vector<int>& rotors = substep.bodies[i].mounted_rotors;
+  Vector3 force = substep.bodies.definition(i).force;
+  for (const int rotor : rotors) force += substep.bodies.definition(rotor).force;
+  if (!forces.any()) return force;
   if (const ForceControl* set = forces.find(i)) {
-    const Quaternion& orientation = poses[at(i)].orientation;
-    load.force += set->force_in_world(orientation);
-    load.torque += set->torque_in_world(orientation);
+    force += set->force_in_world(poses[at(i)].orientation);
   }
-  for (const int rotor : substep.bodies[i].mounted_rotors) {
+  for (const int rotor : rotors) {
     const ForceControl* set = forces.find(rotor);
-    if (set == nullptr) continue;
-    const Quaternion& carrier = poses[at(i)].orientation;
-    const Vector3 axis = carrier * substep.bodies[rotor].axis;
-    const Vector3 force = set->force_in_world(poses[at(rotor)].orientation);
-    const Vector3 torque = set->torque_in_world(poses[at(rotor)].orientation);
-    load.force += force;
-    load.torque += (carrier * substep.bodies[rotor].mount_position).cross(force) + torque -
-                   axis * axis.dot(torque);
+    if (set != nullptr) force += set->force_in_world(poses[at(rotor)].orientation);
   }
+  return force;
 }
 
-}  // namespace
-
-Load load_on(const Substep& substep, int i, std::span<const BodyState> poses) {
-  const BodyDef& own = substep.bodies.definition(i);
-  Load load{own.force, own.torque};
-  for (const int rotor : substep.bodies[i].mounted_rotors) {
-    const Quaternion& orientation = poses[at(i)].orientation;
+Vector3 torque_on(const Substep& substep, int i, std::span<const BodyState> poses) {
+  const ControlTable<ForceControl>& forces = substep.start.controls.forces;
+  const std::vector<int>& rotors = substep.bodies[i].mounted_rotors;
+  const Quaternion& orientation = poses[at(i)].orientation;
+  Vector3 torque = substep.bodies.definition(i).torque;
+  for (const int rotor : rotors) {
     const BodyDef& mounted = substep.bodies.definition(rotor);
     const Vector3 axis = orientation * substep.bodies[rotor].axis;
-    load.force += mounted.force;
-    load.torque += (orientation * substep.bodies[rotor].mount_position).cross(mounted.force) +
-                   mounted.torque - axis * axis.dot(mounted.torque);
+    torque += (orientation * substep.bodies[rotor].mount_position).cross(mounted.force) +
+              mounted.torque - axis * axis.dot(mounted.torque);
   }
-  if (substep.start.controls.forces.any()) add_set_loads(substep, i, poses, load);
-  return load;
+  if (!forces.any()) return torque;
+  const ForceControl* own = forces.find(i);
+  if (own != nullptr && !own->is_central()) torque += own->torque_in_world(orientation);
+  for (const int rotor : rotors) {
+    const ForceControl* set = forces.find(rotor);
+    if (set == nullptr) continue;
+    const Vector3 axis = orientation * substep.bodies[rotor].axis;
+    const Vector3 force = set->force_in_world(poses[at(rotor)].orientation);
+    const Vector3 own_torque = set->torque_in_world(poses[at(rotor)].orientation);
+    torque += (orientation * substep.bodies[rotor].mount_position).cross(force) + own_torque -
+              axis * axis.dot(own_torque);
+  }
+  return torque;
 }
 
 double work_of_set_forces(const Substep& substep) {
@@ -74,6 +76,10 @@ double work_of_set_forces(const Substep& substep) {
     if (set == nullptr) continue;
     const BodyState& from = substep.start.bodies[at(i)];
     const BodyState& to = substep.next.bodies[at(i)];
+    if (set->frame == ForceFrame::world && set->is_central()) {
+      work += dot(set->force, to.position - from.position);
+      continue;
+    }
     const auto point = [&](const BodyState& body) -> Vector3 {
       return body.position + rotated(body.orientation, set->arm);
     };

@@ -34,18 +34,20 @@ void RattleSolver::begin(Substep& substep, Features features) {
 
 bool RattleSolver::try_positions(Substep& substep, Features features) {
   const double enough = DirectSolver::tolerance * substep.bodies.scale();
-  // Newton's last round leaves far less than it found. A sweep leaves a share, which is a force still, so when what the
-  // features decide is settled, sweeps go on to rounding.
+  // Newton's last round leaves far less than it found. A sweep leaves a share, which is a force
+  // still, so when what the features decide is settled, sweeps go on to rounding.
   constexpr double rounding = 1e-15;
   const double done = solver_ == SolverKind::direct ? enough : rounding * substep.bodies.scale();
-  // Here only values bend, by the square of the turn; what the first round leaves of less than this the second one mends.
+  // Here only values bend, by the square of the turn; what the first round leaves of less than this
+  // the second one mends.
   constexpr double least_swing = 1e-4;  // [rad]
   double first = 0.0;
   double violated = 0.0;
   bool revised = false;
   bool settled = false;
-  // One linearisation more than rounds: whether x1 is a solution or the substep must be left to xpbd is decided by what
-  // the last round has left, which only the rows at x1 tell. The velocities need these rows, too.
+  // One linearisation more than rounds: whether x1 is a solution or the substep must be left to
+  // xpbd is decided by what the last round has left, which only the rows at x1 tell. The velocities
+  // need these rows, too.
   positions_.move_on(substep);
   for (int round = 0; round <= substep.iterations; ++round) {
     if (!positions_.linearise(substep, features, RowSystem::Rule::midpoint, false)) return false;
@@ -68,12 +70,14 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
     // After the last round, too: what it finds has the round of the velocities to act in.
     for (const auto& feature : features) revised = feature->revise(substep) || revised;
   }
-  // Gauss-Seidel need not have converged; Newton's method that has not is lost: where bodies have swung so far that no
-  // multipliers along the gradients of the start reach a solution, it comes near one and stays there.
+  // Gauss-Seidel need not have converged; Newton's method that has not is lost: where bodies have
+  // swung so far that no multipliers along the gradients of the start reach a solution, it comes
+  // near one and stays there.
   constexpr double nearly = 1e-3;
   const double left = solver_ == SolverKind::direct ? nearly * first : first;
-  // Sweeps that leave much of what is no small share of the scene are no slow convergence either: rows contradict each other,
-  // and each integrator would move the bodies to a compromise of its own, to and fro.
+  // Sweeps that leave much of what is no small share of the scene are no slow convergence either:
+  // rows contradict each other, and each integrator would move the bodies to a compromise of its
+  // own, to and fro.
   constexpr double gross = 1e-3;
   const bool torn = violated > 0.5 * first && violated > gross * substep.bodies.scale();
   const bool found = !torn && violated <= std::max(left, enough);
@@ -141,13 +145,14 @@ void correct_gyroscopic_velocities(Substep& substep) {
     }
     const BodyState& start = substep.start.bodies[at(i)];
     BodyState& next = substep.next.bodies[at(i)];
-    // L after the first half of loads and constraints, which act at the start; it is constant from there on.
+    // L after the first half of loads and constraints, which act at the start; it is constant from
+    // there on.
     const Matrix3 inertia = world_inertia(body, start.orientation, false);
     const Vector3 turned_by = substep.moving[at(i)].turn - substep.predicted_turn[at(i)];
     const Vector3 damped =
         damped_rotation(substep.bodies.definition(i), inertia, start.angular_velocity, 0.5 * h);
-    Vector3 momentum = inertia * (damped + turned_by / h) +
-                       0.5 * h * load_on(substep, i, substep.start.bodies).torque;
+    Vector3 momentum =
+        inertia * (damped + turned_by / h) + 0.5 * h * torque_on(substep, i, substep.start.bodies);
     for (const int r : body.mounted_rotors) {
       const BodyProperties& rotor = substep.bodies[r];
       const Vector3 axis = start.orientation * rotor.axis;
@@ -171,16 +176,16 @@ void add_second_half_of_loads(Substep& substep) {
     BodyState& next = substep.next.bodies[at(i)];
     if (!moving.translates && !moving.rotates) continue;
     const BodyDef& definition = substep.bodies.definition(i);
-    const Load load = load_on(substep, i, substep.next.bodies);
     if (moving.translates) {
-      const Vector3 force = body.mass * substep.gravity + load.force;
+      const Vector3 force = body.mass * substep.gravity + force_on(substep, i, substep.next.bodies);
       const double keep = decay(definition.damping / body.mass, half).keep;
       next.velocity =
           allowed_velocity(body, keep * next.velocity + half * times(moving.inverse_mass, force));
     }
     if (!moving.rotates) continue;
+    const Vector3 torque = torque_on(substep, i, substep.next.bodies);
     if (body.mobility == Mobility::free) {
-      const Vector3 turning = world_inertia(body, next.orientation, true) * load.torque;
+      const Vector3 turning = world_inertia(body, next.orientation, true) * torque;
       if (body.isotropic) {
         const auto [keep, gain] =
             decay(definition.angular_damping * body.inverse_inertia(0, 0), half);
@@ -196,7 +201,7 @@ void add_second_half_of_loads(Substep& substep) {
                              ? Vector3(substep.next.bodies[at(body.mount)].orientation * body.axis)
                              : body.axis;
     const auto [keep, gain] = decay(definition.angular_damping / body.axis_inertia, half);
-    double change = gain * axis.dot(load.torque) / body.axis_inertia +
+    double change = gain * axis.dot(torque) / body.axis_inertia +
                     (keep - 1.0) * axis.dot(next.angular_velocity);
     if (body.drive == DriveKind::torque) {
       const BodyDrive drive(body, substep.start.controls, i);

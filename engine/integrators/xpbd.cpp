@@ -12,12 +12,13 @@
 //   q_half = exp(h/2 w) q,   w_half = I(q_half)^-1 (L_half - sum J s a(q_half)),
 //   q* = exp(h w_half) q,    w* = I(q*)^-1 (L_end - sum J s a(q*)),   turn* = h w_half,
 // of second order. The bearing passes no torque about a, so s is constant without constraints.
-// With two equal moments J and a third one K about the axis u, and no rotors, the free motion is known: with L at half,
+// With two equal moments J and a third one K about the axis u, and no rotors, the free motion is
+// known: with L at half,
 //   q* = exp(h L / J) exp(h s u) q,    s = (1 / K - 1 / J) L . u,    w_half = L / J + s u(h / 2),
-// for any step. The explicit rule would turn L away from u where h |w| is not small; a thin body then begins to spin about
-// its axis, where nothing stops it, and what light links gain in every substep makes them run away.
-// This deviates from the paper's engine, which gets w' from the difference of orientations: that
-// aliases beyond half a turn per substep and does not conserve L.
+// for any step. The explicit rule would turn L away from u where h |w| is not small; a thin body
+// then begins to spin about its axis, where nothing stops it, and what light links gain in every
+// substep makes them run away. This deviates from the paper's engine, which gets w' from the
+// difference of orientations: that aliases beyond half a turn per substep and does not conserve L.
 
 #include "engine/body_drive.h"
 #include "engine/index.h"
@@ -27,7 +28,8 @@
 namespace sheave {
 namespace {
 
-/// Turns a body with two equal moments of inertia under constant angular momentum. Returns the angular velocity at half.
+/// Turns a body with two equal moments of inertia under constant angular momentum. Returns the
+/// angular velocity at half.
 Vector3 turn_symmetric_body(Substep& substep, int i, const Vector3& momentum) {
   const BodyProperties& body = substep.bodies[i];
   MovingBody& moving = substep.moving[at(i)];
@@ -49,7 +51,7 @@ void rotate_freely(Substep& substep, int i) {
   const BodyState& start = substep.start.bodies[at(i)];
   MovingBody& moving = substep.moving[at(i)];
   const double h = substep.h;
-  const Vector3 torque = load_on(substep, i, substep.start.bodies).torque;
+  const Vector3 torque = torque_on(substep, i, substep.start.bodies);
   Vector3 half_velocity;
   Vector3 end_velocity;
   if (body.isotropic && body.mounted_rotors.empty()) {
@@ -84,7 +86,8 @@ void rotate_freely(Substep& substep, int i) {
   substep.predicted[at(i)].angular_velocity = end_velocity;
 }
 
-/// Rotation about one axis: no gyroscopic effects, and turn = h w exactly unless a drive says otherwise.
+/// Rotation about one axis: no gyroscopic effects, and turn = h w exactly unless a drive says
+/// otherwise.
 void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
   const BodyProperties& body = substep.bodies[i];
   MovingBody& moving = substep.moving[at(i)];
@@ -101,7 +104,7 @@ void rotate_about_axis(Substep& substep, int i, const Vector3& axis) {
   } else {
     if (body.axis_inertia > 0.0) {
       const double inertia = body.axis_inertia;
-      const double torque = axis.dot(load_on(substep, i, substep.start.bodies).torque);
+      const double torque = axis.dot(torque_on(substep, i, substep.start.bodies));
       const auto [keep, gain] = decay(substep.bodies.definition(i).angular_damping / inertia,
                                       substep.load_share * substep.h);
       spin = keep * spin + gain * torque / inertia;
@@ -154,9 +157,10 @@ void predict(Substep& substep) {
     const BodyState& start = substep.start.bodies[at(i)];
     MovingBody& moving = substep.moving[at(i)];
     if (moving.translates) {
-      // W M (v + h g + h f / m): the inverse mass matrix keeps what the mobility allows and drag leaves.
+      // W M (v + h g + h f / m): the inverse mass matrix keeps what the mobility allows and drag
+      // leaves.
       const Vector3 force =
-          body.mass * substep.gravity + load_on(substep, i, substep.start.bodies).force;
+          body.mass * substep.gravity + force_on(substep, i, substep.start.bodies);
       const double time = substep.load_share * h;
       const double keep = decay(substep.bodies.definition(i).damping / body.mass, time).keep;
       const Vector3 velocity = keep * start.velocity + time * times(moving.inverse_mass, force);

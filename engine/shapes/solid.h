@@ -1,5 +1,6 @@
 #pragma once
-// A convex solid as contacts see it: corners, edges and faces of a core, and what is put round the core.
+// A convex solid as contacts see it: corners, edges and faces of a core, and what is put round the
+// core.
 
 #include <span>
 #include <vector>
@@ -11,9 +12,10 @@ namespace sheave {
 /// In the frame of a shape.
 struct ConvexSolid {
   enum class Kind {
-    rounded,     ///< all points within `radius` of the core; of a box and a hull the radius is 0
-    cylinder,    ///< about the core, a segment along z between the centres of the flat ends
-    half_space,  ///< all points beneath the plane through `vertices[0]` with the normal of `faces[0]`
+    rounded,   ///< all points within `radius` of the core; of a box and a hull the radius is 0
+    cylinder,  ///< about the core, a segment along z between the centres of the flat ends
+    /// All points beneath the plane through `vertices[0]` with the normal of `faces[0]`
+    half_space,
   };
   /// A flat side of the core.
   struct Face {
@@ -34,9 +36,11 @@ struct ConvexSolid {
   std::vector<Edge> edges;
 };
 
-/// A ball, a capsule or a cylinder: the core is the segment between two points on the z axis, or a point if it is 0 long.
+/// A ball, a capsule or a cylinder: the core is the segment between two points on the z axis, or a
+/// point if it is 0 long.
 [[nodiscard]] ConvexSolid solid_about_segment(ConvexSolid::Kind kind, double length, double radius);
-/// A solid with flat sides only. `loops` are the corners of the faces, counter-clockwise from outside.
+/// A solid with flat sides only. `loops` are the corners of the faces, counter-clockwise from
+/// outside.
 [[nodiscard]] ConvexSolid solid_of_faces(std::span<const Vector3> vertices,
                                          std::vector<std::vector<int>> loops);
 /// The prism over a convex outline [x, y, 0], counter-clockwise about z.

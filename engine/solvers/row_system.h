@@ -1,39 +1,47 @@
 #pragma once
 // All rows of a substep as one linear problem: what one round of Newton's method solves.
 //
-// With the rows linearised at the current positions, C(x + dx) = C + J dx, motion dx = W K^T dl for a change dl of the
-// unknowns l, and compliance and damping by one of two rules, the unknowns l + dl satisfy
+// With the rows linearised at the current positions, C(x + dx) = C + J dx, motion dx = W K^T dl for
+// a change dl of the unknowns l, and compliance and damping by one of two rules, the unknowns l +
+// dl satisfy
 //
 //   r = c + A dl = 0,   A = J W K^T + a',   c = S value + a' l,   a' = S sum of k a~
 //
-// where a row is free, and l + dl at its bound with r >= 0 (lower bound) or r <= 0 (upper) where it is not: a linear
-// complementarity problem (engine/solvers/active_set.h). Per row, with compliance a and damping b:
+// where a row is free, and l + dl at its bound with r >= 0 (lower bound) or r <= 0 (upper) where it
+// is not: a linear complementarity problem (engine/solvers/active_set.h). Per row, with compliance
+// a and damping b:
 //
 //   backward (XPBD, engine/row.h):  value = C + g C',              a~ = a / h^2,    g = a b / h,    S = 1 / (1 + g)
 //   midpoint:                       value = (1 + g) C + (1 - g) C0, a~ = 4 a / h^2,  g = 2 a b / h,  S = 1 / (1 + g)
 //
-// The second is a F + C = 0 with force and value at the middle of the substep, F = 2 l / h^2 and C0 the value at its
-// start: it conserves the energy of a linear spring for any step. A unilateral spring that was slack counts with C0 = 0:
-// the force then does less work than it stores, so no transition makes energy. Rigid rows have value = C.
+// The second is a F + C = 0 with force and value at the middle of the substep, F = 2 l / h^2 and C0
+// the value at its start: it conserves the energy of a linear spring for any step. A unilateral
+// spring that was slack counts with C0 = 0: the force then does less work than it stores, so no
+// transition makes energy. Rigid rows have value = C.
 //
-// Bounds of a row are those of force x h^2. The midpoint rule acts with F = 2 l / h^2 for half a substep and so has half of
-// them, and an impulse m of the velocities, for the other half, has the bounds over 2 h.
+// Bounds of a row are those of force x h^2. The midpoint rule acts with F = 2 l / h^2 for half a
+// substep and so has half of them, and an impulse m of the velocities, for the other half, has the
+// bounds over 2 h.
 //
-// J and K are the gradients of the rows now and those along which multipliers act: the same for XPBD, those at the start
-// of the substep for `rattle`. Rows that share an unknown are added in J and weighted in K, with the weights of the same time:
-// a ratio of friction that belonged to the end would make `rattle` one of first order.
+// J and K are the gradients of the rows now and those along which multipliers act: the same for
+// XPBD, those at the start of the substep for `rattle`. Rows that share an unknown are added in J
+// and weighted in K, with the weights of the same time: a ratio of friction that belonged to the
+// end would make `rattle` one of first order.
 //
-// Every round puts the bodies at x* + W K^T l from the predicted x* anew, so K is that of the last round throughout, and
-// c has J (x* + W K^T l - x) besides. XPBD then ends where implicit Euler does, with the gradients of the end: what rests
-// has exactly its static forces. (Corrections added up along the gradients of each round would keep those of x*, which is
-// off by g h^2 and tensions with it, by 1e-4 in a crane of 8 m at 1/120 s.) That is a fixed point in K: its error shrinks by
-// h^2 F / (m L) per round, with the force F of a row that turns a body m over the length L, the square of what the body's
-// swing at F does in a substep. Newton's method on all equations has the turn of K besides: with the derivative H of K^T l
-// along a motion (engine/solvers/curvature.h), the motion of a round is dx = r + W K^T dl + W H dx, r the way from x to
-// x* + W K^T l. bend() solves that within the round, as a fixed point in H dx whose steps take a sweep to and fro over the
-// factors and evaluate no row; the bounds of friction, which follow pressures that depend on them, are found with it. What is
-// left is of second order. Where bodies swing too far for that, corrections can be added up instead (`from_here`): Newton's
-// method on C alone, which converges however fast they swing, with gradients between those of x* and of the end.
+// Every round puts the bodies at x* + W K^T l from the predicted x* anew, so K is that of the last
+// round throughout, and c has J (x* + W K^T l - x) besides. XPBD then ends where implicit Euler
+// does, with the gradients of the end: what rests has exactly its static forces. (Corrections added
+// up along the gradients of each round would keep those of x*, which is off by g h^2 and tensions
+// with it, by 1e-4 in a crane of 8 m at 1/120 s.) That is a fixed point in K: its error shrinks by
+// h^2 F / (m L) per round, with the force F of a row that turns a body m over the length L, the
+// square of what the body's swing at F does in a substep. Newton's method on all equations has the
+// turn of K besides: with the derivative H of K^T l along a motion (engine/solvers/curvature.h),
+// the motion of a round is dx = r + W K^T dl + W H dx, r the way from x to x* + W K^T l. bend()
+// solves that within the round, as a fixed point in H dx whose steps take a sweep to and fro over
+// the factors and evaluate no row; the bounds of friction, which follow pressures that depend on
+// them, are found with it. What is left is of second order. Where bodies swing too far for that,
+// corrections can be added up instead (`from_here`): Newton's method on C alone, which converges
+// however fast they swing, with gradients between those of x* and of the end.
 
 #include <memory>
 #include <span>
@@ -50,77 +58,91 @@ namespace sheave {
 
 using Features = std::span<const std::unique_ptr<ConstraintBatch>>;
 
-/// Rows, unknowns and matrix, with their scratch; what it keeps between substeps is only the pattern of the matrix.
+/// Rows, unknowns and matrix, with their scratch; what it keeps between substeps is only the
+/// pattern of the matrix.
 class RowSystem {
  public:
-  /// What rounding leaves of a row's value, relative to the scene's size: lengths are sums of some ten numbers of that
-  /// size. Without it rows that only a wheel between walls can move, taut by rounding on either side of it, would have no
-  /// solution: no turn of the wheel is good for both.
+  /// What rounding leaves of a row's value, relative to the scene's size: lengths are sums of some
+  /// ten numbers of that size. Without it rows that only a wheel between walls can move, taut by
+  /// rounding on either side of it, would have no solution: no turn of the wheel is good for both.
   static constexpr double value_rounding = 1e-14;
 
   enum class Rule { backward, midpoint };
 
-  /// Keeps the rows at the start of the substep, whose gradients the midpoint rule lets multipliers act along.
+  /// Keeps the rows at the start of the substep, whose gradients the midpoint rule lets multipliers
+  /// act along.
   void remember_start(Substep& substep, Features features);
-  /// The problem at the current positions. `from_here`: bodies will move from these positions by what the unknowns gain;
-  /// otherwise from those of the last call with it, or of move_on(). In the first round, with multipliers of 0 at the
-  /// predicted positions, one of these it must be. False if a row touches other bodies than at the remembered start.
+  /// The problem at the current positions. `from_here`: bodies will move from these positions by
+  /// what the unknowns gain; otherwise from those of the last call with it, or of move_on(). In the
+  /// first round, with multipliers of 0 at the predicted positions, one of these it must be. False
+  /// if a row touches other bodies than at the remembered start.
   bool linearise(Substep& substep, Features features, Rule rule, bool from_here);
-  /// Keeps the predicted positions, from which bodies will move, and puts the bodies where they would be if they went on as they
-  /// move at the start of the substep: constraints have the same forces from one substep to the next, more or less, and without
-  /// them bodies are much farther from the solution. So the first round has better gradients.
+  /// Keeps the predicted positions, from which bodies will move, and puts the bodies where they
+  /// would be if they went on as they move at the start of the substep: constraints have the same
+  /// forces from one substep to the next, more or less, and without them bodies are much farther
+  /// from the solution. So the first round has better gradients.
   void move_on(Substep& substep);
-  /// By how much move_on() has turned bodies that rows hold elsewhere than on an axle, at most [rad].
+  /// By how much move_on() has turned bodies that rows hold elsewhere than on an axle, at most
+  /// [rad].
   [[nodiscard]] double swing() const { return swing_; }
-  /// Energy that the rows have made in the substep with the multipliers and positions of the last linearise(), but for what
-  /// springs, drives and prescribed motion give, as a share of the kinetic energy; 0 where rounding hides it. Implicit Euler
-  /// makes none. To be called after begin_adding_up().
+  /// Energy that the rows have made in the substep with the multipliers and positions of the last
+  /// linearise(), but for what springs, drives and prescribed motion give, as a share of the
+  /// kinetic energy; 0 where rounding hides it. Implicit Euler makes none. To be called after
+  /// begin_adding_up().
   [[nodiscard]] double energy_gain(const Substep& substep) const;
   /// Keeps the predicted positions, before the first round from here.
   void begin_adding_up() { prediction_ = origin_; }
   /// Puts bodies back to what move_on() has kept, with multipliers of 0.
   void start_again(Substep& substep, Features features);
-  /// The problem at the current positions, of features among others that have moved the bodies, too, since the last round:
-  /// their motion counts as part of what bodies move from.
+  /// The problem at the current positions, of features among others that have moved the bodies,
+  /// too, since the last round: their motion counts as part of what bodies move from.
   void linearise_among_others(Substep& substep, Features features, bool first_round);
   /// To be called after apply(), if the next round is one among others.
   void remember_places(const Substep& substep);
-  /// The problem of the velocities in substep.next, with K = J at the current positions: the impulses m [N s] for which
-  /// dC/dt = 0 (or >= 0) on rows that have acted or are closed. Springs have acted and get none. Rows are those of `positions`,
-  /// whose last linearise() must have been at the current positions; it takes them from there.
+  /// The problem of the velocities in substep.next, with K = J at the current positions: the
+  /// impulses m [N s] for which dC/dt = 0 (or >= 0) on rows that have acted or are closed. Springs
+  /// have acted and get none. Rows are those of `positions`, whose last linearise() must have been
+  /// at the current positions; it takes them from there.
   void linearise_velocities(Substep& substep, RowSystem& positions);
 
-  /// Finds the impulses, by sweeps unless `direct`. Friction is bounded by the impulses of its normals, not by their forces in
-  /// the first half (an impact may be over then), so there are rounds until these agree. False if no active set was found.
+  /// Finds the impulses, by sweeps unless `direct`. Friction is bounded by the impulses of its
+  /// normals, not by their forces in the first half (an impact may be over then), so there are
+  /// rounds until these agree. False if no active set was found.
   bool solve_velocities(Substep& substep, bool direct, int sweeps);
 
-  /// The largest violation [m or rad] of what the problem asks for, before it is solved, as far as bounds let unknowns make up
-  /// for it; infinite if a row's value is not finite.
+  /// The largest violation [m or rad] of what the problem asks for, before it is solved, as far as
+  /// bounds let unknowns make up for it; infinite if a row's value is not finite.
   [[nodiscard]] double violation() const;
-  /// Moves the bodies to where the multipliers put them along the gradients of the last linearise(), which was not from here:
-  /// the next round would, if its multipliers did not change. violation() is that of this place; it does not see how far
-  /// across the rows it is from where bodies are.
+  /// Moves the bodies to where the multipliers put them along the gradients of the last
+  /// linearise(), which was not from here: the next round would, if its multipliers did not change.
+  /// violation() is that of this place; it does not see how far across the rows it is from where
+  /// bodies are.
   void follow_gradients(Substep& substep) const;
-  /// Finds the unknowns; false if no active set was found, or Substep::work allows no more. Counts into the substep's statistics.
+  /// Finds the unknowns; false if no active set was found, or Substep::work allows no more. Counts
+  /// into the substep's statistics.
   bool solve(Substep& substep, bool compromise = false);
-  /// Counts in, after solve(), how the forces turn with the motion that it has found (engine/solvers/curvature.h), and how
-  /// friction follows the pressure: one round of Newton's method on all equations, by a few more solutions with the same matrix,
-  /// each a fraction of a round's work. By the midpoint rule forces do not turn, but values do.
-  /// Turns that move nothing by more than `negligible` [m or rad] are left out.
+  /// Counts in, after solve(), how the forces turn with the motion that it has found
+  /// (engine/solvers/curvature.h), and how friction follows the pressure: one round of Newton's
+  /// method on all equations, by a few more solutions with the same matrix, each a fraction of a
+  /// round's work. By the midpoint rule forces do not turn, but values do. Turns that move nothing
+  /// by more than `negligible` [m or rad] are left out.
   void bend(const Substep& substep, double negligible);
-  /// How far the bodies are from where the multipliers of before solve() put them along the gradients of now [m or rad].
+  /// How far the bodies are from where the multipliers of before solve() put them along the
+  /// gradients of now [m or rad].
   [[nodiscard]] double astray() const;
-  /// Whether in the last solve() some rows contradicted each other, so that nothing satisfies them all. `compromise` makes
-  /// all of them give way, where otherwise some are left out.
+  /// Whether in the last solve() some rows contradicted each other, so that nothing satisfies them
+  /// all. `compromise` makes all of them give way, where otherwise some are left out.
   [[nodiscard]] bool contradicts() const { return active_set_.contradicts(); }
   /// Sweeps over the unknowns instead: projected Gauss-Seidel.
   void relax(Substep& substep, int sweeps);
   /// Moves the bodies and the multipliers.
   void apply(Substep& substep, Features features);
-  /// Energy that the rows whose forces do no work have made in the substep, or taken, with the impulses just found and the
-  /// multipliers of `positions` [J]; of rows that may take energy, only what they have made.
+  /// Energy that the rows whose forces do no work have made in the substep, or taken, with the
+  /// impulses just found and the multipliers of `positions` [J]; of rows that may take energy, only
+  /// what they have made.
   [[nodiscard]] double work_error(const Substep& substep, const RowSystem& positions) const;
-  /// Changes the velocities and adds h m to the multipliers, whose mean force over the substep is l / h^2 + m / h.
+  /// Changes the velocities and adds h m to the multipliers, whose mean force over the substep is l
+  /// / h^2 + m / h.
   void apply_impulses(Substep& substep, Features features);
 
   /// Forgets what rounds of this substep leave for the next one.
@@ -144,20 +166,22 @@ class RowSystem {
   void collect_rows(Substep& substep, Features features);
   /// Bounds what is friction by the impulses that were just found. Whether that makes a difference.
   [[nodiscard]] bool bound_friction();
-  /// Gives the rows the gradients and weights of the start to act along; false if they touch other bodies than there.
+  /// Gives the rows the gradients and weights of the start to act along; false if they touch other
+  /// bodies than there.
   bool match_start();
   /// Gradients of the rows and the bodies' responses along them.
   void fill_slots(const Substep& substep);
   void make_groups();
-  /// a b of the group: with the shares a_i k_i that rows of the weights k_i have of its value, sum of a_i b_i a_i k_i over
-  /// that of a_i k_i. (What moves between its rows, cable that runs over a wheel, deflects no spring and moves no damper, so
-  /// only the change of their sum counts.)
+  /// a b of the group: with the shares a_i k_i that rows of the weights k_i have of its value, sum
+  /// of a_i b_i a_i k_i over that of a_i k_i. (What moves between its rows, cable that runs over a
+  /// wheel, deflects no spring and moves no damper, so only the change of their sum counts.)
   [[nodiscard]] double damping_share(const Group& group) const;
   /// Of one row without compliance: by either rule the same.
   void set_rigid(std::size_t group);
   void set_backward(const Substep& substep, std::size_t group);
   void set_midpoint(const Substep& substep, std::size_t group);
-  /// Whether a row that was not active is likely to act: a first guess, which the active set corrects.
+  /// Whether a row that was not active is likely to act: a first guess, which the active set
+  /// corrects.
   [[nodiscard]] bool is_pushed(const Row& row, double value) const;
   void set_bounds(std::size_t group, bool pushed, bool active);
   /// Which bounds rows are at in the solution: what the next round of the substep begins with.
@@ -180,19 +204,21 @@ class RowSystem {
     double last_wanted = 0.0;
   };
   void find_rubbing_rows();
-  /// Bounds friction by the pressures just found; returns by how much that may move anything [m]. `first`: without regard to
-  /// the step before.
+  /// Bounds friction by the pressures just found; returns by how much that may move anything [m].
+  /// `first`: without regard to the step before.
   double follow_pressure(bool first);
   void set_friction(const Rubbing& rubbing, std::size_t group);
-  /// What the turn of the forces adds to the motion, into motion_; returns by how much it is another than in bend_. `straight`:
-  /// it counts for nothing.
+  /// What the turn of the forces adds to the motion, into motion_; returns by how much it is
+  /// another than in bend_. `straight`: it counts for nothing.
   double turn_forces(const Substep& substep, bool& straight);
   /// Solves with motion_ counted in. False if other rows would have to act.
   bool refine();
-  /// The rows' multipliers, and the motion of the bodies from where they are, with the unknowns just found.
+  /// The rows' multipliers, and the motion of the bodies from where they are, with the unknowns
+  /// just found.
   void find_motion();
   void act_springs(Substep& substep);
-  /// Counts the impulses in the groups' multipliers as given: the unknowns are what is added to them.
+  /// Counts the impulses in the groups' multipliers as given: the unknowns are what is added to
+  /// them.
   void start_from_impulses();
   void move_velocities(Substep& substep);
   [[nodiscard]] double rate_of(const Substep& substep, const Row& row) const;
@@ -208,7 +234,8 @@ class RowSystem {
   std::vector<double> start_values_;  ///< per row
   std::vector<Group> groups_;
   std::vector<int> group_of_;
-  /// Per feature and index of multiplier: ComplementarityProblem::free in the last round, -1 if there was none.
+  /// Per feature and index of multiplier: ComplementarityProblem::free in the last round, -1 if
+  /// there was none.
   std::vector<std::vector<char>> sides_;
   std::vector<Pose> origin_;  ///< per body: where it moves from, in the first round its prediction
   std::vector<Pose> prediction_;  ///< per body, where corrections are added up
@@ -220,8 +247,8 @@ class RowSystem {
   std::vector<Rubbing> rubbing_;
   Curvature curvature_;
   bool bent_ = false;  ///< the last round has counted in how forces turn
-  std::vector<double>
-      residual_;  ///< per degree of freedom, of the round: from where bodies are to where they should be
+  /// Per degree of freedom, of the round: from where bodies are to where they should be
+  std::vector<double> residual_;
   std::vector<double> bend_;  ///< and what the turn of the forces adds
   std::vector<double> trial_;
   std::vector<double> row_multipliers_;

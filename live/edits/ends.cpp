@@ -17,8 +17,7 @@ class Detach final : public CableChange {
   static constexpr std::string_view type_name = "detach";
   static constexpr std::string_view type_meaning =
       "takes an end off what it is fixed to; by the end of the edit a loose end has run off all "
-      "that "
-      "does not hold it";
+      "that does not hold it";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&Detach::cable, Detach>("cable", "", {}, required, cable_meaning),
@@ -60,9 +59,9 @@ class Attach final : public CableChange {
   [[nodiscard]] Errors change(Edit& edit, CableHandle handle, EditNames& names) const override {
     BodyId id = BodyId::world();
     if (body != "world") {
-      const Result<BodyHandle> found = names.names.body(body);
+      const Result<BodyHandle> found = names.body(body);
       if (!found) return found.errors();
-      id = Edit::id(*found);
+      id = edit.id(*found);
     }
     edit.attach(handle, end, id, point);
     return {};
@@ -97,7 +96,37 @@ class Split final : public CableChange {
   [[nodiscard]] Errors change(Edit& edit, CableHandle handle, EditNames& names) const override {
     Errors errors = check_name(name);
     if (!errors.empty()) return errors;
-    names.new_cables[name] = edit.split(handle, span, share, name);
+    const CableHandle rest = edit.split(handle, span, share, name);
+    names.add(rest, name);
+    names.tell_part(part_path("cables", rest), "", false);
+    return {};
+  }
+};
+
+class Open final : public CableChange {
+ public:
+  int span = 0;
+  double share = 0.5;
+
+  static constexpr std::string_view type_name = "open";
+  static constexpr std::string_view type_meaning =
+      "makes an open cable with two loose ends of a belt; one that is cut opens where it was cut";
+  static std::span<const Field> field_table() {
+    static const std::array table{
+        field<&Open::cable, Open>("cable", "", {}, required, "name of the belt"),
+        field<&Open::span>("span", "", at_least(0.0), required,
+                           "the span it is opened in: that behind this link, counted from 0"),
+        field<&Open::share>("share", "", between(0.0, 1.0), optional,
+                            "of that span it is opened at; default: 0.5"),
+    };
+    return table;
+  }
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+
+ protected:
+  [[nodiscard]] Errors change(Edit& edit, CableHandle handle, EditNames& /*names*/) const override {
+    edit.open(handle, span, share);
     return {};
   }
 };
@@ -109,12 +138,11 @@ class Join final : public CableChange {
   static constexpr std::string_view type_name = "join";
   static constexpr std::string_view type_meaning =
       "joins the loose last end of a cable to the loose first end of another, which is then part "
-      "of "
-      "it";
+      "of it; a cable that is joined to itself becomes a belt";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&Join::cable, Join>("cable", "", {}, required, cable_meaning),
-        field<&Join::next>("next", "", {}, required, "name of the other cable"),
+        field<&Join::next>("next", "", {}, required, "name of the other cable, or of the same"),
     };
     return table;
   }
@@ -135,6 +163,7 @@ class Join final : public CableChange {
 TypeEntry<EditChange> detach_change() { return change_entry<Detach>(); }
 TypeEntry<EditChange> attach_change() { return change_entry<Attach>(); }
 TypeEntry<EditChange> split_change() { return change_entry<Split>(); }
+TypeEntry<EditChange> open_change() { return change_entry<Open>(); }
 TypeEntry<EditChange> join_change() { return change_entry<Join>(); }
 
 }  // namespace sheave::live

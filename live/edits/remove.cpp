@@ -23,10 +23,12 @@ class RemoveBody final : public EditChange {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
+  void read(json::NodeId /*node*/, EditReader& reader) override { reader.remove_body(body); }
   [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
-    const Result<BodyHandle> handle = names.names.body(body);
+    const Result<BodyHandle> handle = names.body(body);
     if (!handle) return handle.errors();
     edit.remove(*handle);
+    names.remove_body(body);
     return {};
   }
 };
@@ -46,9 +48,10 @@ class RemoveJoint final : public EditChange {
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
-    const Result<JointHandle> handle = names.names.joint(joint);
+    const Result<JointHandle> handle = names.joint(joint);
     if (!handle) return handle.errors();
     edit.remove(*handle);
+    names.remove_joint(joint);
     return {};
   }
 };
@@ -73,10 +76,33 @@ class RemoveCable final : public CableChange {
   }
 };
 
+class RemoveCollider final : public EditChange {
+ public:
+  std::string body;
+
+  static constexpr std::string_view type_name = "remove_collider";
+  static constexpr std::string_view type_meaning = "a body touches nothing any more";
+  static std::span<const Field> field_table() {
+    static const std::array table{
+        field<&RemoveCollider::body>("body", "", {}, required, "name of the body"),
+    };
+    return table;
+  }
+  [[nodiscard]] std::string_view type() const override { return type_name; }
+  [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const override {
+    const Result<BodyHandle> handle = names.body(body);
+    if (!handle) return handle.errors();
+    edit.remove_collider(*handle);
+    return {};
+  }
+};
+
 }  // namespace
 
 TypeEntry<EditChange> remove_body_change() { return change_entry<RemoveBody>(); }
 TypeEntry<EditChange> remove_joint_change() { return change_entry<RemoveJoint>(); }
 TypeEntry<EditChange> remove_cable_change() { return change_entry<RemoveCable>(); }
+TypeEntry<EditChange> remove_collider_change() { return change_entry<RemoveCollider>(); }
 
 }  // namespace sheave::live

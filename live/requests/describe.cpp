@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "engine/index.h"
 #include "live/request.h"
@@ -9,6 +10,72 @@
 
 namespace sheave::live {
 namespace {
+
+using ValueKind = AnswerValue::Kind;
+
+const AnswerFormat& described_body_format() {
+  static const AnswerFormat format{
+      "described body",
+      "a body of the world",
+      {{"name", {ValueKind::text}, "of the body"},
+       {"mobility", {ValueKind::text, {}, mobility_names}, "which motions it has"},
+       {"drive",
+        {ValueKind::text, {}, std::span(drive_names).subspan(1)},
+        "of a driven rotor",
+        optional}}};
+  return format;
+}
+
+const AnswerFormat& described_joint_format() {
+  static const AnswerFormat format{
+      "described joint",
+      "a joint of the world",
+      {{"name", {ValueKind::text}, "of the joint"},
+       {"type", {ValueKind::text}, "as in scenes"},
+       {"bodies", {ValueKind::texts}, "names of the two it joins, or \"world\""},
+       {"coordinates", {ValueKind::texts}, "names of its coordinates"}}};
+  return format;
+}
+
+const AnswerFormat& described_link_format() {
+  static const AnswerFormat format{"described link",
+                                   "a contact of a cable with a body",
+                                   {{"type", {ValueKind::text}, "as in scenes"},
+                                    {"body", {ValueKind::text}, "its name, or \"world\""}}};
+  return format;
+}
+
+const AnswerFormat& described_cable_format() {
+  static const AnswerFormat format{
+      "described cable",
+      "a cable of the world",
+      {{"name", {ValueKind::text}, "of the cable"},
+       {"closed", {ValueKind::boolean}, "whether it is a belt"},
+       {"spans", {ValueKind::integer}, "how many its links make"},
+       {"links", {ValueKind::objects, {}, {}, &described_link_format()}, "in order"}}};
+  return format;
+}
+
+const AnswerFormat& loose_cable_format() {
+  static const AnswerFormat format{"loose cable",
+                                   "a cable of which nothing is between two holds",
+                                   {{"name", {ValueKind::text}, "of the cable"},
+                                    {"length", {ValueKind::number, "m"}, "all of it"}}};
+  return format;
+}
+
+const AnswerFormat& control_format() {
+  static const AnswerFormat format{
+      "settable control",
+      "what can be set",
+      {{"type", {ValueKind::text}, "of the control"},
+       {"body", {ValueKind::text}, "of a body's: its name", optional},
+       {"joint", {ValueKind::text}, "of a joint's: its name", optional},
+       {"coordinate", {ValueKind::text}, "of a joint's: which one", optional},
+       {"cable", {ValueKind::text}, "of a cable's or a link's: its name", optional},
+       {"link", {ValueKind::integer}, "of a link's: which one, from 0", optional}}};
+  return format;
+}
 
 class Describe final : public Request {
  public:
@@ -26,6 +93,24 @@ class Describe final : public Request {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] std::vector<AnswerKey> answer_keys() const override {
+    const auto list = [](const AnswerFormat& format) {
+      return AnswerValue{ValueKind::objects, {}, {}, &format};
+    };
+    return {{"bodies", list(described_body_format()),
+             "in the order of the scene; what was added later may stand between"},
+            {"joints", list(described_joint_format()), "likewise"},
+            {"cables", list(described_cable_format()), "of which something is between two holds"},
+            {"loose_cables", list(loose_cable_format()), "the others"},
+            {"controllers", {ValueKind::texts}, "names"},
+            {"triggers", {ValueKind::texts}, "names"},
+            {"controls", list(control_format()),
+             "what can be set, as it stands in `set`, without values"},
+            {"quantities",
+             {ValueKind::texts},
+             "names of all of them, if they were asked for",
+             optional}};
+  }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override;
 };
 

@@ -29,55 +29,78 @@ class EditRequest final : public Request {
         {{"changes", "what is changed, in order", true, &change_format(), true}}};
     return lists;
   }
-  void read_members(const json::Document& document, json::NodeId node,
-                    FieldReader& reader) override;
+  void read_members(json::NodeId node, PartReader& parts, const Names& names) override;
+  [[nodiscard]] std::vector<AnswerKey> answer_keys() const override { return consequence_keys(); }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override;
 
  private:
+  /// Tells the edit all changes; the faults of single ones.
+  [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const;
+
   std::vector<std::unique_ptr<EditChange>> changes_;
 };
 
-void EditRequest::read_members(const json::Document& /*document*/, json::NodeId node,
-                               FieldReader& reader) {
+void EditRequest::read_members(json::NodeId node, PartReader& parts, const Names& names) {
+  EditReader reader(parts, names);
   const Member& member = members().front();
-  for (const json::NodeId element : reader.list(node, member)) {
-    const Variant* variant = reader.read_type(element, *member.format);
+  for (const json::NodeId element : reader.fields().list(node, member)) {
+    const Variant* variant = reader.fields().read_type(element, *member.format);
     if (variant == nullptr) continue;
     for (const TypeEntry<EditChange>& type : change_types()) {
       if (type.name != variant->name) continue;
       std::unique_ptr<EditChange> made = type.make();
       // The change is ours and not constant; settings() is only the way to its own type.
       void* settings = const_cast<void*>(made->settings());  // NOLINT(*-const-cast)
-      reader.read_object(element, *member.format, {}, variant, settings);
+      reader.fields().read_object(element, *member.format, {}, variant, settings);
+      made->read(element, reader);
       changes_.push_back(std::move(made));
     }
   }
 }
 
+Errors EditRequest::apply(Edit& edit, EditNames& names) const {
+  Errors faults;
+  std::size_t told = 0;
+  for (std::size_t i = 0; i < changes_.size(); ++i) {
+    const std::string pointer = fmt::format("/changes/{}", i);
+    names.begin(pointer);
+    for (Error& error : changes_[i]->apply(edit, names)) {
+      faults.push_back({pointer + error.path, std::move(error.message)});
+    }
+    for (; told < edit.errors().size(); ++told) {
+      faults.push_back({pointer, edit.errors()[told].message});
+    }
+  }
+  for (Error& error : names.shared_names()) {
+    faults.push_back({names.pointer_of(error.path), std::move(error.message)});
+  }
+  return faults;
+}
+
 Errors EditRequest::run(SessionState& session, Json& answer) const {
+  std::size_t added = 0;
+  for (const auto& change : changes_) added += change->parts();
+  if (added > 0 && session.part_count() + added > session.limits.parts) {
+    return {{"/changes", fmt::format("the world would have {} parts: at most {} are allowed",
+                                     session.part_count() + added, session.limits.parts)}};
+  }
   Errors faults;
   std::vector<CableHandle> before = session.world.cables();
-  std::vector<std::string> names;
-  for (const CableHandle cable : before) names.push_back(*session.world.name(cable));
+  std::vector<std::string> cable_names;
+  for (const CableHandle cable : before) cable_names.push_back(*session.world.name(cable));
+  EditNames names(session.world, session.names);
   const Result<EditReport> done = session.world.edit([&](Edit& edit) {
-    EditNames known{session.names};
-    std::size_t told = 0;
-    for (std::size_t i = 0; i < changes_.size(); ++i) {
-      const std::string pointer = fmt::format("/changes/{}", i);
-      for (Error& error : changes_[i]->apply(edit, known)) {
-        faults.push_back({pointer + error.path, std::move(error.message)});
-      }
-      for (; told < edit.errors().size(); ++told) {
-        faults.push_back({pointer, edit.errors()[told].message});
-      }
-    }
+    faults = apply(edit, names);
     if (!faults.empty()) edit.fail("not all of it can be done");
   });
   if (!faults.empty()) return faults;
   if (!done) {
-    for (const Error& error : done.errors()) faults.push_back({"", error.message});
+    for (const Error& error : done.errors()) {
+      faults.push_back({names.pointer_of(error.path), error.message});
+    }
     return faults;
   }
+  session.revision = session.revisions++;
   session.refresh();
   answer["energy"] = done->energy.total();
   Json cables = Json::array();
@@ -85,7 +108,7 @@ Errors EditRequest::run(SessionState& session, Json& answer) const {
     const auto gone = std::find(before.begin(), before.end(), cable.cable);
     const Result<std::string> name = session.world.name(cable.cable);
     cables.push_back(
-        {{"cable", name ? *name : names[static_cast<std::size_t>(gone - before.begin())]},
+        {{"cable", name ? *name : cable_names[static_cast<std::size_t>(gone - before.begin())]},
          {"added", cable.added}});
   }
   answer["cables"] = std::move(cables);

@@ -1,6 +1,7 @@
 // The state, as one number to compare.
 
 #include <array>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -19,6 +20,9 @@ class Hash final : public Request {
   static std::span<const Field> field_table() { return {}; }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] std::vector<AnswerKey> answer_keys() const override {
+    return {{"hash", {AnswerValue::Kind::text}, "16 hexadecimal digits"}};
+  }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override {
     answer["hash"] = fmt::format("{:016x}", sheave::hash(session.world.state()));
     return {};

@@ -1,12 +1,27 @@
 // What protocol is spoken, and of which scene.
 
 #include <array>
+#include <vector>
 
 #include "live/request.h"
 #include "live/session_state.h"
 
 namespace sheave::live {
 namespace {
+
+const AnswerFormat& limits_format() {
+  using Kind = AnswerValue::Kind;
+  static const AnswerFormat format{
+      "limits",
+      "bounds on what may be asked for",
+      {{"line_bytes", {Kind::integer}, "of a request"},
+       {"steps", {Kind::integer}, "of a request"},
+       {"parts", {Kind::integer}, "bodies, joints, cables and their links, all together"},
+       {"snapshots", {Kind::integer}, "that are kept"},
+       {"snapshot_bytes", {Kind::integer}, "of all of them together"},
+       {"subscriptions", {Kind::integer}, "at a time"}}};
+  return format;
+}
 
 class Hello final : public Request {
  public:
@@ -25,6 +40,14 @@ class Hello final : public Request {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] std::vector<AnswerKey> answer_keys() const override {
+    using Kind = AnswerValue::Kind;
+    return {{"protocol", {Kind::text, {}, protocol_names}, "the version that is spoken"},
+            {"scene", {Kind::text}, "its title"},
+            {"dt", {Kind::number, "s"}, "time of a step"},
+            {"duration", {Kind::number, "s"}, "that the scene asks for; a session may go on"},
+            {"limits", {Kind::object, {}, {}, &limits_format()}, "what may be asked for"}};
+  }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override {
     const Limits& limits = session.limits;
     answer["protocol"] = protocol_names[static_cast<std::size_t>(Protocol::v1)];
@@ -33,6 +56,7 @@ class Hello final : public Request {
     answer["duration"] = session.about.duration;
     answer["limits"] = {{"line_bytes", limits.line_bytes},
                         {"steps", limits.steps},
+                        {"parts", limits.parts},
                         {"snapshots", limits.snapshots},
                         {"snapshot_bytes", limits.snapshot_bytes},
                         {"subscriptions", limits.subscriptions}};

@@ -37,8 +37,7 @@ class Lock final : public Request {
   static constexpr std::string_view type_name = "lock";
   static constexpr std::string_view type_meaning =
       "a joint that was released or has broken holds again, from where its bodies are now; what "
-      "speed "
-      "they have against it ends as in an inelastic impact";
+      "speed they have against it ends as in an inelastic impact";
   static std::span<const Field> field_table() {
     static const std::array table{
         field<&Lock::joint>("joint", "", {}, required, "name of the joint"),

@@ -1,6 +1,7 @@
 // Quantities and poses, as they are now.
 
 #include <array>
+#include <vector>
 
 #include "live/request.h"
 #include "live/session_state.h"
@@ -28,6 +29,7 @@ class Observe final : public Request {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] std::vector<AnswerKey> answer_keys() const override { return reading_keys(); }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override {
     const Result<Readings> readings =
         Readings::create(session.quantities(), session.names, quantities, poses);

@@ -1,6 +1,7 @@
 // A body that is put elsewhere.
 
 #include <array>
+#include <vector>
 
 #include "engine/index.h"
 #include "live/names.h"
@@ -37,6 +38,7 @@ class Place final : public Request {
   }
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
+  [[nodiscard]] std::vector<AnswerKey> answer_keys() const override { return consequence_keys(); }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override {
     const Result<BodyHandle> handle = session.names.body(body);
     if (!handle) return handle.errors();

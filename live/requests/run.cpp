@@ -1,6 +1,7 @@
 // A world that steps by itself.
 
 #include <array>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -29,6 +30,9 @@ class Run final : public Request {
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] bool is_logged() const override { return false; }
+  [[nodiscard]] std::vector<AnswerKey> answer_keys() const override {
+    return {{"running", {AnswerValue::Kind::boolean}, "whether it steps by itself"}};
+  }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override {
     if (const auto trigger = session.stopped_by()) {
       return {{"", fmt::format("trigger \"{}\" has stopped the run; restore a snapshot from before",
@@ -49,6 +53,9 @@ class Pause final : public Request {
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] bool is_logged() const override { return false; }
+  [[nodiscard]] std::vector<AnswerKey> answer_keys() const override {
+    return {{"running", {AnswerValue::Kind::boolean}, "whether it steps by itself"}};
+  }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override {
     session.running = false;
     session.pace.reset();

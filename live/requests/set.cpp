@@ -16,8 +16,10 @@ namespace {
 /// Has a list of changes, all of which are made, or none.
 class Change : public Request {
  public:
-  void read_members(const json::Document& document, json::NodeId node,
-                    FieldReader& reader) override;
+  void read_members(json::NodeId node, PartReader& parts, const Names& names) override;
+  [[nodiscard]] std::vector<AnswerKey> answer_keys() const override {
+    return {{"controls", {AnswerValue::Kind::integer}, "how many"}};
+  }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override;
 
  protected:
@@ -27,8 +29,8 @@ class Change : public Request {
   std::vector<std::unique_ptr<Control>> changes_;
 };
 
-void Change::read_members(const json::Document& /*document*/, json::NodeId node,
-                          FieldReader& reader) {
+void Change::read_members(json::NodeId node, PartReader& parts, const Names& /*names*/) {
+  FieldReader& reader = parts.fields();
   const Member& member = members().front();
   for (const json::NodeId element : reader.list(node, member)) {
     const Variant* variant = reader.read_type(element, *member.format);

@@ -1,6 +1,7 @@
 // States that the session keeps, and goes back to.
 
 #include <array>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -26,6 +27,21 @@ std::size_t bytes_of(const State& state) {
                       controls.links.entries().size() * sizeof(LinkControl);
   for (const FeatureState& feature : state.features) {
     bytes += feature.reals.size() * sizeof(double) + feature.integers.size() * sizeof(std::int64_t);
+  }
+  return bytes;
+}
+
+/// About what all snapshots take when `kept` is one of them in place of the one called `name`.
+std::size_t bytes_with(const SessionState& session, const std::string& name,
+                       const KeptSnapshot& kept) {
+  constexpr std::size_t bytes_of_part = 1024;
+  std::size_t bytes = bytes_of(kept.snapshot.state());
+  // What the world is made of now is there anyway; each other revision is kept once.
+  std::set<std::int64_t> revisions{kept.revision};
+  for (const auto& [known, other] : session.snapshots) {
+    if (known == name) continue;
+    bytes += bytes_of(other.snapshot.state());
+    if (revisions.insert(other.revision).second) bytes += other.parts * bytes_of_part;
   }
   return bytes;
 }
@@ -61,16 +77,14 @@ class Snapshot final : public Request {
                                         "one",
                                         session.limits.snapshots)});
     }
-    std::size_t bytes = bytes_of(session.world.state());
-    for (const auto& [known, state] : session.snapshots) {
-      if (known != name) bytes += bytes_of(state.state());
-    }
+    KeptSnapshot kept = session.keep();
+    const std::size_t bytes = bytes_with(session, name, kept);
     if (bytes > session.limits.snapshot_bytes) {
       errors.push_back({"", fmt::format("all snapshots would have {} bytes; at most {} are "
                                         "allowed; forget one",
                                         bytes, session.limits.snapshot_bytes)});
     }
-    if (errors.empty()) session.snapshots.insert_or_assign(name, session.world.snapshot());
+    if (errors.empty()) session.snapshots.insert_or_assign(name, std::move(kept));
     return errors;
   }
 };
@@ -94,9 +108,11 @@ class Restore final : public Request {
   [[nodiscard]] Errors run(SessionState& session, Json& /*answer*/) const override {
     const auto found = session.snapshots.find(name);
     if (found == session.snapshots.end()) return {no_such_snapshot(session, name)};
-    Errors errors = session.world.restore(found->second);
-    if (errors.empty()) session.refresh();
-    return errors;
+    Errors errors = session.world.restore(found->second.snapshot);
+    if (!errors.empty()) return errors;
+    session.revision = found->second.revision;
+    session.refresh();
+    return {};
   }
 };
 

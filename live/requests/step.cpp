@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -38,6 +39,15 @@ class Step final : public Request {
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] bool is_logged() const override { return false; }
+  [[nodiscard]] std::vector<AnswerKey> answer_keys() const override {
+    using Kind = AnswerValue::Kind;
+    return {{"steps", {Kind::integer}, "how many it has done"},
+            {"ended",
+             {Kind::text, {}, std::span(ending_names).subspan(1)},
+             "why the world goes no further, if so",
+             optional},
+            {"reason", {Kind::text}, "the same for people", optional}};
+  }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override;
 
  private:

@@ -2,6 +2,8 @@
 
 #include "cable/edit.h"
 
+#include <stdexcept>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -26,21 +28,11 @@ using test::cable;
 using test::edit;
 using test::g;
 using test::live;
+using test::refused;
 using test::right;
 using test::roll;
 using test::worst_figure;
 using testing::HasSubstr;
-
-/// The fault of an edit that cannot be; nothing may have changed.
-std::string refused(LiveWorld& world, const std::function<void(Edit&)>& changes) {
-  const std::uint64_t before = hash(world.state());
-  const Simulation* simulation = &world.simulation();
-  const Result<EditReport> done = world.edit(changes);
-  EXPECT_FALSE(done.ok());
-  EXPECT_EQ(hash(world.state()), before);
-  EXPECT_EQ(&world.simulation(), simulation);
-  return done ? std::string() : test::text(done.errors());
-}
 
 test::Machine empty(IntegratorKind integrator) {
   test::Machine machine;
@@ -49,7 +41,8 @@ test::Machine empty(IntegratorKind integrator) {
   return machine;
 }
 
-// A body that has tumbled is hung up on a hinge; the same as if it had been made there, hung up, with that motion.
+// A body that has tumbled is hung up on a hinge; the same as if it had been made there, hung up,
+// with that motion.
 TEST(Edit, JointOfABodyThatHasMovedIsAsIfMadeThere) {
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     test::Machine machine = empty(integrator);
@@ -63,7 +56,7 @@ TEST(Edit, JointOfABodyThatHasMovedIsAsIfMadeThere) {
     const BodyPose pose = *world.pose(body);
     HingeJoint hinge;
     hinge.name = "hinge";
-    hinge.body_b = Edit::id(body);
+    hinge.body_b = BodyId{body.slot};
     hinge.anchor = pose.position + Vector3(0.4, 0.3, -0.1);
     hinge.axis = {0.2, 1.0, 0.5};
     edit(world, [&](Edit& e) { e.add(std::make_shared<HingeJoint>(hinge)); });
@@ -91,7 +84,8 @@ TEST(Edit, JointOfABodyThatHasMovedIsAsIfMadeThere) {
   }
 }
 
-// What was there before an edit goes on to the last bit, forces, angles with all their turns and all.
+// What was there before an edit goes on to the last bit, forces, angles with all their turns and
+// all.
 TEST(Edit, WhatStaysGoesOnBitForBit) {
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     test::Machine machine = empty(integrator);
@@ -156,6 +150,8 @@ TEST(Edit, BodiesComeAndGoAndTheirHandlesWithThem) {
   BodyHandle second;
   edit(world, [&](Edit& e) { second = e.add(test::lump("second", {0.0, 0.0, 0.0}, 1.0)); });
   EXPECT_EQ(second.slot, first.slot) << "places are used again";
+  EXPECT_THAT(refused(world, [&](Edit& e) { static_cast<void>(e.id(first)); }),
+              HasSubstr("is no more"));
   EXPECT_FALSE(world.pose(first).ok()) << "and the old handle does not become the new body's";
   EXPECT_TRUE(world.pose(second).ok());
   EXPECT_FALSE(world.body("first").ok());
@@ -179,7 +175,7 @@ TEST(Edit, RotorOnACarrierThatHasTurned) {
   BodyHandle wheel;
   const Vector3 momentum = 2.0 * pose.velocity;
   edit(world, [&](Edit& e) {
-    BodyDef rotor = test::sheave("wheel", Edit::id(carrier), place, 0.2, 0.7, 0.03);
+    BodyDef rotor = test::sheave("wheel", e.id(carrier), place, 0.2, 0.7, 0.03);
     rotor.angular_velocity = {0.0, 0.0, 9.0};
     wheel = e.add(rotor);
   });
@@ -200,7 +196,8 @@ TEST(Edit, RotorOnACarrierThatHasTurned) {
               1e-12);
 }
 
-// The frame of a body stays where it is when its mass moves within it; its momentum changes by what theory says.
+// The frame of a body stays where it is when its mass moves within it; its momentum changes by what
+// theory says.
 TEST(Edit, ChangedMassKeepsTheFrameAndItsMotion) {
   test::Machine machine = empty(IntegratorKind::rattle);
   BodyDef lump = test::lump("lump", {0.0, 0.0, 0.0}, 2.0);
@@ -264,7 +261,7 @@ TEST(Edit, ContactsStayAndGo) {
   BodyHandle high;
   edit(world, [&](Edit& e) {
     high = e.add(box("high", rest + 0.2, Mobility::free));
-    e.add(touching(Edit::id(high).index));
+    e.add(touching(e.id(high).index));
   });
   EXPECT_FALSE(world.simulation().world.contacts().empty()) << "known from before";
   advance(world, 100);
@@ -384,7 +381,14 @@ TEST(Edit, NotFromWithinAStepOrAnEdit) {
   EXPECT_GT(calls, 0);
   edit(world, [&](Edit&) {
     EXPECT_THAT(test::text(world.edit([](Edit&) {}).errors()), HasSubstr("from within"));
+    const std::uint64_t before = hash(world.state());
+    EXPECT_TRUE(world.step().stopped);
+    EXPECT_EQ(hash(world.state()), before);
   });
+  // What throws leaves a world that can be used.
+  EXPECT_THROW(static_cast<void>(world.edit([](Edit&) { throw std::runtime_error("no"); })),
+               std::runtime_error);
+  edit(world, [](Edit&) {});
   EXPECT_TRUE(world.restore(snapshot).empty());
 }
 
@@ -426,6 +430,48 @@ TEST(Edit, SnapshotGoesBackAcrossEdits) {
   EXPECT_EQ(hash(world.state()), first);
   LiveWorld other = live(test::Atwood{}.machine());
   EXPECT_FALSE(other.restore(before).empty()) << "not a snapshot of its own";
+}
+
+// What is seen when all is put together is told of the handle's slot, wherever in its list the part
+// then is.
+TEST(Edit, FaultsOfPartsHaveThePathsOfTheirHandles) {
+  test::Machine machine = empty(IntegratorKind::rattle);
+  machine.model.add(test::lump("one", {0.0, 0.0, 0.0}, 1.0));
+  machine.model.add(test::lump("two", {2.0, 0.0, 0.0}, 1.0));
+  for (const char* name : {"first", "second"}) {
+    auto joint = std::make_shared<BallJoint>();
+    joint->name = name;
+    joint->body_b = {std::string_view(name) == "first" ? 0 : 1};
+    machine.model.joints.push_back(joint);
+    machine.cables.push_back(
+        cable(std::string("rope ") + name, {attach(BodyId::world()), attach(joint->body_b)}));
+  }
+  LiveWorld world = live(machine);
+  JointHandle hinge;
+  CableHandle rope;
+  const Result<EditReport> done = world.edit([&](Edit& e) {
+    // Their slots are free then, and their places in the lists are not.
+    e.remove(*world.joint("first"));
+    e.remove(*world.cable("rope first"));
+    auto joint = std::make_shared<HingeJoint>();
+    joint->name = "hinge";
+    joint->body_b = {0};
+    joint->axis = Vector3::Zero();
+    hinge = e.add(joint);
+    rope = e.add(cable("rope", {attach(BodyId::world())}));
+    ColliderDef collider;
+    collider.body = {1};
+    collider.restitution = 2.0;
+    e.add(collider);
+  });
+  ASSERT_FALSE(done.ok());
+  EXPECT_EQ(hinge.slot, 0);
+  EXPECT_EQ(rope.slot, 0);
+  std::vector<std::string> paths;
+  for (const Error& error : done.errors()) paths.push_back(error.path);
+  EXPECT_THAT(paths, testing::UnorderedElementsAre("/joints/0/axis", "/cables/0/links",
+                                                   "/colliders/1/restitution"))
+      << test::text(done.errors());
 }
 
 }  // namespace

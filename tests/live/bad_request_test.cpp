@@ -113,6 +113,82 @@ const std::vector<Bad>& bad_requests() {
        "/controls/0/type", "drive"},
       {R"({"type":"clear","controls":[{"type":"drive","body":"load"}]})", "meaning", "/controls/0",
        "drive"},
+      // Parts that edits add.
+      {R"({"type":"edit","changes":[{"type":"add_body"}]})", "missing-key", "/changes/0/body",
+       "an object (as in scenes"},
+      {R"({"type":"edit","changes":[{"type":"add_body","body":[]}]})", "wrong-type",
+       "/changes/0/body", "a rigid body"},
+      {R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"x","mas":1}}]})",
+       "unknown-key", "/changes/0/body/mas", "did you mean \"mass\"?"},
+      {R"({"type":"edit","changes":[{"type":"add_body","body":{"mass":1}}]})", "missing-key",
+       "/changes/0/body/name", "required"},
+      {R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"world"}}]})", "bad-name",
+       "/changes/0/body/name", "belongs to"},
+      {R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"x","mass":0}}]})",
+       "out-of-range", "/changes/0/body/mass", "> 0"},
+      {R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"x","mass":"1"}}]})",
+       "wrong-type", "/changes/0/body/mass", "a number"},
+      {R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"x","mobility":"fre"}}]})",
+       "unknown-choice", "/changes/0/body/mobility", "did you mean \"free\"?"},
+      {R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"x","shape":{"type":"bux"}}}]})",
+       "unknown-choice", "/changes/0/body/shape/type", "did you mean \"box\"?"},
+      {R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"x","shapes":[{"type":"box"}]}}]})",
+       "missing-key", "/changes/0/body/shapes/0/size", "required"},
+      {R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"x","shape":{"type":"sphere","radius":1},"shapes":[]}}]})",
+       "exclusive-keys", "/changes/0/body/shapes", "exclude"},
+      {R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"x","mass":1,"mobility":"rotor","mount":"bra"}}]})",
+       "unknown-body", "/changes/0/body/mount", "did you mean \"bar\"?"},
+      {R"({"type":"edit","changes":[{"type":"add_joint","joint":{"type":"hinj"}}]})",
+       "unknown-choice", "/changes/0/joint/type", "did you mean \"hinge\"?"},
+      {R"({"type":"edit","changes":[{"type":"add_joint","joint":{"type":"hinge","name":"h","body_b":"laod","anchor":[0,0,0],"axis":[0,0,1]}}]})",
+       "unknown-body", "/changes/0/joint/body_b", "did you mean \"load\"?"},
+      {R"({"type":"edit","changes":[{"type":"add_cable","cable":{"name":"c"}}]})", "meaning",
+       "/changes/0/cable/links", "at least 2 links"},
+      {R"({"type":"edit","changes":[{"type":"add_cable","cable":{"name":"c","links":[{"type":"attachment","body":"world"},{"type":"attachment","body":"x"}]}}]})",
+       "unknown-body", "/changes/0/cable/links/1/body", "no body of this name"},
+      {R"({"type":"edit","changes":[{"type":"add_collider","collider":{"body":"load","frction":1}}]})",
+       "unknown-key", "/changes/0/collider/frction", "did you mean \"friction\"?"},
+      {R"({"type":"edit","changes":[{"type":"insert_link","cable":"rope","link":{"type":"rolling","body":"drum"}}]})",
+       "missing-key", "/changes/0/span", "required"},
+      {R"({"type":"edit","changes":[{"type":"change_body","body":"load","settings":{"position":[0,0,0]}}]})",
+       "unknown-key", "/changes/0/settings/position", "mass"},
+      {R"({"type":"edit","changes":[{"type":"change_body","body":"load","settings":{"mass":0}}]})",
+       "out-of-range", "/changes/0/settings/mass", "> 0"},
+      {R"({"type":"edit","changes":[{"type":"change_body","body":"lod","settings":{}}]})",
+       "meaning", "/changes/0/body", "did you mean \"load\"?"},
+      {R"({"type":"edit","changes":[{"type":"set_step","step":{"dt":0.1}}]})", "unknown-key",
+       "/changes/0/step/dt", "substeps"},
+      {R"({"type":"edit","changes":[{"type":"set_step","step":{"substeps":null,"iterations":0}}]})",
+       "out-of-range", "/changes/0/step/iterations", "1 ... 1000000"},
+      // What they mean together.
+      {R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"load","mass":1}}]})",
+       "meaning", "/changes/0/body/name", "two bodies"},
+      {R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"x","mass":1,"density":2,"shape":{"type":"sphere","radius":1}}}]})",
+       "meaning", "/changes/0/body/density", "exclude"},
+      {R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"x","mass":1,"shapes":[{"type":"half-space"}]}}]})",
+       "meaning", "/changes/0/body/shapes/0", "has no mass"},
+      {R"({"type":"edit","changes":[{"type":"add_joint","joint":{"type":"hinge","name":"hinge","body_b":"load","anchor":[0,0,0],"axis":[0,0,1]}}]})",
+       "meaning", "/changes/0/joint/name", "two joints"},
+      {R"({"type":"edit","changes":[{"type":"add_joint","joint":{"type":"hinge","name":"drum","body_b":"bar","anchor":[0,0,0],"axis":[0,0,1]}}]})",
+       "meaning", "/changes/0/joint/name", "drum.drive_power"},
+      {R"({"type":"edit","changes":[{"type":"remove_joint","joint":"hinge"},{"type":"add_joint","joint":{"type":"hinge","name":"h","body_b":"bar","anchor":[0,0,0],"axis":[0,0,0]}}]})",
+       "meaning", "/changes/1/joint/axis", "direction"},
+      {R"({"type":"edit","changes":[{"type":"add_cable","cable":{"name":"rope","links":[{"type":"attachment","body":"world"},{"type":"attachment","body":"load"}]}}]})",
+       "meaning", "/changes/0/cable/name", "two cables"},
+      {R"({"type":"edit","changes":[{"type":"add_cable","cable":{"name":"c","links":[{"type":"rolling","body":"bar","winding":"clockwise"},{"type":"attachment","body":"load"}]}}]})",
+       "meaning", "/changes/0/cable/links/0", "cable \"c\""},
+      {R"({"type":"edit","changes":[{"type":"remove_cable","cable":"string"},{"type":"add_cable","cable":{"name":"c","links":[{"type":"rolling","body":"bar","winding":"clockwise"},{"type":"attachment","body":"load"}]}}]})",
+       "meaning", "/changes/1/cable/links/0", "cable \"c\""},
+      {R"({"type":"edit","changes":[{"type":"add_collider","collider":{"body":"load"}},{"type":"add_collider","collider":{"body":"load"}}]})",
+       "meaning", "/changes/1/collider/body", "has a collider already"},
+      {R"({"type":"edit","changes":[{"type":"remove_collider","body":"load"}]})", "meaning",
+       "/changes/0", "has no collider"},
+      {R"({"type":"edit","changes":[{"type":"insert_link","cable":"rope","span":3,"link":{"type":"rolling","body":"post","winding":"clockwise"}}]})",
+       "meaning", "/changes/0", "no span number 3"},
+      {R"({"type":"edit","changes":[{"type":"change_body","body":"load","settings":{"density":3}}]})",
+       "meaning", "/changes/0/settings/density", "exclude"},
+      {R"({"type":"edit","changes":[{"type":"remove_cable","cable":"string"},{"type":"remove_body","body":"weight"},{"type":"add_joint","joint":{"type":"hinge","name":"h","body_b":"weight","anchor":[0,0,0],"axis":[0,0,1]}}]})",
+       "unknown-body", "/changes/2/joint/body_b", "no body of this name"},
       // Places, readings, names.
       {R"({"type":"place","body":"load"})", "missing-key", "/position", "required"},
       {R"({"type":"place","body":"load","position":[0,0,1]})", "meaning", "", "plane"},
@@ -214,9 +290,37 @@ TEST(LiveFaults, KeepToTheirLimits) {
   const json answer = ask(session, many + "]}");
   EXPECT_EQ(answer["errors"].size(), 5U);
   EXPECT_GT(answer["omitted"].get<int>(), 0);
+  limits.parts = 30;
+  live::Session crowded = session_of(live_scene, {}, limits);
+  const json more =
+      ask(crowded, R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"x","mass":1,)"
+                   R"("shape":{"type":"sphere","radius":1}}}]})");
+  // 9 bodies, as many shapes, a joint, 3 cables with 7 links, and these two.
+  EXPECT_THAT(more["errors"][0]["message"].get<std::string>(),
+              HasSubstr("31 parts: at most 30 are allowed"));
   limits.snapshot_bytes = 10;
   live::Session small = session_of(live_scene, {}, limits);
   EXPECT_EQ(ask(small, R"({"type":"snapshot","name":"a"})")["ok"], false);
+}
+
+TEST(LiveFaults, SnapshotsOfWorldsThatHaveBeenEditedCountWhatTheseWereMadeOf) {
+  live::Limits limits;
+  // Two worlds of 29 and 31 parts of 1 KiB are more, one of them with a few states of some kB is
+  // less.
+  limits.snapshot_bytes = 60'000;
+  live::Session session = session_of(live_scene, {}, limits);
+  const auto add = [&](const std::string& name) {
+    done(session, edit_of(R"({"type":"add_body","body":{"name":")" + name +
+                          R"(","mass":1,"shape":{"type":"sphere","radius":1}}})"));
+  };
+  done(session, R"({"type":"snapshot","name":"a"})");
+  add("x");
+  done(session, R"({"type":"snapshot","name":"b"})");
+  add("y");
+  EXPECT_THAT(ask(session, R"({"type":"snapshot","name":"c"})")["errors"][0]["message"],
+              HasSubstr("at most 60000"));
+  done(session, R"({"type":"restore","name":"b"})");
+  done(session, R"({"type":"snapshot","name":"c"})");
 }
 
 /// One of them, with some bytes changed, taken out, doubled, or taken from another one.
@@ -276,6 +380,13 @@ TEST(LiveFaults, JunkNeitherCrashesNorChangesAnything) {
       R"({"type":"observe","quantities":["t","rope.0.tension"],"poses":["load"]})",
       R"({"type":"subscribe","name":"s","every":2,"quantities":["load.y"],"events":true})",
       R"({"type":"unsubscribe","name":"s"})",
+      R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"crate","mass":3,"position":[0,-4,0],"shape":{"type":"box","size":[0.3,0.3,0.3]}}},{"type":"add_joint","joint":{"type":"slider","name":"rail","body_b":"crate","anchor":[0,-4,0],"axis":[0,1,0]}}]})",
+      R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"box","density":30,"position":[8,1,0],"shapes":[{"type":"sphere","radius":0.2}]}},{"type":"add_cable","cable":{"name":"sling","compliance":1e-4,"links":[{"type":"attachment","body":"world","point":[8,3,0]},{"type":"attachment","body":"box"}]}},{"type":"add_collider","collider":{"body":"box","friction":0.3}}]})",
+      R"({"type":"edit","changes":[{"type":"pay_out","cable":"string","span":0,"length":2},{"type":"insert_link","cable":"string","span":0,"link":{"type":"pinhole","body":"post","point":[0,0.2,0]}}]})",
+      R"({"type":"edit","changes":[{"type":"change_body","body":"load","settings":{"mass":5,"damping":null}},{"type":"set_step","step":{"substeps":3,"solver":"gauss-seidel"}}]})",
+      R"({"type":"edit","changes":[{"type":"remove_joint","joint":"rail"},{"type":"remove_body","body":"crate"}]})",
+      R"({"type":"edit","changes":[{"type":"remove_cable","cable":"sling"},{"type":"remove_collider","body":"box"},{"type":"remove_body","body":"box"}]})",
+      R"({"type":"restore","name":"start"})",
       R"({"type":"snapshot","name":"a"})",
       R"({"type":"restore","name":"a"})",
       R"({"type":"run","pace":1})",
@@ -296,6 +407,7 @@ TEST(LiveFaults, JunkNeitherCrashesNorChangesAnything) {
   Random random(16);
   int right = 0;
   int wrong = 0;
+  int added = 0;
   constexpr int rounds = 20'000;
   for (int i = 0; i < rounds; ++i) {
     const std::string line = mutated(lines, random);
@@ -311,12 +423,15 @@ TEST(LiveFaults, JunkNeitherCrashesNorChangesAnything) {
       ASSERT_FALSE(answer["errors"].empty()) << line;
     }
     ++(ok ? right : wrong);
+    if (ok && line.find("\"add_") != std::string::npos) ++added;
     // What was set may have made the world end.
     if (ok && answer.contains("ended")) done(session, R"({"type":"restore","name":"start"})");
   }
-  // Both kinds must have been tried: of 20 000 the least part that a change of mutations would leave is a hundredth.
+  // Both kinds must have been tried: of 20 000 the least part that a change of mutations would
+  // leave is a hundredth.
   EXPECT_GT(right, rounds / 100);
   EXPECT_GT(wrong, rounds / 4);
+  EXPECT_GT(added, rounds / 1000);
 }
 
 }  // namespace

@@ -10,11 +10,6 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-std::string edit_of(std::string changes) {
-  std::erase(changes, '\n');
-  return R"({"type":"edit","changes":[)" + changes + "]}";
-}
-
 TEST(LiveEdit, EndsAreTiedElsewhereAndTheAnswerTellsWhatThatDid) {
   live::Session session = session_of(live_scene);
   done(session, R"({"type":"step","count":20})");
@@ -92,6 +87,39 @@ TEST(LiveEdit, LooseCablesAreDescribedAndJoined) {
   EXPECT_NEAR(loose[0]["length"].get<double>() + loose[1]["length"].get<double>(), 2.0, 0.3);
   done(session, edit_of(R"({"type":"join","cable":"string","next":"rest"})"));
   EXPECT_TRUE(done(session, R"({"type":"describe"})")["loose_cables"].empty());
+}
+
+TEST(LiveEdit, ABeltIsOpenedTiedAndClosedAgain) {
+  const auto wheel = [](const char* name, const char* position) {
+    return std::string(R"({"name":")") + name + R"(","mobility":"rotor","mass":1,"position":)" +
+           position + R"(,"angular_velocity":[0,0,5],"spin_inertia":0.03,)" +
+           R"("shape":{"type":"cylinder","radius":0.2,"length":0.1}},)";
+  };
+  live::Session session = session_of(
+      R"({"format":"sheave-scene/1","gravity":[0,0,0],"duration":9,"step":{"dt":0.002},"bodies":[)" +
+      wheel("a", "[0,0,0]") + wheel("b", "[2,0,0]") +
+      R"({"name":"sled","mobility":"slider","axis":[1,0,0],"mass":2,"position":[1,0.2,0],
+          "shape":{"type":"box","size":[0.1,0.1,0.1]}}],
+        "cables":[{"name":"belt","closed":true,"links":[
+          {"type":"rolling","body":"a","winding":"counter-clockwise"},
+          {"type":"rolling","body":"b","winding":"counter-clockwise"}]}]})");
+  done(session, edit_of(R"({"type":"open","cable":"belt","span":1},
+      {"type":"attach","cable":"belt","end":"first","body":"sled"},
+      {"type":"attach","cable":"belt","end":"last","body":"sled"})"));
+  const json told = done(session, R"({"type":"describe"})");
+  EXPECT_EQ(told["cables"][0]["closed"], false);
+  EXPECT_EQ(told["cables"][0]["links"].size(), 4U);
+  done(session, R"({"type":"step","count":5})");
+  // The sled is pulled along: with J = 2 I / r^2 = 1.5 kg, J v / (J + m) of the belt's 1 m/s;
+  // rounding and the solver's tolerance.
+  const json seen = done(session, R"({"type":"observe","quantities":["sled.vx"]})");
+  EXPECT_NEAR(seen["values"]["sled.vx"].get<double>(), -1.5 / 3.5, 1e-9);
+  done(session, edit_of(R"({"type":"detach","cable":"belt","end":"first"},
+      {"type":"detach","cable":"belt","end":"last"},
+      {"type":"join","cable":"belt","next":"belt"})"));
+  EXPECT_EQ(done(session, R"({"type":"describe"})")["cables"][0]["closed"], true);
+  const json open = ask(session, edit_of(R"({"type":"open","cable":"belt","span":5})"));
+  EXPECT_EQ(open["errors"][0]["pointer"], "/changes/0");
 }
 
 TEST(LiveEdit, ALogWithEditsReplays) {

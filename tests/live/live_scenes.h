@@ -87,6 +87,11 @@ inline std::string one_line(std::string text) {
   return text;
 }
 
+/// A request to edit, with these changes.
+inline std::string edit_of(const std::string& changes) {
+  return one_line(R"({"type":"edit","changes":[)" + changes + "]}");
+}
+
 /// An answer that must be ok.
 inline nlohmann::json done(live::Session& session, const std::string& line) {
   nlohmann::json answer = ask(session, one_line(line));

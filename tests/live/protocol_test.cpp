@@ -33,7 +33,7 @@ TEST(LiveSchema, KnowsEveryRequestAndControl) {
   };
   expect_types(schema["oneOf"], live::request_types());
   expect_types(schema["definitions"]["control"]["oneOf"], live::set_types());
-  expect_types(schema["definitions"]["cleared control"]["oneOf"], live::clear_types());
+  expect_types(schema["definitions"]["cleared-control"]["oneOf"], live::clear_types());
   expect_types(schema["definitions"]["change"]["oneOf"], live::change_types());
   for (const json& request : schema["oneOf"]) {
     EXPECT_TRUE(request["properties"].contains("id"));
@@ -52,8 +52,8 @@ std::string page() {
   return text.str();
 }
 
-/// Whether what happened is what the page says: numbers within their last printed digits, for libraries of mathematics differ;
-/// a string "..." stands for anything.
+/// Whether what happened is what the page says: numbers within their last printed digits, for
+/// libraries of mathematics differ; a string "..." stands for anything.
 bool is_as_told(const json& told, const json& happened) {
   if (told == "...") return true;
   if (told.is_number() && happened.is_number()) {

@@ -50,6 +50,27 @@ struct Pendulum {
   }
 };
 
+TEST(MergeSplit, APegBeyondTheEndIsNotTouched) {
+  // In the peg's plane the line of the cable goes on through the peg, but the cable ends before it.
+  // In space the line's nearest point to the peg's center is within the cable.
+  const Vector3 along(0.0, -std::sqrt(0.5), std::sqrt(0.5));
+  test::Machine machine;
+  machine.model.gravity = g * along;
+  machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
+  const BodyId post = machine.model.add(peg("peg", {0.19, -0.3, 0.0}, 0.2));
+  const BodyId weight = machine.model.add(test::lump("weight", 0.27 * along, 1.0));
+  machine.cables.push_back(
+      cable("rope", {attach(BodyId::world()), passing(post, left), attach(weight)}));
+  Simulation s = test::start(machine);
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_TRUE(s.world.step().ok());
+    const CableReport report = s.cable_reports()[0];
+    ASSERT_FALSE(report.links[1].touched) << i;
+    ASSERT_NEAR(report.spans[0].tension, g, 1e-12 * g) << i;
+    ASSERT_TRUE(s.certificate()->clean()) << i;
+  }
+}
+
 TEST(MergeSplit, APendulumCatchesOnAPegAndComesFreeAgain) {
   const Pendulum pendulum(0.001);
   Simulation s = test::start(pendulum.machine);
@@ -78,7 +99,8 @@ TEST(MergeSplit, APendulumCatchesOnAPegAndComesFreeAgain) {
 }
 
 TEST(MergeSplit, TensionIsContinuousWhenACableTouches) {
-  // Pulled by constant weights over two outer wheels, the cable is pushed up by a wheel that rises slowly below it.
+  // Pulled by constant weights over two outer wheels, the cable is pushed up by a wheel that rises
+  // slowly below it.
   test::Machine m;
   m.model.gravity = test::down;
   m.model.step = test::settings(0.002, 1, 200);
@@ -108,7 +130,8 @@ TEST(MergeSplit, TensionIsContinuousWhenACableTouches) {
 }
 
 TEST(MergeSplit, AHybridEndBehindALiftedWheelChangesLikeAnyOther) {
-  // The weight's cable passes a peg without touching it and unwinds from a wheel until it is used up.
+  // The weight's cable passes a peg without touching it and unwinds from a wheel until it is used
+  // up.
   test::Machine m;
   m.model.gravity = test::down;
   m.model.step = test::settings(0.005, 1, 20);
@@ -142,8 +165,9 @@ TEST(MergeSplit, AHybridEndBehindALiftedWheelChangesLikeAnyOther) {
   EXPECT_NEAR((s.world.position(weight) - without.world.position(weight)).norm(), 0.0, 1e-9);
 }
 
-/// Cables through fields of six pegs, above or below the straight line; one end of each shakes up and down, so that it
-/// winds the cable onto pegs and off again. What is where, how large and how fast, is random.
+/// Cables through fields of six pegs, above or below the straight line; one end of each shakes up
+/// and down, so that it winds the cable onto pegs and off again. What is where, how large and how
+/// fast, is random.
 test::Machine shaken_cables(int count) {
   std::mt19937 random(20180501);
   const auto between = [&](double low, double high) {
@@ -193,8 +217,8 @@ TEST(MergeSplit, TenThousandRandomEventsLoseNoLength) {
 }
 
 TEST(MergeSplit, TouchingASkewOutlineNeverStoresLessThanNothing) {
-  // Boxes that tumble up through a cable out of their planes; in these cases the tangents from the corners that they
-  // touch with once went back over an edge.
+  // Boxes that tumble up through a cable out of their planes; in these cases the tangents from the
+  // corners that they touch with once went back over an edge.
   std::mt19937 random;
   const auto number = [&](double size) {
     return size * (static_cast<double>(random()) / 2147483648.0 - 1.0);

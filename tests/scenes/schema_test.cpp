@@ -1,6 +1,3 @@
-#include <cstdlib>
-#include <fstream>
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -9,6 +6,7 @@
 #include "scenes/scene.h"
 #include "tests/scenes/random_scene.h"
 #include "tests/scenes/scene_files.h"
+#include "tests/support/schema_validator.h"
 
 namespace sheave::test {
 namespace {
@@ -68,52 +66,9 @@ std::string plain_json(const std::string& text) {
   return parsed.is_discarded() ? "" : parsed.dump();
 }
 
-/// Validates scenes with an independent implementation.
-class PythonValidator {
- public:
-  PythonValidator() : folder_(testing::TempDir() + "sheave_schema_test") {
-    std::filesystem::create_directories(folder_);
-    std::ofstream(folder_ / "schema.json") << scene_schema();
-  }
-  ~PythonValidator() { std::filesystem::remove_all(folder_); }
-  PythonValidator(const PythonValidator&) = delete;
-  PythonValidator& operator=(const PythonValidator&) = delete;
-
-  static bool available() {
-    return std::system("python3 -c 'import jsonschema' >/dev/null 2>&1") == 0;  // NOLINT
-  }
-  void add(const std::string& name, const std::string& json, bool valid) {
-    cases_.push_back({{"name", name}, {"scene", Json::parse(json)}, {"valid", valid}});
-  }
-  /// Scenes for which the validator does not say what was expected.
-  std::string disagreements() {
-    std::ofstream(folder_ / "cases.json") << Json(cases_);
-    std::ofstream(folder_ / "check.py") << R"(
-import json, sys, warnings
-warnings.simplefilter("ignore")
-import jsonschema
-schema = json.load(open("schema.json"))
-jsonschema.Draft7Validator.check_schema(schema)
-validator = jsonschema.Draft7Validator(schema)
-for case in json.load(open("cases.json")):
-    errors = [e.message[:200] for e in validator.iter_errors(case["scene"])]
-    if (not errors) != case["valid"]:
-        print(case["name"], errors or "is accepted")
-)";
-    const std::string command =
-        "cd '" + folder_.string() + "' && python3 check.py > result.txt 2>&1";
-    const int status = std::system(command.c_str());  // NOLINT
-    return read_file(folder_ / "result.txt") + (status == 0 ? "" : "python3 failed");
-  }
-
- private:
-  std::filesystem::path folder_;
-  std::vector<Json> cases_;
-};
-
 TEST(schema, an_independent_validator_agrees_with_the_loader) {
-  if (!PythonValidator::available()) GTEST_SKIP() << "python3-jsonschema is not installed";
-  PythonValidator validator;
+  if (!SchemaValidator::available()) GTEST_SKIP() << "python3-jsonschema is not installed";
+  SchemaValidator validator(scene_schema());
   for (const auto& file : valid_scene_files()) {
     validator.add(file, plain_json(read_file(file)), true);
   }

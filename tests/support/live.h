@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -24,6 +25,17 @@ inline EditReport edit(LiveWorld& world, const std::function<void(Edit&)>& chang
   Result<EditReport> done = world.edit(changes);
   EXPECT_TRUE(done.ok()) << (done ? std::string() : text(done.errors()));
   return done ? std::move(*done) : EditReport{};
+}
+
+/// The fault of an edit that cannot be; nothing may have changed.
+inline std::string refused(LiveWorld& world, const std::function<void(Edit&)>& changes) {
+  const std::uint64_t before = hash(world.state());
+  const Simulation* simulation = &world.simulation();
+  const Result<EditReport> done = world.edit(changes);
+  EXPECT_FALSE(done.ok());
+  EXPECT_EQ(hash(world.state()), before);
+  EXPECT_EQ(&world.simulation(), simulation);
+  return done ? std::string() : text(done.errors());
 }
 
 inline void advance(LiveWorld& world, int steps) {

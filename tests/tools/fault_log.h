@@ -1,5 +1,6 @@
 #pragma once
-// The command with faults injected into its calls (tests/fault_library), and what that library recorded.
+// The command with faults injected into its calls (tests/fault_library), and what that library
+// recorded.
 
 #include <string>
 #include <vector>
@@ -21,8 +22,8 @@ struct Fault {
 
 /// One recorded call that succeeded.
 struct RecordedCall {
-  std::string
-      name;  ///< "write", "pwrite", "fsync", "rename", "create", "open", "close", "unlink", "ftruncate"
+  /// "write", "pwrite", "fsync", "rename", "create", "open", "close", "unlink", "ftruncate"
+  std::string name;
   int descriptor = -1;
   long offset = -1;
   std::string first;   ///< the bytes, or a path

@@ -100,6 +100,9 @@ TEST(Live, WrongUseHasItsExitCodes) {
   const ProcessResult schema = hold({"--schema"}, "");
   EXPECT_EQ(schema.exit_code, 0);
   EXPECT_TRUE(json::parse(schema.out).contains("oneOf"));
+  const ProcessResult answers = hold({"--answer-schema"}, "");
+  EXPECT_EQ(answers.exit_code, 0);
+  EXPECT_TRUE(json::parse(answers.out)["definitions"].contains("answer-to-step"));
 }
 
 TEST(Live, ALogLeadsToTheSameState) {
@@ -130,7 +133,8 @@ wrong
   for (const json& line : parsed_lines(read_file(log))) EXPECT_TRUE(line.contains("at_step"));
 }
 
-/// Waits until a file in the folder, of whatever name, has this text; false if the process ends before.
+/// Waits until a file in the folder, of whatever name, has this text; false if the process ends
+/// before.
 bool wait_for_text(const TemporaryFolder& folder, const PipedProcess& process,
                    const std::string& text) {
   while (process.running()) {
@@ -152,7 +156,8 @@ TEST(Live, AReaderWhoDoesNotReadGetsWholeLinesAndIsToldWhatWasLeftOut) {
   const TemporaryFolder folder;
   PipedProcess process({"live", folder.write("atwood.json", atwood_scene), "--set",
                         "/gravity=[0,0,0]", "--log", logs.path("log")});
-  // 10 000 lines of more than 200 bytes are much more than a pipe and the command's own memory of lines take.
+  // 10 000 lines of more than 200 bytes are much more than a pipe and the command's own memory of
+  // lines take.
   ASSERT_TRUE(process.write(std::string(wide_subscription) +
                             "{\"id\":5,\"type\":\"step\",\"count\":10000}\n"));
   // The log says when it has been done; until then nobody reads.
@@ -261,7 +266,8 @@ TEST(Live, RealtimeIsNeverFasterThanTheClock) {
 
 TEST(Live, AWorldThatRunsTakesRequests) {
   const TemporaryFolder folder;
-  // What paces requests to step, here to one in three hours, is not for runs with a pace of their own.
+  // What paces requests to step, here to one in three hours, is not for runs with a pace of their
+  // own.
   PipedProcess process({"live", folder.write("endless.json", endless_scene), "--realtime", "1e-6"});
   ASSERT_TRUE(
       process.write("{\"type\":\"subscribe\",\"name\":\"a\",\"every\":10,\"quantities\":[\"t\"]}\n"

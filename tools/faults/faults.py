@@ -114,9 +114,9 @@ FAULTS = [
     one("gear-ratio", "gears with 1.02 times their ratio", "engine/joints/coupling.h",
         ".factor = -ratio,", ".factor = -1.02 * ratio,", ["engine/joints/gear.cpp", "engine/joints/rack.cpp"]),
     # Bodies and integrators.
-    one("gravity", "gravity 1 % too weak for planar bodies' loads", "engine/integrators/xpbd.cpp",
-        "body.mass * substep.gravity + load_on(substep, i, substep.start.bodies).force;",
-        "0.98 * body.mass * substep.gravity + load_on(substep, i, substep.start.bodies).force;"),
+    one("gravity", "gravity 2 % too weak for planar bodies' loads", "engine/integrators/xpbd.cpp",
+        "body.mass * substep.gravity + force_on(substep, i, substep.start.bodies);",
+        "0.98 * body.mass * substep.gravity + force_on(substep, i, substep.start.bodies);"),
     one("drag", "no drag of bodies", "engine/integrators/xpbd.cpp",
         "const double keep = decay(substep.bodies.definition(i).damping / body.mass, time).keep;",
         "const double keep = 1.0;"),

@@ -1,0 +1,68 @@
+#pragma once
+// Reads the parts of a world as scene files have them: bodies, joints, cables, links, colliders.
+// Whoever takes such parts takes the same keys, has the same defaults and tells the same faults.
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <span>
+
+#include "cable/cable.h"
+#include "engine/body.h"
+#include "engine/contacts/collider.h"
+#include "engine/joint.h"
+#include "scenes/field_reader.h"
+
+namespace sheave {
+
+/// What is wrong with a part is a fault of the document; what is returned is then of no use. What
+/// several settings mean together is not checked here. Bodies that parts refer to must have been
+/// told: fields().declare_body().
+class PartReader {
+ public:
+  /// Both must outlive the reader.
+  PartReader(const json::Document& document, json::Faults& faults)
+      : document_(document), fields_(document, faults) {}
+
+  [[nodiscard]] const json::Document& document() const { return document_; }
+  [[nodiscard]] FieldReader& fields() { return fields_; }
+
+  [[nodiscard]] BodyDef read_body(json::NodeId node);
+  /// The shapes of an object that has them as a body has; false if it has neither key.
+  bool read_shapes(json::NodeId node, std::vector<PlacedShape>& shapes);
+  /// Null if there is no such type.
+  [[nodiscard]] std::shared_ptr<JointDef> read_joint(json::NodeId node);
+  [[nodiscard]] CableDef read_cable(json::NodeId node);
+  /// Null if there is no such type.
+  [[nodiscard]] std::shared_ptr<LinkDef> read_link(json::NodeId node);
+  [[nodiscard]] ColliderDef read_collider(json::NodeId node);
+
+  /// A new object of the type that the node's key "type" chooses, with its settings; null if it
+  /// chooses none. `common` gives the object of the table that all types share.
+  template <class Base, class Common>
+  std::shared_ptr<Base> read_typed(json::NodeId node, const ObjectFormat& format,
+                                   std::span<const TypeEntry<Base>> types, const Common& common) {
+    const Variant* variant = fields_.read_type(node, format);
+    if (variant == nullptr) return nullptr;
+    const auto entry = std::find_if(types.begin(), types.end(), [&](const TypeEntry<Base>& type) {
+      return type.name == variant->name;
+    });
+    std::shared_ptr<Base> object = entry->make();
+    // The object is ours and not constant; settings() is only the way to its own type.
+    void* settings = const_cast<void*>(object->settings());  // NOLINT(*-const-cast)
+    const std::array<void*, 1> shared{common(*object)};
+    fields_.read_object(node, format, shared, variant, settings);
+    return object;
+  }
+
+ private:
+  void read_shape(json::NodeId node, std::vector<PlacedShape>& shapes);
+
+  const json::Document& document_;
+  FieldReader fields_;
+};
+
+/// The pointer by which a text knows a setting: a body's only shape may be written in two ways.
+[[nodiscard]] std::string pointer_in_text(const json::Document& document, const std::string& path);
+
+}  // namespace sheave
