@@ -117,7 +117,8 @@ TEST_P(EditContacts, WheelsTakeTheArcThatGeometryLeavesThem) {
 
 std::vector<double> rest_lengths(const LiveWorld& world) {
   std::vector<double> lengths;
-  for (const SpanReport& span : world.simulation().cable_reports()[0].spans) {
+  const std::vector<CableReport> reports = world.simulation().cable_reports();
+  for (const SpanReport& span : reports[0].spans) {
     lengths.push_back(span.rest_length);
   }
   return lengths;
