@@ -63,7 +63,7 @@ void add_train(int number, int wheels, Model& model, std::vector<CableDef>& cabl
 /// `change` is done again and again to a world of `count` cables of `spans` spans each, and to the
 /// middle one of them.
 template <class Change>
-void time_edit(const char* name, int count, int spans, const Change& change) {
+void time_edit(const char* name, int count, int spans, Change change) {
   benchmark::RegisterBenchmark(name, [=](benchmark::State& state) {
     Model model;
     std::vector<CableDef> cables;

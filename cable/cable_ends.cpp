@@ -131,10 +131,6 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
   const Quaternion orientation = substep.orientation(definition.body);
   const Vector3 center = substep.point(definition.body, definition.rim_center);
   const double radius = radius_with(definition, stored_arc(next, index));
-  const auto angle_of = [&](const Vector3& point) {
-    const Vector3 own = orientation.conjugate() * (point - center);
-    return std::atan2(axes.y.dot(own), axes.x.dot(own));
-  };
   const SpanGeometry geometry = geometry_of(substep, span);
   const double strain = strain_of(cable, geometry.length, rest_length);
   if (mode != attached) {
@@ -143,7 +139,9 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
     const double sense = first ? links_[at(index)].side : -links_[at(index)].side;
     const double missing = stored * (1.0 + strain);  // < 0
     const double wanted = geometry.length + missing;
-    double angle = angle_of(first ? geometry.start : geometry.end) - sense * missing / radius;
+    const Vector3 leaves = first ? geometry.start : geometry.end;
+    const Vector3 own = orientation.conjugate() * (leaves - center);
+    double angle = std::atan2(axes.y.dot(own), axes.x.dot(own)) - sense * missing / radius;
     // The free cable gets shorter by r per radian, but for a share of a^2 / 2, by which each round
     // leaves less.
     constexpr int rounds = 6;

@@ -175,6 +175,13 @@ void move_contact(double way, StoredStrain::End end, const CompiledCable& cable,
 
 }  // namespace
 
+int CableTransfer::span_behind(const CableSystem& system, int link) {
+  const auto in =
+      std::find_if(system.cables_.begin(), system.cables_.end(),
+                   [&](const CompiledCable& c) { return link < c.first_link + c.link_count; });
+  return in->first_span + link - in->first_link;
+}
+
 void CableTransfer::move_contacts(int cable, RunningCable& running, const TransferFrom& from) {
   if (from.system == nullptr) return;
   CableSystem& before = *from.system;
@@ -193,12 +200,6 @@ void CableTransfer::move_contacts(int cable, RunningCable& running, const Transf
     const int number = link.is_listed() ? listed++ : wrap++;
     if (link.is_on_course()) course.push_back({number, i});
   }
-  const auto span_behind = [](const CableSystem& system, int link) {
-    const auto in =
-        std::find_if(system.cables_.begin(), system.cables_.end(),
-                     [&](const CompiledCable& c) { return link < c.first_link + c.link_count; });
-    return in->first_span + link - in->first_link;
-  };
   const auto moved = [&](const Stop& stop, int old_first, int new_span, RunningSpan& span) {
     const LinkGeometry& geometry = system_.links_[at(stop.link)];
     if (old_first < 0 || !geometry.wraps()) return;

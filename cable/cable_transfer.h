@@ -43,6 +43,8 @@ class CableTransfer {
   /// Where the spans beside a wheel are new, they touch it elsewhere than those before: it takes
   /// the way between out of them, or gives it to them.
   void move_contacts(int cable, RunningCable& running, const TransferFrom& from);
+  /// The number of the span behind a link of the list of all links.
+  [[nodiscard]] static int span_behind(const CableSystem& system, int link);
   /// Of initial_state() as it was compiled: how long the ways are where everything is now.
   [[nodiscard]] LinkWays ways_of(int cable) const;
   /// Gives the cable the state `running`; why it cannot.
