@@ -24,16 +24,6 @@ Vector3 angular_velocity(const Vector3& turn, const Vector3& rate) {
 
 }  // namespace
 
-Vector3 turn_rate(const Vector3& turn, const Vector3& angular_velocity) {
-  const double square = dot(turn, turn);
-  const double angle = std::sqrt(square);
-  const double half = 0.5 * angle;
-  const double share = angle < 1e-3 ? 1.0 / 12.0 + square / 720.0
-                                    : (1.0 - half * std::cos(half) / std::sin(half)) / square;
-  const Vector3 across = cross(turn, angular_velocity);
-  return angular_velocity - 0.5 * across + share * cross(turn, across);
-}
-
 BodyState MotionControl::state_at(const BodySet& bodies, int body, double time) const {
   const bool past = position.past(time);
   if (past && returns) return bodies.kinematic_state(body, time);

@@ -91,9 +91,6 @@ struct MotionControl {
                                      double finish) const;
 };
 
-/// Rate of a rotation vector `turn` that belongs to an angular velocity [rad/s].
-[[nodiscard]] Vector3 turn_rate(const Vector3& turn, const Vector3& angular_velocity);
-
 /// Settings of a cable.
 struct CableControl {
   double compliance = not_set;        ///< [m/N], > 0; of a cable that has one

@@ -22,18 +22,39 @@ DriveMeaning meaning_of(JointEffect::Kind kind) {
   return kind == JointEffect::Kind::position ? DriveMeaning::position : DriveMeaning::force;
 }
 
-/// The rotation vector of the shorter turn from one orientation to another.
-Vector3 turn_to(const Quaternion& from, const Quaternion& to) {
+/// A turn about an axis that stays, with what the rates of its rotation vector need.
+struct Turn {
+  Vector3 vector = Vector3::Zero();  ///< [rad]
+  double share = 1.0 / 12.0;         ///< (1 - x cot x) / (2 x)^2, with x half its angle
+};
+
+/// The shorter one from one orientation to another.
+Turn turn_to(const Quaternion& from, const Quaternion& to) {
   Quaternion change = to * from.conjugate();
   if (change.w() < 0.0) change.coeffs() = -change.coeffs();
   const double sine = change.vec().norm();
-  if (!(sine > 0.0)) return Vector3::Zero();
-  return change.vec() * (2.0 * std::atan2(sine, change.w()) / sine);
+  Turn turn;
+  if (!(sine > 0.0)) return turn;
+  const double half = std::atan2(sine, change.w());
+  turn.vector = change.vec() * (2.0 * half / sine);
+  const double square = 4.0 * half * half;
+  // Below this, what follows in the series is less than rounding.
+  turn.share =
+      square < 1e-6 ? 1.0 / 12.0 + square / 720.0 : (1.0 - half * change.w() / sine) / square;
+  return turn;
 }
 
-/// A motion from `from` to `end` [m], turned by `turned_by` [rad], within `over` seconds from
+/// The rate of its vector w that belongs to an angular velocity a [rad/s]:
+/// a - w x a / 2 + share w x (w x a).
+Vector3 rate_at_end(const Turn& turn, const Vector3& angular_velocity) {
+  if (is_zero(turn.vector)) return angular_velocity;
+  const Vector3 across = cross(turn.vector, angular_velocity);
+  return angular_velocity - 0.5 * across + turn.share * cross(turn.vector, across);
+}
+
+/// A motion from `from` to `end` [m], turned by `turned_by`, within `over` seconds from
 /// `time` on, but for its rates.
-void set_way(const BodyState& from, const Vector3& end, const Vector3& turned_by, double time,
+void set_way(const BodyState& from, const Vector3& end, const Turn& turned_by, double time,
              double over, MotionControl& motion) {
   motion.moves = true;
   motion.returns = false;
@@ -45,18 +66,18 @@ void set_way(const BodyState& from, const Vector3& end, const Vector3& turned_by
   way.start = from.position;
   way.end = end;
   turn.start.setZero();
-  turn.end = turned_by;
+  turn.end = turned_by.vector;
 }
 
 /// It begins as `from` moves and arrives with these velocities.
-void set_smooth_rates(const BodyState& from, const Vector3& velocity,
+void set_smooth_rates(const BodyState& from, const Turn& turned_by, const Vector3& velocity,
                       const Vector3& angular_velocity, MotionControl& motion) {
   RampOf<Vector3>& way = motion.position;
   RampOf<Vector3>& turn = motion.turn;
   way.start_rate = from.velocity;
   way.end_rate = way.rate_after = velocity;
   turn.start_rate = from.angular_velocity;
-  turn.end_rate = is_zero(turn.end) ? angular_velocity : turn_rate(turn.end, angular_velocity);
+  turn.end_rate = rate_at_end(turned_by, angular_velocity);
   turn.rate_after = angular_velocity;
 }
 
@@ -75,7 +96,7 @@ Vector3 over_time(const Vector3& way, double time) {
 
 bool has_unit_length(const Quaternion& orientation) {
   constexpr double slop = 1e-6;
-  return std::abs(orientation.norm() - 1.0) < slop;
+  return std::abs(orientation.squaredNorm() - 1.0) < 2.0 * slop;  // (1 + s)^2 = 1 + 2 s + ...
 }
 
 bool absent_or_finite(const std::optional<Vector3>& v) { return !v || is_finite(*v); }
@@ -315,7 +336,7 @@ Errors World::set_motion(BodyId body, const MotionTarget& target) {
                             !check.way_fault(body.index, end_of(target, from)).empty())) {
     return refuse_motion(check, body, target, over, c.state);
   }
-  Vector3 turn = Vector3::Zero();
+  Turn turn;
   if (target.orientation) turn = turn_to(from.orientation, target.orientation->normalized());
   controls_of_features().motions.change(
       body.index, at(c.bodies->count()), [&](MotionControl& motion) {
@@ -323,9 +344,9 @@ Errors World::set_motion(BodyId body, const MotionTarget& target) {
         if (smooth) {
           const Vector3 none = Vector3::Zero();
           const Vector3& spin = target.angular_velocity ? *target.angular_velocity : none;
-          set_smooth_rates(from, *target.velocity, spin, motion);
+          set_smooth_rates(from, turn, *target.velocity, spin, motion);
         } else {
-          set_straight_rates(speed, over_time(turn, over), motion);
+          set_straight_rates(speed, over_time(turn.vector, over), motion);
         }
       });
   return {};
@@ -346,8 +367,9 @@ Errors World::clear_motion(BodyId body, std::optional<double> over) {
   const BodyState to = c.bodies->kinematic_state(body.index, c.state.time + time);
   const BodyState& from = c.state.bodies[at(body.index)];
   MotionControl motion;
-  set_way(from, to.position, turn_to(from.orientation, to.orientation), c.state.time, time, motion);
-  set_smooth_rates(from, to.velocity, to.angular_velocity, motion);
+  const Turn turn = turn_to(from.orientation, to.orientation);
+  set_way(from, to.position, turn, c.state.time, time, motion);
+  set_smooth_rates(from, turn, to.velocity, to.angular_velocity, motion);
   motion.returns = true;
   controls_of_features().motions.put(body.index, at(c.bodies->count()), motion);
   return {};
