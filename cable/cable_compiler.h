@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cable/cable_system.h"
+#include "cable/link_geometry.h"
 
 namespace sheave {
 

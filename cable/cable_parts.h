@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cable/cable.h"
+#include "cable/link_geometry.h"
 #include "cable/span_row.h"
 #include "engine/substep.h"
 

@@ -6,6 +6,9 @@
 
 #include "cable/certificate/checks.h"
 #include "cable/simulation.h"
+#include "engine/body_set.h"
+#include "engine/constraint_batch.h"
+#include "engine/joint_feature.h"
 #include "engine/joint_report.h"
 
 namespace sheave {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "cable/link_geometry.h"
+
 namespace sheave {
 
 std::span<const Field> LinkDef::common_field_table() {

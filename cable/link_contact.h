@@ -1,6 +1,7 @@
 #pragma once
 // Where a span touches a link; internal to the geometry of spans.
 
+#include "cable/link_geometry.h"
 #include "cable/span_row.h"
 #include "engine/index.h"
 

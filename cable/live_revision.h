@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cable/cable_system.h"
 #include "cable/handle.h"
 #include "cable/running_cable.h"
 #include "cable/simulation.h"

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
+#include "cable/cable_system.h"
 #include "cable/live_revision.h"
+#include "engine/constraint_batch.h"
 #include "engine/index.h"
 
 namespace sheave {

@@ -2,6 +2,7 @@
 
 #include "cable/live_revision.h"
 #include "cable/live_world.h"
+#include "engine/constraint_batch.h"
 #include "engine/index.h"
 
 namespace sheave {

@@ -8,6 +8,7 @@
 #include "cable/edit_draft.h"
 #include "cable/edit_references.h"
 #include "cable/live_world.h"
+#include "engine/constraint_batch.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
 

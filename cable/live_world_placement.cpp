@@ -3,8 +3,10 @@
 
 #include <cmath>
 
+#include "cable/cable_system.h"
 #include "cable/live_revision.h"
 #include "cable/live_world.h"
+#include "engine/body_set.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
 

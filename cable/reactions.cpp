@@ -11,6 +11,7 @@
 
 #include "cable/certificate/evidence.h"
 #include "engine/body_drive.h"
+#include "engine/body_set.h"
 
 namespace sheave {
 namespace {

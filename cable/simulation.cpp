@@ -1,5 +1,7 @@
 #include "cable/simulation.h"
 
+#include "cable/cable_system.h"
+
 namespace sheave {
 
 Result<Simulation> Simulation::create(const Model& model, const std::vector<CableDef>& cables) {

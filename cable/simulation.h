@@ -12,12 +12,14 @@
 #include <utility>
 #include <vector>
 
-#include "cable/cable_system.h"
+#include "cable/cable.h"
+#include "cable/cable_report.h"
 #include "cable/certificate.h"
 #include "engine/world.h"
 
 namespace sheave {
 
+class CableSystem;
 struct Simulation;
 
 /// Sets controls in the course of a simulation: controllers and triggers. It has no state of its

@@ -1,7 +1,9 @@
 // The setters of Simulation: each checks, then writes one entry of the state's controls. Texts are
 // made where there is a fault alone.
 
+#include "cable/cable_system.h"
 #include "cable/simulation.h"
+#include "engine/constraint_batch.h"
 #include "engine/control_check.h"
 #include "engine/index.h"
 

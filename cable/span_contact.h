@@ -3,6 +3,7 @@
 // to the cable library.
 
 #include "cable/link.h"
+#include "cable/link_geometry.h"
 #include "cable/span_geometry.h"
 #include "engine/substep.h"
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cable/link.h"
+#include "cable/link_geometry.h"
 #include "cable/span_geometry.h"
 #include "engine/substep.h"
 

@@ -6,21 +6,49 @@ set(installed)
 foreach(folder IN ITEMS engine cable scenes live measure)
   if(TARGET sheave_${folder})
     list(APPEND installed sheave_${folder})
-    install(
-      DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}"
-      DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/sheave"
-      COMPONENT development
-      FILES_MATCHING
-      PATTERN "*.h"
-      PATTERN "third_party" EXCLUDE)
   endif()
 endforeach()
 
+# What programs include; these headers are installed, with those that they include, and no others.
+set(SHEAVE_PUBLIC_HEADERS
+    sheave/sheave.h
+    scenes/format.h
+    scenes/generators.h
+    scenes/observables.h
+    scenes/validate.h
+    live/session.h
+    measure/error_estimate.h
+    measure/reference_run.h
+    measure/run_error.h
+    measure/timing.h)
+set(waiting ${SHEAVE_PUBLIC_HEADERS})
+set(public_headers)
+while(waiting)
+  list(POP_FRONT waiting header)
+  if(header IN_LIST public_headers)
+    continue()
+  endif()
+  # Solvers and integrators are nobody's business.
+  if(header MATCHES "^engine/(solvers|integrators|dynamics)/|^cable/certificate/")
+    message(FATAL_ERROR "${header} is internal, but a public header includes it")
+  endif()
+  list(APPEND public_headers "${header}")
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${header}")
+  file(STRINGS "${PROJECT_SOURCE_DIR}/${header}" lines REGEX "^#include \"")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" included "${line}")
+    list(APPEND waiting "${included}")
+  endforeach()
+endwhile()
+
 if(installed)
-  install(
-    DIRECTORY "${PROJECT_SOURCE_DIR}/sheave"
-    DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/sheave"
-    COMPONENT development)
+  foreach(header IN LISTS public_headers)
+    cmake_path(GET header PARENT_PATH folder)
+    install(
+      FILES "${PROJECT_SOURCE_DIR}/${header}"
+      DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/sheave/${folder}"
+      COMPONENT development)
+  endforeach()
   install(
     TARGETS ${installed}
     EXPORT sheave-targets

@@ -9,6 +9,7 @@
 
 #include "engine/body_set.h"
 #include "engine/control_requests.h"
+#include "engine/joint_feature.h"
 #include "engine/joint_report.h"
 #include "engine/model.h"
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/constraint_batch.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
+#include "engine/substep.h"
 
 namespace sheave {
 namespace {

@@ -6,10 +6,11 @@
 #include <string>
 
 #include "engine/body_id.h"
-#include "engine/constraint_batch.h"
-#include "engine/substep.h"
 
 namespace sheave {
+
+class ConstraintBatch;
+struct Substep;
 
 /// A state that no longer means anything: not finite, or out of all proportion to the scene.
 struct Divergence {

@@ -8,13 +8,13 @@
 
 #include "engine/body_frames.h"
 #include "engine/body_id.h"
-#include "engine/constraint_batch.h"
 #include "engine/field.h"
 #include "engine/result.h"
 
 namespace sheave {
 
 class BodySet;
+class ConstraintBatch;
 
 /// A free coordinate of a joint type.
 struct JointCoordinateInfo {

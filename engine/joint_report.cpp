@@ -1,5 +1,6 @@
 #include "engine/joint_report.h"
 
+#include "engine/joint_feature.h"
 #include "engine/substep.h"
 #include "engine/world.h"
 

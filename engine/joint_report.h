@@ -7,14 +7,11 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/constraint_batch.h"
-#include "engine/wrench.h"
+#include "engine/vector.h"
 
 namespace sheave {
 
 class World;
-struct JointEffect;
-struct JointHold;
 
 /// A free coordinate of a joint.
 struct JointCoordinateReport {
@@ -48,38 +45,6 @@ struct JointReport {
   /// where they ought to be, stops overrun, gears out of mesh. 0 of a broken joint.
   double error = 0.0;        ///< of lengths [m]
   double angle_error = 0.0;  ///< of angles [rad]
-};
-
-/// A feature that consists of joints.
-class JointFeature : public ConstraintBatch {
- public:
-  /// Of all its joints, which it has in the order of the model.
-  [[nodiscard]] virtual std::string_view type() const = 0;
-  /// What its joint at `index` did, for a substep that begins `now` and with the feature's state
-  /// `own`.
-  [[nodiscard]] virtual JointReport report(int index, const Substep& now,
-                                           const FeatureState& own) const = 0;
-  /// The force and the torque of that report alone, without allocation; of `now` it needs the poses
-  /// of the joint's bodies.
-  [[nodiscard]] virtual Wrench wrench_of(int index, const Substep& now,
-                                         const FeatureState& own) const = 0;
-  /// Whether it has broken.
-  [[nodiscard]] virtual bool is_broken(int index, const FeatureState& own) const = 0;
-  /// Makes it one that broke at `time`, if it has not broken before.
-  virtual void release(int index, double time, FeatureState& own) const = 0;
-  /// What its joint at `index` must hold so that it holds its bodies where they are `now`; an error
-  /// if there are stops or drives that would not let it.
-  [[nodiscard]] virtual Result<JointHold> hold_here(int index, const Substep& now,
-                                                    const FeatureState& own) const = 0;
-  /// Makes it one that has not broken and holds that.
-  virtual void lock(int index, const JointHold& hold, FeatureState& own) const = 0;
-  /// What it holds, or did before it was released.
-  [[nodiscard]] virtual JointHold hold(int index, const FeatureState& own) const = 0;
-  /// What drives a coordinate of its joint at `index`; null if nothing does.
-  [[nodiscard]] virtual const JointEffect* drive(int index, int coordinate) const = 0;
-  /// Tells where the coordinates of its joints begin among those of all joints of the model, for
-  /// Controls::joint_drives.
-  virtual void number_coordinates(std::span<const int> first) = 0;
 };
 
 /// Reads single joints of one state of a world, which must outlive it and not step meanwhile.

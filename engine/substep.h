@@ -8,51 +8,10 @@
 #include "engine/body_set.h"
 #include "engine/row.h"
 #include "engine/state.h"
+#include "engine/step_statistics.h"
 #include "engine/work_limit.h"
 
 namespace sheave {
-
-/// What a step observed; sums and maxima over its substeps.
-struct StepStatistics {
-  int rows = 0;                 ///< constraint rows solved per substep
-  std::int64_t row_solves = 0;  ///< rows x iterations x substeps
-  /// Largest correction, as an error of a row, in the last sweep or round of a substep [m or rad]:
-  /// how far the solver was from convergence.
-  double last_correction = 0.0;
-  /// How often a feature had to fall back on a substitute because its geometry has no solution (a
-  /// span without a tangent); details are in the feature's report.
-  int geometry_fallbacks = 0;
-  // Of the direct solver and of `rattle`.
-  /// Linear problems solved, or swept over by Gauss-Seidel: Newton's rounds, and the velocities of
-  /// `rattle`.
-  std::int64_t rounds = 0;
-  /// Rows that began or ceased to act while the active set was sought.
-  std::int64_t set_changes = 0;
-  /// Factorisations made for that, one at least per round.
-  std::int64_t factorisations = 0;
-  /// Substeps left to Gauss-Seidel because no active set was found, for positions or for
-  /// velocities.
-  std::int64_t solver_fallbacks = 0;
-  int redundant_rows = 0;  ///< the most in one round
-  /// Rounds in which rows contradicted each other (two drives of one coordinate) and all gave way.
-  std::int64_t compromises = 0;
-  // Of contacts between bodies.
-  int contacts = 0;  ///< the most points in one substep, those about to touch among them
-  double deepest_overlap = 0.0;           ///< [m]
-  std::int64_t integrator_fallbacks = 0;  ///< substeps of `rattle` that were left to `xpbd`
-  double external_work = 0.0;  ///< of the forces and torques that have been set on bodies [J]
-  // Of substeps that did not converge (engine/substep_driver.h).
-  std::int64_t cut_substeps = 0;   ///< done in smaller parts
-  std::int64_t substep_parts = 0;  ///< in how many, all together
-  /// Substeps, or parts, whose constraints are not met at their end, and no parts of them are.
-  std::int64_t unconverged = 0;
-  /// Substeps that took all the rounds or factorisations they may, did not get to their end part by
-  /// part, and were done as a whole.
-  std::int64_t exhausted = 0;
-  /// Energy that `xpbd` took from the vibration of elastic cables [J], which is none of their
-  /// damping's.
-  double numerical_damping = 0.0;
-};
 
 /// What solvers do in a substep in which they do not converge.
 enum class Resort {

@@ -96,6 +96,8 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
+Result<World> World::create(Model model) { return create(std::move(model), {}); }
+
 Result<World> World::create(Model model, std::vector<std::unique_ptr<ConstraintBatch>> features) {
   Result<BodySet> bodies = BodySet::create(model);
   if (!bodies) return bodies.errors();

@@ -16,6 +16,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,15 @@
 #include "engine/control_requests.h"
 #include "engine/divergence.h"
 #include "engine/model.h"
-#include "engine/step.h"
+#include "engine/state.h"
+#include "engine/step_statistics.h"
 #include "engine/work_limit.h"
 
 namespace sheave {
+
+class BodySet;
+class ConstraintBatch;
+struct Stage;
 
 /// What one step did.
 struct StepReport {
@@ -67,9 +73,10 @@ struct Energy {
 /// A model, its features and their state. Movable, not copyable; copy its State.
 class World {
  public:
-  /// Builds the features that the model itself asks for (joints, ground) and appends `features`.
-  static Result<World> create(Model model,
-                              std::vector<std::unique_ptr<ConstraintBatch>> features = {});
+  /// Builds the features that the model itself asks for (joints, ground).
+  static Result<World> create(Model model);
+  /// The same, and appends `features`.
+  static Result<World> create(Model model, std::vector<std::unique_ptr<ConstraintBatch>> features);
   /// The same for bodies that are already compiled (features of other libraries need them first).
   static Result<World> create(Model model, std::shared_ptr<const BodySet> bodies,
                               std::vector<std::unique_ptr<ConstraintBatch>> features);

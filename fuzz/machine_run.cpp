@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cable/cable_system.h"
 #include "cable/links/attachment.h"
+#include "engine/body_set.h"
 #include "engine/joint_report.h"
 #include "fuzz/target.h"
 #include "tests/support/builders.h"

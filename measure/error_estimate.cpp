@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "cable/cable_system.h"
+#include "engine/body_set.h"
 #include "engine/joint_report.h"
 #include "measure/error_growth.h"
 #include "measure/run_error.h"

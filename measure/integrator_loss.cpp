@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/body_set.h"
+
 namespace sheave::measure {
 namespace {
 

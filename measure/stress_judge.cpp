@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/body_set.h"
 #include "scenes/format.h"
 
 namespace sheave::measure {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/body_set.h"
 #include "scenes/control/scene_supervisor.h"
 
 namespace sheave::measure {

@@ -15,6 +15,10 @@
 #include "engine/result.h"
 #include "scenes/scene.h"
 
+namespace sheave {
+class BodySet;
+}
+
 namespace sheave::measure {
 
 /// Where one body is at the end of a frame.

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "engine/body_set.h"
 #include "engine/shapes/box.h"
 #include "engine/shapes/capsule.h"
 #include "engine/shapes/cylinder.h"

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "engine/body_set.h"
 #include "engine/joints/ball.h"
 #include "engine/joints/cylindrical.h"
 #include "engine/joints/distance.h"

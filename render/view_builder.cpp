@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/body_set.h"
 #include "engine/joints/hinge.h"
 #include "render/number_text.h"
 

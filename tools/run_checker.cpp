@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "cable/cable_system.h"
+
 namespace sheave::tools {
 namespace {
 

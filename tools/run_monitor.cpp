@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/body_set.h"
 #include "engine/joint_report.h"
 
 namespace sheave::tools {

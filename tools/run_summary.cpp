@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "cable/cable_system.h"
+#include "engine/body_set.h"
 #include "engine/field_check.h"
 #include "engine/integrators/loads.h"
 #include "measure/stress_judge.h"

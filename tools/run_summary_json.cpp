@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "engine/body_set.h"
 #include "tools/error_estimate_text.h"
 #include "tools/run_summary.h"
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/body_set.h"
 #include "tools/error_estimate_text.h"
 #include "tools/run_summary.h"
 #include "tools/text_table.h"

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "cable/simulation.h"
+#include "engine/body_set.h"
 #include "scenes/generators.h"
 
 namespace sheave::peers {

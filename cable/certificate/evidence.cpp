@@ -4,8 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "cable/cable_system.h"
 #include "cable/certificate/pushes.h"
+#include "engine/constraint_batch.h"
 #include "engine/dynamics/mounted_drive.h"
+#include "engine/joint_feature.h"
 #include "engine/substep.h"
 
 namespace sheave::certify {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "cable/cable_system.h"
 #include "cable/certificate/evidence.h"
 
 namespace sheave::certify {

@@ -1,5 +1,8 @@
 #include "cable/links/pinhole.h"
 
+#include "cable/link_geometry.h"
+#include "engine/body_set.h"
+
 namespace sheave {
 
 std::span<const Field> PinholeLink::field_table() {

@@ -1,5 +1,8 @@
 #include "cable/links/rolling.h"
 
+#include "cable/link_geometry.h"
+#include "engine/body_set.h"
+
 namespace sheave {
 
 std::span<const Field> RollingLink::field_table() {

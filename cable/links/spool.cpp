@@ -1,5 +1,8 @@
 #include "cable/links/spool.h"
 
+#include "cable/link_geometry.h"
+#include "engine/body_set.h"
+
 namespace sheave {
 
 std::span<const Field> SpoolLink::field_table() {

@@ -1,5 +1,7 @@
 #include "cable/links/wheel_link.h"
 
+#include "cable/link_geometry.h"
+#include "engine/body_set.h"
 #include "engine/index.h"
 
 namespace sheave {

@@ -21,6 +21,7 @@
 
 #include "engine/index.h"
 #include "engine/joint.h"
+#include "engine/joint_feature.h"
 #include "engine/joint_report.h"
 #include "engine/joints/joint_effect.h"
 #include "engine/joints/joint_state.h"

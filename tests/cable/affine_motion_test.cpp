@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "cable/links/spool.h"
 #include "tests/support/builders.h"
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/span_geometry.h"
 #include "tests/support/builders.h"
 
 namespace sheave {

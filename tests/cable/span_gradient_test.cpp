@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "cable/links/spool.h"
+#include "engine/constraint_batch.h"
 #include "tests/support/builders.h"
 #include "tests/support/gradient_check.h"
 

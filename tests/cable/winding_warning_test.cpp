@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "tests/support/builders.h"
 
 namespace sheave {

@@ -11,6 +11,8 @@
 #include "cable/edit.h"
 #include "cable/links/pinhole.h"
 #include "cable/live_world.h"
+#include "engine/body_set.h"
+#include "engine/index.h"
 #include "tests/support/builders.h"
 
 namespace sheave {

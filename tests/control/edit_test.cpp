@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "cable/live_world.h"
+#include "engine/body_set.h"
 #include "engine/joint_report.h"
 #include "engine/joints/ball.h"
 #include "engine/joints/distance.h"

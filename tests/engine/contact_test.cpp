@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/constraint_batch.h"
 #include "engine/shapes/cylinder.h"
+#include "engine/step.h"
 #include "tests/support/gradient_check.h"
 #include "tests/support/heaps.h"
 

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/constraint_batch.h"
 #include "engine/joints/ball.h"
 #include "engine/joints/cylindrical.h"
 #include "engine/joints/distance.h"

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "engine/constraint_batch.h"
 #include "engine/world.h"
 #include "tests/support/builders.h"
 

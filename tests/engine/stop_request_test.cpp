@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "engine/joints/hinge.h"
 #include "engine/work_limit.h"
 #include "tests/support/builders.h"

@@ -7,8 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/body_set.h"
 #include "engine/joints/ball.h"
 #include "engine/joints/distance.h"
+#include "engine/step.h"
 #include "tests/support/builders.h"
 
 namespace sheave {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "tests/support/builders.h"
 
 namespace sheave {

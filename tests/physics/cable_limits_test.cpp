@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "cable/links/pinhole.h"
 #include "cable/links/spool.h"
+#include "engine/body_set.h"
 #include "tests/support/builders.h"
 #include "tests/support/combinations.h"
 #include "tests/support/shapes.h"

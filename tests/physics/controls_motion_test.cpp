@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/body_set.h"
 #include "tests/support/builders.h"
 
 namespace sheave {

@@ -24,6 +24,7 @@
 #include <gtest/gtest.h>
 
 #include "cable/links/pinhole.h"
+#include "engine/body_set.h"
 #include "tests/support/builders.h"
 #include "tests/support/combinations.h"
 

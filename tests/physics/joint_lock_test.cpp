@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/body_set.h"
 #include "engine/joint_report.h"
 #include "engine/joints/ball.h"
 #include "engine/joints/cylindrical.h"

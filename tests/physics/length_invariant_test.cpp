@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/span_geometry.h"
 #include "tests/support/builders.h"
 #include "tests/support/effort.h"
 

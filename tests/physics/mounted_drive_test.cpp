@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/body_set.h"
 #include "engine/joints/hinge.h"
 #include "tests/support/builders.h"
 #include "tests/support/combinations.h"

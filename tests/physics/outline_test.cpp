@@ -1,9 +1,12 @@
 // Cables on outlines: cams, polygons as wheels, bodies that tumble on their cable.
 
+#include "cable/outline.h"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "engine/constraint_batch.h"
 #include "engine/shapes/prism.h"
 #include "tests/support/builders.h"
 #include "tests/support/gradient_check.h"

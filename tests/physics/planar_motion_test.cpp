@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/body_set.h"
+#include "engine/constraint_batch.h"
 #include "engine/contacts/planar_contact.h"
 #include "engine/joint_report.h"
 #include "engine/joints/hinge.h"

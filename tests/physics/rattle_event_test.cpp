@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "cable/links/hybrid.h"
 #include "tests/support/builders.h"
 

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/constraint_batch.h"
 #include "tests/support/builders.h"
 
 namespace sheave {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/body_set.h"
 #include "engine/joints/ball.h"
 #include "engine/joints/hinge.h"
 #include "engine/shapes/box.h"

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "engine/joints/slider.h"
 #include "tests/support/heaps.h"
 

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "cable/links/hybrid.h"
 #include "cable/links/pinhole.h"
 #include "tests/support/heaps.h"

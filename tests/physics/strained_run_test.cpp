@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "tests/support/builders.h"
 #include "tests/support/combinations.h"
 #include "tests/support/friction_links.h"

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "engine/shapes/box.h"
 #include "engine/shapes/cylinder.h"
 #include "engine/shapes/sphere.h"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cable/cable_system.h"
+#include "engine/body_set.h"
 #include "tests/property/machine_values.h"
 
 namespace sheave::test {

@@ -15,6 +15,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "tests/property/campaign.h"
 #include "tests/support/random.h"
 

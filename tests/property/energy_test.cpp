@@ -24,6 +24,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/body_set.h"
 #include "tests/property/campaign.h"
 #include "tests/property/limits.h"
 #include "tests/support/rounding.h"

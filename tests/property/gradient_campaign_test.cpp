@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/constraint_batch.h"
 #include "tests/property/campaign.h"
 #include "tests/property/limits.h"
 #include "tests/support/gradient_check.h"

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "tests/property/campaign.h"
 #include "tests/property/limits.h"
 #include "tests/support/rounding.h"

@@ -12,6 +12,8 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
+#include "engine/body_set.h"
 #include "tests/property/campaign.h"
 #include "tests/property/limits.h"
 #include "tests/support/rounding.h"

@@ -13,6 +13,8 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
+#include "engine/body_set.h"
 #include "tests/property/campaign.h"
 #include "tests/property/limits.h"
 #include "tests/property/mirror.h"

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "tests/property/course.h"
 #include "tests/property/machine_values.h"
 #include "tests/property/mirror.h"

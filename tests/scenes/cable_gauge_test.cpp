@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "cable/simulation.h"
+#include "engine/body_set.h"
 #include "scenes/scene.h"
 #include "tests/scenes/scene_files.h"
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "cable/live_world.h"
+#include "engine/body_set.h"
 #include "engine/index.h"
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/scene.h"

@@ -1,0 +1,82 @@
+#pragma once
+// What solvers know of a link, whatever its type.
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "cable/outline.h"
+#include "engine/vector.h"
+
+namespace sheave {
+
+/// An outline placed on a body: coordinates of the body that carries the link.
+struct LinkOutline {
+  Outline curve;
+  Vector3 x = Vector3::UnitX();  ///< axes of the outline's plane; x cross y is the link's normal
+  Vector3 y = Vector3::UnitY();
+  std::vector<Vector3> corners;  ///< of the curve, relative to the carrier's centre of mass [m]
+};
+
+/// A link as the step needs it. All link types share one geometry: a circle of signed radius in a
+/// plane fixed to a body; a point is a circle of radius 0, and an outline has one such circle at
+/// each corner.
+struct LinkGeometry {
+  int body = 0;     ///< the body the cable touches: its turning moves cable
+  int carrier = 0;  ///< the body that carries `center` and `normal`: of a wheel on a mounted rotor
+                    ///< the rotor's carrier, otherwise `body`
+  bool mounted = false;               ///< whether `body` is a mounted rotor
+  Vector3 center = Vector3::Zero();   ///< [m], own frame of the carrier
+  bool centered = false;              ///< `center` is 0, so its position needs no rotation
+  bool still = false;                 ///< the carrier is the world: centre and normal stay
+  Vector3 normal = Vector3::UnitZ();  ///< unit normal of the link's plane, own frame of the carrier
+  int side = 0;                       ///< +1 counter-clockwise, -1 clockwise, 0 a point
+  double signed_radius = 0.0;         ///< side times the radius, of an outline at its corners [m]
+  std::shared_ptr<const LinkOutline> outline;  ///< null: a circle about `center`, or a point
+  /// Cable on the body at time 0 [m] as the user gave it; NaN: the arc between the tangents.
+  double given_stored_length = 0.0;
+  /// Whether the cable slides over the link instead of rolling with it: a pinhole.
+  bool slides = false;
+  /// Capstan coefficient of a link over which the cable can slide; NaN: it cannot.
+  double friction = std::numeric_limits<double>::quiet_NaN();
+  /// The link's rotor has no inertia, so the tension is the same on both sides and the cable's
+  /// motion turns it.
+  bool massless = false;
+  bool ends_here = false;      ///< the link type is one for the end of an open cable only
+  bool starts_lifted = false;  ///< the cable passes it by at time 0
+  bool lifts = false;          ///< the cable can leave it and touch it again: between the ends
+  bool hybrid = false;         ///< becomes an attachment when its stored length is used up
+  /// Hybrid links: centre [m] and normal in the own frame of `body`, whose rim then holds the end.
+  Vector3 rim_center = Vector3::Zero();
+  Vector3 rim_normal = Vector3::UnitZ();
+  double layer_pitch = 0.0;  ///< growth of the radius with every turn wound on [m]
+  bool feeds = false;        ///< an attachment out of which cable comes, if at any speed but 0
+  double feed_speed = 0.0;  ///< cable that enters the scene there [m/s]: the mean of a substep, ...
+  double feed_end_speed = 0.0;  ///< ... and at its end
+  int extra_turns = 0;          ///< whole turns beyond the arc between the tangents
+
+  /// Makes the link hybrid; its centre and normal are in the own frame of `body`.
+  void hold_end() {
+    hybrid = true;
+    rim_center = center;
+    rim_normal = normal;
+  }
+  [[nodiscard]] bool wraps() const { return side != 0; }
+  /// Whether geometry depends on the cable's state, not only on the bodies.
+  [[nodiscard]] bool changes() const { return hybrid || layer_pitch > 0.0; }
+  /// Whether cable can pass from the span before the link to the one after it other than by
+  /// rolling.
+  [[nodiscard]] bool passes() const { return massless || !std::isnan(friction); }
+  [[nodiscard]] bool frictionless() const { return massless || friction == 0.0; }
+  /// Length of cable once round the link [m]; 0 for a point.
+  [[nodiscard]] double perimeter() const {
+    return outline ? outline->curve.perimeter() : 2.0 * pi * std::abs(signed_radius);
+  }
+};
+
+/// Whether both are outlines of one body in one plane, or one circle twice: no span can be between
+/// them.
+[[nodiscard]] bool on_one_outline(const LinkGeometry& a, const LinkGeometry& b);
+
+}  // namespace sheave
