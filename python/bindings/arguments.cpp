@@ -33,6 +33,10 @@ bool read(py::handle value, double& number) {
     return true;
   }
   if (PyUnicode_Check(value.ptr()) || value.is_none()) return false;
+  // NumPy would take an array with a single number for that number.
+  if (py::isinstance<py::array>(value) && py::reinterpret_borrow<py::array>(value).ndim() > 0) {
+    return false;
+  }
   number = PyFloat_AsDouble(value.ptr());
   if (number != -1.0 || PyErr_Occurred() == nullptr) return true;
   PyErr_Clear();
@@ -163,6 +167,7 @@ std::vector<double> numbers(py::handle value, const char* name, std::size_t coun
   double one = 0.0;
   const std::string allowed =
       "a number, or one for each of the " + std::to_string(count) + " worlds";
+  if (PyUnicode_Check(value.ptr())) refuse(name, value, allowed);
   if (!py::isinstance<py::array>(value) && PySequence_Check(value.ptr()) == 0) {
     if (!read(value, one)) refuse(name, value, allowed);
     return std::vector<double>(count, one);

@@ -70,6 +70,11 @@ class Batch {
   void for_each(const std::function<void(std::size_t)>& action) {
     pool_.for_each(worlds_.size(), action);
   }
+  /// What is wrong with the name of a control; empty if nothing is.
+  [[nodiscard]] Errors control_fault(const std::string& name) {
+    const auto found = control(name);
+    return found ? Errors() : found.errors();
+  }
   /// Sets a control, or clears it if `values` is empty; the fault of the first world that has one.
   [[nodiscard]] Errors set(const std::string& name, std::span<const double> values,
                            std::optional<double> over, std::span<const char> chosen);

@@ -146,12 +146,20 @@ py::array_t<Value> per_world(SharedBatch& shared, const Read& read) {
   return values;
 }
 
+std::string control_name(Batch& batch, const py::object& name) {
+  std::string control = text(name, "name");
+  const Errors errors = batch.control_fault(control);
+  if (!errors.empty()) raise("UnknownNameError", errors);
+  return control;
+}
+
 void set_batch(SharedBatch& shared, const py::object& name, const py::object& value,
                const py::object& over, const py::object& where) {
   Batch& batch = shared.get();
+  const std::string control = control_name(batch, name);
   const std::vector<double> values = numbers(value, "value", batch.size());
-  check(batch.set(text(name, "name"), values, optional_number(over, "over"),
-                  mask(where, "mask", batch.size())));
+  check(
+      batch.set(control, values, optional_number(over, "over"), mask(where, "mask", batch.size())));
 }
 
 py::list save_batch(SharedBatch& shared) {
@@ -245,7 +253,7 @@ void bind_batch(py::module_& module) {
       "clear",
       [](SharedBatch& own, const py::object& name, const py::object& where) {
         Batch& b = own.get();
-        check(b.set(text(name, "name"), {}, {}, mask(where, "mask", b.size())));
+        check(b.set(control_name(b, name), {}, {}, mask(where, "mask", b.size())));
       },
       py::arg("name"), py::arg("mask") = py::none());
   batch.def(

@@ -32,7 +32,8 @@ class Model:
     """A scene that is built part by part.
 
     >>> model = sheave.Model(gravity=(0, -9.81, 0), duration=1)
-    >>> ball = model.add(sheave.Body("ball", mobility="free", mass=1))
+    >>> ball = model.add(sheave.Body("ball", mobility="free", mass=1,
+    ...                              shape=sheave.Sphere(0.1)))
     >>> sim = model.simulation()
     """
 

@@ -83,7 +83,8 @@ class Simulation(_sheave.Simulation):
         """Changes what the world is made of, all or nothing.
 
         >>> with sim.edit() as edit:
-        ...     edit.add_body({"name": "box", "mobility": "free", "mass": 1})
+        ...     edit.add_body({"name": "ball", "mobility": "free", "mass": 1,
+        ...                    "shape": {"type": "sphere", "radius": 0.1}})
         ...     edit.remove_cable("rope")
 
         or `sim.edit(function)`, which is called with the Edit. What it does to energy and to the
