@@ -34,7 +34,7 @@ def main(figure: str = "", ramps: int = 40, cruises: int = 25) -> float:
     rows = cranes.record(["hook.x", "tip sheave.x"], round(7.0 / cranes.dt), every=3)
     swing = np.ptp(rows[:, :, 0] - rows[:, :, 1], axis=1)
     best = int(np.argmin(swing))
-    print(f"{len(swing)} cranes: the swing is between {swing.min():.3f} m and {swing.max():.3f} m;\n"
+    print(f"{len(swing)} cranes: the swing is between {swing.min():.3f} and {swing.max():.3f} m;\n"
           f"least with {ramp[best]:.2f} s to speed up and {cruise[best]:.2f} s at full speed")
     assert not cranes.diverged.any() and swing.min() < 0.3 * swing.max()
     if figure:
@@ -52,4 +52,4 @@ def main(figure: str = "", ramps: int = 40, cruises: int = 25) -> float:
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:2], *map(int, sys.argv[2:]))
+    main(sys.argv[1] if len(sys.argv) > 1 else "", *map(int, sys.argv[2:]))

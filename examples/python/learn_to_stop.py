@@ -49,7 +49,8 @@ def rollout(env: sheave.VectorEnvironment, laws: Array, steps: int) -> Array:
 def reward(seen: Array, actions: Array) -> Array:
     """Nothing is lost only by a load at rest in the middle."""
     cost: Array = (features(seen) ** 2 * [1.0, 0.2, 10.0, 2.0]).sum(axis=1)
-    return -cost - 1e-5 * (actions**2).sum(axis=1)
+    earned: Array = -cost - 1e-5 * (actions**2).sum(axis=1)
+    return earned
 
 
 def main(figure: str = "", generations: int = 12, population: int = 96) -> float:
@@ -70,7 +71,7 @@ def main(figure: str = "", generations: int = 12, population: int = 96) -> float
         history.append(earned.max())
     final = rollout(env, np.broadcast_to(mean, (population, 4)), 100)[0]
     swing = np.abs(env.batch.observe("load.vx")[0])
-    print(f"without a law the load costs {-nothing:.1f}, with the one that was learned {-final:.1f};"
+    print(f"without a law the load costs {-nothing:.1f}, with what was learned {-final:.1f};"
           f" at the end it moves by {swing:.4f} m/s ({time.monotonic() - begin:.1f} s)")
     assert final > 0.5 * nothing
     if figure:
@@ -87,4 +88,4 @@ def main(figure: str = "", generations: int = 12, population: int = 96) -> float
 
 
 if __name__ == "__main__":
-    main(*sys.argv[1:2], *map(int, sys.argv[2:]))
+    main(sys.argv[1] if len(sys.argv) > 1 else "", *map(int, sys.argv[2:]))

@@ -177,7 +177,8 @@ def changes_text() -> str:
     lines = [HEADER.format(what="What can be changed of a world that lives.",
                            typing="Dict, Literal, Mapping, Optional, Sequence, Union"),
              "from ._part import BodyLike", f"from .parts import {', '.join(used)}", "", "",
-             "class Changes:", '    """One method for each type of change (docs/editing.md)."""', "",
+             "class Changes:",
+             '    """One method for each type of change (docs/editing.md)."""', "",
              "    def _add(self, kind: str, settings: Dict[str, Any]) -> None:",
              "        raise NotImplementedError"]
     for variant in change["variants"]:

@@ -5,19 +5,19 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
-from typing import Any, Dict, Mapping, NamedTuple, Optional, Union
+from typing import Any, Dict, Mapping, NamedTuple, Optional, Protocol, Union
 
 from ._errors import ArgumentError, SceneError
 
-SceneLike = Union[str, "os.PathLike[str]", Mapping[str, Any], "HasDict"]
-
-
-class HasDict:
+class HasDict(Protocol):
     """What has the scene that it stands for as a dict."""
 
     def to_dict(self) -> Dict[str, Any]:
         """The scene as a dict."""
-        raise NotImplementedError
+        ...
+
+
+SceneLike = Union[str, "os.PathLike[str]", Mapping[str, Any], HasDict]
 
 
 class Source(NamedTuple):

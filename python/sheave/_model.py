@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, Optional, Sequence, TypeVar, Union
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Type, TypeVar, Union
 
 from . import _sheave, parts
 from ._errors import ArgumentError
@@ -13,7 +13,7 @@ from ._load import SceneLike, json_text, overrides_of, source_of
 from ._part import Part, to_plain
 from ._simulation import Simulation
 
-LISTS = {
+LISTS: Dict[str, Type[Part]] = {
     "bodies": parts.Body,
     "joints": parts.Joint,
     "cables": parts.Cable,
@@ -23,7 +23,7 @@ LISTS = {
     "paint": parts.Paint,
     "checks": parts.Check,
 }
-SINGLE = {"step": parts.Step, "ground": parts.Ground, "camera": parts.Camera}
+SINGLE: Dict[str, Type[Part]] = {"step": parts.Step, "ground": parts.Ground, "camera": parts.Camera}
 PLAIN = ("name", "description", "gravity", "duration")
 A = TypeVar("A", bound=Part)
 
@@ -58,13 +58,14 @@ class Model:
 
     def add(self, part: A) -> A:
         """Appends a body, joint, cable, controller, trigger, collider, paint or check; gives it."""
+        given: Any = part
         for name, own in LISTS.items():
-            if isinstance(part, own):
-                getattr(self, name).append(part)
+            if isinstance(given, own):
+                getattr(self, name).append(given)
                 return part
         for name, own in SINGLE.items():
-            if isinstance(part, own):
-                setattr(self, name, part)
+            if isinstance(given, own):
+                setattr(self, name, given)
                 return part
         raise ArgumentError("part: must be a body, joint, cable, controller, trigger, collider, "
                             f"paint, check, step, ground or camera, was {part!r}")

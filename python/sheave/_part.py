@@ -67,7 +67,7 @@ class Part:
 
     @classmethod
     def from_dict(cls: Type[P], values: Mapping[str, Any]) -> P:
-        """The part that a dict of a scene tells; of a class like Joint or Link its "type" chooses."""
+        """The part that a dict of a scene tells; of a class like Joint its "type" chooses."""
         chosen = cls._class_of(values)
         known = {key: name for name, key in chosen._keys.items()}
         given = {}
