@@ -333,6 +333,11 @@ Errors LiveWorld::restore(const State& state) {
   return errors;
 }
 
+std::shared_ptr<const void> LiveWorld::keep_in_place() {
+  running().world.keep_in_place();
+  return revision_;
+}
+
 LiveSnapshot LiveWorld::snapshot() const { return {state(), revision_, identity_}; }
 
 Errors LiveWorld::restore(const LiveSnapshot& snapshot) {

@@ -189,6 +189,13 @@ class LiveWorld {
   [[nodiscard]] LiveSnapshot snapshot() const;
   [[nodiscard]] Errors restore(const LiveSnapshot& snapshot);
 
+  /// World::keep_in_place(): and as long as what it returns is held the state stays there across
+  /// edits, too, as it was before them.
+  [[nodiscard]] std::shared_ptr<const void> keep_in_place();
+  /// What `set` sets, as in set_together(), for those who do not tell it by handles
+  /// (scenes/control/control_point.h). It must do nothing else.
+  [[nodiscard]] Errors set_in_simulation(const std::function<Errors(Simulation&)>& set);
+
   /// Everything else that can be asked of it: reports, certificates. An edit or restoring a
   /// snapshot makes another one. Bodies that have been removed stand in its model as static ones
   /// without a shape.

@@ -41,6 +41,10 @@ Errors LiveWorld::set_together(const std::function<Errors()>& set) {
   return errors;
 }
 
+Errors LiveWorld::set_in_simulation(const std::function<Errors(Simulation&)>& set) {
+  return set_together([&] { return set(revision_->simulation); });
+}
+
 Errors LiveWorld::set_gravity(const Vector3& gravity) {
   return revision_->simulation.world.set_gravity(gravity);
 }

@@ -158,6 +158,17 @@ bool SubstepDriver::advance_half(Part part) {
   return !over() && !smallest && advance_in_halves(part);
 }
 
+void SubstepDriver::put_in_place(const BodyState* bodies, const double* reals) {
+  const auto put = [](auto& own, auto& other, const auto* place) {
+    if (own.data() == place || other.data() != place || own.size() != other.size()) return;
+    std::swap_ranges(own.begin(), own.end(), other.begin());
+    own.swap(other);
+  };
+  put(state_.bodies, before_.bodies, bodies);
+  if (state_.features.empty() || before_.features.empty()) return;
+  put(state_.features.back().reals, before_.features.back().reals, reals);
+}
+
 void SubstepDriver::keep() {
   if (state_.controls.forces.any()) {
     substep_.statistics.external_work += work_of_set_forces(substep_);

@@ -60,6 +60,9 @@ class SubstepDriver {
   [[nodiscard]] const State* before() const { return has_stepped_ ? &before_ : nullptr; }
   /// To be called when the state has been changed by somebody else.
   void forget();
+  /// Exchanges what the state and the one before it are kept in, numbers and all, so that bodies
+  /// and the numbers of the last feature are at these addresses, if they are among the two.
+  void put_in_place(const BodyState* bodies, const double* reals);
   /// To be called when the state's controls have been changed.
   void note_controls() { controls_changed_ = true; }
 

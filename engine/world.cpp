@@ -154,8 +154,17 @@ StepReport World::step(const StopRequest& stop, const std::function<void()>& bef
   c.substep.work.begin_step(nullptr);
   if (report.stopped) c.undo_step();
   if (report.ok()) ++c.state.steps;
+  if (c.stays_in_place) c.driver.put_in_place(c.bodies_place, c.reals_place);
   report.statistics = c.substep.statistics;
   return report;
+}
+
+void World::keep_in_place() {
+  Content& c = *content_;
+  if (c.stays_in_place) return;
+  c.stays_in_place = true;
+  c.bodies_place = c.state.bodies.data();
+  if (!c.state.features.empty()) c.reals_place = c.state.features.back().reals.data();
 }
 
 const Model& World::model() const { return content_->model; }

@@ -163,6 +163,11 @@ class World {
   /// Where colliders touch or are about to; empty without colliders, and before the first step.
   [[nodiscard]] std::vector<ContactReport> contacts() const;
 
+  /// From now on the bodies of state(), and the numbers of its last feature if their count is fixed
+  /// (cables), are at the same addresses between all steps, for those who look at them there. A
+  /// world that is not told so exchanges them with those of the substep before.
+  void keep_in_place();
+
   /// Goes back (or ahead) to a state of this world; an error if its shape does not fit, or its
   /// controls.
   [[nodiscard]] Errors restore(const State& state);

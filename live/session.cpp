@@ -165,6 +165,7 @@ std::optional<double> Session::pace() const { return state_->pace; }
 bool Session::has_quit() const { return state_->has_quit; }
 void Session::finish_log() { state_->log_steps(); }
 const LiveWorld& Session::world() const { return state_->world; }
+SessionState& Session::state() { return *state_; }
 
 bool Session::advance() {
   std::string reason;

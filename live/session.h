@@ -42,6 +42,8 @@ class Session {
   void finish_log();
 
   [[nodiscard]] const LiveWorld& world() const;
+  /// For a program that holds the world itself, too; what it edits it tells with refresh().
+  [[nodiscard]] SessionState& state();
 
  private:
   [[nodiscard]] Json head(const std::optional<double>& id, bool ok) const;

@@ -1,0 +1,187 @@
+#include "python/bindings/batch.h"
+
+#include <fmt/format.h>
+
+#include "scenes/control/scene_supervisor.h"
+
+namespace sheave::python {
+namespace {
+
+/// A world that is being made.
+struct Making {
+  std::optional<Simulation> simulation;
+  std::vector<SceneError> errors;
+};
+
+void make_world(const Scene& scene, const std::string& name, Making& making) {
+  Result<Simulation> made = create_simulation(scene);
+  if (made) {
+    making.simulation.emplace(std::move(*made));
+    return;
+  }
+  for (const Error& error : made.errors()) {
+    SceneError fault;
+    fault.file = name;
+    fault.pointer = error.path;
+    fault.message = error.message;
+    making.errors.push_back(std::move(fault));
+  }
+}
+
+SceneResult read_scene(const Batch::Source& source, const std::vector<Override>& overrides) {
+  return source.is_file ? load_scene(source.text, overrides)
+                        : load_scene_text(source.text, source.name, overrides);
+}
+
+bool is_same(const Simulation& a, const std::vector<std::string>& names) {
+  return ObservableSet(a).names() == names;
+}
+
+}  // namespace
+
+std::unique_ptr<Batch> Batch::create(const Source& source, std::size_t count,
+                                     const std::vector<Override>& overrides,
+                                     const std::vector<Variation>& variations, std::size_t threads,
+                                     Faults& faults) {
+  const std::string name = source.is_file ? source.text : source.name;
+  const SceneResult common =
+      read_scene(source, variations.empty() ? overrides : std::vector<Override>());
+  if (!common) {
+    faults.errors = common.errors;
+    return nullptr;
+  }
+  std::vector<Making> makings(count);
+  const auto make = [&](std::size_t i) {
+    if (variations.empty()) return make_world(*common, name, makings[i]);
+    std::vector<Override> own = overrides;
+    for (const Variation& variation : variations) {
+      own.push_back({variation.pointer, variation.values[i],
+                     fmt::format("vary {}, world {}", variation.pointer, i)});
+    }
+    SceneResult scene = read_scene(source, own);
+    if (scene) return make_world(*scene, name, makings[i]);
+    makings[i].errors = std::move(scene.errors);
+  };
+  ThreadPool(threads).for_each(count, make);
+  std::vector<World> worlds;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < count; ++i) {
+    Making& making = makings[i];
+    if (i == 0 && making.simulation) names = ObservableSet(*making.simulation).names();
+    if (making.simulation && !variations.empty() && !is_same(*making.simulation, names)) {
+      SceneError fault;
+      fault.file = name;
+      fault.message = "the worlds of a batch must have the same observables as the first one";
+      making.errors.push_back(std::move(fault));
+    }
+    if (!making.errors.empty()) {
+      faults = {std::move(making.errors), i};
+      return nullptr;
+    }
+    State start = making.simulation->world.state();
+    worlds.push_back({std::move(*making.simulation), std::move(start), {}, false});
+  }
+  return std::unique_ptr<Batch>(new Batch(std::move(worlds), common->duration, threads));
+}
+
+Batch::Batch(std::vector<World> worlds, double duration, std::size_t threads)
+    : worlds_(std::move(worlds)),
+      duration_(duration),
+      quantities_(std::make_unique<live::QuantityIndex>(worlds_.front().simulation)),
+      pool_(threads) {}
+
+void Batch::step(std::int64_t count, std::span<const char> chosen,
+                 const std::function<bool()>& goes_on) {
+  std::atomic<bool> ends = false;
+  const auto steps = [&](std::size_t i) {
+    World& world = worlds_[i];
+    if (chosen[i] == 0 || has_diverged(i) || world.stopped) return;
+    const Supervisor* supervisor = world.simulation.supervisor.get();
+    for (std::int64_t k = 0; k < count && !ends.load(std::memory_order_relaxed); ++k) {
+      const StepReport report = world.simulation.step();
+      if (report.divergence) {
+        world.divergence = report.divergence->message;
+        return;
+      }
+      world.stopped =
+          supervisor != nullptr && supervisor->has_stopped(world.simulation.world.state());
+      if (world.stopped) return;
+    }
+  };
+  pool_.for_each(size(), steps, [&] {
+    if (!goes_on()) ends = true;
+    return !ends;
+  });
+}
+
+void Batch::observe(const std::vector<int>& indices, std::span<double> values) {
+  const std::size_t width = indices.size();
+  const ObservableSet& set = quantities_->set();
+  for_each([&](std::size_t i) {
+    const Simulation& simulation = worlds_[i].simulation;
+    const std::span<double> row = values.subspan(i * width, width);
+    set.sample(simulation, indices, row);
+    if (simulation.world.state().steps > 0) return;
+    for (std::size_t k = 0; k < width; ++k) {
+      if (!set.known_at_start(indices[k])) row[k] = std::numeric_limits<double>::quiet_NaN();
+    }
+  });
+}
+
+Result<const std::vector<ControlPoint>*> Batch::control(const std::string& name) {
+  const auto known = controls_.find(name);
+  if (known != controls_.end()) return &known->second;
+  std::vector<ControlPoint> points;
+  for (const World& world : worlds_) {
+    const Result<ControlPoint> point =
+        find_control(name, world.simulation.world.model(), *world.simulation.cable_definitions);
+    if (!point) return point.errors();
+    points.push_back(*point);
+  }
+  return &controls_.emplace(name, std::move(points)).first->second;
+}
+
+Errors Batch::set(const std::string& name, std::span<const double> values,
+                  std::optional<double> over, std::span<const char> chosen) {
+  const Result<const std::vector<ControlPoint>*> points = control(name);
+  if (!points) return points.errors();
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (chosen[i] == 0) continue;
+    Simulation& simulation = worlds_[i].simulation;
+    const ControlPoint& point = (**points)[i];
+    const double time = over.value_or(simulation.world.model().step.dt);
+    const Errors errors =
+        values.empty() ? point.clear(simulation) : point.set(simulation, values[i], time);
+    if (!errors.empty()) {
+      return {{"", fmt::format("world {}: {}", i, errors.front().message)}};
+    }
+  }
+  return {};
+}
+
+Errors Batch::restore(std::size_t index, const State& state) {
+  World& world = worlds_[index];
+  Errors errors = world.simulation.world.restore(state);
+  if (!errors.empty()) return errors;
+  world.divergence.clear();
+  const Supervisor* supervisor = world.simulation.supervisor.get();
+  world.stopped = supervisor != nullptr && supervisor->has_stopped(state);
+  return {};
+}
+
+Errors Batch::reset(std::span<const char> chosen) {
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (chosen[i] == 0) continue;
+    Errors errors = restore(i, worlds_[i].start);
+    if (!errors.empty()) return errors;
+  }
+  return {};
+}
+
+void Batch::mark_start(std::span<const char> chosen) {
+  for (std::size_t i = 0; i < size(); ++i) {
+    if (chosen[i] != 0) worlds_[i].start = worlds_[i].simulation.world.state();
+  }
+}
+
+}  // namespace sheave::python

@@ -1,0 +1,225 @@
+// Cables of a world that lives.
+
+#include <pybind11/stl.h>
+
+#include "engine/index.h"
+#include "python/bindings/arguments.h"
+#include "python/bindings/bind.h"
+#include "python/bindings/errors.h"
+
+namespace sheave::python {
+namespace {
+
+using CableClass = py::class_<LiveCable>;
+constexpr std::int64_t most_links = 1'000'000;
+
+int place_of(const py::object& value, const char* name) {
+  return static_cast<int>(integer(value, name, 0, most_links));
+}
+
+/// What is compiled of a cable that pulls; null of one that hangs loose.
+const CompiledCable* compiled(const LiveCable& cable) {
+  const LiveWorld& world = world_of(cable);
+  const CableSystem* system = world.simulation().cables;
+  const Result<std::string> name = world.name(cable.handle);
+  for (std::size_t c = 0; system != nullptr && c < system->cables().size(); ++c) {
+    if (world.cable_at(static_cast<int>(c)) == cable.handle) return &system->cables()[c];
+  }
+  return nullptr;
+}
+
+/// The rows of listed spans of a view of all spans.
+template <py::array Views::*View>
+py::object listed(const LiveCable& cable) {
+  const CompiledCable* own = compiled(cable);
+  const int first = own != nullptr ? own->first_span : 0;
+  const int count = own != nullptr ? own->listed_spans : 0;
+  const py::array all = cable.core->views().*View;
+  return all[py::slice(first, first + count, 1)];
+}
+
+/// A control of the cable, or of one of its links.
+using SetNumber = Errors (LiveWorld::*)(CableHandle, double);
+using Clear = Errors (LiveWorld::*)(CableHandle);
+
+template <SetNumber Set>
+void set(const LiveCable& cable, const py::object& value) {
+  check((world_of(cable).*Set)(cable.handle, number(value, "value")));
+}
+template <Clear Clearer>
+void clear(const LiveCable& cable) {
+  check((world_of(cable).*Clearer)(cable.handle));
+}
+
+py::object loose_length(const LiveCable& cable, const py::object& end) {
+  const std::string word = text(end, "end");
+  if (word != "first" && word != "last") refuse("end", end, "\"first\" or \"last\"");
+  const auto length = value_of(world_of(cable).loose_length(
+      cable.handle, word == "first" ? CableEnd::first : CableEnd::last));
+  return length ? py::object(py::float_(*length)) : py::none();
+}
+
+py::dict link_dict(const LiveWorld& world, const LinkReport& link) {
+  py::dict one;
+  one["type"] = std::string(link.type);
+  one["body"] = link.body.is_world() ? std::string("world")
+                                     : world.simulation().world.bodies().name(link.body.index);
+  one["touched"] = link.touched;
+  one["center"] = tuple_of(link.center);
+  one["radius"] = link.radius;
+  one["entry"] = tuple_of(link.entry);
+  one["exit"] = tuple_of(link.exit);
+  one["stored_length"] = link.stored_length;
+  one["wrap_angle"] = link.wrap_angle;
+  one["slip"] = link.slip;
+  one["stalled"] = link.stalled;
+  one["fed"] = link.fed;
+  return one;
+}
+
+py::dict report_of_cable(const LiveCable& cable) {
+  const LiveWorld& world = world_of(cable);
+  if (compiled(cable) == nullptr) {
+    raise("Error", "cable \"" + *world.name(cable.handle) + "\" hangs loose, so it has no report");
+  }
+  const std::string name = *world.name(cable.handle);
+  py::dict all;
+  for (const CableReport& report : world.simulation().cable_reports()) {
+    if (report.name != name) continue;
+    py::list links;
+    for (const LinkReport& link : report.links) links.append(link_dict(world, link));
+    py::list spans;
+    for (const SpanReport& span : report.spans) {
+      py::dict one;
+      one["start"] = tuple_of(span.start);
+      one["end"] = tuple_of(span.end);
+      one["length"] = span.length;
+      one["rest_length"] = span.rest_length;
+      one["tension"] = span.tension;
+      spans.append(std::move(one));
+    }
+    all["closed"] = report.closed;
+    all["cut"] = report.cut;
+    all["total_length"] = report.total_length;
+    all["length_error"] = report.length_error;
+    all["links"] = links;
+    all["spans"] = spans;
+  }
+  return all;
+}
+
+void bind_cable_readers(CableClass& cable) {
+  cable.def_property_readonly("name", [](const LiveCable& own) {
+    return value_of(own.core->world().name(own.handle), "StaleError");
+  });
+  cable.def_property_readonly(
+      "alive", [](const LiveCable& own) { return own.core->world().name(own.handle).ok(); },
+      "Whether it is still part of the world.");
+  cable.def(
+      "tension",
+      [](const LiveCable& own, const py::object& span) {
+        return value_of(world_of(own).tension(own.handle, place_of(span, "span")));
+      },
+      py::arg("span") = 0, "Mean over the last substep [N].");
+  cable.def(
+      "rest_length",
+      [](const LiveCable& own, const py::object& span) {
+        return value_of(world_of(own).rest_length(own.handle, place_of(span, "span")));
+      },
+      py::arg("span") = 0, "Unstretched length of a span [m].");
+  cable.def(
+      "stored_length",
+      [](const LiveCable& own, const py::object& link) {
+        return value_of(world_of(own).stored_length(own.handle, place_of(link, "link")));
+      },
+      py::arg("link"), "Unstretched length of what lies on a link [m].");
+  cable.def_property_readonly("tensions", &listed<&Views::tensions>,
+                              "Of its spans [N]: a view of the state.");
+  cable.def_property_readonly("rest_lengths", &listed<&Views::rest_lengths>,
+                              "Of its spans [m]: a view of the state.");
+  cable.def_property_readonly(
+      "pulls", [](const LiveCable& own) { return world_of(own).pulls(own.handle); },
+      "Whether something of it is between two holds.");
+  cable.def_property_readonly(
+      "length", [](const LiveCable& own) { return value_of(world_of(own).length(own.handle)); },
+      "All of it [m].");
+  cable.def("loose_length", &loose_length, py::arg("end"),
+            "Length beyond the last hold of the \"first\" or \"last\" end [m]; None if that is "
+            "not loose.");
+  cable.def("report", &report_of_cable, "Where it runs, link by link and span by span.");
+}
+
+void bind_cable_controls(CableClass& cable) {
+  const auto none = py::none();
+  cable.def("set_compliance", &set<&LiveWorld::set_compliance>, py::arg("value"),
+            "[m/N] of each span, > 0; of a cable that has one.");
+  cable.def("clear_compliance", &clear<&LiveWorld::clear_compliance>);
+  cable.def("set_breaking_tension", &set<&LiveWorld::set_breaking_tension>, py::arg("value"),
+            "[N], > 0");
+  cable.def("clear_breaking_tension", &clear<&LiveWorld::clear_breaking_tension>);
+  cable.def("set_wrap_friction", &set<&LiveWorld::set_wrap_friction>, py::arg("value"),
+            "Capstan coefficient on wrappable bodies, > 0; of a cable that has one.");
+  cable.def("clear_wrap_friction", &clear<&LiveWorld::clear_wrap_friction>);
+  cable.def(
+      "set_friction",
+      [](const LiveCable& own, const py::object& link, const py::object& value) {
+        const int place = place_of(link, "link");
+        check(world_of(own).set_friction(own.handle, place, number(value, "value")));
+      },
+      py::arg("link"), py::arg("value"), "Capstan coefficient of a link that has one, > 0.");
+  cable.def(
+      "clear_friction",
+      [](const LiveCable& own, const py::object& link) {
+        check(world_of(own).clear_friction(own.handle, place_of(link, "link")));
+      },
+      py::arg("link"));
+  cable.def(
+      "set_feed_speed",
+      [](const LiveCable& own, const py::object& link, const py::object& value,
+         const py::object& over) {
+        const int place = place_of(link, "link");
+        const DriveTarget wanted = target(value, over, py::none());
+        check(world_of(own).set_feed_speed(own.handle, place, wanted));
+      },
+      py::arg("link"), py::arg("value"), py::arg("over") = none,
+      "Of an attachment that has one [m/s].");
+  cable.def(
+      "clear_feed_speed",
+      [](const LiveCable& own, const py::object& link) {
+        check(world_of(own).clear_feed_speed(own.handle, place_of(link, "link")));
+      },
+      py::arg("link"));
+}
+
+LiveCable cable_called(const std::shared_ptr<Core>& core, const py::object& name) {
+  return {core, value_of(core->world().cable(text(name, "name")), "UnknownNameError")};
+}
+
+std::vector<LiveCable> cables_of(const std::shared_ptr<Core>& core) {
+  std::vector<LiveCable> all;
+  for (const CableHandle handle : core->world().cables()) all.push_back({core, handle});
+  return all;
+}
+
+}  // namespace
+
+void bind_cables(py::module_& module, SimulationClass& simulation) {
+  CableClass cable(module, "LiveCable", "A cable of a simulation, for as long as it is there.");
+  bind_cable_readers(cable);
+  bind_cable_controls(cable);
+  cable.def("__eq__", [](const LiveCable& own, const py::object& other) {
+    return py::isinstance<LiveCable>(other) && own == other.cast<const LiveCable&>();
+  });
+  cable.def("__hash__", [](const LiveCable& own) {
+    return py::hash(py::make_tuple(reinterpret_cast<std::uintptr_t>(own.core.get()),
+                                   own.handle.slot, own.handle.generation));
+  });
+  cable.def("__repr__", [](const LiveCable& own) {
+    const Result<std::string> name = own.core->world().name(own.handle);
+    return name ? "<LiveCable \"" + *name + "\">" : std::string("<LiveCable that is no more>");
+  });
+  simulation.def("cable", &cable_called, py::arg("name"), "The cable with this name.");
+  simulation.def("_cables", &cables_of);
+}
+
+}  // namespace sheave::python

@@ -1,0 +1,216 @@
+#include "python/bindings/core.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "python/bindings/errors.h"
+#include "scenes/control/scene_supervisor.h"
+
+namespace sheave::python {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Requests of a program in the same process need fewer bounds than those of a stranger.
+live::Limits wide_limits() {
+  live::Limits limits;
+  limits.line_bytes = std::size_t{64} << 20U;
+  limits.depth = 64;
+  limits.values = 8'000'000;
+  limits.faults = 1000;
+  return limits;
+}
+
+}  // namespace
+
+Core::Core(Scene scene, Simulation simulation)
+    : scene_(std::move(scene)), session_(scene_, std::move(simulation), {}, wide_limits()) {}
+
+std::shared_ptr<Core> Core::load(const std::string& source, const std::string& name, bool is_file,
+                                 const std::vector<Override>& overrides) {
+  SceneResult scene;
+  std::optional<Result<Simulation>> simulation;
+  {
+    const py::gil_scoped_release unlocked;
+    scene = is_file ? load_scene(source, overrides) : load_scene_text(source, name, overrides);
+    if (scene) simulation.emplace(create_simulation(*scene));
+  }
+  if (!scene) raise_scene_error(scene.errors);
+  if (!*simulation) raise_scene_error(is_file ? source : name, simulation->errors());
+  return std::make_shared<Core>(std::move(*scene.scene), std::move(**simulation));
+}
+
+void Core::check_free() const {
+  if (runs_) raise("Error", "another thread steps this simulation now; wait until it is done");
+}
+
+LiveWorld& Core::world() {
+  check_free();
+  return session_.state().world;
+}
+
+live::SessionState& Core::session() {
+  check_free();
+  return session_.state();
+}
+
+std::string Core::answer(const std::string& request) {
+  check_free();
+  return session_.answer(request);
+}
+
+bool Core::has_stopped() {
+  const Supervisor* own = simulation().supervisor.get();
+  return own != nullptr && own->has_stopped(world().state());
+}
+
+std::int64_t Core::steps_until(std::optional<double> end) {
+  constexpr double most = 9e15;  // beyond this a double does not count one by one
+  const double dt = simulation().world.model().step.dt;
+  const double steps = std::round(end.value_or(scene_.duration) / dt);
+  const double least = end ? 0.0 : 1.0;
+  const auto last = static_cast<std::int64_t>(std::clamp(steps, least, most));
+  return std::max<std::int64_t>(last - world().state().steps, 0);
+}
+
+void Core::note(const LiveReport& report) {
+  const auto add = [&](Event event) {
+    events.push_back(std::move(event));
+    if (events.size() <= most_events) return;
+    events.pop_front();
+    ++dropped_events;
+  };
+  for (const CableEvent& event : report.events) {
+    add({event.time, std::string(cable_event_names[static_cast<std::size_t>(event.kind)]),
+         event.cable, event.link, event.body});
+  }
+  const LiveWorld& world = session_.state().world;
+  for (const JointHandle joint : report.broken_joints) {
+    add({world.time(), "break", *world.name(joint), -1, {}});
+  }
+  dropped_events += static_cast<std::int64_t>(report.omitted);
+}
+
+/// Steps with the lock of the interpreter given away, but for calls into Python.
+class Core::Stepper {
+ public:
+  Stepper(Core& core, py::handle self, py::handle before_step, py::handle before_substep)
+      : core_(core),
+        world_(core.session_.state().world),
+        self_(self),
+        before_step_(before_step),
+        before_substep_(before_substep),
+        outer_(core.stepper_) {
+    core_.stepper_ = std::this_thread::get_id();
+    core_.runs_ = true;
+    thread_ = PyEval_SaveThread();
+    if (!before_substep_.is_none()) substep_ = [this] { call(before_substep_); };
+    stop_ = [this] { return fault_ || (core_.is_slow_ && looks_at_signals()); };
+  }
+  ~Stepper() { lock(); }
+  Stepper(const Stepper&) = delete;
+  Stepper& operator=(const Stepper&) = delete;
+
+  void run(std::int64_t count);
+  /// Takes the lock back and raises what has come up.
+  void finish() {
+    lock();
+    if (fault_) throw py::error_already_set(std::move(*fault_));
+    if (divergence_) raise("DivergenceError", divergence_->message);
+    if (refused_) raise("Error", "a simulation cannot be stepped from within a step or an edit");
+  }
+
+ private:
+  void lock() {
+    if (thread_ == nullptr) return;
+    PyEval_RestoreThread(thread_);
+    thread_ = nullptr;
+    core_.runs_ = false;
+    core_.stepper_ = outer_;
+  }
+  /// What `action` does with the lock; what it raises ends the step.
+  template <class Action>
+  void locked(const Action& action) {
+    PyEval_RestoreThread(thread_);
+    core_.runs_ = false;
+    try {
+      action();
+    } catch (py::error_already_set& error) {
+      if (!fault_) fault_.emplace(std::move(error));
+    }
+    core_.runs_ = true;
+    thread_ = PyEval_SaveThread();
+  }
+  void call(py::handle callable) {
+    if (fault_) return;
+    locked([&] { callable(self_); });
+  }
+  bool looks_at_signals() {
+    const Clock::time_point now = Clock::now();
+    constexpr std::chrono::milliseconds interval(20);
+    if (now - looked_ < interval) return false;
+    looked_ = now;
+    locked([] {
+      if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    });
+    return fault_.has_value();
+  }
+  bool step();
+
+  Core& core_;
+  LiveWorld& world_;
+  py::handle self_, before_step_, before_substep_;
+  std::thread::id outer_;  // of a step that this one is made within
+  PyThreadState* thread_ = nullptr;
+  std::function<void()> substep_;
+  StopRequest stop_;
+  Clock::time_point looked_ = Clock::now();
+  std::optional<py::error_already_set> fault_;
+  std::optional<Divergence> divergence_;
+  bool refused_ = false;
+};
+
+/// One step; false if it is the last.
+bool Core::Stepper::step() {
+  if (!before_step_.is_none()) call(before_step_);
+  if (fault_) return false;
+  const bool stoppable = core_.is_slow_ || substep_;
+  LiveReport report = world_.step(stoppable ? stop_ : StopRequest{}, substep_);
+  if (!report.events.empty() || !report.broken_joints.empty()) core_.note(report);
+  refused_ = report.stopped && !fault_;
+  if (report.divergence) divergence_ = std::move(report.divergence);
+  if (!report.ok() || fault_) return false;
+  const Supervisor* supervisor = world_.simulation().supervisor.get();
+  return supervisor == nullptr || !supervisor->has_stopped(world_.state());
+}
+
+void Core::Stepper::run(std::int64_t count) {
+  // Clocks cost as much as small steps do, so only one in so many is timed.
+  constexpr int stride = 16;
+  constexpr std::chrono::microseconds slow(500);
+  for (std::int64_t i = 0; i < count; ++i) {
+    if (core_.until_timed_-- > 0) {
+      if (!step()) return;
+      continue;
+    }
+    core_.until_timed_ = stride;
+    const Clock::time_point begin = Clock::now();
+    const bool goes_on = step();
+    core_.is_slow_ = Clock::now() - begin > slow;
+    if (!goes_on || (i > 0 && looks_at_signals())) return;
+  }
+}
+
+bool Core::step(std::int64_t count, py::handle self, py::handle before_step,
+                py::handle before_substep) {
+  check_free();
+  if (stepper_ != std::thread::id() && stepper_ != std::this_thread::get_id()) {
+    raise("Error", "another thread steps this simulation now; wait until it is done");
+  }
+  Stepper stepper(*this, self, before_step, before_substep);
+  stepper.run(count);
+  stepper.finish();
+  return !has_stopped();
+}
+
+}  // namespace sheave::python

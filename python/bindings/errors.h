@@ -1,0 +1,38 @@
+#pragma once
+// Errors of the library as Python exceptions (python/sheave/_errors.py).
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <pybind11/pybind11.h>
+
+#include "engine/result.h"
+#include "scenes/scene.h"
+
+namespace sheave::python {
+
+namespace py = pybind11;
+
+/// Raises sheave.<kind>(message), a class of sheave._errors.
+[[noreturn]] void raise(const char* kind, const std::string& message);
+/// Raises sheave.<kind> with the messages, and with `faults`, one for each.
+[[noreturn]] void raise(const char* kind, const Errors& errors);
+/// Raises sheave.SceneError with all faults.
+[[noreturn]] void raise_scene_error(const std::vector<SceneError>& errors);
+/// The same of faults that have no place in a text but a path in the scene.
+[[noreturn]] void raise_scene_error(const std::string& file, const Errors& errors);
+
+/// Raises sheave.Error if there are any.
+inline void check(const Errors& errors) {
+  if (!errors.empty()) raise("Error", errors);
+}
+
+/// The value, or raises sheave.<kind>.
+template <class T>
+T value_of(Result<T> result, const char* kind = "Error") {
+  if (!result) raise(kind, result.errors());
+  return std::move(result).value();
+}
+
+}  // namespace sheave::python

@@ -1,0 +1,124 @@
+// Quantities by their names: once, and over many steps.
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include "engine/index.h"
+#include "python/bindings/arguments.h"
+#include "python/bindings/bind.h"
+#include "python/bindings/errors.h"
+#include "scenes/control/control_point.h"
+
+namespace sheave::python {
+namespace {
+
+std::vector<int> indices_of(Core& core, const std::vector<std::string>& names) {
+  const live::QuantityIndex& index = core.session().quantities();
+  std::vector<int> indices;
+  for (const std::string& name : names) {
+    indices.push_back(value_of(index.find(name), "UnknownNameError"));
+  }
+  return indices;
+}
+
+/// Forces are unknown before the first step.
+void sample(Core& core, const std::vector<int>& indices, std::span<double> values) {
+  const ObservableSet& set = core.session().quantities().set();
+  set.sample(core.simulation(), indices, values);
+  if (core.world().state().steps > 0) return;
+  for (std::size_t i = 0; i < indices.size(); ++i) {
+    if (!set.known_at_start(indices[i])) values[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+py::object observe(Core& core, const py::object& names) {
+  if (PyUnicode_Check(names.ptr())) {
+    double value = 0.0;
+    sample(core, indices_of(core, {text(names, "names")}), {&value, 1});
+    return py::float_(value);
+  }
+  const std::vector<int> indices = indices_of(core, texts(names, "names"));
+  py::array_t<double> values(static_cast<py::ssize_t>(indices.size()));
+  sample(core, indices, {values.mutable_data(), indices.size()});
+  return values;
+}
+
+/// Rows of (time, values...) from now on, one every `every` steps.
+py::array_t<double> record(const py::object& self, const py::object& names, const py::object& steps,
+                           const py::object& every, const py::object& before_step,
+                           const py::object& before_substep) {
+  Core& core = self.cast<Core&>();
+  const std::vector<int> indices = indices_of(core, texts(names, "names"));
+  constexpr std::int64_t most = 1'000'000'000;
+  const std::int64_t count =
+      steps.is_none() ? core.steps_until({}) : integer(steps, "steps", 0, most);
+  const std::int64_t stride = integer(every, "every", 1, most);
+  const std::int64_t revision = core.session().revision;
+  const std::size_t width = indices.size() + 1;
+  std::vector<double> rows;
+  const auto add = [&] {
+    if (core.session().revision != revision) {
+      raise("Error", "what is recorded has been edited meanwhile; record each part by itself");
+    }
+    rows.resize(rows.size() + width);
+    double* const row = rows.data() + rows.size() - width;
+    row[0] = core.world().time();
+    sample(core, indices, {row + 1, indices.size()});
+  };
+  add();
+  for (std::int64_t done = 0; done < count;) {
+    const std::int64_t next = std::min(stride, count - done);
+    const bool goes_on = core.step(next, self, before_step, before_substep);
+    done += next;
+    if (next == stride || !goes_on) add();
+    if (!goes_on) break;
+  }
+  const auto height = static_cast<py::ssize_t>(rows.size() / width);
+  py::array_t<double> result({height, static_cast<py::ssize_t>(width)});
+  std::copy(rows.begin(), rows.end(), result.mutable_data());
+  return result;
+}
+
+ControlPoint control_called(Core& core, const py::object& name) {
+  const Simulation& simulation = core.simulation();
+  return value_of(
+      find_control(text(name, "name"), simulation.world.model(), *simulation.cable_definitions),
+      "UnknownNameError");
+}
+
+void set_control(Core& core, const py::object& name, const py::object& value,
+                 const py::object& over) {
+  const ControlPoint point = control_called(core, name);
+  const double wanted = number(value, "value");
+  const std::optional<double> time = optional_number(over, "over");
+  const double step = core.simulation().world.model().step.dt;
+  check(core.world().set_in_simulation(
+      [&](Simulation& simulation) { return point.set(simulation, wanted, time.value_or(step)); }));
+}
+
+void clear_control(Core& core, const py::object& name) {
+  const ControlPoint point = control_called(core, name);
+  check(core.world().set_in_simulation(
+      [&](Simulation& simulation) { return point.clear(simulation); }));
+}
+
+}  // namespace
+
+void bind_observables(SimulationClass& simulation) {
+  simulation.def_property_readonly(
+      "observables", [](Core& core) { return core.session().quantities().set().names(); },
+      "Names of all quantities that observe() tells.");
+  simulation.def("observe", &observe, py::arg("names"),
+                 "A quantity by its name, or an array of several. NaN is what is not known, as "
+                 "forces before the first step.");
+  simulation.def("_record", &record, py::arg("names"), py::arg("steps"), py::arg("every"),
+                 py::arg("before_step"), py::arg("before_substep"));
+  simulation.def("set", &set_control, py::arg("name"), py::arg("value"),
+                 py::arg("over") = py::none(),
+                 "Sets a control by the name that controllers and triggers of scenes use, e.g. "
+                 "\"winch.drive\", \"hook.force_x\".");
+  simulation.def("clear", &clear_control, py::arg("name"),
+                 "The control is again what the scene says.");
+}
+
+}  // namespace sheave::python

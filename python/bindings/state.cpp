@@ -1,0 +1,84 @@
+// States that are kept, hashed and saved.
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "python/bindings/bind.h"
+#include "python/bindings/errors.h"
+
+namespace sheave::python {
+namespace {
+
+/// A snapshot, and the simulation that it is of.
+struct Snapshot {
+  std::shared_ptr<Core> core;
+  live::KeptSnapshot kept;
+};
+
+void restore(Core& core, const Snapshot& snapshot) {
+  live::SessionState& session = core.session();
+  check(session.world.restore(snapshot.kept.snapshot));
+  session.revision = snapshot.kept.revision;
+  session.refresh();
+}
+
+py::bytes save_state(Core& core) { return to_bytes(core.world().state()); }
+
+void load_state(Core& core, const py::bytes& bytes) {
+  const State state = value_of(state_from_bytes(std::string(bytes)), "StateError");
+  const double dt = core.simulation().world.model().step.dt;
+  const double time = static_cast<double>(state.steps) * dt;
+  constexpr std::int64_t most_saved_steps = std::int64_t{1} << 53;
+  const bool counted = state.steps >= 0 && state.steps <= most_saved_steps &&
+                       std::abs(state.time - time) <= 1e-6 * dt + 1e-12 * time;
+  if (!counted) {
+    raise("StateError",
+          fmt::format("the time {} s of the state is not that of {} steps of {} s: it was saved "
+                      "with another dt, or in the middle of a step",
+                      state.time, state.steps, dt));
+  }
+  const Errors errors = core.world().restore(state);
+  if (!errors.empty()) raise("StateError", errors);
+}
+
+}  // namespace
+
+void bind_state(py::module_& module, SimulationClass& simulation) {
+  py::class_<Snapshot>(module, "Snapshot", "A state with all that it is a state of.")
+      .def_property_readonly(
+          "time", [](const Snapshot& snapshot) { return snapshot.kept.snapshot.state().time; },
+          "[s]")
+      .def_property_readonly(
+          "steps", [](const Snapshot& snapshot) { return snapshot.kept.snapshot.state().steps; })
+      .def_property_readonly("hash", [](const Snapshot& snapshot) {
+        return fmt::format("{:016x}", hash(snapshot.kept.snapshot.state()));
+      });
+  simulation.def_property_readonly(
+      "hash", [](Core& core) { return fmt::format("{:016x}", hash(core.world().state())); },
+      "Of every bit of the state: 16 hexadecimal digits, as the command tells them.");
+  simulation.def(
+      "snapshot",
+      [](const std::shared_ptr<Core>& core) {
+        return Snapshot{core, core->session().keep()};
+      },
+      "The state, to go back to, also across edits.");
+  simulation.def("restore", &restore, py::arg("snapshot"), "Goes back, or ahead, to a snapshot.");
+  simulation.def(
+      "reset",
+      [](Core& core) {
+        live::SessionState& session = core.session();
+        const live::KeptSnapshot start = session.snapshots.at("start");
+        check(session.world.restore(start.snapshot));
+        session.revision = start.revision;
+        session.refresh();
+        core.events.clear();
+      },
+      "Goes back to the start, as the scene has it.");
+  simulation.def("state_bytes", &save_state,
+                 "The state as bytes, as `sheave run --save-state` writes them.");
+  simulation.def("set_state_bytes", &load_state, py::arg("state"),
+                 "The inverse of state_bytes(), for the same bodies, joints and cables.");
+}
+
+}  // namespace sheave::python

@@ -1,0 +1,83 @@
+"""Scenes as paths, texts, dicts and models."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any, Dict, Mapping, NamedTuple, Optional, Protocol, Union
+
+from ._errors import ArgumentError, SceneError
+
+class HasDict(Protocol):
+    """What has the scene that it stands for as a dict."""
+
+    def to_dict(self) -> Dict[str, Any]:
+        """The scene as a dict."""
+        ...
+
+
+SceneLike = Union[str, "os.PathLike[str]", Mapping[str, Any], HasDict]
+
+
+class Source(NamedTuple):
+    """What the compiled half is told."""
+
+    text: str
+    name: str
+    is_file: bool
+
+
+def plain(value: Any) -> Any:
+    """What json cannot write, as what it can: NumPy's arrays and numbers."""
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if hasattr(value, "to_dict"):
+        return value.to_dict()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, Mapping):
+        return dict(value)
+    raise TypeError(f"{type(value).__name__} is nothing that JSON has")
+
+
+def json_text(value: Any, name: str = "scene") -> str:
+    """The value as JSON; numbers that are not finite are refused by name."""
+    try:
+        return json.dumps(value, default=plain, allow_nan=False)
+    except (TypeError, ValueError, RecursionError) as error:
+        raise ArgumentError(f"{name}: must be what JSON can say: {error}") from None
+
+
+def source_of(scene: SceneLike) -> Source:
+    """A scene as its text, or where it is."""
+    if isinstance(scene, Mapping) or (hasattr(scene, "to_dict") and not isinstance(scene, type)):
+        return Source(json_text(scene), "<dict>", False)
+    if isinstance(scene, os.PathLike):
+        return Source(os.fspath(scene), "", True)
+    if isinstance(scene, str):
+        if scene.lstrip().startswith("{") or "\n" in scene:
+            return Source(scene, "<text>", False)
+        return Source(scene, "", True)
+    raise ArgumentError(
+        "scene: must be a path, a JSON text, a dict or a sheave.Model, was " + repr(scene)[:80]
+    )
+
+
+def overrides_of(settings: Optional[Mapping[str, Any]]) -> Dict[str, str]:
+    """Settings by their JSON pointers, as JSON."""
+    if settings is None:
+        return {}
+    if not isinstance(settings, Mapping):
+        raise ArgumentError(
+            "set: must be a dict from JSON pointers to values, was " + repr(settings)[:80]
+        )
+    return {str(pointer): json_text(value, str(pointer)) for pointer, value in settings.items()}
+
+
+def read_text(path: Union[str, Path]) -> str:
+    """A file of the user's, or SceneError."""
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise SceneError(f"{path}: {error}") from None

@@ -1,0 +1,133 @@
+"""Models that are built in Python."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Type, TypeVar, Union
+
+from . import _sheave, parts
+from ._errors import ArgumentError
+from ._load import SceneLike, json_text, overrides_of, source_of
+from ._part import Part, to_plain
+from ._simulation import Simulation
+
+LISTS: Dict[str, Type[Part]] = {
+    "bodies": parts.Body,
+    "joints": parts.Joint,
+    "cables": parts.Cable,
+    "controllers": parts.Controller,
+    "triggers": parts.Trigger,
+    "colliders": parts.Collider,
+    "paint": parts.Paint,
+    "checks": parts.Check,
+}
+SINGLE: Dict[str, Type[Part]] = {"step": parts.Step, "ground": parts.Ground, "camera": parts.Camera}
+PLAIN = ("name", "description", "gravity", "duration")
+A = TypeVar("A", bound=Part)
+
+
+class Model:
+    """A scene that is built part by part.
+
+    >>> model = sheave.Model(gravity=(0, -9.81, 0), duration=1)
+    >>> ball = model.add(sheave.Body("ball", mobility="free", mass=1,
+    ...                              shape=sheave.Sphere(0.1)))
+    >>> sim = model.simulation()
+    """
+
+    def __init__(self, gravity: Sequence[float] = (0.0, -9.81, 0.0), duration: float = 1.0,
+                 name: Optional[str] = None, description: Optional[str] = None,
+                 step: Optional[parts.Step] = None) -> None:
+        self.gravity = gravity
+        self.duration = duration
+        self.name = name
+        self.description = description
+        self.step = step
+        self.ground: Optional[parts.Ground] = None
+        self.camera: Optional[parts.Camera] = None
+        self.bodies: List[parts.Body] = []
+        self.joints: List[parts.Joint] = []
+        self.cables: List[parts.Cable] = []
+        self.controllers: List[parts.Controller] = []
+        self.triggers: List[parts.Trigger] = []
+        self.colliders: List[parts.Collider] = []
+        self.paint: List[parts.Paint] = []
+        self.checks: List[parts.Check] = []
+
+    def add(self, part: A) -> A:
+        """Appends a body, joint, cable, controller, trigger, collider, paint or check; gives it."""
+        given: Any = part
+        for name, own in LISTS.items():
+            if isinstance(given, own):
+                getattr(self, name).append(given)
+                return part
+        for name, own in SINGLE.items():
+            if isinstance(given, own):
+                setattr(self, name, given)
+                return part
+        raise ArgumentError("part: must be a body, joint, cable, controller, trigger, collider, "
+                            f"paint, check, step, ground or camera, was {part!r}")
+
+    def to_dict(self) -> Dict[str, Any]:
+        """The scene as a dict."""
+        scene: Dict[str, Any] = {"format": "sheave-scene/1"}
+        for name in PLAIN:
+            if getattr(self, name) is not None:
+                scene[name] = to_plain(getattr(self, name))
+        for name in SINGLE:
+            if getattr(self, name) is not None:
+                scene[name] = whole(getattr(self, name))
+        for name in LISTS:
+            if getattr(self, name):
+                scene[name] = [whole(part) for part in getattr(self, name)]
+        return scene
+
+    def to_json(self, indent: Optional[int] = None) -> str:
+        """The scene as a text."""
+        return json.dumps(json.loads(json_text(self)), indent=indent)
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes the scene into a file."""
+        Path(path).write_text(self.to_json(2) + "\n", encoding="utf-8")
+
+    @classmethod
+    def from_dict(cls, scene: Mapping[str, Any]) -> "Model":
+        """The model that a scene tells."""
+        model = cls(scene.get("gravity", (0.0, 0.0, 0.0)), scene.get("duration", 1.0))
+        for key, value in scene.items():
+            if key in LISTS:
+                setattr(model, key, [LISTS[key].from_dict(one) for one in value])
+            elif key in SINGLE:
+                setattr(model, key, SINGLE[key].from_dict(value))
+            elif key in PLAIN:
+                setattr(model, key, value)
+            elif key != "format":
+                raise ArgumentError(f"a scene has no key {key!r}")
+        return model
+
+    @classmethod
+    def load(cls, scene: SceneLike, set: Optional[Mapping[str, Any]] = None) -> "Model":
+        """The model of a file, a text or a dict, checked; SceneError tells what is wrong."""
+        return cls.from_dict(json.loads(_sheave.canonical(*source_of(scene), overrides_of(set))))
+
+    def simulation(self, set: Optional[Mapping[str, Any]] = None) -> Simulation:
+        """The world of the model; SceneError tells what is wrong."""
+        return Simulation(self, set)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Model):
+            return NotImplemented
+        return self.to_json() == other.to_json()
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        return (f"<Model: {len(self.bodies)} bodies, {len(self.joints)} joints, "
+                f"{len(self.cables)} cables>")
+
+
+def whole(part: Any) -> Any:
+    """A part that is a scene's own, not one that is referred to."""
+    return part.to_dict() if isinstance(part, Part) else to_plain(part)

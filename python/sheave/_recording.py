@@ -1,0 +1,61 @@
+"""Quantities over time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping as AbstractMapping
+from typing import TYPE_CHECKING, Any, Iterator, List
+
+import numpy as np
+
+from ._errors import UnknownNameError
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    Array = npt.NDArray[np.float64]
+
+
+class Recording(AbstractMapping):  # type: ignore[type-arg]
+    """Arrays by the names of quantities, all as long as `time`."""
+
+    def __init__(self, names: List[str], rows: "Array"):
+        self._names = names
+        self._rows = rows
+
+    @property
+    def time(self) -> "Array":
+        """[s]"""
+        return self._rows[:, 0]
+
+    def __getitem__(self, name: str) -> "Array":
+        if name == "t" and name not in self._names:
+            return self.time
+        if name not in self._names:
+            raise UnknownNameError(
+                f'"{name}" has not been recorded; what has: ' + ", ".join(self._names))
+        return self._rows[:, 1 + self._names.index(name)]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._names)
+
+    def __len__(self) -> int:
+        return len(self._names)
+
+    def __array__(self, dtype: Any = None) -> Any:
+        return self._rows[:, 1:] if dtype is None else self._rows[:, 1:].astype(dtype)
+
+    def to_pandas(self) -> Any:
+        """A DataFrame with the time as its index."""
+        import pandas
+
+        index = pandas.Index(self.time, name="t")
+        return pandas.DataFrame(self._rows[:, 1:].copy(), index=index, columns=self._names)
+
+    def plot(self, axes: Any = None, **options: Any) -> Any:
+        """Draws all of it over time with matplotlib; gives the axes."""
+        from ._plotting import plot_recording
+
+        return plot_recording(self, axes, options)
+
+    def __repr__(self) -> str:
+        return f"<Recording of {', '.join(self._names)}: {len(self.time)} rows>"

@@ -1,0 +1,2159 @@
+"""The parts of a model: bodies, shapes, joints, cables, links.
+
+Made by sheave._generate from the tables that scenes are read with: do not edit.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal, Mapping, Optional, Sequence, Union
+
+from ._part import BodyLike, Part, keys
+
+
+class Joint(Part):
+    """A joint between two bodies."""
+
+    _kind = "joint"
+
+
+class DistanceJoint(Joint):
+    """Keeps two points at a distance: a rod, a string or a bumper, rigid or elastic; or an
+    actuator.
+
+    name: unique name among the joints (a string; required)
+    body_b: differs from body_a (the name of a body, or "world"; required)
+    anchor_a: point of body_a, world frame at time 0 ([x, y, z], numbers [m]; required)
+    anchor_b: point of body_b, world frame at time 0 ([x, y, z], numbers [m]; required)
+    body_a: default: the world (the name of a body, or "world"; default: "world")
+    breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
+    breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    length: default: the distance at time 0 (a number > 0 [m])
+    limit: which distances are permitted: a rod, a string, a bumper, or any ("exactly", "at-most",
+        "at-least", "none"; default: "exactly")
+    compliance: 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
+    damping: of an elastic joint, or, with the limit none, a dashpot (a number >= 0 [N s/m];
+        default: 0.0)
+    lower: stops the growth of the distance since time 0 from below (default: no stop) (a number
+        [m])
+    upper: stops the growth of the distance since time 0 from above (default: no stop) (a number
+        [m])
+    limit_compliance: of the stops; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
+    friction: dry friction, of bearings or guides (a number >= 0 [N]; default: 0.0)
+    drive: what the drive's values prescribe ("none", "position", "speed", "force"; default: "none")
+    drive_times: increasing times of the values; none for a constant (a list of numbers [s];
+        default: [])
+    drive_values: values of the drive, one per time (a list of numbers [m, m/s or N]; default: [])
+    drive_interpolation: of the values between their times; cubic: a smooth spline through them;
+        clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    drive_amplitude: of a sine added to the values (a number [m, m/s or N]; default: 0.0)
+    drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
+    drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
+    drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a number
+        >= 0 [N])
+    drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >= 0
+        [m/N]; default: 0.0)
+    """
+
+    _kind = "joint"
+    _type = "distance"
+    _keys = keys(
+        "name body_b anchor_a anchor_b body_a breaking_force breaking_torque length limit "
+        "compliance damping lower upper limit_compliance friction drive drive_times "
+        "drive_values drive_interpolation drive_amplitude drive_frequency drive_phase "
+        "drive_limit drive_compliance "
+    )
+
+    name: str
+    body_b: BodyLike
+    anchor_a: Sequence[float]
+    anchor_b: Sequence[float]
+    body_a: Optional[BodyLike]
+    breaking_force: Optional[float]
+    breaking_torque: Optional[float]
+    length: Optional[float]
+    limit: Optional[Literal["exactly", "at-most", "at-least", "none"]]
+    compliance: Optional[float]
+    damping: Optional[float]
+    lower: Optional[float]
+    upper: Optional[float]
+    limit_compliance: Optional[float]
+    friction: Optional[float]
+    drive: Optional[Literal["none", "position", "speed", "force"]]
+    drive_times: Optional[Sequence[float]]
+    drive_values: Optional[Sequence[float]]
+    drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    drive_amplitude: Optional[float]
+    drive_frequency: Optional[float]
+    drive_phase: Optional[float]
+    drive_limit: Optional[float]
+    drive_compliance: Optional[float]
+
+    def __init__(
+        self,
+        name: str,
+        body_b: BodyLike,
+        anchor_a: Sequence[float],
+        anchor_b: Sequence[float],
+        *,
+        body_a: Optional[BodyLike] = None,
+        breaking_force: Optional[float] = None,
+        breaking_torque: Optional[float] = None,
+        length: Optional[float] = None,
+        limit: Optional[Literal["exactly", "at-most", "at-least", "none"]] = None,
+        compliance: Optional[float] = None,
+        damping: Optional[float] = None,
+        lower: Optional[float] = None,
+        upper: Optional[float] = None,
+        limit_compliance: Optional[float] = None,
+        friction: Optional[float] = None,
+        drive: Optional[Literal["none", "position", "speed", "force"]] = None,
+        drive_times: Optional[Sequence[float]] = None,
+        drive_values: Optional[Sequence[float]] = None,
+        drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        drive_amplitude: Optional[float] = None,
+        drive_frequency: Optional[float] = None,
+        drive_phase: Optional[float] = None,
+        drive_limit: Optional[float] = None,
+        drive_compliance: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class BallJoint(Joint):
+    """Keeps two points of two bodies together; they turn about it, freely or within limits.
+
+    name: unique name among the joints (a string; required)
+    body_b: differs from body_a (the name of a body, or "world"; required)
+    anchor: common point, world frame at time 0 ([x, y, z], numbers [m]; required)
+    body_a: default: the world (the name of a body, or "world"; default: "world")
+    breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
+    breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    axis: direction that swing and twist refer to, world frame at time 0 ([x, y, z], numbers)
+    compliance: of each direction; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
+    swing_limit: the most the axes of the bodies may differ (default: anything) (a number > 0 and <
+        3.141592653589793 [rad])
+    swing_limit_compliance: of that stop; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default:
+        0.0)
+    damping: viscous friction against any relative rotation (a number >= 0 [N m s/rad]; default:
+        0.0)
+    friction: dry friction against any relative rotation (a number >= 0 [N m]; default: 0.0)
+    twist_lower: stops the twist of body_b about the axis from below (default: no stop) (a number
+        [rad])
+    twist_upper: stops the twist of body_b about the axis from above (default: no stop) (a number
+        [rad])
+    twist_limit_compliance: of the stops; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default:
+        0.0)
+    twist_stiffness: of a spring along the twist of body_b about the axis (a number >= 0 [N m/rad];
+        default: 0.0)
+    twist_rest: where the spring is relaxed (a number [rad]; default: 0.0)
+    twist_damping: viscous friction (a number >= 0 [N m s/rad]; default: 0.0)
+    twist_friction: dry friction, of bearings or guides (a number >= 0 [N m]; default: 0.0)
+    twist_drive: what the drive's values prescribe ("none", "angle", "speed", "torque"; default:
+        "none")
+    twist_drive_times: increasing times of the values; none for a constant (a list of numbers [s];
+        default: [])
+    twist_drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m];
+        default: [])
+    twist_drive_interpolation: of the values between their times; cubic: a smooth spline through
+        them; clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    twist_drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default:
+        0.0)
+    twist_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
+    twist_drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
+    twist_drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a
+        number >= 0 [N m])
+    twist_drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >= 0
+        [rad/(N m)]; default: 0.0)
+    """
+
+    _kind = "joint"
+    _type = "ball"
+    _keys = keys(
+        "name body_b anchor body_a breaking_force breaking_torque axis compliance "
+        "swing_limit swing_limit_compliance damping friction twist_lower twist_upper "
+        "twist_limit_compliance twist_stiffness twist_rest twist_damping twist_friction "
+        "twist_drive twist_drive_times twist_drive_values twist_drive_interpolation "
+        "twist_drive_amplitude twist_drive_frequency twist_drive_phase twist_drive_limit "
+        "twist_drive_compliance "
+    )
+
+    name: str
+    body_b: BodyLike
+    anchor: Sequence[float]
+    body_a: Optional[BodyLike]
+    breaking_force: Optional[float]
+    breaking_torque: Optional[float]
+    axis: Optional[Sequence[float]]
+    compliance: Optional[float]
+    swing_limit: Optional[float]
+    swing_limit_compliance: Optional[float]
+    damping: Optional[float]
+    friction: Optional[float]
+    twist_lower: Optional[float]
+    twist_upper: Optional[float]
+    twist_limit_compliance: Optional[float]
+    twist_stiffness: Optional[float]
+    twist_rest: Optional[float]
+    twist_damping: Optional[float]
+    twist_friction: Optional[float]
+    twist_drive: Optional[Literal["none", "angle", "speed", "torque"]]
+    twist_drive_times: Optional[Sequence[float]]
+    twist_drive_values: Optional[Sequence[float]]
+    twist_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    twist_drive_amplitude: Optional[float]
+    twist_drive_frequency: Optional[float]
+    twist_drive_phase: Optional[float]
+    twist_drive_limit: Optional[float]
+    twist_drive_compliance: Optional[float]
+
+    def __init__(
+        self,
+        name: str,
+        body_b: BodyLike,
+        anchor: Sequence[float],
+        *,
+        body_a: Optional[BodyLike] = None,
+        breaking_force: Optional[float] = None,
+        breaking_torque: Optional[float] = None,
+        axis: Optional[Sequence[float]] = None,
+        compliance: Optional[float] = None,
+        swing_limit: Optional[float] = None,
+        swing_limit_compliance: Optional[float] = None,
+        damping: Optional[float] = None,
+        friction: Optional[float] = None,
+        twist_lower: Optional[float] = None,
+        twist_upper: Optional[float] = None,
+        twist_limit_compliance: Optional[float] = None,
+        twist_stiffness: Optional[float] = None,
+        twist_rest: Optional[float] = None,
+        twist_damping: Optional[float] = None,
+        twist_friction: Optional[float] = None,
+        twist_drive: Optional[Literal["none", "angle", "speed", "torque"]] = None,
+        twist_drive_times: Optional[Sequence[float]] = None,
+        twist_drive_values: Optional[Sequence[float]] = None,
+        twist_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        twist_drive_amplitude: Optional[float] = None,
+        twist_drive_frequency: Optional[float] = None,
+        twist_drive_phase: Optional[float] = None,
+        twist_drive_limit: Optional[float] = None,
+        twist_drive_compliance: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class HingeJoint(Joint):
+    """Leaves two bodies one rotation about a common axis.
+
+    name: unique name among the joints (a string; required)
+    body_b: differs from body_a (the name of a body, or "world"; required)
+    anchor: a point of the axis, world frame at time 0 ([x, y, z], numbers [m]; required)
+    axis: direction of the axis, world frame at time 0 ([x, y, z], numbers; required)
+    body_a: default: the world (the name of a body, or "world"; default: "world")
+    breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
+    breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    compliance: of each direction of translation; 0 (default) is rigid (a number >= 0 [m/N];
+        default: 0.0)
+    angular_compliance: of tilting the axis; 0 (default) is rigid (a number >= 0 [rad/(N m)];
+        default: 0.0)
+    lower: stops the angle of body_b against body_a from below (default: no stop) (a number [rad])
+    upper: stops the angle of body_b against body_a from above (default: no stop) (a number [rad])
+    limit_compliance: of the stops; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default: 0.0)
+    stiffness: of a spring along the angle of body_b against body_a (a number >= 0 [N m/rad];
+        default: 0.0)
+    rest: where the spring is relaxed (a number [rad]; default: 0.0)
+    damping: viscous friction (a number >= 0 [N m s/rad]; default: 0.0)
+    friction: dry friction, of bearings or guides (a number >= 0 [N m]; default: 0.0)
+    drive: what the drive's values prescribe ("none", "angle", "speed", "torque"; default: "none")
+    drive_times: increasing times of the values; none for a constant (a list of numbers [s];
+        default: [])
+    drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m]; default:
+        [])
+    drive_interpolation: of the values between their times; cubic: a smooth spline through them;
+        clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default: 0.0)
+    drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
+    drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
+    drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a number
+        >= 0 [N m])
+    drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >= 0
+        [rad/(N m)]; default: 0.0)
+    """
+
+    _kind = "joint"
+    _type = "hinge"
+    _keys = keys(
+        "name body_b anchor axis body_a breaking_force breaking_torque compliance "
+        "angular_compliance lower upper limit_compliance stiffness rest damping friction "
+        "drive drive_times drive_values drive_interpolation drive_amplitude "
+        "drive_frequency drive_phase drive_limit drive_compliance "
+    )
+
+    name: str
+    body_b: BodyLike
+    anchor: Sequence[float]
+    axis: Sequence[float]
+    body_a: Optional[BodyLike]
+    breaking_force: Optional[float]
+    breaking_torque: Optional[float]
+    compliance: Optional[float]
+    angular_compliance: Optional[float]
+    lower: Optional[float]
+    upper: Optional[float]
+    limit_compliance: Optional[float]
+    stiffness: Optional[float]
+    rest: Optional[float]
+    damping: Optional[float]
+    friction: Optional[float]
+    drive: Optional[Literal["none", "angle", "speed", "torque"]]
+    drive_times: Optional[Sequence[float]]
+    drive_values: Optional[Sequence[float]]
+    drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    drive_amplitude: Optional[float]
+    drive_frequency: Optional[float]
+    drive_phase: Optional[float]
+    drive_limit: Optional[float]
+    drive_compliance: Optional[float]
+
+    def __init__(
+        self,
+        name: str,
+        body_b: BodyLike,
+        anchor: Sequence[float],
+        axis: Sequence[float],
+        *,
+        body_a: Optional[BodyLike] = None,
+        breaking_force: Optional[float] = None,
+        breaking_torque: Optional[float] = None,
+        compliance: Optional[float] = None,
+        angular_compliance: Optional[float] = None,
+        lower: Optional[float] = None,
+        upper: Optional[float] = None,
+        limit_compliance: Optional[float] = None,
+        stiffness: Optional[float] = None,
+        rest: Optional[float] = None,
+        damping: Optional[float] = None,
+        friction: Optional[float] = None,
+        drive: Optional[Literal["none", "angle", "speed", "torque"]] = None,
+        drive_times: Optional[Sequence[float]] = None,
+        drive_values: Optional[Sequence[float]] = None,
+        drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        drive_amplitude: Optional[float] = None,
+        drive_frequency: Optional[float] = None,
+        drive_phase: Optional[float] = None,
+        drive_limit: Optional[float] = None,
+        drive_compliance: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class SliderJoint(Joint):
+    """Leaves two bodies one translation along an axis: a guide, a telescope.
+
+    name: unique name among the joints (a string; required)
+    body_b: differs from body_a (the name of a body, or "world"; required)
+    anchor: where the bodies are joined, world frame at time 0 ([x, y, z], numbers [m]; required)
+    axis: direction of the axis, fixed to body_a; world frame at time 0 ([x, y, z], numbers;
+        required)
+    body_a: default: the world (the name of a body, or "world"; default: "world")
+    breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
+    breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    compliance: across the axis; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
+    angular_compliance: of each rotation; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default:
+        0.0)
+    lower: stops the travel of body_b against body_a from below (default: no stop) (a number [m])
+    upper: stops the travel of body_b against body_a from above (default: no stop) (a number [m])
+    limit_compliance: of the stops; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
+    stiffness: of a spring along the travel of body_b against body_a (a number >= 0 [N/m]; default:
+        0.0)
+    rest: where the spring is relaxed (a number [m]; default: 0.0)
+    damping: viscous friction (a number >= 0 [N s/m]; default: 0.0)
+    friction: dry friction, of bearings or guides (a number >= 0 [N]; default: 0.0)
+    drive: what the drive's values prescribe ("none", "position", "speed", "force"; default: "none")
+    drive_times: increasing times of the values; none for a constant (a list of numbers [s];
+        default: [])
+    drive_values: values of the drive, one per time (a list of numbers [m, m/s or N]; default: [])
+    drive_interpolation: of the values between their times; cubic: a smooth spline through them;
+        clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    drive_amplitude: of a sine added to the values (a number [m, m/s or N]; default: 0.0)
+    drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
+    drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
+    drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a number
+        >= 0 [N])
+    drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >= 0
+        [m/N]; default: 0.0)
+    """
+
+    _kind = "joint"
+    _type = "slider"
+    _keys = keys(
+        "name body_b anchor axis body_a breaking_force breaking_torque compliance "
+        "angular_compliance lower upper limit_compliance stiffness rest damping friction "
+        "drive drive_times drive_values drive_interpolation drive_amplitude "
+        "drive_frequency drive_phase drive_limit drive_compliance "
+    )
+
+    name: str
+    body_b: BodyLike
+    anchor: Sequence[float]
+    axis: Sequence[float]
+    body_a: Optional[BodyLike]
+    breaking_force: Optional[float]
+    breaking_torque: Optional[float]
+    compliance: Optional[float]
+    angular_compliance: Optional[float]
+    lower: Optional[float]
+    upper: Optional[float]
+    limit_compliance: Optional[float]
+    stiffness: Optional[float]
+    rest: Optional[float]
+    damping: Optional[float]
+    friction: Optional[float]
+    drive: Optional[Literal["none", "position", "speed", "force"]]
+    drive_times: Optional[Sequence[float]]
+    drive_values: Optional[Sequence[float]]
+    drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    drive_amplitude: Optional[float]
+    drive_frequency: Optional[float]
+    drive_phase: Optional[float]
+    drive_limit: Optional[float]
+    drive_compliance: Optional[float]
+
+    def __init__(
+        self,
+        name: str,
+        body_b: BodyLike,
+        anchor: Sequence[float],
+        axis: Sequence[float],
+        *,
+        body_a: Optional[BodyLike] = None,
+        breaking_force: Optional[float] = None,
+        breaking_torque: Optional[float] = None,
+        compliance: Optional[float] = None,
+        angular_compliance: Optional[float] = None,
+        lower: Optional[float] = None,
+        upper: Optional[float] = None,
+        limit_compliance: Optional[float] = None,
+        stiffness: Optional[float] = None,
+        rest: Optional[float] = None,
+        damping: Optional[float] = None,
+        friction: Optional[float] = None,
+        drive: Optional[Literal["none", "position", "speed", "force"]] = None,
+        drive_times: Optional[Sequence[float]] = None,
+        drive_values: Optional[Sequence[float]] = None,
+        drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        drive_amplitude: Optional[float] = None,
+        drive_frequency: Optional[float] = None,
+        drive_phase: Optional[float] = None,
+        drive_limit: Optional[float] = None,
+        drive_compliance: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class CylindricalJoint(Joint):
+    """Leaves two bodies a translation along an axis and a rotation about it.
+
+    name: unique name among the joints (a string; required)
+    body_b: differs from body_a (the name of a body, or "world"; required)
+    anchor: a point of the axis, world frame at time 0 ([x, y, z], numbers [m]; required)
+    axis: direction of the axis, fixed to body_a; world frame at time 0 ([x, y, z], numbers;
+        required)
+    body_a: default: the world (the name of a body, or "world"; default: "world")
+    breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
+    breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    compliance: across the axis; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
+    angular_compliance: of tilting the axis; 0 (default) is rigid (a number >= 0 [rad/(N m)];
+        default: 0.0)
+    travel_lower: stops the travel of body_b against body_a from below (default: no stop) (a number
+        [m])
+    travel_upper: stops the travel of body_b against body_a from above (default: no stop) (a number
+        [m])
+    travel_limit_compliance: of the stops; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
+    travel_stiffness: of a spring along the travel of body_b against body_a (a number >= 0 [N/m];
+        default: 0.0)
+    travel_rest: where the spring is relaxed (a number [m]; default: 0.0)
+    travel_damping: viscous friction (a number >= 0 [N s/m]; default: 0.0)
+    travel_friction: dry friction, of bearings or guides (a number >= 0 [N]; default: 0.0)
+    travel_drive: what the drive's values prescribe ("none", "position", "speed", "force"; default:
+        "none")
+    travel_drive_times: increasing times of the values; none for a constant (a list of numbers [s];
+        default: [])
+    travel_drive_values: values of the drive, one per time (a list of numbers [m, m/s or N];
+        default: [])
+    travel_drive_interpolation: of the values between their times; cubic: a smooth spline through
+        them; clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    travel_drive_amplitude: of a sine added to the values (a number [m, m/s or N]; default: 0.0)
+    travel_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
+    travel_drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
+    travel_drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a
+        number >= 0 [N])
+    travel_drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >=
+        0 [m/N]; default: 0.0)
+    angle_lower: stops the angle of body_b against body_a from below (default: no stop) (a number
+        [rad])
+    angle_upper: stops the angle of body_b against body_a from above (default: no stop) (a number
+        [rad])
+    angle_limit_compliance: of the stops; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default:
+        0.0)
+    angle_stiffness: of a spring along the angle of body_b against body_a (a number >= 0 [N m/rad];
+        default: 0.0)
+    angle_rest: where the spring is relaxed (a number [rad]; default: 0.0)
+    angle_damping: viscous friction (a number >= 0 [N m s/rad]; default: 0.0)
+    angle_friction: dry friction, of bearings or guides (a number >= 0 [N m]; default: 0.0)
+    angle_drive: what the drive's values prescribe ("none", "angle", "speed", "torque"; default:
+        "none")
+    angle_drive_times: increasing times of the values; none for a constant (a list of numbers [s];
+        default: [])
+    angle_drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m];
+        default: [])
+    angle_drive_interpolation: of the values between their times; cubic: a smooth spline through
+        them; clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    angle_drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default:
+        0.0)
+    angle_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
+    angle_drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
+    angle_drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a
+        number >= 0 [N m])
+    angle_drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >= 0
+        [rad/(N m)]; default: 0.0)
+    """
+
+    _kind = "joint"
+    _type = "cylindrical"
+    _keys = keys(
+        "name body_b anchor axis body_a breaking_force breaking_torque compliance "
+        "angular_compliance travel_lower travel_upper travel_limit_compliance "
+        "travel_stiffness travel_rest travel_damping travel_friction travel_drive "
+        "travel_drive_times travel_drive_values travel_drive_interpolation "
+        "travel_drive_amplitude travel_drive_frequency travel_drive_phase "
+        "travel_drive_limit travel_drive_compliance angle_lower angle_upper "
+        "angle_limit_compliance angle_stiffness angle_rest angle_damping angle_friction "
+        "angle_drive angle_drive_times angle_drive_values angle_drive_interpolation "
+        "angle_drive_amplitude angle_drive_frequency angle_drive_phase angle_drive_limit "
+        "angle_drive_compliance "
+    )
+
+    name: str
+    body_b: BodyLike
+    anchor: Sequence[float]
+    axis: Sequence[float]
+    body_a: Optional[BodyLike]
+    breaking_force: Optional[float]
+    breaking_torque: Optional[float]
+    compliance: Optional[float]
+    angular_compliance: Optional[float]
+    travel_lower: Optional[float]
+    travel_upper: Optional[float]
+    travel_limit_compliance: Optional[float]
+    travel_stiffness: Optional[float]
+    travel_rest: Optional[float]
+    travel_damping: Optional[float]
+    travel_friction: Optional[float]
+    travel_drive: Optional[Literal["none", "position", "speed", "force"]]
+    travel_drive_times: Optional[Sequence[float]]
+    travel_drive_values: Optional[Sequence[float]]
+    travel_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    travel_drive_amplitude: Optional[float]
+    travel_drive_frequency: Optional[float]
+    travel_drive_phase: Optional[float]
+    travel_drive_limit: Optional[float]
+    travel_drive_compliance: Optional[float]
+    angle_lower: Optional[float]
+    angle_upper: Optional[float]
+    angle_limit_compliance: Optional[float]
+    angle_stiffness: Optional[float]
+    angle_rest: Optional[float]
+    angle_damping: Optional[float]
+    angle_friction: Optional[float]
+    angle_drive: Optional[Literal["none", "angle", "speed", "torque"]]
+    angle_drive_times: Optional[Sequence[float]]
+    angle_drive_values: Optional[Sequence[float]]
+    angle_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    angle_drive_amplitude: Optional[float]
+    angle_drive_frequency: Optional[float]
+    angle_drive_phase: Optional[float]
+    angle_drive_limit: Optional[float]
+    angle_drive_compliance: Optional[float]
+
+    def __init__(
+        self,
+        name: str,
+        body_b: BodyLike,
+        anchor: Sequence[float],
+        axis: Sequence[float],
+        *,
+        body_a: Optional[BodyLike] = None,
+        breaking_force: Optional[float] = None,
+        breaking_torque: Optional[float] = None,
+        compliance: Optional[float] = None,
+        angular_compliance: Optional[float] = None,
+        travel_lower: Optional[float] = None,
+        travel_upper: Optional[float] = None,
+        travel_limit_compliance: Optional[float] = None,
+        travel_stiffness: Optional[float] = None,
+        travel_rest: Optional[float] = None,
+        travel_damping: Optional[float] = None,
+        travel_friction: Optional[float] = None,
+        travel_drive: Optional[Literal["none", "position", "speed", "force"]] = None,
+        travel_drive_times: Optional[Sequence[float]] = None,
+        travel_drive_values: Optional[Sequence[float]] = None,
+        travel_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        travel_drive_amplitude: Optional[float] = None,
+        travel_drive_frequency: Optional[float] = None,
+        travel_drive_phase: Optional[float] = None,
+        travel_drive_limit: Optional[float] = None,
+        travel_drive_compliance: Optional[float] = None,
+        angle_lower: Optional[float] = None,
+        angle_upper: Optional[float] = None,
+        angle_limit_compliance: Optional[float] = None,
+        angle_stiffness: Optional[float] = None,
+        angle_rest: Optional[float] = None,
+        angle_damping: Optional[float] = None,
+        angle_friction: Optional[float] = None,
+        angle_drive: Optional[Literal["none", "angle", "speed", "torque"]] = None,
+        angle_drive_times: Optional[Sequence[float]] = None,
+        angle_drive_values: Optional[Sequence[float]] = None,
+        angle_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        angle_drive_amplitude: Optional[float] = None,
+        angle_drive_frequency: Optional[float] = None,
+        angle_drive_phase: Optional[float] = None,
+        angle_drive_limit: Optional[float] = None,
+        angle_drive_compliance: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class UniversalJoint(Joint):
+    """Keeps two points together and two axes at a right angle: a Cardan joint.
+
+    name: unique name among the joints (a string; required)
+    body_b: differs from body_a (the name of a body, or "world"; required)
+    anchor: common point, world frame at time 0 ([x, y, z], numbers [m]; required)
+    axis_a: axis fixed to body_a, world frame at time 0 ([x, y, z], numbers; required)
+    axis_b: axis fixed to body_b, perpendicular to axis_a ([x, y, z], numbers; required)
+    body_a: default: the world (the name of a body, or "world"; default: "world")
+    breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
+    breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    compliance: of each direction of translation; 0 (default) is rigid (a number >= 0 [m/N];
+        default: 0.0)
+    angular_compliance: of the angle between the axes; 0 (default) is rigid (a number >= 0 [rad/(N
+        m)]; default: 0.0)
+    angle_a_lower: stops the turn about axis_a from below (default: no stop) (a number [rad])
+    angle_a_upper: stops the turn about axis_a from above (default: no stop) (a number [rad])
+    angle_a_limit_compliance: of the stops; 0 (default) is rigid (a number >= 0 [rad/(N m)];
+        default: 0.0)
+    angle_a_stiffness: of a spring along the turn about axis_a (a number >= 0 [N m/rad]; default:
+        0.0)
+    angle_a_rest: where the spring is relaxed (a number [rad]; default: 0.0)
+    angle_a_damping: viscous friction (a number >= 0 [N m s/rad]; default: 0.0)
+    angle_a_friction: dry friction, of bearings or guides (a number >= 0 [N m]; default: 0.0)
+    angle_a_drive: what the drive's values prescribe ("none", "angle", "speed", "torque"; default:
+        "none")
+    angle_a_drive_times: increasing times of the values; none for a constant (a list of numbers [s];
+        default: [])
+    angle_a_drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m];
+        default: [])
+    angle_a_drive_interpolation: of the values between their times; cubic: a smooth spline through
+        them; clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    angle_a_drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default:
+        0.0)
+    angle_a_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
+    angle_a_drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
+    angle_a_drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a
+        number >= 0 [N m])
+    angle_a_drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >=
+        0 [rad/(N m)]; default: 0.0)
+    angle_b_lower: stops the turn about axis_b from below (default: no stop) (a number [rad])
+    angle_b_upper: stops the turn about axis_b from above (default: no stop) (a number [rad])
+    angle_b_limit_compliance: of the stops; 0 (default) is rigid (a number >= 0 [rad/(N m)];
+        default: 0.0)
+    angle_b_stiffness: of a spring along the turn about axis_b (a number >= 0 [N m/rad]; default:
+        0.0)
+    angle_b_rest: where the spring is relaxed (a number [rad]; default: 0.0)
+    angle_b_damping: viscous friction (a number >= 0 [N m s/rad]; default: 0.0)
+    angle_b_friction: dry friction, of bearings or guides (a number >= 0 [N m]; default: 0.0)
+    angle_b_drive: what the drive's values prescribe ("none", "angle", "speed", "torque"; default:
+        "none")
+    angle_b_drive_times: increasing times of the values; none for a constant (a list of numbers [s];
+        default: [])
+    angle_b_drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m];
+        default: [])
+    angle_b_drive_interpolation: of the values between their times; cubic: a smooth spline through
+        them; clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    angle_b_drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default:
+        0.0)
+    angle_b_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
+    angle_b_drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
+    angle_b_drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a
+        number >= 0 [N m])
+    angle_b_drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >=
+        0 [rad/(N m)]; default: 0.0)
+    """
+
+    _kind = "joint"
+    _type = "universal"
+    _keys = keys(
+        "name body_b anchor axis_a axis_b body_a breaking_force breaking_torque "
+        "compliance angular_compliance angle_a_lower angle_a_upper "
+        "angle_a_limit_compliance angle_a_stiffness angle_a_rest angle_a_damping "
+        "angle_a_friction angle_a_drive angle_a_drive_times angle_a_drive_values "
+        "angle_a_drive_interpolation angle_a_drive_amplitude angle_a_drive_frequency "
+        "angle_a_drive_phase angle_a_drive_limit angle_a_drive_compliance angle_b_lower "
+        "angle_b_upper angle_b_limit_compliance angle_b_stiffness angle_b_rest "
+        "angle_b_damping angle_b_friction angle_b_drive angle_b_drive_times "
+        "angle_b_drive_values angle_b_drive_interpolation angle_b_drive_amplitude "
+        "angle_b_drive_frequency angle_b_drive_phase angle_b_drive_limit "
+        "angle_b_drive_compliance "
+    )
+
+    name: str
+    body_b: BodyLike
+    anchor: Sequence[float]
+    axis_a: Sequence[float]
+    axis_b: Sequence[float]
+    body_a: Optional[BodyLike]
+    breaking_force: Optional[float]
+    breaking_torque: Optional[float]
+    compliance: Optional[float]
+    angular_compliance: Optional[float]
+    angle_a_lower: Optional[float]
+    angle_a_upper: Optional[float]
+    angle_a_limit_compliance: Optional[float]
+    angle_a_stiffness: Optional[float]
+    angle_a_rest: Optional[float]
+    angle_a_damping: Optional[float]
+    angle_a_friction: Optional[float]
+    angle_a_drive: Optional[Literal["none", "angle", "speed", "torque"]]
+    angle_a_drive_times: Optional[Sequence[float]]
+    angle_a_drive_values: Optional[Sequence[float]]
+    angle_a_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    angle_a_drive_amplitude: Optional[float]
+    angle_a_drive_frequency: Optional[float]
+    angle_a_drive_phase: Optional[float]
+    angle_a_drive_limit: Optional[float]
+    angle_a_drive_compliance: Optional[float]
+    angle_b_lower: Optional[float]
+    angle_b_upper: Optional[float]
+    angle_b_limit_compliance: Optional[float]
+    angle_b_stiffness: Optional[float]
+    angle_b_rest: Optional[float]
+    angle_b_damping: Optional[float]
+    angle_b_friction: Optional[float]
+    angle_b_drive: Optional[Literal["none", "angle", "speed", "torque"]]
+    angle_b_drive_times: Optional[Sequence[float]]
+    angle_b_drive_values: Optional[Sequence[float]]
+    angle_b_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    angle_b_drive_amplitude: Optional[float]
+    angle_b_drive_frequency: Optional[float]
+    angle_b_drive_phase: Optional[float]
+    angle_b_drive_limit: Optional[float]
+    angle_b_drive_compliance: Optional[float]
+
+    def __init__(
+        self,
+        name: str,
+        body_b: BodyLike,
+        anchor: Sequence[float],
+        axis_a: Sequence[float],
+        axis_b: Sequence[float],
+        *,
+        body_a: Optional[BodyLike] = None,
+        breaking_force: Optional[float] = None,
+        breaking_torque: Optional[float] = None,
+        compliance: Optional[float] = None,
+        angular_compliance: Optional[float] = None,
+        angle_a_lower: Optional[float] = None,
+        angle_a_upper: Optional[float] = None,
+        angle_a_limit_compliance: Optional[float] = None,
+        angle_a_stiffness: Optional[float] = None,
+        angle_a_rest: Optional[float] = None,
+        angle_a_damping: Optional[float] = None,
+        angle_a_friction: Optional[float] = None,
+        angle_a_drive: Optional[Literal["none", "angle", "speed", "torque"]] = None,
+        angle_a_drive_times: Optional[Sequence[float]] = None,
+        angle_a_drive_values: Optional[Sequence[float]] = None,
+        angle_a_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        angle_a_drive_amplitude: Optional[float] = None,
+        angle_a_drive_frequency: Optional[float] = None,
+        angle_a_drive_phase: Optional[float] = None,
+        angle_a_drive_limit: Optional[float] = None,
+        angle_a_drive_compliance: Optional[float] = None,
+        angle_b_lower: Optional[float] = None,
+        angle_b_upper: Optional[float] = None,
+        angle_b_limit_compliance: Optional[float] = None,
+        angle_b_stiffness: Optional[float] = None,
+        angle_b_rest: Optional[float] = None,
+        angle_b_damping: Optional[float] = None,
+        angle_b_friction: Optional[float] = None,
+        angle_b_drive: Optional[Literal["none", "angle", "speed", "torque"]] = None,
+        angle_b_drive_times: Optional[Sequence[float]] = None,
+        angle_b_drive_values: Optional[Sequence[float]] = None,
+        angle_b_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        angle_b_drive_amplitude: Optional[float] = None,
+        angle_b_drive_frequency: Optional[float] = None,
+        angle_b_drive_phase: Optional[float] = None,
+        angle_b_drive_limit: Optional[float] = None,
+        angle_b_drive_compliance: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class PlaneJoint(Joint):
+    """Leaves two bodies translations in a plane and the rotation about its normal.
+
+    name: unique name among the joints (a string; required)
+    body_b: differs from body_a (the name of a body, or "world"; required)
+    anchor: a point of the plane, world frame at time 0 ([x, y, z], numbers [m]; required)
+    normal: of the plane, fixed to body_a; world frame at time 0 ([x, y, z], numbers; required)
+    body_a: default: the world (the name of a body, or "world"; default: "world")
+    breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
+    breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    compliance: of the distance from the plane; 0 (default) is rigid (a number >= 0 [m/N]; default:
+        0.0)
+    angular_compliance: of the tilt; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default: 0.0)
+    damping: viscous friction against sliding (a number >= 0 [N s/m]; default: 0.0)
+    friction: dry friction against sliding (a number >= 0 [N]; default: 0.0)
+    angle_lower: stops the angle of body_b about the normal from below (default: no stop) (a number
+        [rad])
+    angle_upper: stops the angle of body_b about the normal from above (default: no stop) (a number
+        [rad])
+    angle_limit_compliance: of the stops; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default:
+        0.0)
+    angle_stiffness: of a spring along the angle of body_b about the normal (a number >= 0 [N
+        m/rad]; default: 0.0)
+    angle_rest: where the spring is relaxed (a number [rad]; default: 0.0)
+    angle_damping: viscous friction (a number >= 0 [N m s/rad]; default: 0.0)
+    angle_friction: dry friction, of bearings or guides (a number >= 0 [N m]; default: 0.0)
+    angle_drive: what the drive's values prescribe ("none", "angle", "speed", "torque"; default:
+        "none")
+    angle_drive_times: increasing times of the values; none for a constant (a list of numbers [s];
+        default: [])
+    angle_drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m];
+        default: [])
+    angle_drive_interpolation: of the values between their times; cubic: a smooth spline through
+        them; clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    angle_drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default:
+        0.0)
+    angle_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
+    angle_drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
+    angle_drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a
+        number >= 0 [N m])
+    angle_drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >= 0
+        [rad/(N m)]; default: 0.0)
+    """
+
+    _kind = "joint"
+    _type = "plane"
+    _keys = keys(
+        "name body_b anchor normal body_a breaking_force breaking_torque compliance "
+        "angular_compliance damping friction angle_lower angle_upper "
+        "angle_limit_compliance angle_stiffness angle_rest angle_damping angle_friction "
+        "angle_drive angle_drive_times angle_drive_values angle_drive_interpolation "
+        "angle_drive_amplitude angle_drive_frequency angle_drive_phase angle_drive_limit "
+        "angle_drive_compliance "
+    )
+
+    name: str
+    body_b: BodyLike
+    anchor: Sequence[float]
+    normal: Sequence[float]
+    body_a: Optional[BodyLike]
+    breaking_force: Optional[float]
+    breaking_torque: Optional[float]
+    compliance: Optional[float]
+    angular_compliance: Optional[float]
+    damping: Optional[float]
+    friction: Optional[float]
+    angle_lower: Optional[float]
+    angle_upper: Optional[float]
+    angle_limit_compliance: Optional[float]
+    angle_stiffness: Optional[float]
+    angle_rest: Optional[float]
+    angle_damping: Optional[float]
+    angle_friction: Optional[float]
+    angle_drive: Optional[Literal["none", "angle", "speed", "torque"]]
+    angle_drive_times: Optional[Sequence[float]]
+    angle_drive_values: Optional[Sequence[float]]
+    angle_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    angle_drive_amplitude: Optional[float]
+    angle_drive_frequency: Optional[float]
+    angle_drive_phase: Optional[float]
+    angle_drive_limit: Optional[float]
+    angle_drive_compliance: Optional[float]
+
+    def __init__(
+        self,
+        name: str,
+        body_b: BodyLike,
+        anchor: Sequence[float],
+        normal: Sequence[float],
+        *,
+        body_a: Optional[BodyLike] = None,
+        breaking_force: Optional[float] = None,
+        breaking_torque: Optional[float] = None,
+        compliance: Optional[float] = None,
+        angular_compliance: Optional[float] = None,
+        damping: Optional[float] = None,
+        friction: Optional[float] = None,
+        angle_lower: Optional[float] = None,
+        angle_upper: Optional[float] = None,
+        angle_limit_compliance: Optional[float] = None,
+        angle_stiffness: Optional[float] = None,
+        angle_rest: Optional[float] = None,
+        angle_damping: Optional[float] = None,
+        angle_friction: Optional[float] = None,
+        angle_drive: Optional[Literal["none", "angle", "speed", "torque"]] = None,
+        angle_drive_times: Optional[Sequence[float]] = None,
+        angle_drive_values: Optional[Sequence[float]] = None,
+        angle_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        angle_drive_amplitude: Optional[float] = None,
+        angle_drive_frequency: Optional[float] = None,
+        angle_drive_phase: Optional[float] = None,
+        angle_drive_limit: Optional[float] = None,
+        angle_drive_compliance: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class FixedJoint(Joint):
+    """Welds two bodies together.
+
+    name: unique name among the joints (a string; required)
+    body_b: differs from body_a (the name of a body, or "world"; required)
+    anchor: where the bodies are joined, world frame at time 0 ([x, y, z], numbers [m]; required)
+    body_a: default: the world (the name of a body, or "world"; default: "world")
+    breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
+    breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    compliance: of each direction of translation; 0 (default) is rigid (a number >= 0 [m/N];
+        default: 0.0)
+    angular_compliance: of each rotation; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default:
+        0.0)
+    """
+
+    _kind = "joint"
+    _type = "fixed"
+    _keys = keys(
+        "name body_b anchor body_a breaking_force breaking_torque compliance "
+        "angular_compliance "
+    )
+
+    name: str
+    body_b: BodyLike
+    anchor: Sequence[float]
+    body_a: Optional[BodyLike]
+    breaking_force: Optional[float]
+    breaking_torque: Optional[float]
+    compliance: Optional[float]
+    angular_compliance: Optional[float]
+
+    def __init__(
+        self,
+        name: str,
+        body_b: BodyLike,
+        anchor: Sequence[float],
+        *,
+        body_a: Optional[BodyLike] = None,
+        breaking_force: Optional[float] = None,
+        breaking_torque: Optional[float] = None,
+        compliance: Optional[float] = None,
+        angular_compliance: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class GearJoint(Joint):
+    """Couples the rotations of two bodies about given axes: gears, a chain drive.
+
+    name: unique name among the joints (a string; required)
+    body_b: differs from body_a (the name of a body, or "world"; required)
+    ratio: turns of body_b per turn of body_a, not 0; negative for wheels that mesh from outside (a
+        number; required)
+    body_a: default: the world (the name of a body, or "world"; default: "world")
+    breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
+    breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    axis_a: of body_a's rotation, world frame at time 0 (default z) ([x, y, z], numbers; default:
+        [0.0,0.0,1.0])
+    axis_b: of body_b's rotation, world frame at time 0 (default z) ([x, y, z], numbers; default:
+        [0.0,0.0,1.0])
+    carrier: the body that carries both axles (default: the world) (the name of a body, or "world";
+        default: "world")
+    compliance: of the angle of body_b; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default:
+        0.0)
+    backlash: play of body_b (a number >= 0 [rad]; default: 0.0)
+    """
+
+    _kind = "joint"
+    _type = "gear"
+    _keys = keys(
+        "name body_b ratio body_a breaking_force breaking_torque axis_a axis_b carrier "
+        "compliance backlash "
+    )
+
+    name: str
+    body_b: BodyLike
+    ratio: float
+    body_a: Optional[BodyLike]
+    breaking_force: Optional[float]
+    breaking_torque: Optional[float]
+    axis_a: Optional[Sequence[float]]
+    axis_b: Optional[Sequence[float]]
+    carrier: Optional[BodyLike]
+    compliance: Optional[float]
+    backlash: Optional[float]
+
+    def __init__(
+        self,
+        name: str,
+        body_b: BodyLike,
+        ratio: float,
+        *,
+        body_a: Optional[BodyLike] = None,
+        breaking_force: Optional[float] = None,
+        breaking_torque: Optional[float] = None,
+        axis_a: Optional[Sequence[float]] = None,
+        axis_b: Optional[Sequence[float]] = None,
+        carrier: Optional[BodyLike] = None,
+        compliance: Optional[float] = None,
+        backlash: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class RackJoint(Joint):
+    """Couples a rotation of one body with a translation of another: a rack, a screw.
+
+    name: unique name among the joints (a string; required)
+    body_b: differs from body_a (the name of a body, or "world"; required)
+    axis: of body_a's rotation, world frame at time 0 ([x, y, z], numbers; required)
+    direction: of body_b's translation, world frame at time 0 ([x, y, z], numbers; required)
+    anchor: where the force acts on body_b, world frame at time 0 ([x, y, z], numbers [m]; required)
+    radius: travel per angle, not 0; a screw has its pitch / 2 pi (a number [m/rad]; required)
+    body_a: default: the world (the name of a body, or "world"; default: "world")
+    breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
+    breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    carrier: the body that carries axle and guide (default: the world) (the name of a body, or
+        "world"; default: "world")
+    compliance: of the travel; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
+    backlash: play of body_b (a number >= 0 [m]; default: 0.0)
+    """
+
+    _kind = "joint"
+    _type = "rack"
+    _keys = keys(
+        "name body_b axis direction anchor radius body_a breaking_force breaking_torque "
+        "carrier compliance backlash "
+    )
+
+    name: str
+    body_b: BodyLike
+    axis: Sequence[float]
+    direction: Sequence[float]
+    anchor: Sequence[float]
+    radius: float
+    body_a: Optional[BodyLike]
+    breaking_force: Optional[float]
+    breaking_torque: Optional[float]
+    carrier: Optional[BodyLike]
+    compliance: Optional[float]
+    backlash: Optional[float]
+
+    def __init__(
+        self,
+        name: str,
+        body_b: BodyLike,
+        axis: Sequence[float],
+        direction: Sequence[float],
+        anchor: Sequence[float],
+        radius: float,
+        *,
+        body_a: Optional[BodyLike] = None,
+        breaking_force: Optional[float] = None,
+        breaking_torque: Optional[float] = None,
+        carrier: Optional[BodyLike] = None,
+        compliance: Optional[float] = None,
+        backlash: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Controller(Part):
+    """Leads an observable to a setpoint."""
+
+    _kind = "controller"
+
+
+class PidController(Controller):
+    """Proportional, integral and derivative action on setpoint - measured, with feed-forward; the
+    integral does not wind up at the limits.
+
+    name: unique name among the controllers (a string; required)
+    measures: the observable that is led to the setpoint; not one on request that is known of the
+        last substep only (a string; required)
+    control: what is set, see Controls (a string; required)
+    setpoint: constant, in the observable's unit (a number)
+    setpoint_times: increasing times of the setpoint's values (a list of numbers [s]; default: [])
+    setpoint_values: of a setpoint that changes, one per time (a list of numbers; default: [])
+    setpoint_interpolation: of the values between their times; cubic: a smooth spline through them;
+        clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    setpoint_quantity: an observable that is the setpoint (a string; default: "")
+    sample_time: how often it acts, at most once per substep; default: dt (a number > 0 [s])
+    on: at time 0; triggers switch it (true or false; default: true)
+    proportional: control per error (a number; default: 0.0)
+    integral: control per error and second (a number [1/s]; default: 0.0)
+    derivative: control per rate of the error (a number [s]; default: 0.0)
+    derivative_filter: time constant of a lag that the derivative has (a number >= 0 [s]; default:
+        0.0)
+    feed_forward: is added to the output (a number; default: 0.0)
+    setpoint_gain: the setpoint times this, too (a number; default: 0.0)
+    rate_gain: and the mean rate until the next sample, of a setpoint by table, times this (a number
+        [s]; default: 0.0)
+    lower: the least output (default: any) (a number)
+    upper: the greatest output (default: any) (a number)
+    """
+
+    _kind = "controller"
+    _type = "pid"
+    _keys = keys(
+        "name measures control setpoint setpoint_times setpoint_values "
+        "setpoint_interpolation setpoint_quantity sample_time on proportional integral "
+        "derivative derivative_filter feed_forward setpoint_gain rate_gain lower upper "
+    )
+
+    name: str
+    measures: str
+    control: str
+    setpoint: Optional[float]
+    setpoint_times: Optional[Sequence[float]]
+    setpoint_values: Optional[Sequence[float]]
+    setpoint_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    setpoint_quantity: Optional[str]
+    sample_time: Optional[float]
+    on: Optional[bool]
+    proportional: Optional[float]
+    integral: Optional[float]
+    derivative: Optional[float]
+    derivative_filter: Optional[float]
+    feed_forward: Optional[float]
+    setpoint_gain: Optional[float]
+    rate_gain: Optional[float]
+    lower: Optional[float]
+    upper: Optional[float]
+
+    def __init__(
+        self,
+        name: str,
+        measures: str,
+        control: str,
+        *,
+        setpoint: Optional[float] = None,
+        setpoint_times: Optional[Sequence[float]] = None,
+        setpoint_values: Optional[Sequence[float]] = None,
+        setpoint_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        setpoint_quantity: Optional[str] = None,
+        sample_time: Optional[float] = None,
+        on: Optional[bool] = None,
+        proportional: Optional[float] = None,
+        integral: Optional[float] = None,
+        derivative: Optional[float] = None,
+        derivative_filter: Optional[float] = None,
+        feed_forward: Optional[float] = None,
+        setpoint_gain: Optional[float] = None,
+        rate_gain: Optional[float] = None,
+        lower: Optional[float] = None,
+        upper: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class BangBangController(Controller):
+    """One of two outputs, by whether the observable is below or above its setpoint.
+
+    name: unique name among the controllers (a string; required)
+    measures: the observable that is led to the setpoint; not one on request that is known of the
+        last substep only (a string; required)
+    control: what is set, see Controls (a string; required)
+    low: output while the observable is above its setpoint (a number; required)
+    high: output while it is below (a number; required)
+    setpoint: constant, in the observable's unit (a number)
+    setpoint_times: increasing times of the setpoint's values (a list of numbers [s]; default: [])
+    setpoint_values: of a setpoint that changes, one per time (a list of numbers; default: [])
+    setpoint_interpolation: of the values between their times; cubic: a smooth spline through them;
+        clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    setpoint_quantity: an observable that is the setpoint (a string; default: "")
+    sample_time: how often it acts, at most once per substep; default: dt (a number > 0 [s])
+    on: at time 0; triggers switch it (true or false; default: true)
+    hysteresis: it switches half of this beyond the setpoint, in the observable's unit (a number >=
+        0; default: 0.0)
+    """
+
+    _kind = "controller"
+    _type = "bang-bang"
+    _keys = keys(
+        "name measures control low high setpoint setpoint_times setpoint_values "
+        "setpoint_interpolation setpoint_quantity sample_time on hysteresis "
+    )
+
+    name: str
+    measures: str
+    control: str
+    low: float
+    high: float
+    setpoint: Optional[float]
+    setpoint_times: Optional[Sequence[float]]
+    setpoint_values: Optional[Sequence[float]]
+    setpoint_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    setpoint_quantity: Optional[str]
+    sample_time: Optional[float]
+    on: Optional[bool]
+    hysteresis: Optional[float]
+
+    def __init__(
+        self,
+        name: str,
+        measures: str,
+        control: str,
+        low: float,
+        high: float,
+        *,
+        setpoint: Optional[float] = None,
+        setpoint_times: Optional[Sequence[float]] = None,
+        setpoint_values: Optional[Sequence[float]] = None,
+        setpoint_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        setpoint_quantity: Optional[str] = None,
+        sample_time: Optional[float] = None,
+        on: Optional[bool] = None,
+        hysteresis: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Shape(Part):
+    """A solid form."""
+
+    _kind = "shape"
+
+
+class Box(Shape):
+    """Rectangular box about its centre.
+
+    size: full edge lengths along x, y, z ([x, y, z], numbers > 0 [m]; required)
+    position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
+    orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
+        y, z]; default: [1.0,0.0,0.0,0.0])
+    """
+
+    _kind = "shape"
+    _type = "box"
+    _keys = keys(
+        "size position orientation "
+    )
+
+    size: Sequence[float]
+    position: Optional[Sequence[float]]
+    orientation: Optional[Sequence[float]]
+
+    def __init__(
+        self,
+        size: Sequence[float],
+        *,
+        position: Optional[Sequence[float]] = None,
+        orientation: Optional[Sequence[float]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Sphere(Shape):
+    """Solid ball about its centre.
+
+    radius: radius (a number > 0 [m]; required)
+    position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
+    orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
+        y, z]; default: [1.0,0.0,0.0,0.0])
+    """
+
+    _kind = "shape"
+    _type = "sphere"
+    _keys = keys(
+        "radius position orientation "
+    )
+
+    radius: float
+    position: Optional[Sequence[float]]
+    orientation: Optional[Sequence[float]]
+
+    def __init__(
+        self,
+        radius: float,
+        *,
+        position: Optional[Sequence[float]] = None,
+        orientation: Optional[Sequence[float]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Cylinder(Shape):
+    """Solid cylinder about its centre, axis along z; the shape of a wheel.
+
+    radius: radius (a number > 0 [m]; required)
+    length: length along z (a number > 0 [m]; required)
+    position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
+    orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
+        y, z]; default: [1.0,0.0,0.0,0.0])
+    """
+
+    _kind = "shape"
+    _type = "cylinder"
+    _keys = keys(
+        "radius length position orientation "
+    )
+
+    radius: float
+    length: float
+    position: Optional[Sequence[float]]
+    orientation: Optional[Sequence[float]]
+
+    def __init__(
+        self,
+        radius: float,
+        length: float,
+        *,
+        position: Optional[Sequence[float]] = None,
+        orientation: Optional[Sequence[float]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Capsule(Shape):
+    """Cylinder along z with half balls at both ends, about its centre.
+
+    radius: radius (a number > 0 [m]; required)
+    length: length of the cylindrical part along z (a number > 0 [m]; required)
+    position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
+    orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
+        y, z]; default: [1.0,0.0,0.0,0.0])
+    """
+
+    _kind = "shape"
+    _type = "capsule"
+    _keys = keys(
+        "radius length position orientation "
+    )
+
+    radius: float
+    length: float
+    position: Optional[Sequence[float]]
+    orientation: Optional[Sequence[float]]
+
+    def __init__(
+        self,
+        radius: float,
+        length: float,
+        *,
+        position: Optional[Sequence[float]] = None,
+        orientation: Optional[Sequence[float]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Prism(Shape):
+    """Convex hull of an outline in the plane z = 0, extruded along z to both sides.
+
+    outline: 3 to 4096 points [x, y, 0] whose convex hull is the cross-section (a list of [x, y, z],
+        numbers [m]; required)
+    length: length along z, half to each side of the plane z = 0 (a number > 0 [m]; required)
+    position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
+    orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
+        y, z]; default: [1.0,0.0,0.0,0.0])
+    """
+
+    _kind = "shape"
+    _type = "prism"
+    _keys = keys(
+        "outline length position orientation "
+    )
+
+    outline: Sequence[Sequence[float]]
+    length: float
+    position: Optional[Sequence[float]]
+    orientation: Optional[Sequence[float]]
+
+    def __init__(
+        self,
+        outline: Sequence[Sequence[float]],
+        length: float,
+        *,
+        position: Optional[Sequence[float]] = None,
+        orientation: Optional[Sequence[float]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Polyhedron(Shape):
+    """Convex hull of points.
+
+    points: 4 to 4096 points whose convex hull is the solid (a list of [x, y, z], numbers [m];
+        required)
+    position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
+    orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
+        y, z]; default: [1.0,0.0,0.0,0.0])
+    """
+
+    _kind = "shape"
+    _type = "polyhedron"
+    _keys = keys(
+        "points position orientation "
+    )
+
+    points: Sequence[Sequence[float]]
+    position: Optional[Sequence[float]]
+    orientation: Optional[Sequence[float]]
+
+    def __init__(
+        self,
+        points: Sequence[Sequence[float]],
+        *,
+        position: Optional[Sequence[float]] = None,
+        orientation: Optional[Sequence[float]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class HalfSpace(Shape):
+    """Everything beneath a plane through its origin, for static and kinematic bodies: a floor, a
+    wall, a slope for colliders.
+
+    position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
+    orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
+        y, z]; default: [1.0,0.0,0.0,0.0])
+    normal: away from the solid side, shape frame; any length but 0 ([x, y, z], numbers; default:
+        [0.0,1.0,0.0])
+    """
+
+    _kind = "shape"
+    _type = "half-space"
+    _keys = keys(
+        "position orientation normal "
+    )
+
+    position: Optional[Sequence[float]]
+    orientation: Optional[Sequence[float]]
+    normal: Optional[Sequence[float]]
+
+    def __init__(
+        self,
+        *,
+        position: Optional[Sequence[float]] = None,
+        orientation: Optional[Sequence[float]] = None,
+        normal: Optional[Sequence[float]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Link(Part):
+    """One contact of a cable with a body."""
+
+    _kind = "link"
+
+
+class AttachmentLink(Link):
+    """The cable is fixed to a point of a body.
+
+    body: the body the cable touches, or "world" (the name of a body, or "world"; required)
+    point: where the cable is fixed, body frame (default its origin) ([x, y, z], numbers [m];
+        default: [0.0,0.0,0.0])
+    feed_speed: cable that comes out of the point (negative: goes in); at an end of the cable; 0: at
+        a speed that is set later (a number [m/s])
+    """
+
+    _kind = "link"
+    _type = "attachment"
+    _keys = keys(
+        "body point feed_speed "
+    )
+
+    body: BodyLike
+    point: Optional[Sequence[float]]
+    feed_speed: Optional[float]
+
+    def __init__(
+        self,
+        body: BodyLike,
+        *,
+        point: Optional[Sequence[float]] = None,
+        feed_speed: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class RollingLink(Link):
+    """The cable runs over a wheel without slipping, or is wound onto it at a cable's end.
+
+    body: the body the cable touches, or "world" (the name of a body, or "world"; required)
+    winding: which way the cable runs round the wheel, seen against the plane's normal
+        ("counter-clockwise", "clockwise"; required)
+    center: centre of the wheel, body frame; default: the centre of the body's first wheel-like
+        shape, or of its first shape ([x, y, z], numbers [m])
+    normal: normal of the cable's plane, body frame; default: that shape's z axis ([x, y, z],
+        numbers)
+    radius: of a circular wheel; default: that shape's radius, or without a wheel-like shape the
+        hull of the section of all the body's shapes with the plane (a number > 0 [m])
+    stored_length: cable wound on the wheel at time 0; required at the end of an open cable,
+        elsewhere it follows from the tangents (a number >= 0 [m])
+    friction: capstan coefficient: the cable slips when the ratio of the tensions passes e^(friction
+        x wrap angle); default: no slip (a number >= 0)
+    lifted: whether the cable passes the wheel by at time 0; it is wound on when it comes to touch
+        it (true or false; default: false)
+    turns: whole turns in addition to the arc between the tangents (an integer 0 ... 1000; default:
+        0)
+    """
+
+    _kind = "link"
+    _type = "rolling"
+    _keys = keys(
+        "body winding center normal radius stored_length friction lifted turns "
+    )
+
+    body: BodyLike
+    winding: Literal["counter-clockwise", "clockwise"]
+    center: Optional[Sequence[float]]
+    normal: Optional[Sequence[float]]
+    radius: Optional[float]
+    stored_length: Optional[float]
+    friction: Optional[float]
+    lifted: Optional[bool]
+    turns: Optional[int]
+
+    def __init__(
+        self,
+        body: BodyLike,
+        winding: Literal["counter-clockwise", "clockwise"],
+        *,
+        center: Optional[Sequence[float]] = None,
+        normal: Optional[Sequence[float]] = None,
+        radius: Optional[float] = None,
+        stored_length: Optional[float] = None,
+        friction: Optional[float] = None,
+        lifted: Optional[bool] = None,
+        turns: Optional[int] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class PinholeLink(Link):
+    """The cable slides through a point of a body, freely or with friction.
+
+    body: the body the cable touches, or "world" (the name of a body, or "world"; required)
+    point: where the hole is, body frame (default its origin) ([x, y, z], numbers [m]; default:
+        [0.0,0.0,0.0])
+    friction: capstan coefficient: the tensions on both sides differ by at most e^(friction x angle
+        of deflection) (a number >= 0; default: 0.0)
+    """
+
+    _kind = "link"
+    _type = "pinhole"
+    _keys = keys(
+        "body point friction "
+    )
+
+    body: BodyLike
+    point: Optional[Sequence[float]]
+    friction: Optional[float]
+
+    def __init__(
+        self,
+        body: BodyLike,
+        *,
+        point: Optional[Sequence[float]] = None,
+        friction: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class HybridLink(Link):
+    """An end of the cable is wound onto a round wheel until it is used up, then fixed to its rim.
+
+    body: the body the cable touches, or "world" (the name of a body, or "world"; required)
+    winding: which way the cable runs round the wheel, seen against the plane's normal
+        ("counter-clockwise", "clockwise"; required)
+    stored_length: cable wound on the wheel at time 0 (a number >= 0 [m]; required)
+    center: centre of the wheel, body frame; default: the centre of the body's first wheel-like
+        shape, or of its first shape ([x, y, z], numbers [m])
+    normal: normal of the cable's plane, body frame; default: that shape's z axis ([x, y, z],
+        numbers)
+    radius: of a circular wheel; default: that shape's radius, or without a wheel-like shape the
+        hull of the section of all the body's shapes with the plane (a number > 0 [m])
+    """
+
+    _kind = "link"
+    _type = "hybrid"
+    _keys = keys(
+        "body winding stored_length center normal radius "
+    )
+
+    body: BodyLike
+    winding: Literal["counter-clockwise", "clockwise"]
+    stored_length: float
+    center: Optional[Sequence[float]]
+    normal: Optional[Sequence[float]]
+    radius: Optional[float]
+
+    def __init__(
+        self,
+        body: BodyLike,
+        winding: Literal["counter-clockwise", "clockwise"],
+        stored_length: float,
+        *,
+        center: Optional[Sequence[float]] = None,
+        normal: Optional[Sequence[float]] = None,
+        radius: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class SpoolLink(Link):
+    """An end of the cable is wound onto a drum, in layers if it has a pitch.
+
+    body: the body the cable touches, or "world" (the name of a body, or "world"; required)
+    winding: which way the cable runs round the wheel, seen against the plane's normal
+        ("counter-clockwise", "clockwise"; required)
+    stored_length: cable wound on the drum at time 0 (a number >= 0 [m]; required)
+    center: centre of the wheel, body frame; default: the centre of the body's first wheel-like
+        shape, or of its first shape ([x, y, z], numbers [m])
+    normal: normal of the cable's plane, body frame; default: that shape's z axis ([x, y, z],
+        numbers)
+    radius: of a circular wheel; default: that shape's radius, or without a wheel-like shape the
+        hull of the section of all the body's shapes with the plane (a number > 0 [m])
+    layer_pitch: growth of the drum's radius with every turn on it (a number >= 0 [m]; default: 0.0)
+    """
+
+    _kind = "link"
+    _type = "spool"
+    _keys = keys(
+        "body winding stored_length center normal radius layer_pitch "
+    )
+
+    body: BodyLike
+    winding: Literal["counter-clockwise", "clockwise"]
+    stored_length: float
+    center: Optional[Sequence[float]]
+    normal: Optional[Sequence[float]]
+    radius: Optional[float]
+    layer_pitch: Optional[float]
+
+    def __init__(
+        self,
+        body: BodyLike,
+        winding: Literal["counter-clockwise", "clockwise"],
+        stored_length: float,
+        *,
+        center: Optional[Sequence[float]] = None,
+        normal: Optional[Sequence[float]] = None,
+        radius: Optional[float] = None,
+        layer_pitch: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Step(Part):
+    """How the scene is stepped through time.
+
+    preset: where settings that are not given come from; standard: the defaults below; paper:
+        gauss-seidel, xpbd, dt 1/60 s, substeps 1, iterations 10, as in "Cable Joints" (2018)
+        ("standard", "paper"; default: "standard")
+    dt: time per step, one frame (a number > 0 [s]; default: 0.016666666666666666)
+    substeps: substeps per step (an integer 1 ... 100000; default: 4)
+    iterations: sweeps over all constraint rows per substep; of the direct solver, rounds at most
+        (an integer 1 ... 1000000; default: 50)
+    solver: gauss-seidel: row after row as in the paper, rough unless there are many iterations;
+        direct: all rows at once, for more than a few wheels, light wheels, large mass ratios or
+        wherever numbers count (bench/SOLVERS.md) ("gauss-seidel", "direct"; default: "direct")
+    integrator: xpbd: the paper's, of first order, damps motion the more the larger the step;
+        rattle: of second order, keeps energy ("xpbd", "rattle"; default: "rattle")
+    """
+
+    _kind = "step"
+    _keys = keys(
+        "preset dt substeps iterations solver integrator "
+    )
+
+    preset: Optional[Literal["standard", "paper"]]
+    dt: Optional[float]
+    substeps: Optional[int]
+    iterations: Optional[int]
+    solver: Optional[Literal["gauss-seidel", "direct"]]
+    integrator: Optional[Literal["xpbd", "rattle"]]
+
+    def __init__(
+        self,
+        *,
+        preset: Optional[Literal["standard", "paper"]] = None,
+        dt: Optional[float] = None,
+        substeps: Optional[int] = None,
+        iterations: Optional[int] = None,
+        solver: Optional[Literal["gauss-seidel", "direct"]] = None,
+        integrator: Optional[Literal["xpbd", "rattle"]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Body(Part):
+    """A rigid body.
+
+    name: unique name, not "world" (a string; required)
+    mobility: which motions the body has ("static", "free", "planar", "slider", "rotor",
+        "kinematic"; default: "free")
+    axis: planar: normal (default z); slider: direction (required); rotor: axle (default the body's
+        own z axis); kinematic: normal of the plane that it keeps, if it does ([x, y, z], numbers)
+    mount: rotor: the body that carries the axle (the name of a body, or "world")
+    position: origin of the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
+    orientation: unit quaternion [w, x, y, z], body frame to world frame (a unit quaternion [w, x,
+        y, z]; default: [1.0,0.0,0.0,0.0])
+    velocity: of the body frame's origin ([x, y, z], numbers [m/s]; default: [0.0,0.0,0.0])
+    angular_velocity: absolute, also of a mounted rotor ([x, y, z], numbers [rad/s]; default:
+        [0.0,0.0,0.0])
+    mass: excludes density (a number > 0 [kg])
+    density: mass and inertia follow from the shapes; excludes mass (a number > 0 [kg/m3])
+    inertia: moments about the centre of mass and the body's x, y, z axes; default: from the shapes,
+        scaled to the mass ([x, y, z], numbers > 0 [kg m2])
+    spin_inertia: rotor: moment of inertia about the axle, in place of that of the shapes; 0: a
+        massless wheel (a number >= 0 [kg m2])
+    drive: rotor: what drive_values prescribe about the axis; on a mount against the carrier, which
+        bears the opposite torque ("none", "speed", "angle", "torque"; default: "none")
+    drive_times: increasing times of the drive's values; none for one constant value (a list of
+        numbers [s]; default: [])
+    drive_values: values of the drive, one per time (a list of numbers [rad/s, rad or N m]; default:
+        [])
+    drive_interpolation: of the values between their times; cubic: a smooth spline through them;
+        clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    wrappable: whether cables that come against the body are wrapped round it (true or false;
+        default: false)
+    force: constant, at the centre of mass ([x, y, z], numbers [N]; default: [0.0,0.0,0.0])
+    torque: constant ([x, y, z], numbers [N m]; default: [0.0,0.0,0.0])
+    damping: drag: force per velocity; free, planar and slider bodies (a number >= 0 [N s/m];
+        default: 0.0)
+    angular_damping: torque per angular velocity; free and planar bodies and rotors on fixed axles
+        (a number >= 0 [N m s/rad]; default: 0.0)
+    oscillation: kinematic: amplitude A of the motion position + velocity t + A (sin(2 pi f t + p) -
+        sin p) ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
+    oscillation_frequency: kinematic: frequency f of that motion (a number >= 0 [Hz]; default: 0.0)
+    oscillation_phase: kinematic: phase p of that motion (a number [rad]; default: 0.0)
+    shape: the body's form, if it is one shape; excludes shapes
+    shapes: the body's form, if it is several shapes
+    """
+
+    _kind = "body"
+    _keys = keys(
+        "name mobility axis mount position orientation velocity angular_velocity mass "
+        "density inertia spin_inertia drive drive_times drive_values drive_interpolation "
+        "wrappable force torque damping angular_damping oscillation oscillation_frequency "
+        "oscillation_phase shape shapes "
+    )
+
+    name: str
+    mobility: Optional[Literal["static", "free", "planar", "slider", "rotor", "kinematic"]]
+    axis: Optional[Sequence[float]]
+    mount: Optional[BodyLike]
+    position: Optional[Sequence[float]]
+    orientation: Optional[Sequence[float]]
+    velocity: Optional[Sequence[float]]
+    angular_velocity: Optional[Sequence[float]]
+    mass: Optional[float]
+    density: Optional[float]
+    inertia: Optional[Sequence[float]]
+    spin_inertia: Optional[float]
+    drive: Optional[Literal["none", "speed", "angle", "torque"]]
+    drive_times: Optional[Sequence[float]]
+    drive_values: Optional[Sequence[float]]
+    drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    wrappable: Optional[bool]
+    force: Optional[Sequence[float]]
+    torque: Optional[Sequence[float]]
+    damping: Optional[float]
+    angular_damping: Optional[float]
+    oscillation: Optional[Sequence[float]]
+    oscillation_frequency: Optional[float]
+    oscillation_phase: Optional[float]
+    shape: Optional[Union[Shape, Mapping[str, Any]]]
+    shapes: Optional[Sequence[Union[Shape, Mapping[str, Any]]]]
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        mobility: Optional[Literal["static", "free", "planar", "slider", "rotor", "kinematic"]] = None,
+        axis: Optional[Sequence[float]] = None,
+        mount: Optional[BodyLike] = None,
+        position: Optional[Sequence[float]] = None,
+        orientation: Optional[Sequence[float]] = None,
+        velocity: Optional[Sequence[float]] = None,
+        angular_velocity: Optional[Sequence[float]] = None,
+        mass: Optional[float] = None,
+        density: Optional[float] = None,
+        inertia: Optional[Sequence[float]] = None,
+        spin_inertia: Optional[float] = None,
+        drive: Optional[Literal["none", "speed", "angle", "torque"]] = None,
+        drive_times: Optional[Sequence[float]] = None,
+        drive_values: Optional[Sequence[float]] = None,
+        drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        wrappable: Optional[bool] = None,
+        force: Optional[Sequence[float]] = None,
+        torque: Optional[Sequence[float]] = None,
+        damping: Optional[float] = None,
+        angular_damping: Optional[float] = None,
+        oscillation: Optional[Sequence[float]] = None,
+        oscillation_frequency: Optional[float] = None,
+        oscillation_phase: Optional[float] = None,
+        shape: Optional[Union[Shape, Mapping[str, Any]]] = None,
+        shapes: Optional[Sequence[Union[Shape, Mapping[str, Any]]]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Cable(Part):
+    """A cable: an ordered list of links.
+
+    name: unique name (a string; required)
+    closed: a last span joins the last link and the first: a belt (true or false; default: false)
+    compliance: of each span whatever its length, also of those that a touched body divides; 0
+        (default) is rigid; excludes axial_stiffness (a number >= 0 [m/N])
+    axial_stiffness: EA of the cable's material; a span then has the compliance rest length / EA,
+        and cable comes onto wheels with its strain (a number > 0 [N])
+    damping: of each span; needs an elastic cable (a number >= 0 [N s/m]; default: 0.0)
+    tangent_update: when tangents and rest lengths follow the bodies; substep is the paper's
+        ("iteration", "substep"; default: "iteration")
+    rest_lengths: of each span at time 0; default: its length, so that the cable is just taut (a
+        list of numbers > 0 [m]; default: [])
+    wrap_friction: capstan coefficient on wrappable bodies that the cable comes to touch (a number
+        >= 0; default: 0.0)
+    most_wraps: on how many wrappable bodies it can lie at the same time; 0: it goes through them
+        (an integer 0 ... 1000; default: 16)
+    breaking_tension: tension at which it breaks; default: never (a number > 0 [N])
+    cut_time: when it is cut; default: never (a number >= 0 [s])
+    links: what the cable touches, in order; at least 2
+    """
+
+    _kind = "cable"
+    _keys = keys(
+        "name closed compliance axial_stiffness damping tangent_update rest_lengths "
+        "wrap_friction most_wraps breaking_tension cut_time links "
+    )
+
+    name: str
+    closed: Optional[bool]
+    compliance: Optional[float]
+    axial_stiffness: Optional[float]
+    damping: Optional[float]
+    tangent_update: Optional[Literal["iteration", "substep"]]
+    rest_lengths: Optional[Sequence[float]]
+    wrap_friction: Optional[float]
+    most_wraps: Optional[int]
+    breaking_tension: Optional[float]
+    cut_time: Optional[float]
+    links: Optional[Sequence[Union[Link, Mapping[str, Any]]]]
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        closed: Optional[bool] = None,
+        compliance: Optional[float] = None,
+        axial_stiffness: Optional[float] = None,
+        damping: Optional[float] = None,
+        tangent_update: Optional[Literal["iteration", "substep"]] = None,
+        rest_lengths: Optional[Sequence[float]] = None,
+        wrap_friction: Optional[float] = None,
+        most_wraps: Optional[int] = None,
+        breaking_tension: Optional[float] = None,
+        cut_time: Optional[float] = None,
+        links: Optional[Sequence[Union[Link, Mapping[str, Any]]]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Collider(Part):
+    """Makes a body touch others, with the shapes it has.
+
+    body: a body with at least one shape (the name of a body, or "world"; required)
+    friction: coefficient while sliding; of a pair the geometric mean (a number >= 0; default: 0.0)
+    static_friction: the same while sticking (default: friction) (a number >= 0)
+    restitution: speed of parting over speed of meeting; of a pair the larger one. Bodies that meet
+        more slowly than gravity would make them in two substeps do not bounce (a number 0 ... 1;
+        default: 0.0)
+    compliance: of each point of contact; of a pair the sum; 0 is rigid (a number >= 0 [m/N];
+        default: 0.0)
+    groups: groups it belongs to, names of your choice (a list of strings; default: [])
+    ignores: groups whose members it does not touch (a list of strings; default: [])
+    """
+
+    _kind = "collider"
+    _keys = keys(
+        "body friction static_friction restitution compliance groups ignores "
+    )
+
+    body: BodyLike
+    friction: Optional[float]
+    static_friction: Optional[float]
+    restitution: Optional[float]
+    compliance: Optional[float]
+    groups: Optional[Sequence[str]]
+    ignores: Optional[Sequence[str]]
+
+    def __init__(
+        self,
+        body: BodyLike,
+        *,
+        friction: Optional[float] = None,
+        static_friction: Optional[float] = None,
+        restitution: Optional[float] = None,
+        compliance: Optional[float] = None,
+        groups: Optional[Sequence[str]] = None,
+        ignores: Optional[Sequence[str]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Ground(Part):
+    """A flat immovable floor.
+
+    point: any point of the floor ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
+    normal: away from the solid side (default y) ([x, y, z], numbers; default: [0.0,1.0,0.0])
+    """
+
+    _kind = "ground"
+    _keys = keys(
+        "point normal "
+    )
+
+    point: Optional[Sequence[float]]
+    normal: Optional[Sequence[float]]
+
+    def __init__(
+        self,
+        *,
+        point: Optional[Sequence[float]] = None,
+        normal: Optional[Sequence[float]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Trigger(Part):
+    """Acts once something has happened.
+
+    name: unique name among the triggers (a string; required)
+    action: set: a control to value; clear: the control is again what the scene says; release: a
+        joint holds nothing any more; lock: one that was released or has broken holds again, from
+        where its bodies are then; cut: a cable parts as soon as it pulls; on, off: switches a
+        controller; stop: the run ends. A brake is applied, or fails, when the drive_limit of a
+        drive to the speed 0 is set ("set", "clear", "release", "lock", "cut", "on", "off", "stop";
+        required)
+    at: when it acts; or else quantity and above or below (a number >= 0 [s])
+    quantity: an observable, not one on request that is known of the last substep only (a string;
+        default: "")
+    above: it acts when the quantity comes to be above this (a number)
+    below: it acts when the quantity comes to be below this (a number)
+    repeats: whenever that comes to be so, and not the first time alone (true or false; default:
+        false)
+    target: the control, joint, cable or controller (a string; default: "")
+    value: what set sets, in the control's unit (a number)
+    over: time that a drive to a position or an angle takes to be there; default: a substep (a
+        number >= 0 [s]; default: 0.0)
+    """
+
+    _kind = "trigger"
+    _keys = keys(
+        "name action at quantity above below repeats target value over "
+    )
+
+    name: str
+    action: Literal["set", "clear", "release", "lock", "cut", "on", "off", "stop"]
+    at: Optional[float]
+    quantity: Optional[str]
+    above: Optional[float]
+    below: Optional[float]
+    repeats: Optional[bool]
+    target: Optional[str]
+    value: Optional[float]
+    over: Optional[float]
+
+    def __init__(
+        self,
+        name: str,
+        action: Literal["set", "clear", "release", "lock", "cut", "on", "off", "stop"],
+        *,
+        at: Optional[float] = None,
+        quantity: Optional[str] = None,
+        above: Optional[float] = None,
+        below: Optional[float] = None,
+        repeats: Optional[bool] = None,
+        target: Optional[str] = None,
+        value: Optional[float] = None,
+        over: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Camera(Part):
+    """Where pictures are taken from.
+
+    projection: how the world is mapped to the picture ("perspective", "orthographic"; default:
+        "perspective")
+    position: of the eye; needs target; default: so that all is in view ([x, y, z], numbers [m])
+    target: point in the middle of the picture; needs position ([x, y, z], numbers [m])
+    direction: to look along, with the distance chosen automatically; excludes position and target
+        ([x, y, z], numbers)
+    up: up in the picture; default: against gravity ([x, y, z], numbers)
+    vertical_fov: perspective: full vertical opening angle (a number > 0 and < 3.141592653589793
+        [rad])
+    height: orthographic: height of the picture; needs position; default: so that all is in view (a
+        number > 0 [m])
+    labels: write the tensions [N] beside the cables (true or false; default: false)
+    joints: draw pins, rods and rails of the joints (true or false; default: true)
+    cable_radius: that cables are drawn with; default: suits the scene (a number > 0 [m])
+    """
+
+    _kind = "camera"
+    _keys = keys(
+        "projection position target direction up vertical_fov height labels joints "
+        "cable_radius "
+    )
+
+    projection: Optional[Literal["perspective", "orthographic"]]
+    position: Optional[Sequence[float]]
+    target: Optional[Sequence[float]]
+    direction: Optional[Sequence[float]]
+    up: Optional[Sequence[float]]
+    vertical_fov: Optional[float]
+    height: Optional[float]
+    labels: Optional[bool]
+    joints: Optional[bool]
+    cable_radius: Optional[float]
+
+    def __init__(
+        self,
+        *,
+        projection: Optional[Literal["perspective", "orthographic"]] = None,
+        position: Optional[Sequence[float]] = None,
+        target: Optional[Sequence[float]] = None,
+        direction: Optional[Sequence[float]] = None,
+        up: Optional[Sequence[float]] = None,
+        vertical_fov: Optional[float] = None,
+        height: Optional[float] = None,
+        labels: Optional[bool] = None,
+        joints: Optional[bool] = None,
+        cable_radius: Optional[float] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+class Paint(Part):
+    """The colour of a body in pictures.
+
+    body: which is painted; each once at most (the name of a body, or "world"; required)
+    color: red, green and blue as on a screen (sRGB) ([x, y, z], numbers 0 ... 1; required)
+    """
+
+    _kind = "paint"
+    _keys = keys(
+        "body color "
+    )
+
+    body: BodyLike
+    color: Sequence[float]
+
+    def __init__(
+        self,
+        body: BodyLike,
+        color: Sequence[float],
+    ) -> None:
+        super().__init__(locals())
+
+
+class Check(Part):
+    """A value that the scene should show, with a tolerance.
+
+    quantity: name of an observable, as in the columns of a CSV file (a string; required)
+    equals: the right value, in the observable's unit (per second for a rate, times seconds for an
+        integral) (a number; required)
+    statistic: at: value at the step nearest to the time at; mean, minimum, maximum: of the values
+        in the window; rate: (last - first value) / time between them; range: maximum - minimum;
+        drift: last - first value; integral: by the trapezium rule, a power's is work ("at", "mean",
+        "rate", "minimum", "maximum", "range", "drift", "integral"; default: "at")
+    at: time for the statistic at; default: the end (a number >= 0 [s])
+    from_: begin of the window of all other statistics; default: 0 (a number >= 0 [s])
+    to: end of that window; default: the end (a number >= 0 [s])
+    tolerance: largest error that passes, in the same unit (a number >= 0)
+    relative_tolerance: the same as a fraction of |equals|; of the two tolerances the larger counts,
+        and one must be given (a number >= 0)
+    because: the closed form, for people (a string; default: "")
+    """
+
+    _kind = "check"
+    _keys = keys(
+        "quantity equals statistic at from_ to tolerance relative_tolerance because "
+    )
+
+    quantity: str
+    equals: float
+    statistic: Optional[Literal["at", "mean", "rate", "minimum", "maximum", "range", "drift", "integral"]]
+    at: Optional[float]
+    from_: Optional[float]
+    to: Optional[float]
+    tolerance: Optional[float]
+    relative_tolerance: Optional[float]
+    because: Optional[str]
+
+    def __init__(
+        self,
+        quantity: str,
+        equals: float,
+        *,
+        statistic: Optional[Literal["at", "mean", "rate", "minimum", "maximum", "range", "drift", "integral"]] = None,
+        at: Optional[float] = None,
+        from_: Optional[float] = None,
+        to: Optional[float] = None,
+        tolerance: Optional[float] = None,
+        relative_tolerance: Optional[float] = None,
+        because: Optional[str] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
+__all__ = [
+    "AttachmentLink",
+    "BallJoint",
+    "BangBangController",
+    "Body",
+    "Box",
+    "Cable",
+    "Camera",
+    "Capsule",
+    "Check",
+    "Collider",
+    "Controller",
+    "Cylinder",
+    "CylindricalJoint",
+    "DistanceJoint",
+    "FixedJoint",
+    "GearJoint",
+    "Ground",
+    "HalfSpace",
+    "HingeJoint",
+    "HybridLink",
+    "Joint",
+    "Link",
+    "Paint",
+    "PidController",
+    "PinholeLink",
+    "PlaneJoint",
+    "Polyhedron",
+    "Prism",
+    "RackJoint",
+    "RollingLink",
+    "Shape",
+    "SliderJoint",
+    "Sphere",
+    "SpoolLink",
+    "Step",
+    "Trigger",
+    "UniversalJoint",
+]

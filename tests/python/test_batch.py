@@ -1,0 +1,247 @@
+"""Many worlds at once."""
+
+import os
+import signal
+import threading
+
+import numpy as np
+import pytest
+from conftest import ATWOOD, ROOT
+
+import sheave
+
+MASSES = np.linspace(1.5, 4.0, 6)
+
+
+def batch(threads=2, n=6, scene=ATWOOD, **more):
+    return sheave.Batch(scene, n, vary={"/bodies/heavy/mass": MASSES[:n]}, threads=threads, **more)
+
+
+@pytest.mark.parametrize("threads", [1, 2, 3, 7])
+@pytest.mark.parametrize("scene", ["analytic/atwood", "machines/load-at-a-height", "paper/gear"])
+def test_is_a_loop_to_the_bit(threads, scene):
+    path = ROOT / f"scenes/{scene}.json"
+    first = sheave.load(path).body_names
+    name = next(own for own in first if sheave.load(path).bodies[own].mobility != "static")
+    values = [1.0, 2.0, 3.0, 5.0]
+    pointer = f"/bodies/{name}/force"
+    many = sheave.Batch(path, 4, vary={pointer: [[0, v, 0] for v in values]}, threads=threads)
+    many.step(15)
+    for i, value in enumerate(values):
+        one = sheave.load(path, set={pointer: [0, value, 0]})
+        one.step(15)
+        assert f"{many.hashes[i]:016x}" == one.hash
+
+
+def test_follows_the_closed_form():
+    many = batch()
+    many.run(0.5)  # later the lighter weight comes to the wheel
+    a = (MASSES - 1.0) * 10.0 / (MASSES + 1.5)
+    assert np.allclose(many.observe("heavy.vy"), -0.5 * a, rtol=1e-9)
+    assert np.allclose(many.observe(["cable.0.tension", "cable.1.tension"]),
+                       np.stack([10 + a, MASSES * (10 - a)], axis=1), rtol=1e-6)
+    assert np.allclose(many.time, 0.5)
+
+
+def test_results_have_a_row_for_each_world():
+    many = batch()
+    assert len(many) == 6 and many.positions.shape == (6, 3, 3)
+    assert many.velocities.shape == many.angular_velocities.shape == (6, 3, 3)
+    assert many.orientations_xyzw.shape == (6, 3, 4)
+    assert many.observe([]).shape == (6, 0)
+    assert np.isnan(many.observe("cable.0.tension")).all()
+    rows = many.record(["heavy.y", "light.y"], 10, every=5)
+    assert rows.shape == (6, 3, 2)
+    assert np.array_equal(rows[:, -1], many.observe(["heavy.y", "light.y"]))
+    assert "6 worlds" in repr(many) and "heavy.y" in many.observables
+
+
+def test_controls_are_set_world_by_world():
+    many = batch()
+    many.set("heavy.force_y", np.arange(6.0))
+    many.set("light.force_y", 1.0, mask=np.arange(6) < 2)
+    many.step(3)
+    one = sheave.load(ATWOOD, set={"/bodies/heavy/mass": MASSES[1]})
+    one.set("heavy.force_y", 1.0)
+    one.set("light.force_y", 1.0)
+    one.step(3)
+    assert f"{many.hashes[1]:016x}" == one.hash
+    many.clear("heavy.force_y")
+    many.step()
+
+
+def test_resets_some():
+    many = batch()
+    many.step(8)
+    before = many.hashes
+    chosen = np.array([True, False] * 3)
+    many.reset(chosen)
+    assert many.steps.tolist() == [0, 8] * 3
+    many.step(8, chosen)
+    assert np.array_equal(many.hashes, before)
+    many.mark_start()
+    many.step(2)
+    many.reset()
+    assert np.array_equal(many.hashes, before)
+
+
+def test_states_are_kept():
+    many = batch()
+    many.step(4)
+    kept, before = many.states(), many.hashes
+    many.step(4)
+    many.restore(kept)
+    assert np.array_equal(many.hashes, before)
+    many.step(1)
+    many.restore(kept, np.arange(6) == 2)
+    assert many.steps.tolist() == [5, 5, 4, 5, 5, 5]
+
+
+def test_a_world_that_diverges_is_marked_and_others_go_on():
+    many = batch()
+    many.set("heavy.force_y", -1e300, mask=np.arange(6) == 3)
+    many.run()
+    assert many.diverged.tolist() == [False, False, False, True, False, False]
+    assert "heavy" in many.divergence(3) or many.divergence(3)
+    assert many.divergence(0) == ""
+    assert np.isfinite(many.observe("heavy.y")).all()
+    assert np.allclose(many.time[[0, 1, 2, 4, 5]], 1.0)
+    many.reset(many.diverged)
+    assert not many.diverged.any()
+
+
+def test_a_world_that_is_stopped_waits():
+    scene = dict(ATWOOD, triggers=[{"name": "low", "quantity": "heavy.y", "below": -2.5,
+                                    "action": "stop"}])
+    many = batch(scene=scene)
+    many.run()
+    assert many.stopped[-1] and not many.stopped[0] or many.stopped.all()
+    steps = many.steps
+    many.step(3, many.stopped)
+    assert np.array_equal(many.steps, steps)
+    many.reset()
+    assert not many.stopped.any()
+
+
+@pytest.mark.parametrize("arguments, text", [
+    (dict(n=0), "n: must be"),
+    (dict(n="3"), "n: must be"),
+    (dict(n=2, threads=0), "threads: must be"),
+    (dict(n=2, vary={"/bodies/heavy/mass": [1]}), "must have 2 values"),
+    (dict(n=2, vary={"/bodies/heavy/mass": 3.0}), "must have 2 values"),
+    (dict(n=2, vary={"/bodies/heavy/mass": "ab"}), "must have 2 values"),
+    (dict(n=2, vary={"/bodies/heavy/mass": [1, object()]}), "JSON"),
+])
+def test_arguments_are_checked(arguments, text):
+    with pytest.raises(sheave.ArgumentError, match=text):
+        sheave.Batch(ATWOOD, **arguments)
+
+
+@pytest.mark.parametrize("vary, text", [
+    ({"/bodies/heavy/mass": [1, -1]}, "world 1"),
+    ({"/bodies/hevy/mass": [1, 1]}, "heavy"),
+    ({"/bodies/heavy/name": ["a", "b"]}, "no body|unknown"),
+    ({"/bodies/light/mobility": ["slider", "free"]}, "."),
+    ({"/cables": [[], ATWOOD["cables"]]}, "observables"),
+])
+def test_worlds_that_cannot_be_are_told(vary, text):
+    with pytest.raises(sheave.SceneError, match=text):
+        sheave.Batch(ATWOOD, 2, vary=vary)
+
+
+@pytest.mark.parametrize("call, kind", [
+    (lambda b: b.step(-1), sheave.ArgumentError),
+    (lambda b: b.step(1, [True]), sheave.ArgumentError),
+    (lambda b: b.step(1, np.ones(6)), sheave.ArgumentError),
+    (lambda b: b.observe("nothing"), sheave.UnknownNameError),
+    (lambda b: b.observe(3), sheave.ArgumentError),
+    (lambda b: b.set("heavy.force_y", [1, 2]), sheave.ArgumentError),
+    (lambda b: b.set("heavy.force_y", "1"), sheave.ArgumentError),
+    (lambda b: b.set("heavy.force_q", 1), sheave.UnknownNameError),
+    (lambda b: b.set(1, 1), sheave.ArgumentError),
+    (lambda b: b.reset(3), sheave.ArgumentError),
+    (lambda b: b.restore([b""] * 6), sheave.StateError),
+    (lambda b: b.restore([1] * 6), sheave.ArgumentError),
+    (lambda b: b.restore(3), sheave.ArgumentError),
+    (lambda b: b.divergence(6), sheave.ArgumentError),
+    (lambda b: b.divergence("a"), sheave.ArgumentError),
+])
+def test_bad_arguments_are_refused(call, kind):
+    many = batch()
+    before = many.hashes
+    with pytest.raises(kind):
+        call(many)
+    assert np.array_equal(many.hashes, before)
+
+
+def test_an_interruption_ends_a_batch():
+    many = batch()
+    timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        while True:
+            many.step(2000)
+    many.step()
+
+
+def environment(**more):
+    return sheave.VectorEnvironment(
+        ATWOOD, 5, ["heavy.y", "heavy.vy"], ["heavy.force_y"], -20.0, 20.0,
+        reward=lambda seen, actions: -np.abs(seen[:, 0]),
+        terminated=lambda seen: seen[:, 0] < -2.2, most_steps=30, **more)
+
+
+def test_an_environment_keeps_the_conventions():
+    env = environment(steps_per_action=2)
+    seen, info = env.reset(seed=3)
+    assert seen.shape == (5, 2) and info == {} and env.num_envs == 5
+    assert env.action_space.shape == (1,) and env.observation_space.shape == (2,)
+    actions = env.action_space.sample(5, np.random.default_rng(1))
+    assert actions.shape == (5, 1)
+    seen, rewards, terminated, truncated, info = env.step(actions)
+    assert rewards.shape == terminated.shape == truncated.shape == (5,)
+    assert env.batch.steps.tolist() == [2] * 5 and not info["diverged"].any()
+
+
+def test_worlds_that_have_ended_begin_anew():
+    env = environment()
+    env.reset()
+    forces = np.array([[-20.0], [0.0], [10.0], [10.0], [10.0]])
+    ended = np.zeros(5, bool)
+    for _ in range(31):
+        _, _, terminated, truncated, _ = env.step(forces)
+        begins, ended = terminated[0] and not ended[0], ended | terminated | truncated
+        if begins:
+            steps = env.batch.steps[0]
+            _, rewards, terminated, _, _ = env.step(forces)
+            assert env.batch.steps[0] == 0 and steps > 0 and rewards[0] == 0.0
+            assert not terminated[0]
+    assert ended.all()
+
+
+def test_resets_may_be_random_and_follow_the_seed():
+    def scatter(worlds, chosen, random):
+        worlds.set("light.force_y", random.uniform(-1, 1, len(worlds)), mask=chosen)
+
+    env = environment(on_reset=scatter)
+    hashes = []
+    for _ in range(2):
+        env.reset(seed=7)
+        env.step(np.zeros((5, 1)))
+        hashes.append(env.batch.hashes)
+    assert np.array_equal(*hashes)
+    assert len(set(hashes[0].tolist())) == 5
+
+
+@pytest.mark.parametrize("actions", [np.zeros(5), np.zeros((4, 1)), [[1, 2]] * 5, 0.0])
+def test_actions_must_fit(actions):
+    env = environment()
+    env.reset()
+    with pytest.raises(sheave.ArgumentError, match="actions"):
+        env.step(actions)
+
+
+def test_bounds_must_fit():
+    with pytest.raises(sheave.ArgumentError, match="low, high"):
+        sheave.VectorEnvironment(ATWOOD, 2, ["heavy.y"], ["heavy.force_y"], [1, 2], 3.0,
+                                 reward=lambda seen, actions: seen[:, 0])

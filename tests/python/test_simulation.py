@@ -1,0 +1,314 @@
+"""Stepping, reading, setting."""
+
+import gc
+import os
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+from conftest import ATWOOD, ROOT
+
+import sheave
+
+
+def test_moves_by_the_closed_form(atwood):
+    atwood.run()
+    # a = (m2 - m1) g / (m1 + m2 + I / r^2) with I = m r^2 / 2
+    a = 10.0 / 3.5
+    assert atwood.bodies["heavy"].velocity[1] == pytest.approx(-a, rel=1e-9)
+    assert atwood.cables["cable"].tension(0) == pytest.approx(10.0 + a, rel=1e-6)
+    assert atwood.time == pytest.approx(1.0)
+    assert atwood.steps * atwood.dt == pytest.approx(1.0)
+
+
+def test_energy_is_kept(atwood):
+    before = atwood.energy["total"]
+    atwood.run()
+    assert atwood.energy["total"] == pytest.approx(before, rel=1e-9)
+
+
+@pytest.mark.parametrize("scene", [
+    ATWOOD,
+    str(ROOT / "scenes/analytic/atwood.json"),
+    ROOT / "scenes/analytic/atwood.json",
+    (ROOT / "scenes/analytic/atwood.json").read_text(),
+    sheave.Model.load(ATWOOD),
+], ids=["dict", "str", "path", "text", "model"])
+def test_loads_scenes_in_all_forms(scene):
+    assert len(sheave.load(scene).bodies) == 3
+
+
+def test_settings_are_replaced_by_pointers():
+    sim = sheave.load(ATWOOD, set={"/bodies/heavy/mass": 1.0, "/gravity": np.array([0.0, -1, 0])})
+    sim.step(10)
+    assert sim.bodies["heavy"].velocity[1] == pytest.approx(0.0, abs=1e-12)
+    assert sim.gravity == (0.0, -1.0, 0.0)
+
+
+def test_a_setting_that_cannot_be_is_told_as_such():
+    with pytest.raises(sheave.SceneError) as caught:
+        sheave.load(ATWOOD, set={"/bodies/heavy/mass": -1})
+    assert "/bodies/heavy/mass" in str(caught.value)
+    assert caught.value.faults[0].code == "out-of-range"
+
+
+def test_before_step_and_before_substep_set_controls(atwood):
+    calls = []
+    atwood.step(3, before_step=lambda sim: calls.append(sim.steps))
+    assert calls == [0, 1, 2]
+    substeps = []
+    atwood.step(2, before_substep=lambda sim: substeps.append(sim.time))
+    assert len(substeps) == 8  # four for each step
+    force = atwood.bodies["light"].set_force
+    before = atwood.bodies["light"].velocity[1]
+    atwood.step(5, before_step=lambda sim: force((0, 100.0, 0)))
+    assert atwood.bodies["light"].velocity[1] > before + 1.0
+
+
+def test_callables_get_the_same_simulation(atwood):
+    seen = []
+    atwood.step(1, before_step=seen.append)
+    assert seen == [atwood] and seen[0] is atwood
+
+
+@pytest.mark.parametrize("where", ["before_step", "before_substep"])
+def test_what_a_callable_raises_ends_the_step(atwood, where):
+    atwood.step(5)
+    before = atwood.hash
+
+    def fails(sim):
+        sim.bodies["light"].set_force((0, 1, 0)) if where == "before_substep" else None
+        raise RuntimeError("a fault of ours")
+
+    with pytest.raises(RuntimeError, match="a fault of ours"):
+        atwood.step(5, **{where: fails})
+    assert atwood.steps == 5
+    assert atwood.hash == before
+    assert atwood.step()
+
+
+def test_an_error_in_the_third_step_keeps_the_first_two(atwood):
+    def fails(sim):
+        if sim.steps == 2:
+            raise ValueError
+
+    with pytest.raises(ValueError):
+        atwood.step(5, before_step=fails)
+    assert atwood.steps == 2
+
+
+def test_a_step_within_a_step_is_refused(atwood):
+    with pytest.raises(sheave.Error, match="from within"):
+        atwood.step(1, before_substep=lambda sim: sim.step())
+    with pytest.raises(sheave.Error):
+        atwood.step(1, before_substep=lambda sim: sim.bodies["light"].place((0, 1, 0)))
+
+
+def test_callables_do_not_change_what_is_computed():
+    one, other = sheave.load(ATWOOD), sheave.load(ATWOOD)
+    one.step(20)
+    other.step(20, before_step=lambda sim: None, before_substep=lambda sim: None)
+    assert one.hash == other.hash
+
+
+def test_another_thread_cannot_use_what_steps():
+    sim = sheave.load(ROOT / "scenes/paper/hand.json")
+    refused = []
+    thread = threading.Thread(target=lambda: sim.step(60))
+    thread.start()
+    while thread.is_alive():
+        try:
+            _ = sim.time
+            sim.step()
+        except sheave.Error as error:
+            refused.append(str(error))
+        time.sleep(0.0005)
+    thread.join()
+    assert not refused or "another thread" in refused[0]
+    sim.step()
+
+
+def test_two_simulations_step_in_two_threads():
+    sims = [sheave.load(ATWOOD) for _ in range(2)]
+    threads = [threading.Thread(target=sim.step, args=(500,)) for sim in sims]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert sims[0].hash == sims[1].hash
+    assert sims[0].steps == 500
+
+
+def test_an_interruption_ends_a_long_run(atwood):
+    timer = threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    begin = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        atwood.step(2**40)
+    assert time.monotonic() - begin < 20.0
+    assert 0 < atwood.steps
+    assert atwood.step()
+
+
+def test_snapshots_go_back_to_the_bit(atwood):
+    atwood.step(5)
+    kept = atwood.snapshot()
+    atwood.step(7)
+    later = atwood.hash
+    atwood.restore(kept)
+    assert atwood.hash == kept.hash and atwood.steps == kept.steps == 5
+    atwood.step(7)
+    assert atwood.hash == later
+    atwood.reset()
+    assert atwood.steps == 0
+
+
+def test_a_snapshot_of_another_world_is_refused(atwood):
+    with pytest.raises(sheave.Error, match="another world"):
+        atwood.restore(sheave.load(ATWOOD).snapshot())
+
+
+def test_states_are_saved_and_loaded(atwood, tmp_path):
+    atwood.step(9)
+    atwood.save_state(tmp_path / "state")
+    other = sheave.load(ATWOOD)
+    other.load_state(tmp_path / "state")
+    assert other.hash == atwood.hash
+    with pytest.raises(sheave.StateError):
+        other.set_state_bytes(b"nonsense")
+    with pytest.raises(sheave.StateError):
+        sheave.load(ROOT / "scenes/paper/pulley.json").load_state(tmp_path / "state")
+    with pytest.raises(sheave.StateError, match="another dt"):
+        sheave.load(ATWOOD, set={"/step": {"dt": 0.01}}).load_state(tmp_path / "state")
+
+
+def test_a_divergence_is_raised():
+    sim = sheave.load(ATWOOD)
+    sim.bodies["heavy"].set_force((0, -1e300, 0))
+    with pytest.raises(sheave.DivergenceError, match="."):
+        sim.step(100)
+    assert np.isfinite(sim.positions).all()
+
+
+def test_a_trigger_stops_the_run():
+    scene = dict(ATWOOD, triggers=[{"name": "low", "quantity": "heavy.y", "below": -2.5,
+                                    "action": "stop"}])
+    sim = sheave.load(scene)
+    assert sim.run() is False
+    assert sim.stopped and sim.time < 1.0
+    assert sim.bodies["heavy"].position[1] == pytest.approx(-2.5, abs=0.06)
+
+
+def test_events_are_told():
+    sim = sheave.load(ATWOOD)
+    sim.cables["cable"].set_breaking_tension(1.0)
+    sim.step(2)
+    event = sim.events[0]
+    assert event["kind"] == "cut" and event["name"] == "cable"
+    sim.clear_events()
+    assert sim.events == [] and sim.dropped_events == 0
+
+
+def test_certificates_are_told(atwood):
+    assert atwood.certificate() is None
+    atwood.step(3)
+    items = atwood.certificate()
+    assert {"momentum", "length"} <= {item["kind"] for item in items}
+    assert all(item["relative"] < 1e-6 for item in items)
+
+
+def test_contacts_are_told():
+    sim = sheave.load(ROOT / "scenes/analytic/sliding-box.json")
+    sim.step(5)
+    contact = sim.contacts()[0]
+    assert contact["normal_force"] > 0.0 and len(contact["normal"]) == 3
+
+
+def test_records_quantities(atwood):
+    recording = atwood.record(["heavy.vy", "cable.0.tension"], 10, every=2)
+    assert list(recording) == ["heavy.vy", "cable.0.tension"]
+    assert recording.time.shape == recording["heavy.vy"].shape == (6,)
+    assert np.isnan(recording["cable.0.tension"][0])
+    assert np.asarray(recording).shape == (6, 2)
+    frame = recording.to_pandas()
+    assert frame["heavy.vy"].iloc[-1] == atwood.observe("heavy.vy")
+    assert frame.index.name == "t"
+    with pytest.raises(KeyError, match="heavy.vy"):
+        recording["light.vy"]
+
+
+def test_records_to_the_end_by_default(atwood):
+    recording = atwood.record(["heavy.y"])
+    assert recording.time[-1] == pytest.approx(1.0)
+    assert len(atwood.record("heavy.y", 3).time) == 4
+
+
+def test_a_recording_ends_at_an_edit(atwood):
+    def edits(sim):
+        if sim.steps == 3:
+            with sim.edit() as edit:
+                edit.remove_cable("cable")
+
+    with pytest.raises(sheave.Error, match="edited meanwhile"):
+        atwood.record(["heavy.y"], 10, before_step=edits)
+
+
+def test_plots(atwood, tmp_path):
+    axes = atwood.plot("heavy.y", "light.y", steps=10)
+    assert len(axes.lines) == 2
+    axes.figure.savefig(tmp_path / "plot.png")
+    assert (tmp_path / "plot.png").stat().st_size > 1000
+
+
+@pytest.mark.skipif(not sheave.has_render, reason="built without the renderer")
+def test_pictures(atwood):
+    pixels = atwood.render(160, 90)
+    assert pixels.shape == (90, 160, 3) and pixels.dtype == np.uint8
+    assert pixels.std() > 5.0
+    assert atwood._repr_png_()[:4] == b"\x89PNG"
+    with pytest.raises(sheave.ArgumentError, match="width"):
+        atwood.render(3, 90)
+
+
+@pytest.mark.skipif(not sheave.has_render, reason="built without the renderer")
+def test_videos(atwood, tmp_path):
+    shares = []
+    atwood.video(tmp_path / "a.mp4", 0.1, 30, 160, 90, shares.append)
+    assert (tmp_path / "a.mp4").stat().st_size > 500
+    assert shares[-1] == 1.0
+    with pytest.raises(sheave.ArgumentError, match="fps"):
+        atwood.video(tmp_path / "b.mp4", fps=0)
+
+
+def test_memory_stays_flat():
+    def resident():
+        with open("/proc/self/statm", encoding="ascii") as file:
+            return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+    def once():
+        sim = sheave.load(ATWOOD)
+        view = sim.positions
+        sim.step(2)
+        sim.snapshot()
+        sim.bodies["heavy"].place((0.5, -2.5, 0), keep="tension")
+        return view
+
+    for _ in range(300):
+        once()
+    gc.collect()
+    before = resident()
+    for _ in range(1500):
+        once()
+    gc.collect()
+    # Each world takes about 30 kB: kept, they would take 45 MB.
+    assert resident() - before < 4e6
+
+
+def test_errors_have_a_class_of_their_own():
+    for name in ("SceneError", "EditError", "ArgumentError", "UnknownNameError", "StaleError",
+                 "StateError", "DivergenceError"):
+        assert issubclass(getattr(sheave, name), sheave.Error)
+    assert issubclass(sheave.UnknownNameError, KeyError)
+    assert issubclass(sheave.ArgumentError, (TypeError, ValueError))
