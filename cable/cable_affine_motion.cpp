@@ -70,7 +70,7 @@ bool CableSystem::append_affine(const AffineBodies& bodies, AffineRows& rows) {
     const MovingSpan& span =
         moving_spans_.emplace_back(moving_span(bodies, initial, affine[k], static_cast<int>(k)));
     const CompiledCable& cable = cables_[at(span.cable)];
-    rows.add_row(cable.compliance, cable.damping);
+    rows.add_row(cable.compliance, cable.damping, static_cast<int>(k));
     for (const MovingSpan::End& end : span.ends) {
       rows.add_term(end.slider, -end.along);
       rows.add_term(end.wheel, end.given);

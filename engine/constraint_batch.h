@@ -84,8 +84,8 @@ class ConstraintBatch {
 
   // Machines in which nothing turns a row's gradient: engine/solvers/affine_motion.h.
 
-  /// Appends all its rows if each is affine in what `bodies` count, for good, and has the
-  /// multiplier of its place among them; otherwise none, and false.
+  /// Appends all its rows that ever have a force in such substeps, if each is affine in what
+  /// `bodies` count, for good; otherwise none, and false.
   [[nodiscard]] virtual bool append_affine(const AffineBodies& /*bodies*/, AffineRows& /*rows*/) {
     return false;
   }

@@ -182,6 +182,12 @@ void AffineBodies::predict(double from, double loaded, double to) {
   }
 }
 
+void AffineBodies::go_straight(std::span<double> way) const {
+  for (std::size_t d = 1; d < movers_.size(); ++d) {
+    way[d] = yields_[d] > 0.0 ? h_ * speeds_[d] : motion_[d];
+  }
+}
+
 void AffineBodies::derive() {
   const double rate = 1.0 / h_;
   const std::size_t count = movers_.size();
