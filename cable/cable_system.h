@@ -112,7 +112,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] bool append_affine(const AffineBodies& bodies, AffineRows& rows) override;
   [[nodiscard]] bool begin_affine(const AffineSubstep& substep, const FeatureState& state,
                                   std::span<double> values, std::span<char> active) override;
-  [[nodiscard]] bool finish_affine(const AffineSubstep& substep, FeatureState& next) override;
+  [[nodiscard]] bool finish_affine(const AffineSubstep& substep, const FeatureState& now,
+                                   FeatureState& next) override;
   [[nodiscard]] double elastic_energy(const BodySet& bodies, const State& state,
                                       const FeatureState& own) const override;
 
@@ -153,6 +154,11 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   /// the wheels' free motion.
   [[nodiscard]] bool feeds(const MovingSpan& span, const FeatureState& state,
                            std::span<const double> motion, double rest_length) const;
+  /// Of one cable's spans; the lengths stored on links are those of `now` before.
+  [[nodiscard]] bool finish_affine_cable(const CompiledCable& cable, const AffineSubstep& substep,
+                                         const FeatureState& now, FeatureState& next);
+  /// What implicit Euler takes from the vibration of elastic cables [J].
+  [[nodiscard]] double affine_damping(const AffineSubstep& substep, const FeatureState& next) const;
   void end_slides_and_stalls();
   [[nodiscard]] MovingSpan moving_span(const AffineBodies& bodies, const State& initial,
                                        const AffineSpan& affine, int index) const;
@@ -420,6 +426,9 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   FeatureState initial_;
   std::vector<AffineSpan> affine_;        ///< per span, of spans_; empty: not known yet
   std::vector<MovingSpan> moving_spans_;  ///< per span, where all cables are affine
+  std::vector<FlatSpan> flat_spans_;      ///< likewise
+  std::vector<int> sliding_spans_;        ///< of these
+  std::vector<int> driven_spans_;         ///< likewise
   std::vector<int> bounded_links_;        ///< where stored cable can come to an end
   const BodySet* affine_bodies_ =
       nullptr;                   // what follows is scratch of a substep, filled by begin()

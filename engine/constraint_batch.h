@@ -97,10 +97,11 @@ class ConstraintBatch {
                                           std::span<char> /*active*/) {
     return false;
   }
-  /// Instead of finish(): the state at the end, over that at the start, which `next` holds. False
-  /// if it has to be found in another way; nothing has changed then but `next`.
+  /// Instead of finish(): the state at the end, into one that agrees with that at the start, `now`,
+  /// in all that such substeps leave alone. False if it has to be found in another way; nothing has
+  /// changed then but `next`.
   [[nodiscard]] virtual bool finish_affine(const AffineSubstep& /*substep*/,
-                                           FeatureState& /*next*/) {
+                                           const FeatureState& /*now*/, FeatureState& /*next*/) {
     return false;
   }
 

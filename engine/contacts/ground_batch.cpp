@@ -148,7 +148,8 @@ class GroundBatch final : public ConstraintBatch {
     }
     return true;
   }
-  bool finish_affine(const AffineSubstep& substep, FeatureState& next) override {
+  bool finish_affine(const AffineSubstep& substep, const FeatureState& /*now*/,
+                     FeatureState& next) override {
     std::size_t row = 0;
     for (std::size_t i = 0; i < owners_.size(); ++i) {
       const Sliding& body = sliding_[i];

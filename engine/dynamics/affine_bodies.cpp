@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/divergence.h"
+#include "engine/dynamics/sine_cosine.h"
 #include "engine/index.h"
 #include "engine/integrators/loads.h"
 
@@ -242,8 +243,7 @@ void AffineBodies::store(const std::vector<double>& places, const std::vector<do
     }
     body.angle = place;
     body.angular_velocity = speed * mover.axis;
-    const double cosine = std::cos(0.5 * place);
-    const double sine = std::sin(0.5 * place);
+    const auto [sine, cosine] = sine_cosine(0.5 * place);
     body.orientation.coeffs() = cosine * mover.upright.coeffs() + sine * mover.turned.coeffs();
   }
   for (const int number : mounted_) {

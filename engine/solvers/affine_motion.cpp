@@ -47,9 +47,8 @@ bool AffineMotion::append(Features features) {
 
 void AffineMotion::find_matrix() {
   const std::size_t n = rows_.size();
-  for (std::vector<double>* values :
-       {&shares_, &start_shares_, &softness_, &diagonal_, &values_, &free_, &constants_, &unknowns_,
-        &multipliers_, &impulses_, &rates_}) {
+  for (std::vector<double>* values : {&shares_, &start_shares_, &softness_, &diagonal_, &values_,
+                                      &free_, &unknowns_, &multipliers_, &impulses_, &rates_}) {
     values->assign(n, 0.0);
   }
   for (std::vector<char>* flags : {&springs_, &active_, &found_, &closed_}) flags->assign(n, 0);
@@ -110,9 +109,9 @@ void AffineMotion::prepare(const Substep& substep) {
   if (elastic_ && rattle_) rigid_.set_matrix(diagonal_, couplings, springs_);
 }
 
-bool AffineMotion::begin(const State& state) {
-  const AffineSubstep own{0.0, h_,       bodies_.places(), bodies_.speeds(), bodies_.motion(),
-                          {},  !rattle_, nullptr};
+bool AffineMotion::begin(const State& state, bool fresh) {
+  const AffineSubstep own{
+      0.0, h_, bodies_.places(), bodies_.speeds(), bodies_.motion(), {}, !rattle_, nullptr, fresh};
   for (std::size_t f = 0; f < features_.size(); ++f) {
     const std::size_t first = feature_rows_[f];
     const std::size_t count = feature_counts_[f];
@@ -125,22 +124,59 @@ bool AffineMotion::begin(const State& state) {
   return true;
 }
 
+void AffineMotion::find_free_values() {
+  // Of rigid rows it is the value itself.
+  if (!elastic_) return free_.swap(values_);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    free_[i] = shares_[i] * values_[i] + start_shares_[i] * std::min(values_[i], 0.0);
+  }
+}
+
 bool AffineMotion::keep_positions() {
+  find_free_values();
+  if (!problem_.factor(active_)) return false;
+  const std::size_t n = rows_.size();
+  const bool all = std::find(active_.begin(), active_.end(), 0) == active_.end();
   terms_.visit([&](const auto& terms) {
     const double* const motion = bodies_.motion().data();
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      double value = shares_[i] * values_[i];
-      if (start_shares_[i] != 0.0) value += start_shares_[i] * std::min(values_[i], 0.0);
-      free_[i] = value;
-      constants_[i] = value + terms.along(i, motion);
+    const double* const free = free_.data();
+    double* const unknowns = unknowns_.data();
+    for (std::size_t i = 0; i < n && all; ++i) unknowns[i] = -(free[i] + terms.along(i, motion));
+    for (std::size_t i = 0; i < n && !all; ++i) {
+      unknowns[i] = active_[i] != 0 ? -(free[i] + terms.along(i, motion)) : 0.0;
     }
   });
-  if (!problem_.factor(active_)) return false;
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    unknowns_[i] = active_[i] != 0 ? -constants_[i] : 0.0;
-  }
   problem_.solve(unknowns_);
-  return act_and_check(active_);
+  return all ? act_and_check_all() : act_and_check(active_);
+}
+
+bool AffineMotion::act_and_check_all() {
+  const std::size_t n = rows_.size();
+  double least = 0.0;
+  terms_.visit([&](const auto& terms) {
+    double* const motion = bodies_.motion().data();
+    const double* const unknowns = unknowns_.data();
+    double* const multipliers = multipliers_.data();
+    for (std::size_t i = 0; i < n; ++i) {
+      least = std::min(least, unknowns[i]);
+      multipliers[i] = std::max(unknowns[i], 0.0);
+      terms.act(i, multipliers[i], motion);
+    }
+    double most = 0.0;
+    const double* const free = free_.data();
+    const double* const softness = softness_.data();
+    for (std::size_t i = 0; i < n; ++i) {
+      const double residual = free[i] + terms.along(i, motion) + softness[i] * multipliers[i];
+      most = std::max(most, std::abs(residual));
+    }
+    left_ = most;
+  });
+  bool holds = left_ <= DirectSolver::tolerance * scale_;
+  const double rounding = RowSystem::value_rounding * scale_;
+  for (std::size_t i = 0; i < n && least < 0.0; ++i) {
+    holds &= unknowns_[i] * diagonal_[i] >= -rounding;
+  }
+  return holds;
 }
 
 bool AffineMotion::act_and_check(std::span<const char> acts) {
@@ -173,15 +209,16 @@ bool AffineMotion::search_positions() {
   bodies_.go_straight(going_on_);
   ComplementarityProblem& posed = problem_.posed();
   posed.rounding = rounding;
-  posed.constant = constants_;
+  const std::vector<double>& values = elastic_ ? values_ : free_;
   // As the first round of engine/solvers/row_system.h begins.
   terms_.visit([&](const auto& terms) {
     for (std::size_t i = 0; i < n; ++i) {
+      posed.constant[i] = free_[i] + terms.along(i, bodies_.motion().data());
       const double change = terms.along(i, going_on_.data());
       const double gamma = (rattle_ ? 2.0 : 1.0) * rows_.compliance(i) * rows_.damping(i) / h_;
-      double value = values_[i] + change;
+      double value = values[i] + change;
       if (springs_[i] != 0) {
-        value = rattle_ ? (1.0 + gamma) * value + (1.0 - gamma) * std::min(values_[i], 0.0)
+        value = rattle_ ? (1.0 + gamma) * value + (1.0 - gamma) * std::min(values[i], 0.0)
                         : value + gamma * change;
       }
       posed.free[i] = active_[i] != 0 || value <= rounding ? 1 : 0;
@@ -202,6 +239,7 @@ bool AffineMotion::solve_velocities() {
   const double rate = 1.0 / h_;
   const double closed = DirectSolver::closed * scale_;
   const std::span<double> speeds = bodies_.end_speeds();
+  const std::vector<double>& values = elastic_ ? values_ : free_;
   terms_.visit([&](const auto& terms) {
     const double* const motion = bodies_.motion().data();
     for (std::size_t i = 0; i < rows_.size() && elastic_; ++i) {
@@ -211,7 +249,7 @@ bool AffineMotion::solve_velocities() {
       rates_[i] = terms.along(i, speeds.data());
       // An open row that closes now is one that may act.
       closed_[i] = springs_[i] == 0 &&
-                           (multipliers_[i] > 0.0 || values_[i] + terms.along(i, motion) <= closed)
+                           (multipliers_[i] > 0.0 || values[i] + terms.along(i, motion) <= closed)
                        ? 1
                        : 0;
     }
@@ -300,12 +338,12 @@ void AffineMotion::count_search(const AffineProblem& problem) {
   factorisations_ += problem.found().factorisations();
 }
 
-bool AffineMotion::attempt(const Interval& time, const State& state, State& next,
+bool AffineMotion::attempt(const Interval& time, bool fresh, const State& state, State& next,
                            Substep& substep) {
   changes_ = factorisations_ = redundant_ = 0;
   const double loaded = rattle_ ? time.middle() : time.to;
   bodies_.predict(time.from, loaded, time.to);
-  if (!begin(state)) return false;
+  if (!begin(state, fresh)) return false;
   if (!keep_positions()) {
     bodies_.predict(time.from, loaded, time.to);
     if (!search_positions()) return false;
@@ -322,10 +360,16 @@ bool AffineMotion::finish(const Interval& time, const State& state, State& next,
   for (std::size_t f = 0; f < features_.size(); ++f) {
     const std::span<const double> multipliers =
         std::span(multipliers_).subspan(feature_rows_[f], feature_counts_[f]);
-    next.features[f].reals = state.features[f].reals;
-    const AffineSubstep own{time.to,          h_,          bodies_.places(), bodies_.speeds(),
-                            bodies_.motion(), multipliers, !rattle_,         &substep.statistics};
-    if (!features_[f]->finish_affine(own, next.features[f])) return false;
+    const AffineSubstep own{time.to,
+                            h_,
+                            bodies_.places(),
+                            bodies_.speeds(),
+                            bodies_.motion(),
+                            multipliers,
+                            !rattle_,
+                            &substep.statistics,
+                            false};
+    if (!features_[f]->finish_affine(own, state.features[f], next.features[f])) return false;
   }
   StepStatistics& statistics = substep.statistics;
   statistics.last_correction = std::max(statistics.last_correction, left_);
@@ -344,7 +388,8 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
   substep.h = settings_.dt / settings_.substeps;
   substep.load_share = rattle_ ? 0.5 : 1.0;
   prepare(substep);
-  if (!agree_) before = state;
+  const bool fresh = !agree_;
+  if (fresh) before = state;
   agree_ = true;
   before.memory = state.memory;
   if (!bodies_.load(state)) return 0;
@@ -358,7 +403,7 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
   for (int i = first; i < last; ++i, ++done) {
     const double end =
         (static_cast<double>(state.steps) + static_cast<double>(i + 1) / substeps) * dt;
-    if (!attempt({state.time, end}, state, before, substep)) break;
+    if (!attempt({state.time, end}, fresh && done == 0, state, before, substep)) break;
     bodies_.go_on();
     state.features.swap(before.features);
     before.time = state.time;

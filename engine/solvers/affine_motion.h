@@ -62,8 +62,9 @@ class AffineMotion {
   bool append(Features features);
   void find_matrix();
   /// One substep between these times [s] from `state` to `next`.
-  bool attempt(const Interval& time, const State& state, State& next, Substep& substep);
-  bool begin(const State& state);
+  /// `fresh`: see AffineSubstep.
+  bool attempt(const Interval& time, bool fresh, const State& state, State& next, Substep& substep);
+  bool begin(const State& state, bool fresh);
   bool finish(const Interval& time, const State& state, State& next, Substep& substep);
   /// What is the same in all substeps of this length.
   void prepare(const Substep& substep);
@@ -74,6 +75,10 @@ class AffineMotion {
   bool search_positions();
   /// Moves the bodies by the unknowns; false if these are no solution.
   bool act_and_check(std::span<const char> acts);
+  /// The same if all rows act.
+  bool act_and_check_all();
+  /// Where the rows' values at the start count by the rules above: p C0 + s min(C0, 0).
+  void find_free_values();
   /// Changes the speeds at the end by the impulses of the rows that act, or that have to.
   bool solve_velocities();
   bool keep_velocities();
@@ -104,7 +109,7 @@ class AffineMotion {
   AffineProblem rigid_;  ///< of the velocities; only where some rows are springs
   bool agree_ = false;   ///< all that affine substeps leave alone is the same in both states
   // Of one substep.
-  std::vector<double> values_, free_, constants_, unknowns_, multipliers_, impulses_;
+  std::vector<double> values_, free_, unknowns_, multipliers_, impulses_;
   std::vector<double> going_on_;  ///< displacements as they are at the speeds of the start
   std::vector<double> speeds_;    ///< at the end, before impulses
   std::vector<double> rates_;     ///< J v of these

@@ -63,6 +63,8 @@ struct AffineSubstep {
   std::span<const double> multipliers;  ///< of the feature's rows: mean force times h squared
   bool dissipates = false;              ///< by implicit Euler (`xpbd`)
   StepStatistics* statistics = nullptr;
+  /// The state at the start has come about in another way than by the substep before.
+  bool fresh = true;
 };
 
 }  // namespace sheave

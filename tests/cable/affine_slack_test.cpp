@@ -48,8 +48,8 @@ BodyDef random_weight(Random& random, const std::string& name, double x) {
 BodyDef random_wheel(Random& random, int i, double* radius) {
   *radius = random.between(smallest, 0.35);
   const double inertia = decades(random, -2, 2) * *radius * *radius;
-  BodyDef body = test::wheel("wheel" + std::to_string(i),
-                             {2.0 * i, random.between(-0.4, 0.4), 0.0}, *radius, inertia);
+  BodyDef body = test::wheel("wheel" + std::to_string(i), {2.0 * i, random.between(-0.4, 0.4), 0.0},
+                             *radius, inertia);
   if (random.chance(0.3)) body.angular_damping = inertia * random.between(0.0, 3.0);
   if (random.chance(0.3)) body.angular_velocity = Vector3(0.0, 0.0, random.between(-5.0, 5.0));
   return body;
@@ -140,8 +140,7 @@ void expect_same(const Simulation& own, const Simulation& their, double scale, d
   const std::vector<CableReport> others = their.cable_reports();
   for (std::size_t k = 0; k < reports[0].spans.size(); ++k) {
     ASSERT_NEAR(reports[0].spans[k].rest_length, others[0].spans[k].rest_length, off) << k;
-    ASSERT_NEAR(reports[0].spans[k].tension, others[0].spans[k].tension,
-                heaviest * off / (h * h))
+    ASSERT_NEAR(reports[0].spans[k].tension, others[0].spans[k].tension, heaviest * off / (h * h))
         << k;
   }
 }
@@ -191,18 +190,15 @@ class AffineSlack : public testing::TestWithParam<IntegratorKind> {};
 
 TEST_P(AffineSlack, RandomMachinesMoveAsByTheStages) {
   Tally tally;
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
     Random random(seed);
     const test::Machine m = random_machine(random, GetParam());
     compare(m, 60, tally);
     if (HasFatalFailure()) FAIL() << "seed " << seed;
   }
-  // Of drums some run out, and some light wheels between heavy ones leave more than rounding.
+  // Of drums some run out, and of light wheels between heavy ones more than rounding is left.
   EXPECT_GE(tally.whole, tally.steps * 9 / 10);
   EXPECT_GE(tally.changes, tally.steps / 20);
-  RecordProperty("whole", tally.whole);
-  RecordProperty("changes", tally.changes);
-  printf("steps %d whole %d changes %d\n", tally.steps, tally.whole, tally.changes);
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, AffineSlack,
