@@ -14,6 +14,7 @@
 // left to the general row.
 
 #include <array>
+#include <vector>
 
 #include "engine/row.h"
 #include "engine/substep.h"
@@ -91,6 +92,16 @@ struct FlatSpan {
   std::array<int, 2> links{};
   std::array<double, 2> given{};  ///< cable that it gives the span per radian [m]
   double length = 0.0;            ///< of one that does not slide [m]
+};
+
+/// All of them.
+struct MovingSpans {
+  std::vector<MovingSpan> spans;
+  std::vector<FlatSpan> flat;      ///< of each
+  std::vector<int> sliding;        ///< which ones slide
+  std::vector<int> driven;         ///< and which ones a driven wheel gives cable
+  std::vector<int> bounded_links;  ///< where stored cable can come to an end
+  const BodySet* bodies = nullptr;
 };
 
 }  // namespace sheave

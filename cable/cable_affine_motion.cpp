@@ -45,17 +45,13 @@ MovingSpan CableSystem::moving_span(const AffineBodies& bodies, const State& ini
 }
 
 bool CableSystem::append_affine(const AffineBodies& bodies, AffineRows& rows) {
-  moving_spans_.clear();
-  flat_spans_.clear();
-  sliding_spans_.clear();
-  driven_spans_.clear();
-  bounded_links_.clear();
+  moving_ = {};
   if (has_layers_) return false;
   for (const CompiledCable& cable : cables_) {
     if (!cable.candidates.empty() || cable.may_lock) return false;
   }
   // The course is that of time 0, and so are the ends: in any other, integers of the state differ.
-  affine_bodies_ = &bodies.set();
+  moving_.bodies = &bodies.set();
   if (course_changes_) follow_course(bodies.set(), initial_);
   const std::vector<AffineSpan> affine = affine_spans(bodies.set(), true);
   const bool all = std::all_of(affine.begin(), affine.end(),
@@ -65,16 +61,16 @@ bool CableSystem::append_affine(const AffineBodies& bodies, AffineRows& rows) {
   std::vector<char> bounded(links_.size(), 0);
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const MovingSpan& span =
-        moving_spans_.emplace_back(moving_span(bodies, initial, affine[k], static_cast<int>(k)));
+        moving_.spans.emplace_back(moving_span(bodies, initial, affine[k], static_cast<int>(k)));
     const CompiledCable& cable = cables_[at(span.cable)];
     rows.add_row(cable.compliance, cable.damping, static_cast<int>(k));
     const auto& [first, second] = span.ends;
-    flat_spans_.push_back({{first.wheel, second.wheel},
-                           {first.link, second.link},
-                           {first.given, second.given},
-                           span.length});
-    if (span.slides) sliding_spans_.push_back(static_cast<int>(k));
-    if (span.driven) driven_spans_.push_back(static_cast<int>(k));
+    moving_.flat.push_back({{first.wheel, second.wheel},
+                            {first.link, second.link},
+                            {first.given, second.given},
+                            span.length});
+    if (span.slides) moving_.sliding.push_back(static_cast<int>(k));
+    if (span.driven) moving_.driven.push_back(static_cast<int>(k));
     for (const MovingSpan::End& end : span.ends) {
       rows.add_term(end.slider, -end.along);
       rows.add_term(end.wheel, end.given);
@@ -82,7 +78,7 @@ bool CableSystem::append_affine(const AffineBodies& bodies, AffineRows& rows) {
     }
   }
   for (std::size_t i = 0; i < bounded.size(); ++i) {
-    if (bounded[i] != 0) bounded_links_.push_back(static_cast<int>(i));
+    if (bounded[i] != 0) moving_.bounded_links.push_back(static_cast<int>(i));
   }
   return true;
 }
@@ -102,19 +98,19 @@ bool CableSystem::begin_affine(const AffineSubstep& substep, const FeatureState&
                                std::span<double> values, std::span<char> active) {
   if (substep.fresh && state.integers != initial_.integers) return false;
   if (controlled_) follow_controls(Controls{});
-  if (course_changes_ && !follows(state)) follow_course(*affine_bodies_, state);
+  if (course_changes_ && !follows(state)) follow_course(*moving_.bodies, state);
   const double* const rest_lengths = &state.reals[rest_length_index(0)];
   const double* const remainders = &state.reals[remainder_index(0, 0)];
   const double* const tensions = &state.reals[tension_index(0)];
-  const FlatSpan* const spans = flat_spans_.data();
-  const std::size_t count = flat_spans_.size();
+  const FlatSpan* const spans = moving_.flat.data();
+  const std::size_t count = moving_.flat.size();
   for (std::size_t k = 0; k < count; ++k) {
     active[k] = tensions[k] > 0.0 ? 1 : 0;
     values[k] = rest_lengths[k] + (remainders[2 * k] + remainders[2 * k + 1]) - spans[k].length;
   }
-  for (const int index : sliding_spans_) {
+  for (const int index : moving_.sliding) {
     const std::size_t k = at(index);
-    const MovingSpan& span = moving_spans_[k];
+    const MovingSpan& span = moving_.spans[k];
     double length = span.length;
     double speed = 0.0;
     for (const MovingSpan::End& end : span.ends) {
@@ -124,8 +120,8 @@ bool CableSystem::begin_affine(const AffineSubstep& substep, const FeatureState&
     if (!(length > AffineSpan::margin * substep.h * speed + span.shortest)) return false;
     values[k] = rest_lengths[k] + (remainders[2 * k] + remainders[2 * k + 1]) - length;
   }
-  return std::all_of(driven_spans_.begin(), driven_spans_.end(), [&](int k) {
-    return feeds(moving_spans_[at(k)], state, substep.motion, rest_lengths[at(k)]);
+  return std::all_of(moving_.driven.begin(), moving_.driven.end(), [&](int k) {
+    return feeds(moving_.spans[at(k)], state, substep.motion, rest_lengths[at(k)]);
   });
 }
 
@@ -145,6 +141,7 @@ void CableSystem::end_slides_and_stalls() {
   }
 }
 
+// The lengths stored on links are those of `now` before.
 bool CableSystem::finish_affine_cable(const CompiledCable& cable, const AffineSubstep& substep,
                                       const FeatureState& now, FeatureState& next) {
   const double* const rest_lengths = &now.reals[rest_length_index(0)];
@@ -155,7 +152,7 @@ bool CableSystem::finish_affine_cable(const CompiledCable& cable, const AffineSu
   double* const end_tensions = &next.reals[tension_index(0)];
   double* const stored = next.reals.data() + stored_length_index(0);
   const double* const motion = substep.motion.data();
-  const FlatSpan* const spans = flat_spans_.data();
+  const FlatSpan* const spans = moving_.flat.data();
   const double inverse_square = 1.0 / (substep.h * substep.h);
   const double quantum = cable.quantum;
   const double inverse_quantum = 1.0 / quantum;
@@ -197,11 +194,11 @@ bool CableSystem::finish_affine(const AffineSubstep& substep, const FeatureState
   for (const CompiledCable& cable : cables_) {
     if (!finish_affine_cable(cable, substep, now, next)) return false;
   }
-  for (const int link : bounded_links_) {
+  for (const int link : moving_.bounded_links) {
     if (!(next.reals[stored_length_index(link)] >= 0.0)) return false;
   }
-  for (const int index : sliding_spans_) {
-    const MovingSpan& span = moving_spans_[at(index)];
+  for (const int index : moving_.sliding) {
+    const MovingSpan& span = moving_.spans[at(index)];
     double& length = ends_[at(index)][1];
     for (const MovingSpan::End& end : span.ends) {
       length += end.along * (substep.places[at(end.slider)] + substep.motion[at(end.slider)]);
@@ -213,6 +210,7 @@ bool CableSystem::finish_affine(const AffineSubstep& substep, const FeatureState
   return true;
 }
 
+// What implicit Euler takes from the vibration of elastic cables [J].
 double CableSystem::affine_damping(const AffineSubstep& substep, const FeatureState& next) const {
   double damped = 0.0;
   for (const CompiledCable& cable : cables_) {

@@ -154,10 +154,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   /// the wheels' free motion.
   [[nodiscard]] bool feeds(const MovingSpan& span, const FeatureState& state,
                            std::span<const double> motion, double rest_length) const;
-  /// Of one cable's spans; the lengths stored on links are those of `now` before.
   [[nodiscard]] bool finish_affine_cable(const CompiledCable& cable, const AffineSubstep& substep,
                                          const FeatureState& now, FeatureState& next);
-  /// What implicit Euler takes from the vibration of elastic cables [J].
   [[nodiscard]] double affine_damping(const AffineSubstep& substep, const FeatureState& next) const;
   void end_slides_and_stalls();
   [[nodiscard]] MovingSpan moving_span(const AffineBodies& bodies, const State& initial,
@@ -424,16 +422,10 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<double> planes_;               ///< its planes of wraps
   std::vector<int> strain_places_;  ///< per link its place among those with stored strain, or -1
   FeatureState initial_;
-  std::vector<AffineSpan> affine_;        ///< per span, of spans_; empty: not known yet
-  std::vector<MovingSpan> moving_spans_;  ///< per span, where all cables are affine
-  std::vector<FlatSpan> flat_spans_;      ///< likewise
-  std::vector<int> sliding_spans_;        ///< of these
-  std::vector<int> driven_spans_;         ///< likewise
-  std::vector<int> bounded_links_;        ///< where stored cable can come to an end
-  const BodySet* affine_bodies_ =
-      nullptr;                   // what follows is scratch of a substep, filled by begin()
-  std::vector<char> is_affine_;  ///< per span, in this substep
-  std::uint32_t edition_ = 0;    ///< of the rows of affine spans
+  std::vector<AffineSpan> affine_;  ///< per span, of spans_; empty: not known yet
+  MovingSpans moving_;              ///< where all cables are affine; below is scratch of begin()
+  std::vector<char> is_affine_;     ///< per span, in this substep
+  std::uint32_t edition_ = 0;       ///< of the rows of affine spans
   std::array<double, 2> edition_is_for_{};  ///< length of substep and share of loads there
   std::vector<SpanReference> references_;
   std::vector<double> strains_;      ///< per span, of a material, at the start
