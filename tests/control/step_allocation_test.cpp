@@ -46,12 +46,6 @@ TEST_P(StepAllocation, NoneWhereNothingTurns) {
   }
 }
 
-TEST_P(StepAllocation, NoneByTheStages) {
-  for (const char* name : {"simple.json", "gym.json"}) {
-    EXPECT_EQ(allocations_in(paper_scene(name), GetParam()), 0) << name;
-  }
-}
-
 TEST_P(StepAllocation, NoneOfAFreeBody) {
   Scene scene;
   scene.model.bodies.push_back(test::lump("body", Vector3::Zero(), 1.0));
