@@ -14,6 +14,7 @@
 // left to the general row.
 
 #include <array>
+#include <vector>
 
 #include "engine/row.h"
 #include "engine/substep.h"
@@ -73,7 +74,6 @@ struct MovingSpan {
     int slider = 0;      ///< number of what slides
     double along = 0.0;  ///< u along its direction
     int link = 0;
-    bool wraps = false;
     bool runs_out = false;  ///< the cable ends there, and nothing holds it
     bool bounded = false;   ///< without stored cable it is left, or ends in another way
   };
@@ -82,13 +82,26 @@ struct MovingSpan {
   double shortest = 0.0;  ///< [m]
   bool slides = false;
   bool driven = false;  ///< one of the wheels is
-  bool elastic = false;
   int cable = 0;
-  // Of the cable.
-  double breaking_tension = 0.0;  ///< [N]
-  double cut_time = 0.0;          ///< [s]
-  double quantum = 0.0;           ///< [m]
-  double inverse_quantum = 0.0;   ///< [1/m]
+};
+
+/// What every substep needs of one, close together.
+struct FlatSpan {
+  // Of both ends.
+  std::array<int, 2> wheels{};  ///< number of the wheel; 0: none
+  std::array<int, 2> links{};
+  std::array<double, 2> given{};  ///< cable that it gives the span per radian [m]
+  double length = 0.0;            ///< of one that does not slide [m]
+};
+
+/// All of them.
+struct MovingSpans {
+  std::vector<MovingSpan> spans;
+  std::vector<FlatSpan> flat;      ///< of each
+  std::vector<int> sliding;        ///< which ones slide
+  std::vector<int> driven;         ///< and which ones a driven wheel gives cable
+  std::vector<int> bounded_links;  ///< where stored cable can come to an end
+  const BodySet* bodies = nullptr;
 };
 
 }  // namespace sheave

@@ -17,18 +17,12 @@ MovingSpan CableSystem::moving_span(const AffineBodies& bodies, const State& ini
   MovingSpan span;
   span.length = affine.length;
   span.shortest = AffineSpan::shortest * bodies.set().scale();
-  span.elastic = cable.compliance > 0.0;
   span.cable = setup.cable;
-  span.breaking_tension = cable.breaking_tension;
-  span.cut_time = cable.cut_time;
-  span.quantum = cable.quantum;
-  span.inverse_quantum = 1.0 / cable.quantum;
   for (const std::size_t e : {0U, 1U}) {
     const AffineSpan::End& from = e == 0 ? affine.first : affine.second;
     MovingSpan::End& end = span.ends[e];
     end.link = e == 0 ? setup.first : setup.second;
     const LinkGeometry& link = links_[at(end.link)];
-    end.wraps = link.wraps();
     end.runs_out = runs_out(cable, end.link);
     end.bounded = link.lifts || link.hybrid || end.runs_out;
     const double sense = e == 0 ? -1.0 : 1.0;
@@ -51,14 +45,13 @@ MovingSpan CableSystem::moving_span(const AffineBodies& bodies, const State& ini
 }
 
 bool CableSystem::append_affine(const AffineBodies& bodies, AffineRows& rows) {
-  moving_spans_.clear();
-  bounded_links_.clear();
+  moving_ = {};
   if (has_layers_) return false;
   for (const CompiledCable& cable : cables_) {
     if (!cable.candidates.empty() || cable.may_lock) return false;
   }
   // The course is that of time 0, and so are the ends: in any other, integers of the state differ.
-  affine_bodies_ = &bodies.set();
+  moving_.bodies = &bodies.set();
   if (course_changes_) follow_course(bodies.set(), initial_);
   const std::vector<AffineSpan> affine = affine_spans(bodies.set(), true);
   const bool all = std::all_of(affine.begin(), affine.end(),
@@ -68,9 +61,16 @@ bool CableSystem::append_affine(const AffineBodies& bodies, AffineRows& rows) {
   std::vector<char> bounded(links_.size(), 0);
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const MovingSpan& span =
-        moving_spans_.emplace_back(moving_span(bodies, initial, affine[k], static_cast<int>(k)));
+        moving_.spans.emplace_back(moving_span(bodies, initial, affine[k], static_cast<int>(k)));
     const CompiledCable& cable = cables_[at(span.cable)];
-    rows.add_row(cable.compliance, cable.damping);
+    rows.add_row(cable.compliance, cable.damping, static_cast<int>(k));
+    const auto& [first, second] = span.ends;
+    moving_.flat.push_back({{first.wheel, second.wheel},
+                            {first.link, second.link},
+                            {first.given, second.given},
+                            span.length});
+    if (span.slides) moving_.sliding.push_back(static_cast<int>(k));
+    if (span.driven) moving_.driven.push_back(static_cast<int>(k));
     for (const MovingSpan::End& end : span.ends) {
       rows.add_term(end.slider, -end.along);
       rows.add_term(end.wheel, end.given);
@@ -78,7 +78,7 @@ bool CableSystem::append_affine(const AffineBodies& bodies, AffineRows& rows) {
     }
   }
   for (std::size_t i = 0; i < bounded.size(); ++i) {
-    if (bounded[i] != 0) bounded_links_.push_back(static_cast<int>(i));
+    if (bounded[i] != 0) moving_.bounded_links.push_back(static_cast<int>(i));
   }
   return true;
 }
@@ -96,29 +96,33 @@ bool CableSystem::feeds(const MovingSpan& span, const FeatureState& state,
 
 bool CableSystem::begin_affine(const AffineSubstep& substep, const FeatureState& state,
                                std::span<double> values, std::span<char> active) {
-  if (state.integers != initial_.integers) return false;
+  if (substep.fresh && state.integers != initial_.integers) return false;
   if (controlled_) follow_controls(Controls{});
-  if (course_changes_ && !follows(state)) follow_course(*affine_bodies_, state);
+  if (course_changes_ && !follows(state)) follow_course(*moving_.bodies, state);
   const double* const rest_lengths = &state.reals[rest_length_index(0)];
   const double* const remainders = &state.reals[remainder_index(0, 0)];
   const double* const tensions = &state.reals[tension_index(0)];
-  const std::size_t count = moving_spans_.size();
+  const FlatSpan* const spans = moving_.flat.data();
+  const std::size_t count = moving_.flat.size();
   for (std::size_t k = 0; k < count; ++k) {
-    const MovingSpan& span = moving_spans_[k];
     active[k] = tensions[k] > 0.0 ? 1 : 0;
+    values[k] = rest_lengths[k] + (remainders[2 * k] + remainders[2 * k + 1]) - spans[k].length;
+  }
+  for (const int index : moving_.sliding) {
+    const std::size_t k = at(index);
+    const MovingSpan& span = moving_.spans[k];
     double length = span.length;
-    if (span.slides) {
-      double speed = 0.0;
-      for (const MovingSpan::End& end : span.ends) {
-        length += end.along * substep.places[at(end.slider)];
-        speed += std::abs(end.along * substep.speeds[at(end.slider)]);
-      }
-      if (!(length > AffineSpan::margin * substep.h * speed + span.shortest)) return false;
+    double speed = 0.0;
+    for (const MovingSpan::End& end : span.ends) {
+      length += end.along * substep.places[at(end.slider)];
+      speed += std::abs(end.along * substep.speeds[at(end.slider)]);
     }
-    if (span.driven && !feeds(span, state, substep.motion, rest_lengths[k])) return false;
+    if (!(length > AffineSpan::margin * substep.h * speed + span.shortest)) return false;
     values[k] = rest_lengths[k] + (remainders[2 * k] + remainders[2 * k + 1]) - length;
   }
-  return true;
+  return std::all_of(moving_.driven.begin(), moving_.driven.end(), [&](int k) {
+    return feeds(moving_.spans[at(k)], state, substep.motion, rest_lengths[at(k)]);
+  });
 }
 
 void CableSystem::end_slides_and_stalls() {
@@ -137,56 +141,88 @@ void CableSystem::end_slides_and_stalls() {
   }
 }
 
-bool CableSystem::finish_affine(const AffineSubstep& substep, FeatureState& next) {
-  double* const rest_lengths = &next.reals[rest_length_index(0)];
-  double* const remainders = &next.reals[remainder_index(0, 0)];
-  double* const tensions = &next.reals[tension_index(0)];
+// The lengths stored on links are those of `now` before.
+bool CableSystem::finish_affine_cable(const CompiledCable& cable, const AffineSubstep& substep,
+                                      const FeatureState& now, FeatureState& next) {
+  const double* const rest_lengths = &now.reals[rest_length_index(0)];
+  const double* const remainders = &now.reals[remainder_index(0, 0)];
+  const double* const tensions = &now.reals[tension_index(0)];
+  double* const end_rest_lengths = &next.reals[rest_length_index(0)];
+  double* const end_remainders = &next.reals[remainder_index(0, 0)];
+  double* const end_tensions = &next.reals[tension_index(0)];
   double* const stored = next.reals.data() + stored_length_index(0);
-  const double inverse_square = 1.0 / (substep.h * substep.h);
-  const double cut_before = substep.end_time + 0.5 * substep.h;
-  const std::size_t count = moving_spans_.size();
   const double* const motion = substep.motion.data();
-  const double* const places = substep.places.data();
-  bool holds = true;
-  double damped = 0.0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const MovingSpan& span = moving_spans_[k];
+  const FlatSpan* const spans = moving_.flat.data();
+  const double inverse_square = 1.0 / (substep.h * substep.h);
+  const double quantum = cable.quantum;
+  const double inverse_quantum = 1.0 / quantum;
+  double shortest = 0.0;
+  double strongest = 0.0;
+  double most = 0.0;
+  const auto end = static_cast<std::size_t>(cable.first_span + cable.span_count);
+  for (auto k = static_cast<std::size_t>(cable.first_span); k < end; ++k) {
+    const FlatSpan& span = spans[k];
     double rest_length = rest_lengths[k];
-    double length = span.length;
-    if (span.slides) {
-      for (const MovingSpan::End& end : span.ends) {
-        length += end.along * (places[end.slider] + motion[end.slider]);
-      }
-    }
-    for (std::size_t e = 0; e < 2; ++e) {
-      const MovingSpan::End& end = span.ends[e];
-      if (!end.wraps) continue;
-      const double amount = end.given * motion[end.wheel];
+    const auto wind = [&](std::size_t e) {
+      const double amount = span.given[e] * motion[span.wheels[e]];
       const double remainder = remainders[2 * k + e];
-      const double moved =
-          CompiledCable::quantised(amount + remainder, span.quantum, span.inverse_quantum);
-      remainders[2 * k + e] = remainder + (amount - moved);
+      const double whole = amount + remainder;
+      most = std::max(most, std::abs(whole));
+      const double moved = CompiledCable::quantised_small(whole, quantum, inverse_quantum);
+      end_remainders[2 * k + e] = remainder + (amount - moved);
       rest_length += moved;
-      stored[end.link] -= moved;
-    }
-    rest_lengths[k] = rest_length;
-    const double before = tensions[k];
+      stored[span.links[e]] -= moved;
+    };
+    wind(0);
+    wind(1);
+    end_rest_lengths[k] = rest_length;
+    shortest = std::min(shortest, rest_length);
     const double tension = substep.multipliers[k] * inverse_square;
-    ends_[k] = {before, length};
-    tensions[k] = tension;
-    holds &= rest_length >= 0.0;
-    holds &= tension <= span.breaking_tension;
-    holds &= cut_before <= span.cut_time;
-    if (!span.elastic || !substep.dissipates) continue;
-    damped += numerical_damping(cables_[at(span.cable)], {before, tension}, length - rest_length,
-                                rest_length, substep.h);
+    ends_[k] = {tensions[k], span.length};
+    end_tensions[k] = tension;
+    strongest = std::max(strongest, tension);
   }
-  for (const int link : bounded_links_) holds &= stored[link] >= 0.0;
-  if (!holds) return false;
-  substep.statistics->numerical_damping += damped;
+  return shortest >= 0.0 && strongest <= cable.breaking_tension &&
+         substep.end_time + 0.5 * substep.h <= cable.cut_time &&
+         CompiledCable::is_small(most, inverse_quantum);
+}
+
+bool CableSystem::finish_affine(const AffineSubstep& substep, const FeatureState& now,
+                                FeatureState& next) {
+  const auto stored = static_cast<std::ptrdiff_t>(stored_length_index(0));
+  std::copy_n(now.reals.begin() + stored, links_.size(), next.reals.begin() + stored);
+  for (const CompiledCable& cable : cables_) {
+    if (!finish_affine_cable(cable, substep, now, next)) return false;
+  }
+  for (const int link : moving_.bounded_links) {
+    if (!(next.reals[stored_length_index(link)] >= 0.0)) return false;
+  }
+  for (const int index : moving_.sliding) {
+    const MovingSpan& span = moving_.spans[at(index)];
+    double& length = ends_[at(index)][1];
+    for (const MovingSpan::End& end : span.ends) {
+      length += end.along * (substep.places[at(end.slider)] + substep.motion[at(end.slider)]);
+    }
+  }
+  if (substep.dissipates) substep.statistics->numerical_damping += affine_damping(substep, next);
   knows_lengths_ = true;
   end_slides_and_stalls();
   return true;
+}
+
+// What implicit Euler takes from the vibration of elastic cables [J].
+double CableSystem::affine_damping(const AffineSubstep& substep, const FeatureState& next) const {
+  double damped = 0.0;
+  for (const CompiledCable& cable : cables_) {
+    if (cable.compliance == 0.0) continue;
+    for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+      const double rest_length = next.reals[rest_length_index(k)];
+      const auto [before, length] = ends_[at(k)];
+      damped += numerical_damping(cable, {before, next.reals[tension_index(k)]},
+                                  length - rest_length, rest_length, substep.h);
+    }
+  }
+  return damped;
 }
 
 }  // namespace sheave

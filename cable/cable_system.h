@@ -112,7 +112,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] bool append_affine(const AffineBodies& bodies, AffineRows& rows) override;
   [[nodiscard]] bool begin_affine(const AffineSubstep& substep, const FeatureState& state,
                                   std::span<double> values, std::span<char> active) override;
-  [[nodiscard]] bool finish_affine(const AffineSubstep& substep, FeatureState& next) override;
+  [[nodiscard]] bool finish_affine(const AffineSubstep& substep, const FeatureState& now,
+                                   FeatureState& next) override;
   [[nodiscard]] double elastic_energy(const BodySet& bodies, const State& state,
                                       const FeatureState& own) const override;
 
@@ -153,6 +154,9 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   /// the wheels' free motion.
   [[nodiscard]] bool feeds(const MovingSpan& span, const FeatureState& state,
                            std::span<const double> motion, double rest_length) const;
+  [[nodiscard]] bool finish_affine_cable(const CompiledCable& cable, const AffineSubstep& substep,
+                                         const FeatureState& now, FeatureState& next);
+  [[nodiscard]] double affine_damping(const AffineSubstep& substep, const FeatureState& next) const;
   void end_slides_and_stalls();
   [[nodiscard]] MovingSpan moving_span(const AffineBodies& bodies, const State& initial,
                                        const AffineSpan& affine, int index) const;
@@ -418,13 +422,10 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<double> planes_;               ///< its planes of wraps
   std::vector<int> strain_places_;  ///< per link its place among those with stored strain, or -1
   FeatureState initial_;
-  std::vector<AffineSpan> affine_;        ///< per span, of spans_; empty: not known yet
-  std::vector<MovingSpan> moving_spans_;  ///< per span, where all cables are affine
-  std::vector<int> bounded_links_;        ///< where stored cable can come to an end
-  const BodySet* affine_bodies_ =
-      nullptr;                   // what follows is scratch of a substep, filled by begin()
-  std::vector<char> is_affine_;  ///< per span, in this substep
-  std::uint32_t edition_ = 0;    ///< of the rows of affine spans
+  std::vector<AffineSpan> affine_;  ///< per span, of spans_; empty: not known yet
+  MovingSpans moving_;              ///< where all cables are affine; below is scratch of begin()
+  std::vector<char> is_affine_;     ///< per span, in this substep
+  std::uint32_t edition_ = 0;       ///< of the rows of affine spans
   std::array<double, 2> edition_is_for_{};  ///< length of substep and share of loads there
   std::vector<SpanReference> references_;
   std::vector<double> strains_;      ///< per span, of a material, at the start

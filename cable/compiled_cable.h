@@ -59,12 +59,23 @@ struct CompiledCable {
     return quantised(length, quantum, 1.0 / quantum);  // exact, as is its inverse
   }
   [[nodiscard]] static double quantised(double length, double quantum, double inverse_quantum) {
-    const double multiple = length * inverse_quantum;
-    // Numbers of this size have no fractions: adding one rounds.
-    constexpr double whole = 6755399441055744.0;  // 1.5 x 2^52
-    if (std::abs(multiple) < 0.25 * whole) return ((multiple + whole) - whole) * quantum;
-    return std::round(multiple) * quantum;
+    if (is_small(std::abs(length), inverse_quantum)) {
+      return quantised_small(length, quantum, inverse_quantum);
+    }
+    return std::round(length * inverse_quantum) * quantum;
   }
+  /// Of a length that is_small(): any that a machine has.
+  [[nodiscard]] static double quantised_small(double length, double quantum,
+                                              double inverse_quantum) {
+    return ((length * inverse_quantum + whole) - whole) * quantum;
+  }
+  [[nodiscard]] static bool is_small(double length, double inverse_quantum) {
+    return length * inverse_quantum < 0.25 * whole;
+  }
+
+ private:
+  // Numbers of this size have no fractions: adding one rounds.
+  static constexpr double whole = 6755399441055744.0;  // 1.5 x 2^52
 };
 
 }  // namespace sheave

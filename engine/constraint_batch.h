@@ -84,8 +84,8 @@ class ConstraintBatch {
 
   // Machines in which nothing turns a row's gradient: engine/solvers/affine_motion.h.
 
-  /// Appends all its rows if each is affine in what `bodies` count, for good, and has the
-  /// multiplier of its place among them; otherwise none, and false.
+  /// Appends all its rows that ever have a force in such substeps, if each is affine in what
+  /// `bodies` count, for good; otherwise none, and false.
   [[nodiscard]] virtual bool append_affine(const AffineBodies& /*bodies*/, AffineRows& /*rows*/) {
     return false;
   }
@@ -97,10 +97,11 @@ class ConstraintBatch {
                                           std::span<char> /*active*/) {
     return false;
   }
-  /// Instead of finish(): the state at the end, over that at the start, which `next` holds. False
-  /// if it has to be found in another way; nothing has changed then but `next`.
+  /// Instead of finish(): the state at the end, into one that agrees with that at the start, `now`,
+  /// in all that such substeps leave alone. False if it has to be found in another way; nothing has
+  /// changed then but `next`.
   [[nodiscard]] virtual bool finish_affine(const AffineSubstep& /*substep*/,
-                                           FeatureState& /*next*/) {
+                                           const FeatureState& /*now*/, FeatureState& /*next*/) {
     return false;
   }
 

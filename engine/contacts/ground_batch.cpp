@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/dynamics/affine_bodies.h"
 #include "engine/index.h"
 #include "engine/solvers/affine_rows.h"
 #include "engine/solvers/direct.h"
+#include "engine/solvers/row_system.h"
 #include "engine/substep.h"
 
 namespace sheave {
@@ -113,23 +115,57 @@ class GroundBatch final : public ConstraintBatch {
     }
   }
 
-  // None of its rows has a force as long as everything ends a substep above the floor.
-  bool append_affine(const AffineBodies& bodies, AffineRows& /*rows*/) override {
+  // Of a shape that slides and does not turn all points move alike: the lowest alone can touch.
+  // What else moves has no force as long as it ends a substep above the floor.
+  bool append_affine(const AffineBodies& bodies, AffineRows& rows) override {
     sliding_.clear();
     above_ = DirectSolver::closed * bodies.set().scale();
-    for (const Owner& owner : owners_) sliding_.push_back(slide(bodies, owner));
+    for (const Owner& owner : owners_) {
+      const Sliding& body = sliding_.emplace_back(slide(bodies, owner));
+      if (body.contact < 0) continue;
+      rows.add_row(0.0, 0.0, body.contact);
+      rows.add_term(body.number, body.along);
+    }
     return true;
   }
-  bool begin_affine(const AffineSubstep& /*substep*/, const FeatureState& state,
-                    std::span<double> /*values*/, std::span<char> /*active*/) override {
-    return std::all_of(state.reals.begin(), state.reals.end(),
-                       [](double force) { return force == 0.0; });
+  bool begin_affine(const AffineSubstep& substep, const FeatureState& state,
+                    std::span<double> values, std::span<char> active) override {
+    std::size_t row = 0;
+    for (std::size_t i = 0; i < owners_.size(); ++i) {
+      Sliding& body = sliding_[i];
+      const auto first = state.reals.begin() + static_cast<std::ptrdiff_t>(owners_[i].first);
+      const bool pressed = std::any_of(first, first + static_cast<std::ptrdiff_t>(owners_[i].count),
+                                       [](double force) { return force > 0.0; });
+      if (body.contact < 0) {
+        if (pressed) return false;
+        continue;
+      }
+      const double height = body.lowest + body.along * substep.places[at(body.number)];
+      const double speed = std::abs(substep.speeds[at(body.number)]);
+      body.near = comes_near(height + body.below, body.reach, substep.h * speed);
+      values[row] = height;
+      active[row++] = pressed ? 1 : 0;
+    }
+    return true;
   }
-  bool finish_affine(const AffineSubstep& substep, FeatureState& /*next*/) override {
-    return std::all_of(sliding_.begin(), sliding_.end(), [&](const Sliding& body) {
+  bool finish_affine(const AffineSubstep& substep, const FeatureState& /*now*/,
+                     FeatureState& next) override {
+    std::size_t row = 0;
+    for (std::size_t i = 0; i < owners_.size(); ++i) {
+      const Sliding& body = sliding_[i];
       const double place = substep.places[at(body.number)] + substep.motion[at(body.number)];
-      return body.lowest + body.along * place > above_;
-    });
+      const double height = body.lowest + body.along * place;
+      if (body.contact < 0) {
+        if (!(height > above_)) return false;
+        continue;
+      }
+      // What has fallen so far at once has no row at the start: see linearise().
+      if (!body.near && height + body.below <= body.reach) return false;
+      const auto first = next.reals.begin() + static_cast<std::ptrdiff_t>(owners_[i].first);
+      std::fill_n(first, owners_[i].count, 0.0);
+      next.reals[at(body.contact)] = substep.multipliers[row++] / (substep.h * substep.h);
+    }
+    return true;
   }
 
   [[nodiscard]] double elastic_energy(const BodySet& /*bodies*/, const State& /*state*/,
@@ -160,6 +196,10 @@ class GroundBatch final : public ConstraintBatch {
     int number = 0;
     double along = 0.0;
     double lowest = 0.0;  ///< [m]
+    int contact = -1;     ///< the lowest one; -1: it may be another, or none is ever reached
+    double below = 0.0;   ///< the centre of mass is so far above it [m]
+    double reach = 0.0;   ///< of Owner
+    bool near = false;    ///< likewise
   };
 
   [[nodiscard]] Sliding slide(const AffineBodies& bodies, const Owner& owner) {
@@ -169,22 +209,38 @@ class GroundBatch final : public ConstraintBatch {
     const int body = mount >= 0 ? mount : owner.body;
     const int number = bodies.number_of(body);
     const double along = dot(normal_, bodies.axis(number));
-    double lowest = height(set.initial_point(owner.body, owner.center_of_mass));
+    const double center = height(set.initial_point(owner.body, owner.center_of_mass)) -
+                          along * dot(bodies.axis(number), initial.bodies[at(body)].position);
+    Sliding sliding{number, along};
     if (mount >= 0) {
       // As it may turn.
-      lowest -= (owner.shape->position - owner.center_of_mass).norm() +
-                owner.shape->shape->half_extent().norm();
+      sliding.below = (owner.shape->position - owner.center_of_mass).norm() +
+                      owner.shape->shape->half_extent().norm();
     } else {
       points_.clear();
       append_points(Substep(set, initial, 1.0, 1), owner);
-      double below = 0.0;
+      std::vector<double> depths;
       for (const Vector3& point : points_) {
-        below = std::min(below, dot(normal_, initial.bodies[at(body)].orientation * point));
+        depths.push_back(-dot(normal_, initial.bodies[at(body)].orientation * point));
+        sliding.reach = std::max(sliding.reach, point.norm());
       }
-      lowest += below;
+      // Of points that rounding alone tells apart the first bears the load, as by the stages.
+      const double rounding = RowSystem::value_rounding * set.scale();
+      double deepest = -std::numeric_limits<double>::infinity();
+      std::size_t lowest = 0;
+      for (std::size_t i = 0; i < depths.size(); ++i) {
+        if (depths[i] > deepest + rounding) lowest = i;
+        deepest = std::max(deepest, depths[i]);
+      }
+      sliding.below = depths.empty() ? 0.0 : depths[lowest];
+      // On a level rail nothing of it yields to the floor.
+      constexpr double level = 1e-12;
+      if (std::abs(along) > level && !depths.empty()) {
+        sliding.contact = static_cast<int>(owner.first + lowest);
+      }
     }
-    return {number, along,
-            lowest - along * dot(bodies.axis(number), initial.bodies[at(body)].position)};
+    sliding.lowest = center - sliding.below;
+    return sliding;
   }
   [[nodiscard]] double height(const Vector3& point) const { return dot(normal_, point - point_); }
 
@@ -205,7 +261,10 @@ class GroundBatch final : public ConstraintBatch {
     const double above = height(substep.position(owner.body));
     const int mount = substep.bodies[owner.body].mount;
     const BodyState& state = substep.start.bodies[at(mount >= 0 ? mount : owner.body)];
-    return above <= 2.0 * (owner.reach + substep.h * state.velocity.norm());
+    return comes_near(above, owner.reach, substep.h * state.velocity.norm());
+  }
+  [[nodiscard]] static bool comes_near(double above, double reach, double way) {
+    return above <= 2.0 * (reach + way);
   }
 
   void append_points(const Substep& substep, const Owner& owner) {

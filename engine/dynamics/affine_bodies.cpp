@@ -1,9 +1,11 @@
 #include "engine/dynamics/affine_bodies.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "engine/divergence.h"
+#include "engine/dynamics/sine_cosine.h"
 #include "engine/index.h"
 #include "engine/integrators/loads.h"
 
@@ -153,13 +155,18 @@ bool AffineBodies::load(const State& state) {
     if (!take_set_loads(state)) return false;
     has_set_loads_ = any;
   }
-  for (std::size_t d = 1; d < movers_.size(); ++d) {
-    const Mover& mover = movers_[d];
-    const BodyState& body = state.bodies[at(mover.body)];
-    places_[d] = mover.slides ? dot(mover.axis, body.position) : body.angle;
-    speeds_[d] = dot(mover.axis, mover.slides ? body.velocity : body.angular_velocity);
-    loaded_[d] = places_[d];
+  const BodyState* const bodies = state.bodies.data();
+  const Mover* const movers = movers_.data();
+  double* const places = places_.data();
+  double* const speeds = speeds_.data();
+  const std::size_t count = movers_.size();
+  for (std::size_t d = 1; d < count; ++d) {
+    const Mover& mover = movers[d];
+    const BodyState& body = bodies[mover.body];
+    places[d] = mover.slides ? dot(mover.axis, body.position) : body.angle;
+    speeds[d] = dot(mover.axis, mover.slides ? body.velocity : body.angular_velocity);
   }
+  std::copy(places_.begin(), places_.end(), loaded_.begin());
   return true;
 }
 
@@ -182,11 +189,20 @@ void AffineBodies::predict(double from, double loaded, double to) {
   }
 }
 
+void AffineBodies::go_straight(std::span<double> way) const {
+  for (std::size_t d = 1; d < movers_.size(); ++d) {
+    way[d] = yields_[d] > 0.0 ? h_ * speeds_[d] : motion_[d];
+  }
+}
+
 void AffineBodies::derive() {
   const double rate = 1.0 / h_;
   const std::size_t count = movers_.size();
+  const double* const motion = motion_.data();
+  const double* const yields = yields_.data();
+  double* const speeds = end_speeds_.data();
   for (std::size_t d = 1; d < count; ++d) {
-    if (yields_[d] > 0.0) end_speeds_[d] = rate * motion_[d];
+    if (yields[d] > 0.0) speeds[d] = rate * motion[d];
   }
 }
 
@@ -207,11 +223,13 @@ bool AffineBodies::arrive() {
   const double* const motion = motion_.data();
   const double* const speeds = end_speeds_.data();
   double* const ends = end_places_.data();
+  const double* const farthest = farthest_.data();
+  const double* const fastest = fastest_.data();
   for (std::size_t d = 1; d < count; ++d) {
     const double place = places[d] + motion[d];
     ends[d] = place;
-    sound &= std::abs(place) <= farthest_[d];
-    sound &= std::abs(speeds[d]) <= fastest_[d];
+    sound &= std::abs(place) <= farthest[d];
+    sound &= std::abs(speeds[d]) <= fastest[d];
   }
   return sound;
 }
@@ -223,9 +241,12 @@ void AffineBodies::go_on() {
 
 void AffineBodies::store(const std::vector<double>& places, const std::vector<double>& speeds,
                          const State& loaded, State& state) const {
-  for (std::size_t d = 1; d < movers_.size(); ++d) {
-    const Mover& mover = movers_[d];
-    BodyState& body = state.bodies[at(mover.body)];
+  BodyState* const bodies = state.bodies.data();
+  const Mover* const movers = movers_.data();
+  const std::size_t count = movers_.size();
+  for (std::size_t d = 1; d < count; ++d) {
+    const Mover& mover = movers[d];
+    BodyState& body = bodies[mover.body];
     const double place = places[d];
     const double speed = speeds[d];
     if (mover.slides) {
@@ -236,8 +257,7 @@ void AffineBodies::store(const std::vector<double>& places, const std::vector<do
     }
     body.angle = place;
     body.angular_velocity = speed * mover.axis;
-    const double cosine = std::cos(0.5 * place);
-    const double sine = std::sin(0.5 * place);
+    const auto [sine, cosine] = sine_cosine(0.5 * place);
     body.orientation.coeffs() = cosine * mover.upright.coeffs() + sine * mover.turned.coeffs();
   }
   for (const int number : mounted_) {

@@ -49,6 +49,9 @@ class AffineBodies {
   /// The motion without constraints in a substep between these times [s], with what loads do until
   /// `loaded`.
   void predict(double from, double loaded, double to);
+  /// Displacements in the substep at the speeds of its start; of prescribed bodies those of
+  /// predict(), of which it must be called right after.
+  void go_straight(std::span<double> way) const;
   /// Work that forces do in the substep which have been set [J].
   [[nodiscard]] double work_of_set_loads() const;
   /// Speeds at the end follow from the motion.

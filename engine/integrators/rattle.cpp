@@ -29,7 +29,8 @@ double energy_of_motion(const Substep& substep) {
 void RattleSolver::begin(Substep& substep, Features features) {
   substep.load_share = 0.5;
   substep.update_inertias();
-  positions_.remember_start(substep, features);
+  // Without rows the prediction is the motion, here and below.
+  if (!features.empty()) positions_.remember_start(substep, features);
 }
 
 bool RattleSolver::try_positions(Substep& substep, Features features) {
@@ -89,6 +90,7 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
 }
 
 void RattleSolver::solve_positions(Substep& substep, Features features) {
+  if (features.empty()) return;
   const bool impact = std::any_of(features.begin(), features.end(),
                                   [](const auto& feature) { return feature->meets(); });
   if (!impact) {
@@ -116,7 +118,7 @@ void RattleSolver::solve_positions(Substep& substep, Features features) {
 }
 
 void RattleSolver::solve_velocities(Substep& substep, Features features) {
-  if (left_to_xpbd(substep)) return;
+  if (left_to_xpbd(substep) || features.empty()) return;
   substep.update_inertias();
   velocities_.linearise_velocities(substep, positions_);
   const bool direct = solver_ == SolverKind::direct;

@@ -15,7 +15,7 @@ std::unique_ptr<AffineMotion> AffineMotion::create(const Model& model, const Bod
   if (!moving) return nullptr;
   std::unique_ptr<AffineMotion> motion(
       new AffineMotion(model, bodies, features, std::move(*moving)));
-  if (!motion->append(features)) return nullptr;
+  if (!motion->append(features) || !motion->terms_.take(motion->rows_)) return nullptr;
   motion->find_matrix();
   return motion;
 }
@@ -29,26 +29,32 @@ AffineMotion::AffineMotion(const Model& model, const BodySet& bodies, Features f
       scale_(bodies.scale()) {}
 
 bool AffineMotion::append(Features features) {
-  for (const auto& feature : features) {
-    feature_rows_.push_back(rows_.size());
-    if (feature->corrects_velocities() || feature->is_stiff() ||
-        !feature->append_affine(bodies_, rows_)) {
+  feature_rows_.resize(features.size());
+  feature_counts_.resize(features.size());
+  // The floor's rows come after those of cables, so that a cable that ends at a weight over the
+  // floor stays a chain.
+  for (std::size_t f = features.size(); f-- > 0;) {
+    ConstraintBatch& feature = *features[f];
+    feature_rows_[f] = rows_.size();
+    if (feature.corrects_velocities() || feature.is_stiff() ||
+        !feature.append_affine(bodies_, rows_)) {
       return false;
     }
+    feature_counts_[f] = rows_.size() - feature_rows_[f];
   }
-  feature_rows_.push_back(rows_.size());
   return true;
 }
 
 void AffineMotion::find_matrix() {
   const std::size_t n = rows_.size();
   for (std::vector<double>* values : {&shares_, &start_shares_, &softness_, &diagonal_, &values_,
-                                      &free_, &unknowns_, &multipliers_, &impulses_}) {
+                                      &free_, &unknowns_, &multipliers_, &impulses_, &rates_}) {
     values->assign(n, 0.0);
   }
-  active_.assign(n, 0);
+  for (std::vector<char>* flags : {&springs_, &active_, &found_, &closed_}) flags->assign(n, 0);
+  going_on_.assign(bodies_.count(), 0.0);
+  speeds_.assign(bodies_.count(), 0.0);
   first_.resize(features_.size());
-  springs_.assign(n, 0);
   std::vector<std::vector<int>> touching(bodies_.count());
   for (std::size_t i = 0; i < n; ++i) {
     for (int p = rows_.starts()[i]; p < rows_.starts()[i + 1]; ++p) {
@@ -64,67 +70,51 @@ void AffineMotion::find_matrix() {
   }
   std::sort(entries_.begin(), entries_.end());
   entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
-  couplings_.assign(entries_.size(), 0.0);
-  factor_.analyse(static_cast<int>(n), entries_);
-  if (elastic_ && rattle_) rigid_factor_.analyse(static_cast<int>(n), entries_);
+  problem_.analyse(static_cast<int>(n), entries_);
+  if (elastic_ && rattle_) rigid_.analyse(static_cast<int>(n), entries_);
 }
 
 void AffineMotion::prepare(const Substep& substep) {
   if (h_ == substep.h) return;
   h_ = substep.h;
   bodies_.prepare(h_, rattle_ ? 0.5 * h_ : h_);
-  factored_for_.clear();
+  terms_.weigh(bodies_.yields());
+  const std::size_t n = rows_.size();
   std::vector<double> weighed(bodies_.count(), 0.0);  // W J^T of one row
-  std::size_t entry = 0;                              // they are in the order of the rows
-  const Terms terms = this->terms();
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    terms.act(i, 1.0, weighed.data());
-    diagonal_[i] = terms.along(i, weighed.data());
-    for (; entry < entries_.size() && at(entries_[entry].first) == i; ++entry) {
-      couplings_[entry] = terms.along(at(entries_[entry].second), weighed.data());
+  std::vector<double> couplings(entries_.size());
+  terms_.visit([&](const auto& terms) {
+    std::size_t entry = 0;  // they are in the order of the rows
+    for (std::size_t i = 0; i < n; ++i) {
+      terms.act(i, 1.0, weighed.data());
+      diagonal_[i] = terms.along(i, weighed.data());
+      for (; entry < entries_.size() && at(entries_[entry].first) == i; ++entry) {
+        couplings[entry] = terms.along(at(entries_[entry].second), weighed.data());
+      }
+      for (int p = rows_.starts()[i]; p < rows_.starts()[i + 1]; ++p) {
+        weighed[at(rows_.numbers()[at(p)])] = 0.0;
+      }
     }
-    for (int p = rows_.starts()[i]; p < rows_.starts()[i + 1]; ++p) {
-      weighed[at(rows_.numbers()[at(p)])] = 0.0;
-    }
+  });
+  std::vector<double> soft_diagonal = diagonal_;
+  for (std::size_t i = 0; i < n; ++i) {
     const double compliance = rows_.compliance(i);
     const double gamma = (rattle_ ? 2.0 : 1.0) * compliance * rows_.damping(i) / h_;
     const double scale = 1.0 / (1.0 + gamma);
     shares_[i] = rattle_ ? 1.0 : scale;
     start_shares_[i] = rattle_ && compliance > 0.0 ? scale * (1.0 - gamma) : 0.0;
     softness_[i] = scale * (rattle_ ? 4.0 : 1.0) * compliance / (h_ * h_);
+    soft_diagonal[i] += softness_[i];
   }
+  problem_.set_matrix(soft_diagonal, couplings, {});
+  if (elastic_ && rattle_) rigid_.set_matrix(diagonal_, couplings, springs_);
 }
 
-bool AffineMotion::factor() {
-  if (factored_for_ == active_) return regular_;
-  factored_for_ = active_;
-  const std::size_t n = rows_.size();
-  const auto factor = [&](SparseFactor& into, bool springs) {
-    const auto acts = [&](int i) {
-      return active_[at(i)] != 0 && (springs || rows_.compliance(at(i)) == 0.0);
-    };
-    std::vector<double> diagonal(n, 1.0);
-    std::vector<double> couplings(entries_.size(), 0.0);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (acts(static_cast<int>(i))) diagonal[i] = diagonal_[i] + (springs ? softness_[i] : 0.0);
-    }
-    for (std::size_t e = 0; e < entries_.size(); ++e) {
-      if (acts(entries_[e].first) && acts(entries_[e].second)) couplings[e] = couplings_[e];
-    }
-    into.factor(diagonal, couplings);
-    return into.dropped() == 0;
-  };
-  regular_ = factor(factor_, true);
-  if (elastic_ && rattle_) regular_ = factor(rigid_factor_, false) && regular_;
-  return regular_;
-}
-
-bool AffineMotion::begin(const State& state) {
-  const AffineSubstep own{0.0, h_,       bodies_.places(), bodies_.speeds(), bodies_.motion(),
-                          {},  !rattle_, nullptr};
+bool AffineMotion::begin(const State& state, bool fresh) {
+  const AffineSubstep own{
+      0.0, h_, bodies_.places(), bodies_.speeds(), bodies_.motion(), {}, !rattle_, nullptr, fresh};
   for (std::size_t f = 0; f < features_.size(); ++f) {
     const std::size_t first = feature_rows_[f];
-    const std::size_t count = feature_rows_[f + 1] - first;
+    const std::size_t count = feature_counts_[f];
     if (!features_[f]->begin_affine(own, state.features[f],
                                     std::span(values_).subspan(first, count),
                                     std::span(active_).subspan(first, count))) {
@@ -134,93 +124,259 @@ bool AffineMotion::begin(const State& state) {
   return true;
 }
 
-bool AffineMotion::solve_positions() {
+void AffineMotion::find_free_values() {
+  // Of rigid rows it is the value itself.
+  if (!elastic_) return free_.swap(values_);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    free_[i] = shares_[i] * values_[i] + start_shares_[i] * std::min(values_[i], 0.0);
+  }
+}
+
+bool AffineMotion::keep_positions() {
+  find_free_values();
+  if (!problem_.factor(active_)) return false;
   const std::size_t n = rows_.size();
-  double* const motion = bodies_.motion().data();
-  const Terms terms = this->terms();
-  for (std::size_t i = 0; i < n; ++i) {
-    double value = shares_[i] * values_[i];
-    if (start_shares_[i] != 0.0) value += start_shares_[i] * std::min(values_[i], 0.0);
-    free_[i] = value;
-    unknowns_[i] = active_[i] != 0 ? -(value + terms.along(i, motion)) : 0.0;
-  }
-  factor_.solve(unknowns_);
+  const bool all = std::find(active_.begin(), active_.end(), 0) == active_.end();
+  terms_.visit([&](const auto& terms) {
+    const double* const motion = bodies_.motion().data();
+    const double* const free = free_.data();
+    double* const unknowns = unknowns_.data();
+    for (std::size_t i = 0; i < n && all; ++i) unknowns[i] = -(free[i] + terms.along(i, motion));
+    for (std::size_t i = 0; i < n && !all; ++i) {
+      unknowns[i] = active_[i] != 0 ? -(free[i] + terms.along(i, motion)) : 0.0;
+    }
+  });
+  problem_.solve(unknowns_);
+  return all ? act_and_check_all() : act_and_check(active_);
+}
+
+bool AffineMotion::act_and_check_all() {
+  const std::size_t n = rows_.size();
+  double least = 0.0;
+  terms_.visit([&](const auto& terms) {
+    double* const motion = bodies_.motion().data();
+    const double* const unknowns = unknowns_.data();
+    double* const multipliers = multipliers_.data();
+    for (std::size_t i = 0; i < n; ++i) {
+      least = std::min(least, unknowns[i]);
+      multipliers[i] = std::max(unknowns[i], 0.0);
+      terms.act(i, multipliers[i], motion);
+    }
+    double most = 0.0;
+    const double* const free = free_.data();
+    const double* const softness = softness_.data();
+    for (std::size_t i = 0; i < n; ++i) {
+      const double residual = free[i] + terms.along(i, motion) + softness[i] * multipliers[i];
+      most = std::max(most, std::abs(residual));
+    }
+    left_ = most;
+  });
+  bool holds = left_ <= DirectSolver::tolerance * scale_;
   const double rounding = RowSystem::value_rounding * scale_;
-  bool holds = true;
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < n && least < 0.0; ++i) {
     holds &= unknowns_[i] * diagonal_[i] >= -rounding;
-    const double multiplier = std::max(unknowns_[i], 0.0);
-    multipliers_[i] = multiplier;
-    terms.act(i, multiplier, motion);
-  }
-  const double enough = DirectSolver::tolerance * scale_;
-  left_ = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const double residual = free_[i] + terms.along(i, motion) + softness_[i] * multipliers_[i];
-    const bool acts = active_[i] != 0;
-    holds &= residual >= (acts ? -enough : -rounding);
-    holds &= !acts || residual <= enough;
-    if (acts) left_ = std::max(left_, std::abs(residual));
   }
   return holds;
 }
 
-bool AffineMotion::solve_velocities() {
-  const std::size_t n = rows_.size();
-  double* const speeds = bodies_.end_speeds().data();
-  const double* const motion = bodies_.motion().data();
-  const Terms terms = this->terms();
-  const double rate = 1.0 / h_;
-  for (std::size_t i = 0; i < n && elastic_; ++i) {
-    if (springs_[i] != 0) terms.act(i, rate * multipliers_[i], speeds);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    const bool acts = active_[i] != 0 && springs_[i] == 0;
-    impulses_[i] = acts ? -terms.along(i, speeds) : 0.0;
-  }
-  (elastic_ ? rigid_factor_ : factor_).solve(impulses_);
-  const double rounding = RowSystem::value_rounding * scale_ * rate;
+bool AffineMotion::act_and_check(std::span<const char> acts) {
+  const double rounding = RowSystem::value_rounding * scale_;
+  const double enough = DirectSolver::tolerance * scale_;
   bool holds = true;
+  terms_.visit([&](const auto& terms) {
+    double* const motion = bodies_.motion().data();
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      holds &= unknowns_[i] * diagonal_[i] >= -rounding;
+      const double multiplier = std::max(unknowns_[i], 0.0);
+      multipliers_[i] = multiplier;
+      terms.act(i, multiplier, motion);
+    }
+    left_ = 0.0;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const double residual = free_[i] + terms.along(i, motion) + softness_[i] * multipliers_[i];
+      const bool acting = acts[i] != 0;
+      holds &= residual >= (acting ? -enough : -rounding);
+      holds &= !acting || residual <= enough;
+      if (acting) left_ = std::max(left_, std::abs(residual));
+    }
+  });
+  return holds;
+}
+
+bool AffineMotion::search_positions() {
+  const double rounding = RowSystem::value_rounding * scale_;
+  const std::size_t n = rows_.size();
+  bodies_.go_straight(going_on_);
+  ComplementarityProblem& posed = problem_.posed();
+  posed.rounding = rounding;
+  const std::vector<double>& values = elastic_ ? values_ : free_;
+  // As the first round of engine/solvers/row_system.h begins.
+  terms_.visit([&](const auto& terms) {
+    for (std::size_t i = 0; i < n; ++i) {
+      posed.constant[i] = free_[i] + terms.along(i, bodies_.motion().data());
+      const double change = terms.along(i, going_on_.data());
+      const double gamma = (rattle_ ? 2.0 : 1.0) * rows_.compliance(i) * rows_.damping(i) / h_;
+      double value = values[i] + change;
+      if (springs_[i] != 0) {
+        value = rattle_ ? (1.0 + gamma) * value + (1.0 - gamma) * std::min(values[i], 0.0)
+                        : value + gamma * change;
+      }
+      posed.free[i] = active_[i] != 0 || value <= rounding ? 1 : 0;
+    }
+  });
+  if (!problem_.search()) return false;
+  count_search(problem_);
+  redundant_ = problem_.found().dropped();
+  const std::span<const double> solution = problem_.found().solution();
+  std::copy(solution.begin(), solution.end(), unknowns_.begin());
+  for (std::size_t i = 0; i < n; ++i) found_[i] = unknowns_[i] > 0.0 ? 1 : 0;
+  if (!act_and_check(found_)) return false;
+  active_.swap(found_);
+  return true;
+}
+
+bool AffineMotion::solve_velocities() {
+  const double rate = 1.0 / h_;
+  const double closed = DirectSolver::closed * scale_;
+  const std::span<double> speeds = bodies_.end_speeds();
+  const std::vector<double>& values = elastic_ ? values_ : free_;
+  terms_.visit([&](const auto& terms) {
+    const double* const motion = bodies_.motion().data();
+    for (std::size_t i = 0; i < rows_.size() && elastic_; ++i) {
+      if (springs_[i] != 0) terms.act(i, rate * multipliers_[i], speeds.data());
+    }
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      rates_[i] = terms.along(i, speeds.data());
+      // An open row that closes now is one that may act.
+      closed_[i] = springs_[i] == 0 &&
+                           (multipliers_[i] > 0.0 || values[i] + terms.along(i, motion) <= closed)
+                       ? 1
+                       : 0;
+    }
+  });
+  std::copy(speeds.begin(), speeds.end(), speeds_.begin());
+  if (!keep_velocities()) {
+    std::copy(speeds_.begin(), speeds_.end(), speeds.begin());
+    if (!search_velocities()) return false;
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (springs_[i] != 0) impulses_[i] = rate * multipliers_[i];
+    multipliers_[i] += h_ * impulses_[i];
+  }
+  return true;
+}
+
+bool AffineMotion::keep_velocities() {
+  const double rounding = RowSystem::value_rounding * scale_ / h_;
+  const std::size_t n = rows_.size();
+  if (redundant_ > 0 || !velocities().factor(active_)) return false;
   for (std::size_t i = 0; i < n; ++i) {
-    if (springs_[i] != 0) {
-      impulses_[i] = rate * multipliers_[i];
-    } else {
+    impulses_[i] = active_[i] != 0 && springs_[i] == 0 ? -rates_[i] : 0.0;
+  }
+  velocities().solve(impulses_);
+  return terms_.visit([&](const auto& terms) {
+    double* const speeds = bodies_.end_speeds().data();
+    bool holds = true;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (springs_[i] != 0) continue;
       holds &= impulses_[i] * diagonal_[i] >= -rounding;
       impulses_[i] = std::max(impulses_[i], 0.0);
       terms.act(i, impulses_[i], speeds);
     }
-    multipliers_[i] += h_ * impulses_[i];
-  }
-  // An open row that closes now is one that acts.
-  const double closed = DirectSolver::closed * scale_;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (active_[i] != 0 || springs_[i] != 0) continue;
-    const bool open = values_[i] + terms.along(i, motion) > closed;
-    holds &= open || terms.along(i, speeds) >= -rounding;
-  }
-  return holds;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (closed_[i] == 0 || active_[i] != 0) continue;
+      holds &= terms.along(i, speeds) >= -rounding;
+    }
+    return holds;
+  });
 }
 
-bool AffineMotion::attempt(double from, double to, const State& state, State& next,
+bool AffineMotion::search_velocities() {
+  const double rounding = RowSystem::value_rounding * scale_ / h_;
+  const std::size_t n = rows_.size();
+  double* const speeds = bodies_.end_speeds().data();
+  ComplementarityProblem& posed = velocities().posed();
+  posed.rounding = rounding;
+  // Of forces that hold each other in balance velocities tell nothing, so these stay what they
+  // were: as engine/solvers/row_velocities.cpp has it.
+  std::fill(impulses_.begin(), impulses_.end(), 0.0);
+  return terms_.visit([&](const auto& terms) {
+    for (std::size_t i = 0; i < n && redundant_ > 0; ++i) {
+      if (closed_[i] == 0) continue;
+      impulses_[i] = multipliers_[i] / h_;
+      terms.act(i, impulses_[i], speeds);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      posed.constant[i] = terms.along(i, speeds);
+      posed.lower[i] = -impulses_[i];
+      if (closed_[i] == 0) posed.upper[i] = posed.lower[i] = 0.0;
+      posed.free[i] = closed_[i] != 0 && multipliers_[i] > 0.0 ? 1 : 0;
+    }
+    if (!velocities().search()) return false;
+    count_search(velocities());
+    const std::span<const double> change = velocities().found().solution();
+    for (std::size_t i = 0; i < n; ++i) {
+      const double before = impulses_[i];
+      impulses_[i] = closed_[i] != 0 ? std::max(before + change[i], 0.0) : 0.0;
+      terms.act(i, impulses_[i] - before, speeds);
+    }
+    bool holds = true;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (closed_[i] == 0) continue;
+      const double left = terms.along(i, speeds);
+      // A row that acts keeps what rounding leaves of it, as one does in act_and_check().
+      const double enough = DirectSolver::tolerance * scale_ / h_;
+      holds &= left >= (impulses_[i] > 0.0 ? -enough : -rounding);
+      holds &= impulses_[i] == 0.0 || left <= enough;
+    }
+    return holds;
+  });
+}
+
+void AffineMotion::count_search(const AffineProblem& problem) {
+  changes_ += problem.found().changes();
+  factorisations_ += problem.found().factorisations();
+}
+
+bool AffineMotion::attempt(const Interval& time, bool fresh, const State& state, State& next,
                            Substep& substep) {
-  bodies_.predict(from, rattle_ ? 0.5 * (from + to) : to, to);
-  if (!begin(state) || !factor() || !solve_positions()) return false;
+  changes_ = factorisations_ = redundant_ = 0;
+  const double loaded = rattle_ ? time.middle() : time.to;
+  bodies_.predict(time.from, loaded, time.to);
+  if (!begin(state, fresh)) return false;
+  if (!keep_positions()) {
+    bodies_.predict(time.from, loaded, time.to);
+    if (!search_positions()) return false;
+  }
   bodies_.derive();
   if (rattle_) {
-    bodies_.add_loads(0.5 * (from + to), to);
+    bodies_.add_loads(time.middle(), time.to);
     if (!solve_velocities()) return false;
   }
-  if (!bodies_.arrive()) return false;
+  return bodies_.arrive() && finish(time, state, next, substep);
+}
+
+bool AffineMotion::finish(const Interval& time, const State& state, State& next, Substep& substep) {
   for (std::size_t f = 0; f < features_.size(); ++f) {
-    const std::size_t first = feature_rows_[f];
     const std::span<const double> multipliers =
-        std::span(multipliers_).subspan(first, feature_rows_[f + 1] - first);
-    next.features[f].reals = state.features[f].reals;
-    const AffineSubstep own{
-        to,          h_,       bodies_.places(),   bodies_.speeds(), bodies_.motion(),
-        multipliers, !rattle_, &substep.statistics};
-    if (!features_[f]->finish_affine(own, next.features[f])) return false;
+        std::span(multipliers_).subspan(feature_rows_[f], feature_counts_[f]);
+    const AffineSubstep own{time.to,
+                            h_,
+                            bodies_.places(),
+                            bodies_.speeds(),
+                            bodies_.motion(),
+                            multipliers,
+                            !rattle_,
+                            &substep.statistics,
+                            false};
+    if (!features_[f]->finish_affine(own, state.features[f], next.features[f])) return false;
   }
+  StepStatistics& statistics = substep.statistics;
+  statistics.last_correction = std::max(statistics.last_correction, left_);
+  statistics.external_work += bodies_.work_of_set_loads();
+  statistics.set_changes += changes_;
+  statistics.factorisations += factorisations_;
+  statistics.redundant_rows = std::max(statistics.redundant_rows, redundant_);
   return true;
 }
 
@@ -232,7 +388,8 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
   substep.h = settings_.dt / settings_.substeps;
   substep.load_share = rattle_ ? 0.5 : 1.0;
   prepare(substep);
-  if (!agree_) before = state;
+  const bool fresh = !agree_;
+  if (fresh) before = state;
   agree_ = true;
   before.memory = state.memory;
   if (!bodies_.load(state)) return 0;
@@ -246,9 +403,7 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
   for (int i = first; i < last; ++i, ++done) {
     const double end =
         (static_cast<double>(state.steps) + static_cast<double>(i + 1) / substeps) * dt;
-    if (!attempt(state.time, end, state, before, substep)) break;
-    substep.statistics.last_correction = std::max(substep.statistics.last_correction, left_);
-    substep.statistics.external_work += bodies_.work_of_set_loads();
+    if (!attempt({state.time, end}, fresh && done == 0, state, before, substep)) break;
     bodies_.go_on();
     state.features.swap(before.features);
     before.time = state.time;
@@ -289,8 +444,8 @@ void AffineMotion::keep_forces(Substep& substep) const {
   for (std::size_t f = 0; f < features_.size(); ++f) {
     std::vector<double>& late = substep.late_forces[f];
     late.assign(features_[f]->multipliers().size(), 0.0);
-    for (std::size_t i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
-      late[i - feature_rows_[f]] = rate * impulses_[i];
+    for (std::size_t i = feature_rows_[f]; i < feature_rows_[f] + feature_counts_[f]; ++i) {
+      late[at(rows_.index(i))] = rate * impulses_[i];
     }
   }
 }

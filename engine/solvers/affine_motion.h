@@ -16,10 +16,12 @@
 // and then dq = dq* + W J^T l. `rattle` gives the velocities, after the second half of the loads,
 // the other half of what springs do and the impulses m of the rigid rows, J W J^T m = -J v.
 //
-// Such a substep is taken only if its solution is one: the rows that had a force at its start have
-// one, the others stay open, none is redundant, and what is left of the equations is rounding.
-// Everything else (a cable falls slack, a wheel has wound off all its cable) the stages of
-// engine/step.cpp do, which find the same motion. Which of the two it is follows from the state.
+// Mostly the rows act that had a force at the start. If these have none now, or others have to
+// (a cable falls slack, a weight lands), a search finds which ones do (engine/solvers/
+// affine_problem.h). Such a substep is taken only if its solution is one: the rows that act pull, the
+// others stay open, and what is left of the equations is rounding. Everything else (a wheel has
+// wound off all its cable, drives contradict each other) the stages of engine/step.cpp do, which
+// find the same motion. Which of the two it is follows from the state.
 
 #include <memory>
 #include <span>
@@ -27,9 +29,10 @@
 
 #include "engine/dynamics/affine_bodies.h"
 #include "engine/model.h"
+#include "engine/solvers/affine_problem.h"
 #include "engine/solvers/affine_rows.h"
+#include "engine/solvers/affine_terms.h"
 #include "engine/solvers/row_system.h"
-#include "engine/solvers/sparse_factor.h"
 
 namespace sheave {
 
@@ -49,44 +52,40 @@ class AffineMotion {
   void forget() { agree_ = false; }
 
  private:
+  /// [s]
+  struct Interval {
+    double from = 0.0;
+    double to = 0.0;
+    [[nodiscard]] double middle() const { return 0.5 * (from + to); }
+  };
   AffineMotion(const Model& model, const BodySet& bodies, Features features, AffineBodies moving);
   bool append(Features features);
   void find_matrix();
   /// One substep between these times [s] from `state` to `next`.
-  bool attempt(double from, double to, const State& state, State& next, Substep& substep);
-  bool begin(const State& state);
+  /// `fresh`: see AffineSubstep.
+  bool attempt(const Interval& time, bool fresh, const State& state, State& next, Substep& substep);
+  bool begin(const State& state, bool fresh);
+  bool finish(const Interval& time, const State& state, State& next, Substep& substep);
   /// What is the same in all substeps of this length.
   void prepare(const Substep& substep);
-  /// The factors for the rows that act; false if some are redundant.
-  bool factor();
-  /// Finds the multipliers and the motion; false if they are no solution.
-  bool solve_positions();
-  /// Changes the speeds at the end; false if the impulses are no solution.
+  /// The multipliers and the motion, if the rows act that have acted before; false if these are
+  /// no solution.
+  bool keep_positions();
+  /// The same with the rows that have to act.
+  bool search_positions();
+  /// Moves the bodies by the unknowns; false if these are no solution.
+  bool act_and_check(std::span<const char> acts);
+  /// The same if all rows act.
+  bool act_and_check_all();
+  /// Where the rows' values at the start count by the rules above: p C0 + s min(C0, 0).
+  void find_free_values();
+  /// Changes the speeds at the end by the impulses of the rows that act, or that have to.
   bool solve_velocities();
-  /// The gradients of all rows, for loops over them.
-  struct Terms {
-    const int* starts;
-    const int* numbers;
-    const double* gradients;
-    const double* yields;
-
-    /// J x of a row.
-    [[nodiscard]] double along(std::size_t row, const double* x) const {
-      double sum = 0.0;
-      for (int p = starts[row]; p < starts[row + 1]; ++p) sum += gradients[p] * x[numbers[p]];
-      return sum;
-    }
-    /// x += W J^T multiplier.
-    void act(std::size_t row, double multiplier, double* x) const {
-      for (int p = starts[row]; p < starts[row + 1]; ++p) {
-        x[numbers[p]] += yields[numbers[p]] * gradients[p] * multiplier;
-      }
-    }
-  };
-  [[nodiscard]] Terms terms() const {
-    return {rows_.starts().data(), rows_.numbers().data(), rows_.gradients().data(),
-            bodies_.yields().data()};
-  }
+  bool keep_velocities();
+  bool search_velocities();
+  /// What the last search did.
+  void count_search(const AffineProblem& problem);
+  [[nodiscard]] AffineProblem& velocities() { return elastic_ ? rigid_ : problem_; }
   void keep_forces(Substep& substep) const;
   void count(int substeps, StepStatistics& statistics) const;
 
@@ -94,7 +93,10 @@ class AffineMotion {
   Features features_;
   AffineBodies bodies_;
   AffineRows rows_;
-  std::vector<std::size_t> feature_rows_;  ///< first row of each feature, and their number
+  AffineTerms terms_;
+  std::vector<std::size_t> feature_rows_;  ///< first row of each feature, of which the last comes
+                                           ///< first
+  std::vector<std::size_t> feature_counts_;
   bool rattle_ = false;
   double scale_ = 1.0;
   double h_ = 0.0;
@@ -102,16 +104,21 @@ class AffineMotion {
   std::vector<char> springs_;                             ///< per row
   std::vector<double> shares_, start_shares_, softness_;  ///< p, s, d
   std::vector<std::pair<int, int>> entries_;              ///< rows that share a number
-  std::vector<double> couplings_;                         ///< J W J^T there
-  std::vector<double> diagonal_;
-  SparseFactor factor_;
-  SparseFactor rigid_factor_;       ///< of the velocities; only where some rows are springs
-  std::vector<char> factored_for_;  ///< rows that act
-  bool regular_ = false;
-  bool agree_ = false;  ///< all that affine substeps leave alone is the same in both states
+  std::vector<double> diagonal_;                          ///< of J W J^T
+  AffineProblem problem_;
+  AffineProblem rigid_;  ///< of the velocities; only where some rows are springs
+  bool agree_ = false;   ///< all that affine substeps leave alone is the same in both states
   // Of one substep.
   std::vector<double> values_, free_, unknowns_, multipliers_, impulses_;
-  std::vector<char> active_;
+  std::vector<double> going_on_;  ///< displacements as they are at the speeds of the start
+  std::vector<double> speeds_;    ///< at the end, before impulses
+  std::vector<double> rates_;     ///< J v of these
+  std::vector<char> active_;      ///< rows that act
+  std::vector<char> found_;       ///< the same after a search
+  std::vector<char> closed_;      ///< rows that an impulse may stop
+  int redundant_ = 0;             ///< rows that the last search for positions left out
+  int changes_ = 0;               ///< of searches
+  int factorisations_ = 0;
   double left_ = 0.0;                       ///< the largest residual of the rows that act [m]
   std::vector<std::vector<double>> first_;  ///< per feature, of the state before all
 };

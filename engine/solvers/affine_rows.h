@@ -14,10 +14,12 @@ struct StepStatistics;
 /// Unilateral rows C >= 0 whose multiplier is at least 0, as slices of flat arrays.
 class AffineRows {
  public:
-  /// Begins a row with this compliance [m/N] and damping [N s/m].
-  void add_row(double compliance, double damping) {
+  /// Begins a row with this compliance [m/N] and damping [N s/m], and the place of its multiplier
+  /// among those of its feature.
+  void add_row(double compliance, double damping, int index) {
     compliances_.push_back(compliance);
     dampings_.push_back(damping);
+    indices_.push_back(index);
     starts_.push_back(starts_.back());
   }
   /// Adds to the gradient of the last row along a number of the bodies; nothing along number 0.
@@ -36,6 +38,7 @@ class AffineRows {
   [[nodiscard]] std::size_t size() const { return compliances_.size(); }
   [[nodiscard]] double compliance(std::size_t row) const { return compliances_[row]; }
   [[nodiscard]] double damping(std::size_t row) const { return dampings_[row]; }
+  [[nodiscard]] int index(std::size_t row) const { return indices_[row]; }
   // The terms of row i are those from starts()[i] to starts()[i + 1].
   [[nodiscard]] std::span<const int> starts() const { return starts_; }
   [[nodiscard]] std::span<const int> numbers() const { return numbers_; }
@@ -44,6 +47,7 @@ class AffineRows {
  private:
   std::vector<double> compliances_;
   std::vector<double> dampings_;
+  std::vector<int> indices_;
   std::vector<int> starts_{0};
   std::vector<int> numbers_;
   std::vector<double> gradients_;
@@ -59,6 +63,8 @@ struct AffineSubstep {
   std::span<const double> multipliers;  ///< of the feature's rows: mean force times h squared
   bool dissipates = false;              ///< by implicit Euler (`xpbd`)
   StepStatistics* statistics = nullptr;
+  /// The state at the start has come about in another way than by the substep before.
+  bool fresh = true;
 };
 
 }  // namespace sheave

@@ -92,6 +92,7 @@ void SparseFactor::analyse(int n, std::span<const std::pair<int, int>> entries) 
   work_.assign(at(n), 0.0);
   path_.resize(at(n));
   chain_ = is_chain();
+  if (chain_) factor_.assign(at(n), 0.0);
 }
 
 bool SparseFactor::is_chain() const {
@@ -111,21 +112,22 @@ void SparseFactor::factor_chain(std::span<const double> diagonal, std::span<cons
     const double full = diagonal[at(k)];
     double pivot = full;
     const int p = column_start_[at(k)];
+    factor_[at(k)] = 0.0;
+    if (transposed_values != nullptr) upper_[at(k)] = 0.0;
     if (p < column_start_[at(k) + 1]) {
       const auto entry = at(entry_of_[at(p)]);
       const bool turned = turned_[at(p)] != 0;
       const double inverse = inverse_pivot_[at(k) - 1];
-      const auto slot = at(factor_start_[at(k) - 1]);
       if (transposed_values == nullptr) {
         const double y = values[entry];
-        factor_[slot] = y * inverse;
-        pivot -= factor_[slot] * y;
+        factor_[at(k)] = y * inverse;
+        pivot -= factor_[at(k)] * y;
       } else {
         const double y = turned ? transposed_values[entry] : values[entry];
         const double z = turned ? values[entry] : transposed_values[entry];
-        factor_[slot] = z * inverse;
-        upper_[slot] = y * inverse;
-        pivot -= factor_[slot] * y;
+        factor_[at(k)] = z * inverse;
+        upper_[at(k)] = y * inverse;
+        pivot -= factor_[at(k)] * y;
       }
     }
     keep_pivot(k, pivot, full);
@@ -133,17 +135,23 @@ void SparseFactor::factor_chain(std::span<const double> diagonal, std::span<cons
 }
 
 void SparseFactor::solve_chain(std::span<double> x) const {
-  const std::vector<double>& back = symmetric_ ? factor_ : upper_;
+  if (size_ == 0) return;
+  const double* const below = factor_.data();
+  const double* const above = (symmetric_ ? factor_ : upper_).data();
+  const double* const inverse = inverse_pivot_.data();
+  double* const unknown = x.data();
+  double last = unknown[0];
   for (int k = 1; k < size_; ++k) {
-    const int p = factor_start_[at(k) - 1];
-    if (p < factor_start_[at(k)]) x[at(k)] -= factor_[at(p)] * x[at(k) - 1];
+    last = unknown[k] - below[k] * last;
+    unknown[k] = last;
   }
-  for (int k = size_ - 1; k >= 0; --k) {
-    double y = x[at(k)] * inverse_pivot_[at(k)];
-    const int p = factor_start_[at(k)];
-    if (p < factor_start_[at(k) + 1]) y -= back[at(p)] * x[at(k) + 1];
-    // A dropped unknown is 0 whatever the others are.
-    x[at(k)] = inverse_pivot_[at(k)] > 0.0 ? y : 0.0;
+  // A dropped unknown is 0 whatever the others are, and so is what it couples.
+  last = inverse[size_ - 1] > 0.0 ? inverse[size_ - 1] * last : 0.0;
+  unknown[size_ - 1] = last;
+  for (int k = size_ - 1; k-- > 0;) {
+    const double y = unknown[k] * inverse[k] - above[k + 1] * last;
+    last = inverse[k] > 0.0 ? y : 0.0;
+    unknown[k] = last;
   }
 }
 

@@ -77,8 +77,8 @@ class SparseFactor {
   std::vector<int> factor_start_;
   std::vector<int> factor_count_;
   std::vector<int> row_of_;
-  std::vector<double> factor_;
-  std::vector<double> upper_;  ///< U above its diagonal, by rows, with the pattern of L
+  std::vector<double> factor_;  ///< of a chain per row: its entry left of the diagonal, or 0
+  std::vector<double> upper_;   ///< U above its diagonal, by rows, with the pattern of L
   bool symmetric_ = true;
   bool chain_ = false;                 ///< every entry joins neighbours, in their own order
   std::vector<double> inverse_pivot_;  ///< 0 where dropped
