@@ -35,10 +35,8 @@ struct JointParts {
   std::vector<JointEffect> effects;
   bool counts_coordinates = true;       ///< whether the state has their values; effects need them
   int lock_count = Kernel::lock_count;  ///< fewer where mobilities keep bodies from moving, too
-  /// Mobilities do all that the locks do, whose rows solvers need not see.
-  bool locks_are_idle = false;
-  /// No part of a row's gradient is but rounding, whatever the bodies' mobilities.
-  bool exact = false;
+  bool locks_are_idle = false;          ///< mobilities do all that they do, and they need no rows
+  bool exact = false;  ///< rows are Row::told, and no part of a gradient is but rounding
 };
 
 /// All joints of one type. Their state: engine/joints/joint_state.h.
@@ -59,8 +57,9 @@ class JointBatch final : public JointFeature {
       joint.first_acting = joints[j].locks_are_idle ? joint.lock_count : 0;
       row += joint.lock_count + joint.effect_count;
       if (joint.first_coordinate >= 0) coordinate += coordinate_count;
-      joint.restricted = !joints[j].exact && (is_restricted(bodies, definition.body_a) ||
-                                              is_restricted(bodies, definition.body_b));
+      joint.exact = joints[j].exact;
+      joint.restricted = !joint.exact && (is_restricted(bodies, definition.body_a) ||
+                                          is_restricted(bodies, definition.body_b));
       elastic_ = elastic_ || joint.kernel.elastic() ||
                  std::any_of(joints[j].effects.begin(), joints[j].effects.end(),
                              [](const JointEffect& e) { return e.elastic(); });
@@ -120,14 +119,13 @@ class JointBatch final : public JointFeature {
       measured_.coordinate = -1;
       int i = joint.first_acting;
       if constexpr (requires { joint.kernel.lock_pair(substep, measured_.row, measured_.row); }) {
-        if (i == 0 && joint.kernel.keeps_plane()) i = append_pair(substep, j, rows);
+        if (i == 0 && joint.kernel.keeps_plane()) i += append_pair(substep, joint, rows);
       }
       for (; i < joint.lock_count + joint.effect_count; ++i) {
         Row& row = rows.emplace_back();
         evaluate_at(substep, joint, i, starts_, row, &measured_);
-        if (joint.restricted) drop_rounding(row, substep.moving);
         row.index = joint.first_row + i;
-        row.active = acted_[at(row.index)] != 0;
+        complete(substep, joint, row);
       }
     }
   }
@@ -257,6 +255,7 @@ class JointBatch final : public JointFeature {
     bool restricted = false;    // whether a body has a restricted mobility
     int lock_count = 0;
     int first_acting = 0;  // of its rows
+    bool exact = false;    // as JointParts
   };
   /// A coordinate as it is now, which all that acts along it asks for.
   struct Measured {
@@ -415,19 +414,20 @@ class JointBatch final : public JointFeature {
   }
 
   /// Appends the first two locks, which ask for the same; returns how many that are.
-  int append_pair(const Substep& substep, std::size_t index, RowList& rows) const {
-    const Joint& joint = joints_[index];
+  int append_pair(const Substep& substep, const Joint& joint, RowList& rows) const {
     rows.emplace_back();
     Row& second = rows.emplace_back();
     Row& first = rows[rows.size() - 2];
     joint.kernel.lock_pair(substep, first, second);
-    second.index = joint.first_row + 1;
     first.index = joint.first_row;
-    for (Row* row : {&first, &second}) {
-      if (joint.restricted) drop_rounding(*row, substep.moving);
-      row->active = acted_[at(row->index)] != 0;
-    }
+    second.index = first.index + 1;
+    for (Row* row : {&first, &second}) complete(substep, joint, *row);
     return 2;
+  }
+  void complete(const Substep& substep, const Joint& joint, Row& row) const {
+    if (joint.restricted) drop_rounding(row, substep.moving);
+    row.active = acted_[at(row.index)] != 0;
+    row.told = joint.exact;
   }
 
   /// What the joint does to body_b with the forces in `state`.
