@@ -7,6 +7,16 @@
 #include "engine/index.h"
 
 namespace sheave {
+namespace {
+
+/// Whether the beginning of a substep asks where a span lies.
+bool asks_where(const SpanSetup& setup, const CompiledCable& cable) {
+  return setup.kind != SpanKind::straight || cable.inverse_stiffness > 0.0 ||
+         cable.tangent_update == TangentUpdate::substep;
+}
+
+}  // namespace
+
 double CableSystem::compliance_of(const CompiledCable& cable, double rest_length) const {
   // A material's spring gets softer in proportion to the length that stretches.
   return cable.compliance + cable.inverse_stiffness * std::max(rest_length, 0.0);
@@ -48,15 +58,12 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
       continue;
     }
     const CompiledCable& cable = cables_[at(setup.cable)];
-    const bool asks = setup.kind != SpanKind::straight || cable.inverse_stiffness > 0.0 ||
-                      cable.tangent_update == TangentUpdate::substep;
-    const SpanGeometry span =
-        asks ? known_.keep(span_index, geometry_of(substep, span_index)) : SpanGeometry();
+    SpanGeometry span;
+    if (asks_where(setup, cable)) span = known_.keep(span_index, geometry_of(substep, span_index));
     references_[k] =
         span_reference(substep, setup, first, second, state.reals[k] + below_quantum, &span);
-    if (cable.inverse_stiffness > 0.0) {
-      strains_[k] = strain_of(cable, span.length, references_[k].rest_length);
-    }
+    const bool stretches = cable.inverse_stiffness > 0.0;
+    if (stretches) strains_[k] = strain_of(cable, span.length, references_[k].rest_length);
     if (first.feeds || second.feeds) {
       feed(state, substep.h, span_index);
       references_[k].rest_length += fed_[k][0] + fed_[k][1];
@@ -162,10 +169,6 @@ void CableSystem::linearise_spans(Substep& substep, const CompiledCable& cable, 
     if (!spans_[at(k)].active) continue;
     if (is_affine_[at(k)] == 0) {
       linearise_run(substep, cable, {k, 1}, rows);
-      Row& row = rows[rows.size() - 1];
-      const bool grows = has_layers_ && layered(k);
-      row.told = row.curved && row.compliance == 0.0 && !spans_[at(k)].outlined && !grows &&
-                 spans_[at(k)].kind != SpanKind::spatial;
       continue;
     }
     const AffineSpan& affine = affine_[at(k)];

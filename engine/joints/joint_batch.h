@@ -36,7 +36,7 @@ struct JointParts {
   bool counts_coordinates = true;       ///< whether the state has their values; effects need them
   int lock_count = Kernel::lock_count;  ///< fewer where mobilities keep bodies from moving, too
   bool locks_are_idle = false;          ///< mobilities do all that they do, and they need no rows
-  bool exact = false;  ///< rows are Row::told, and no part of a gradient is but rounding
+  bool exact = false;                   ///< no part of a row's gradient is but rounding
 };
 
 /// All joints of one type. Their state: engine/joints/joint_state.h.
@@ -427,7 +427,6 @@ class JointBatch final : public JointFeature {
   void complete(const Substep& substep, const Joint& joint, Row& row) const {
     if (joint.restricted) drop_rounding(row, substep.moving);
     row.active = acted_[at(row.index)] != 0;
-    row.told = joint.exact;
   }
 
   /// What the joint does to body_b with the forces in `state`.

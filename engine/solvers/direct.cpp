@@ -65,15 +65,9 @@ void DirectSolver::solve(Substep& substep, Features features) {
     if (!system_.solve(substep, compromise)) return give_up(substep, features, round == 0);
     // Where nothing swings the first round mostly is all there is, and gradients that are this much
     // off are none the worse.
-    // Where all rows tell that nothing turns them by more than rounding it is so for certain, and
-    // another look at them would find what they have told.
     constexpr double least_swing = 1e-6;  // [rad]
-    const bool swings = system_.swing() > least_swing;
-    const double left = compromise || swings || system_.contradicts()
-                            ? std::numeric_limits<double>::infinity()
-                            : system_.remainder(substep);
-    const bool done = left <= RowSystem::value_rounding * substep.bodies.scale();
-    if (!compromise && !done && round + 1 < substep.iterations && (round > 0 || swings)) {
+    if (!compromise && round + 1 < substep.iterations &&
+        (round > 0 || system_.swing() > least_swing)) {
       system_.bend(substep, enough);
     }
     system_.apply(substep, features);
@@ -82,9 +76,6 @@ void DirectSolver::solve(Substep& substep, Features features) {
     // substep.
     if (round + 1 == substep.iterations) break;
     for (const auto& feature : features) revised = feature->revise(substep) || revised;
-    if (!done || revised) continue;
-    violated = left;
-    break;
   }
   // Two rounds do not tell whether more of them would converge: so few were asked for.
   const bool tried = adding_up || substep.iterations > 2;

@@ -127,9 +127,6 @@ class RowSystem {
   /// round's work. By the midpoint rule forces do not turn, but values do. Turns that move nothing
   /// by more than `negligible` [m or rad] are left out.
   void bend(const Substep& substep, double negligible);
-  /// What the motion that solve() has found would leave for another round to do [m or rad]: by how
-  /// much it turns rows, in their values and in the motion. Infinite where rows do not tell.
-  [[nodiscard]] double remainder(const Substep& substep);
   /// How far the bodies are from where the multipliers of before solve() put them along the
   /// gradients of now [m or rad].
   [[nodiscard]] double astray() const;
@@ -206,7 +203,6 @@ class RowSystem {
     double wanted = 0.0;
     double last_wanted = 0.0;
   };
-  void begin_bending();
   void find_rubbing_rows();
   /// Bounds friction by the pressures just found; returns by how much that may move anything [m].
   /// `first`: without regard to the step before.
@@ -251,7 +247,6 @@ class RowSystem {
   bool forces_turn_ = true;  ///< K is that of where the bodies are
   std::vector<Rubbing> rubbing_;
   Curvature curvature_;
-  bool told_ = false;  ///< all rows are
   bool bent_ = false;  ///< the last round has counted in how forces turn
   /// Per degree of freedom, of the round: from where bodies are to where they should be
   std::vector<double> residual_;
