@@ -109,7 +109,7 @@ bool RowSystem::refine() {
 
 void RowSystem::bend(const Substep& substep, double negligible) {
   constexpr int most_turns = 12;
-  constexpr double settled_share = 1e-3;  // a round leaves about as much of its own accord
+  constexpr double settled_share = 1e-2;  // a round leaves about as much of its own accord
   if (from_here_) return;
   find_rubbing_rows();
   const bool curved = curvature_.collect(rows_, substep.bodies.coordinates(), substep.moving);
