@@ -109,6 +109,7 @@ void CableSystem::remove_link(int before, int link, FeatureState& own) const {
 
 void CableSystem::follow_course(const BodySet& bodies, const FeatureState& own) {
   refresh(bodies, own, links_, spans_);
+  known_.forget();
   affine_.clear();
   connected_for_ = own.integers;
   planes_.assign(own.reals.begin() + static_cast<std::ptrdiff_t>(plane_index(0)),

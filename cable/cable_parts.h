@@ -176,6 +176,33 @@ struct DriveWork {
   std::vector<char> slid;   ///< per link, in this substep
 };
 
+/// Where spans are. Within begin() and within finish() of the system bodies stay where they are, and
+/// what is found of the spans can be kept.
+class KnownSpans {
+ public:
+  /// Begins anew.
+  void expect(std::size_t count) {
+    keeps_ = true;
+    spans_.resize(count);
+    known_.assign(count, 0);
+  }
+  const SpanGeometry& keep(int span, const SpanGeometry& geometry) {
+    known_[static_cast<std::size_t>(span)] = 1;
+    return spans_[static_cast<std::size_t>(span)] = geometry;
+  }
+  /// Null: it has not been kept.
+  [[nodiscard]] const SpanGeometry* find(int span) const {
+    const auto k = static_cast<std::size_t>(span);
+    return keeps_ && known_[k] != 0 ? &spans_[k] : nullptr;
+  }
+  void forget() { keeps_ = false; }
+
+ private:
+  std::vector<SpanGeometry> spans_;
+  std::vector<char> known_;
+  bool keeps_ = false;
+};
+
 /// Scratch of the rows of runs.
 struct RunWork {
   std::vector<Row> rows;

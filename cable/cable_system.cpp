@@ -7,6 +7,16 @@
 #include "engine/index.h"
 
 namespace sheave {
+namespace {
+
+/// Whether the beginning of a substep asks where a span lies.
+bool asks_where(const SpanSetup& setup, const CompiledCable& cable) {
+  return setup.kind != SpanKind::straight || cable.inverse_stiffness > 0.0 ||
+         cable.tangent_update == TangentUpdate::substep;
+}
+
+}  // namespace
+
 double CableSystem::compliance_of(const CompiledCable& cable, double rest_length) const {
   // A material's spring gets softer in proportion to the length that stretches.
   return cable.compliance + cable.inverse_stiffness * std::max(rest_length, 0.0);
@@ -15,6 +25,7 @@ double CableSystem::compliance_of(const CompiledCable& cable, double rest_length
 void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   follow_state(substep, state);
   begin_affine_spans(substep);
+  known_.expect(spans_.size());
   knows_start_ = false;
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
   std::fill(sweeps_.begin(), sweeps_.end(), 0);
@@ -46,18 +57,18 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
       references_[k].rest_length = state.reals[k] + below_quantum;
       continue;
     }
-    references_[k] = span_reference(substep, setup, first, second, state.reals[k] + below_quantum);
     const CompiledCable& cable = cables_[at(setup.cable)];
-    if (cable.inverse_stiffness > 0.0) {
-      strains_[k] = strain_of(cable, span_geometry(substep, setup, first, second).length,
-                              references_[k].rest_length);
-    }
+    SpanGeometry span;
+    if (asks_where(setup, cable)) span = known_.keep(span_index, geometry_of(substep, span_index));
+    references_[k] =
+        span_reference(substep, setup, first, second, state.reals[k] + below_quantum, &span);
+    const bool stretches = cable.inverse_stiffness > 0.0;
+    if (stretches) strains_[k] = strain_of(cable, span.length, references_[k].rest_length);
     if (first.feeds || second.feeds) {
       feed(state, substep.h, span_index);
       references_[k].rest_length += fed_[k][0] + fed_[k][1];
     }
     if (cable.tangent_update == TangentUpdate::substep) {
-      const SpanGeometry span = span_geometry(substep, setup, first, second);
       const auto own_point = [&](int body, const Vector3& point) -> Vector3 {
         return substep.orientation(body).conjugate() * (point - substep.position(body));
       };
@@ -69,6 +80,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     if (!cable.candidates.empty()) remember_sides(substep, cable);
     if (cable.shares && cable.compliance > 0.0) hold_drained(cable, state);
   }
+  known_.forget();
 }
 
 SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row,
@@ -189,6 +201,7 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
   SpanTransport transport =
       grows ? layered_.transport
             : span_transport(substep, setup, first, second, references_[at(k)], span);
+  known_.keep(k, span);
   if (!span.has_tangent) {
     ++notes_.edition;
     if (notes_.fallbacks[at(k)].substeps++ == 0)
@@ -217,6 +230,7 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
 
 void CableSystem::finish(Substep& substep, FeatureState& next) {
   knows_lengths_ = true;
+  known_.expect(spans_.size());
   for (const CompiledCable& cable : cables_) {
     if (cable.has_friction) hold_tensions(substep, cable, next);
   }
@@ -237,6 +251,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
   }
   if (substep.load_share == 1.0) count_numerical_damping(substep, next);
   if (!changing_links_.empty()) {
+    known_.forget();
     if (has_layers_) refresh_ends(next, links_, spans_);
     change_ends(substep, next);
   }
@@ -244,6 +259,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     cut(substep, next);
     leave_and_touch(substep, next);
   }
+  known_.forget();
 }
 
 void CableSystem::count_numerical_damping(Substep& substep, const FeatureState& next) const {
@@ -302,6 +318,7 @@ void CableSystem::return_to(NoteMark mark) {
 }
 
 SpanGeometry CableSystem::geometry_of(const Substep& substep, int span) const {
+  if (const SpanGeometry* known = known_.find(span)) return *known;
   const SpanSetup& setup = spans_[at(span)];
   return span_geometry(substep, setup, links_[at(setup.first)], links_[at(setup.second)]);
 }

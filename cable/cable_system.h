@@ -427,6 +427,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<char> is_affine_;     ///< per span, in this substep
   std::uint32_t edition_ = 0;       ///< of the rows of affine spans
   std::array<double, 2> edition_is_for_{};  ///< length of substep and share of loads there
+  cable_parts::KnownSpans known_;
   std::vector<SpanReference> references_;
   std::vector<double> strains_;      ///< per span, of a material, at the start
   std::vector<double> end_strains_;  ///< and at the end where it shares that of a run; < 0: its own

@@ -13,7 +13,10 @@ namespace sheave {
   if (link.outline) return substep.point(link.carrier, link.outline->corners[at(corner)]);
   if (link.still) return link.center;
   const bool on_mounted_rotor = link.mounted && link.carrier == link.body;
-  if (link.centered && !on_mounted_rotor) return substep.moving[at(link.carrier)].position;
+  if (link.centered) {
+    return on_mounted_rotor ? substep.position(link.carrier)
+                            : substep.moving[at(link.carrier)].position;
+  }
   return substep.point(link.carrier, link.center);
 }
 

@@ -160,11 +160,12 @@ SpanGeometry span_geometry(const Substep& substep, const SpanSetup& setup,
 
 SpanReference span_reference(const Substep& substep, const SpanSetup& setup,
                              const LinkGeometry& first, const LinkGeometry& second,
-                             double rest_length) {
+                             double rest_length, const SpanGeometry* known) {
   SpanReference reference;
   reference.rest_length = rest_length;
   if (setup.kind == SpanKind::straight) return reference;
-  const SpanGeometry span = span_geometry_now(substep, setup, first, second, nullptr);
+  const SpanGeometry span =
+      known != nullptr ? *known : span_geometry_now(substep, setup, first, second, nullptr);
   reference.ends = {span.start, span.end};
   if (setup.outlined) {
     reference.first_corner = span.first_corner;

@@ -95,10 +95,11 @@ struct SpanTransport {
                                          const LinkGeometry& first, const LinkGeometry& second,
                                          const SpanGuess* guess = nullptr);
 
-/// The reference for the coming substep; bodies are where they were at its start.
+/// The reference for the coming substep; bodies are where they were at its start, and so is the
+/// span if it is not null.
 [[nodiscard]] SpanReference span_reference(const Substep& substep, const SpanSetup& setup,
                                            const LinkGeometry& first, const LinkGeometry& second,
-                                           double rest_length);
+                                           double rest_length, const SpanGeometry* known = nullptr);
 
 /// Transport since the start of the substep, with the bodies and the span as they are now.
 [[nodiscard]] SpanTransport span_transport(const Substep& substep, const SpanSetup& setup,

@@ -13,6 +13,8 @@
 // these need not be the best ones, so the best direction is improved by a search across it. A
 // direction that is a little off has a gap that is too small by the square of that.
 
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include "engine/contacts/contact_axis.h"
@@ -27,10 +29,11 @@ struct Circle {
   Vector3 axis;
   double radius;
   [[nodiscard]] Vector3 nearest(const Vector3& point) const {
-    Vector3 out = point - center;
-    out -= axis * dot(axis, out);
-    const double length = out.norm();
-    return center + radius * (length > 0.0 ? Vector3(out / length) : any_perpendicular(axis));
+    const Vector3 apart = point - center;
+    const Vector3 out = sum(apart, -dot(axis, apart), axis);
+    const double length = std::sqrt(dot(out, out));
+    if (!(length > 0.0)) return center + radius * any_perpendicular(axis);
+    return sum(center, radius / length, out);
   }
   [[nodiscard]] Vector3 tangent(const Vector3& point) const {
     return cross(axis, point - center) / radius;
@@ -52,7 +55,7 @@ class Search {
     for (std::size_t f = 0; f < a_.solid->faces.size(); ++f) try_one(-a_.face_normal(f));
     if (done()) return best_;
     for (const ConvexSolid::Edge& edge : a_.solid->edges) {
-      try_both(cross(axis_, a_.edge_vector(edge)));
+      if (!edge.repeats) try_both(cross(axis_, a_.edge_vector(edge)));
       if (!a_.is(ConvexSolid::Kind::cylinder)) try_rims(edge);
       if (done()) return best_;
     }
@@ -65,19 +68,21 @@ class Search {
   [[nodiscard]] bool done() const { return best_.gap > margin_; }
 
   void try_one(const Vector3& direction) {
-    const double length = direction.norm();
-    if (!(length > 1e-9)) return;
-    const Vector3 normal = direction / length;
+    const double length = std::sqrt(dot(direction, direction));
+    if (length > 1e-9) try_normal(direction / length);
+  }
+  void try_normal(const Vector3& normal) {
     const double gap = gap_along(a_, b_, normal);
     if (!(gap > best_.gap)) return;
     best_.normal = normal;
     best_.gap = gap;
   }
   void try_both(const Vector3& direction) {
-    const double length = direction.norm();
+    const double length = std::sqrt(dot(direction, direction));
     if (!(length > 0.0)) return;
-    try_one(direction / length);
-    try_one(-direction / length);
+    const Vector3 normal = direction / length;
+    try_normal(normal);
+    try_normal(-normal);
   }
 
   /// From the best direction uphill, by steps across it that are halved where none helps. What is
@@ -125,18 +130,26 @@ class Search {
       Vector3 on_line = from + 0.5 * along;
       Vector3 on_rim = rim.nearest(on_line);
       for (int i = 0; i < projections; ++i) {
-        on_line = from + along * (dot(along, on_rim - from) / square);
+        const Vector3 before = on_rim;
+        on_line = sum(from, dot(along, on_rim - from) / square, along);
         on_rim = rim.nearest(on_line);
+        if (on_rim == before) break;
       }
       try_both(cross(rim.tangent(on_rim), along));
-      // Where the edge goes deep into the cylinder, other points of the rim may serve better.
-      const Vector3 x = any_perpendicular(axis_);
-      const Vector3 y = cross(axis_, x);
-      for (int i = 0; i < 12; ++i) {
-        const double angle = pi / 12.0 * i;
-        try_both(cross(std::cos(angle) * x + std::sin(angle) * y, along));
-      }
     }
+    if (edge.repeats) return;
+    // Where the edge goes deep into the cylinder, other points of the rim may serve better.
+    if (!knows_tangents_) find_tangents();
+    for (const Vector3& tangent : tangents_) try_both(cross(tangent, along));
+  }
+  void find_tangents() {
+    const Vector3 x = any_perpendicular(axis_);
+    const Vector3 y = cross(axis_, x);
+    for (std::size_t i = 0; i < tangents_.size(); ++i) {
+      const double angle = pi / static_cast<double>(tangents_.size()) * static_cast<double>(i);
+      tangents_[i] = std::cos(angle) * x + std::sin(angle) * y;
+    }
+    knows_tangents_ = true;
   }
 
   void try_cylinder() {
@@ -151,8 +164,10 @@ class Search {
         Vector3 p = rim.nearest(other);
         Vector3 q = second.nearest(p);
         for (int i = 0; i < projections; ++i) {
+          const Vector3 before = q;
           p = rim.nearest(q);
           q = second.nearest(p);
+          if (q == before) break;
         }
         try_both(cross(rim.tangent(p), second.tangent(q)));
       }
@@ -168,8 +183,10 @@ class Search {
     Vector3 foot = on_axis + along * dot(along, rim.center - on_axis);
     Vector3 on_rim = rim.nearest(foot);
     for (int i = 0; i < projections; ++i) {
-      foot = on_axis + along * dot(along, on_rim - on_axis);
+      const Vector3 before = on_rim;
+      foot = sum(on_axis, dot(along, on_rim - on_axis), along);
       on_rim = rim.nearest(foot);
+      if (on_rim == before) break;
     }
     try_both(on_rim - foot);
   }
@@ -179,6 +196,9 @@ class Search {
   double margin_;
   Vector3 axis_;
   ContactAxis best_;
+  /// Directions all round the rim.
+  std::array<Vector3, 12> tangents_;
+  bool knows_tangents_ = false;
 };
 
 }  // namespace

@@ -44,8 +44,12 @@ struct PlacedSolid {
   /// The corner of the core that is farthest along `direction`.
   [[nodiscard]] std::size_t extreme(const Vector3& direction) const {
     std::size_t best = 0;
+    double farthest = dot(direction, vertices.front());
     for (std::size_t i = 1; i < vertices.size(); ++i) {
-      if (dot(direction, vertices[i]) > dot(direction, vertices[best])) best = i;
+      const double way = dot(direction, vertices[i]);
+      if (!(way > farthest)) continue;
+      farthest = way;
+      best = i;
     }
     return best;
   }

@@ -24,6 +24,7 @@ enum class Freedom : std::uint8_t {
   angle,  ///< about the axle, MovingBody::axis
   plane,  ///< along `along` and `across`, about MovingBody::axis
   space,  ///< along and about the axes of the world
+  turn,   ///< of the latter only about them; of no body all that it can do
 };
 
 /// Number of degrees of freedom.
@@ -35,6 +36,7 @@ enum class Freedom : std::uint8_t {
     case Freedom::angle:
       return 1;
     case Freedom::plane:
+    case Freedom::turn:
       return 3;
     case Freedom::space:
       return 6;
@@ -51,12 +53,12 @@ struct BodyFreedom {
   Vector3 across = Vector3::Zero();
 };
 
-/// The parts of a gradient (or of any pair of vectors that is linear in them) along the body's
-/// degrees of freedom.
-[[gnu::always_inline]] inline void project(const BodyFreedom& freedom, const MovingBody& body,
-                                           const Vector3& linear, const Vector3& angular,
-                                           double* parts) {
-  switch (freedom.kind) {
+/// The parts of a gradient (or of any pair of vectors that is linear in them) along `kind`: all of
+/// the body's degrees of freedom, or those of its rotation.
+[[gnu::always_inline]] inline void project(Freedom kind, const BodyFreedom& freedom,
+                                           const MovingBody& body, const Vector3& linear,
+                                           const Vector3& angular, double* parts) {
+  switch (kind) {
     case Freedom::none:
       break;
     case Freedom::line:
@@ -76,7 +78,16 @@ struct BodyFreedom {
         parts[3 + i] = angular[i];
       }
       break;
+    case Freedom::turn:
+      for (int i = 0; i < 3; ++i) parts[i] = angular[i];
+      break;
   }
+}
+/// Along all of them.
+[[gnu::always_inline]] inline void project(const BodyFreedom& freedom, const MovingBody& body,
+                                           const Vector3& linear, const Vector3& angular,
+                                           double* parts) {
+  project(freedom.kind, freedom, body, linear, angular, parts);
 }
 
 /// The motion that the parts of a gradient cause: the inverse masses times them.
@@ -106,6 +117,11 @@ struct BodyFreedom {
       for (int i = 0; i < 3; ++i) motion[3 + i] = turn[i];
       break;
     }
+    case Freedom::turn: {
+      const Vector3 turn = times(body.inverse_inertia, Vector3(parts[0], parts[1], parts[2]));
+      for (int i = 0; i < 3; ++i) motion[i] = turn[i];
+      break;
+    }
   }
 }
 
@@ -122,6 +138,8 @@ struct BodyFreedom {
       return sum(motion[0] * freedom.along, motion[1], freedom.across);
     case Freedom::space:
       return {motion[0], motion[1], motion[2]};
+    case Freedom::turn:
+      break;
   }
   return Vector3::Zero();
 }
@@ -140,6 +158,8 @@ struct BodyFreedom {
       return motion[2] * body.axis;
     case Freedom::space:
       return {motion[3], motion[4], motion[5]};
+    case Freedom::turn:
+      return {motion[0], motion[1], motion[2]};
   }
   return Vector3::Zero();
 }

@@ -19,6 +19,17 @@ struct HingeKernel : AnchorPair {  // z of the frame is the axis
   /// Unit vectors of the plane that both bodies keep; 0 if there is none.
   std::array<Vector3, 2> in_plane{Vector3::Zero(), Vector3::Zero()};
 
+  /// Where no body turns about another axis, numbers tell the angle (`counts_angles`): that of the
+  /// frames with all bodies as they start, and the bodies' angles times their senses.
+  struct Turns {
+    Vector3 axis = Vector3::Zero();  ///< unit vector, world frame
+    std::array<double, 2> senses{};  ///< of A and B; 0 of what never turns
+    std::array<Quaternion, 2> starts{Quaternion::Identity(), Quaternion::Identity()};
+    double apart = 0.0;  ///< [rad]
+  };
+  bool counts_angles = false;
+  Turns turns{};
+
   [[nodiscard]] bool keeps_plane() const { return !is_zero(in_plane[0]); }
   [[nodiscard]] bool elastic() const { return compliance > 0.0 || angular_compliance > 0.0; }
   void lock(int index, JointTerms& terms) const {
@@ -33,7 +44,52 @@ struct HingeKernel : AnchorPair {  // z of the frame is the axis
       terms.set_compliance(angular_compliance);
     }
   }
-  void coordinate(int /*index*/, JointTerms& terms) const { angle_about(a, b, terms); }
+  /// The two locks of bodies that keep the plane, at once.
+  void lock_pair(const Substep& substep, Row& first, Row& second) const {
+    const Vector3 at_a = a.position(substep);
+    const Vector3 at_b = b.position(substep);
+    for (const std::size_t k : {0U, 1U}) {
+      JointTerms terms(substep, k == 0 ? first : second);
+      terms.set_value(dot(in_plane[k], at_a - at_b));
+      terms.add_force(a.body, at_a, in_plane[k]);
+      terms.add_force(b.body, at_b, -in_plane[k]);
+      terms.set_compliance(compliance);
+    }
+  }
+  void coordinate(int /*index*/, JointTerms& terms) const {
+    if (!counts_angles) return angle_about(a, b, terms);
+    const Substep& substep = terms.substep();
+    const auto angle = [&](int index, double sense) {
+      if (sense == 0.0) return 0.0;
+      const MovingBody& body = substep.moving[at(index)];
+      return sense * (substep.start.bodies[at(index)].angle + dot(body.axis, body.turn));
+    };
+    terms.set_value(turns.apart + angle(b.body, turns.senses[1]) - angle(a.body, turns.senses[0]));
+    terms.add_torque(a.body, -turns.axis);
+    terms.add_torque(b.body, turns.axis);
+  }
+  void apply(const JointHold& hold) {
+    AnchorPair::apply(hold);
+    if (counts_angles) measure_apart();
+  }
+  void measure_apart() {
+    const Quaternion relative =
+        (turns.starts[0] * a.frame).conjugate() * (turns.starts[1] * b.frame);
+    turns.apart = 2.0 * std::atan2(relative.z(), relative.w());
+  }
+  void count_angles(const BodySet& bodies, const Vector3& axis) {
+    turns.axis = axis;
+    for (const std::size_t i : {0U, 1U}) {
+      const BodyProperties& body = bodies[(i == 0 ? a : b).body];
+      const bool wheel = body.mobility == Mobility::rotor && body.mount < 0;
+      const bool turns_not = body.mobility == Mobility::fixed || body.mobility == Mobility::slider;
+      if (!turns_not && !wheel && body.mobility != Mobility::planar) return;
+      if (!turns_not) turns.senses[i] = body.axis.dot(axis) > 0.0 ? 1.0 : -1.0;
+      turns.starts[i] = body.start_orientation;
+    }
+    counts_angles = true;
+    measure_apart();
+  }
   [[nodiscard]] JointHold hold_here(const HingeKernel& defined, const Substep& now) const {
     const double angle = coordinate_of(*this, 0, now);
     return JointHold::of(defined.a, now, b.position(now),
@@ -85,6 +141,12 @@ std::unique_ptr<ConstraintBatch> HingeJoint::make_batch(
       part.kernel.in_plane[0] = any_perpendicular(normal);
       part.kernel.in_plane[1] = cross(normal, part.kernel.in_plane[0]);
       part.lock_count = 2;
+      part.kernel.count_angles(bodies, normal);
+      const auto whole = [&](BodyId body) {
+        const Mobility mobility = bodies[bodies.index(body)].mobility;
+        return mobility == Mobility::planar || mobility == Mobility::fixed;
+      };
+      part.exact = whole(joint.body_a) && whole(joint.body_b);
     }
     append_effects(joint.angle, 0, part.effects);
     parts.push_back(std::move(part));

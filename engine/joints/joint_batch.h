@@ -36,6 +36,8 @@ struct JointParts {
   std::vector<JointEffect> effects;
   bool counts_coordinates = true;       ///< whether the state has their values; effects need them
   int lock_count = Kernel::lock_count;  ///< fewer where mobilities keep bodies from moving, too
+  bool locks_are_idle = false;          ///< mobilities do all that they do, and they need no rows
+  bool exact = false;                   ///< no part of a row's gradient is but rounding
 };
 
 /// All joints of one type. Their state: engine/joints/joint_state.h.
@@ -53,10 +55,12 @@ class JointBatch final : public JointFeature {
                   joints[j].counts_coordinates ? coordinate : -1};
       const JointDef& definition = *definitions[j];
       joint.lock_count = joints[j].lock_count;
+      joint.first_acting = joints[j].locks_are_idle ? joint.lock_count : 0;
       row += joint.lock_count + joint.effect_count;
       if (joint.first_coordinate >= 0) coordinate += coordinate_count;
-      joint.restricted =
-          is_restricted(bodies, definition.body_a) || is_restricted(bodies, definition.body_b);
+      joint.exact = joints[j].exact;
+      joint.restricted = !joint.exact && (is_restricted(bodies, definition.body_a) ||
+                                          is_restricted(bodies, definition.body_b));
       elastic_ = elastic_ || joint.kernel.elastic() ||
                  std::any_of(joints[j].effects.begin(), joints[j].effects.end(),
                              [](const JointEffect& e) { return e.elastic(); });
@@ -100,8 +104,8 @@ class JointBatch final : public JointFeature {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       if (intact_[j] == 0) continue;
       const Joint& joint = joints_[j];
-      auto multiplier = multipliers_.begin() + joint.first_row;
-      for (int i = 0; i < joint.lock_count + joint.effect_count; ++i) {
+      auto multiplier = multipliers_.begin() + joint.first_row + joint.first_acting;
+      for (int i = joint.first_acting; i < joint.lock_count + joint.effect_count; ++i) {
         evaluate(substep, joint, i, row);
         correction = std::max(correction, solve_row(row, substep.h, *multiplier++, substep.moving));
       }
@@ -113,11 +117,16 @@ class JointBatch final : public JointFeature {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       if (intact_[j] == 0) continue;
       const Joint& joint = joints_[j];
-      for (int i = 0; i < joint.lock_count + joint.effect_count; ++i) {
+      measured_.coordinate = -1;
+      int i = joint.first_acting;
+      if constexpr (requires { joint.kernel.lock_pair(substep, measured_.row, measured_.row); }) {
+        if (i == 0 && joint.kernel.keeps_plane()) i += append_pair(substep, joint, rows);
+      }
+      for (; i < joint.lock_count + joint.effect_count; ++i) {
         Row& row = rows.emplace_back();
-        evaluate(substep, joint, i, row);
+        evaluate_at(substep, joint, i, starts_, row, &measured_);
         row.index = joint.first_row + i;
-        row.active = acted_[at(row.index)] != 0;
+        complete(substep, joint, row);
       }
     }
   }
@@ -151,6 +160,7 @@ class JointBatch final : public JointFeature {
       const Joint joint = joint_of(own, j);
       for (int i = 0; i < joint.lock_count + joint.effect_count; ++i) {
         if (i >= joint.lock_count && !effect(joint, i).elastic()) continue;
+        row.clear();
         evaluate_at(now, joint, i, coordinates(own), row);
         if (row.compliance > 0.0 && !row.is_free())
           energy += 0.5 * row.value * row.value / row.compliance;
@@ -245,6 +255,14 @@ class JointBatch final : public JointFeature {
     int reported = 0;           // how many coordinates reports tell; more than the pose is counted
     bool restricted = false;    // whether a body has a restricted mobility
     int lock_count = 0;
+    int first_acting = 0;  // of its rows
+    bool exact = false;    // as JointParts
+  };
+  /// A coordinate as it is now, which all that acts along it asks for.
+  struct Measured {
+    int coordinate = -1;
+    double value = 0.0;
+    Row row;
   };
   struct BreakingLimits {
     std::optional<double> force;
@@ -287,6 +305,7 @@ class JointBatch final : public JointFeature {
     Row row;
     for (int i = joint.lock_count; i < joint.lock_count + joint.effect_count; ++i) {
       if (effect(joint, i).second < 0) continue;
+      row.clear();
       evaluate_at(now, joint, i, coordinates(own), row);
       if (!row.is_free()) excess += row.value;
     }
@@ -296,6 +315,7 @@ class JointBatch final : public JointFeature {
   std::string fault_of_hold(const Substep& now, const Joint& joint, const FeatureState& own) const {
     Row row;
     for (int i = joint.lock_count; i < joint.lock_count + joint.effect_count; ++i) {
+      row.clear();
       evaluate_at(now, joint, i, coordinates(own), row);
       const JointEffect& acting = effect(joint, i);
       std::string fault =
@@ -324,16 +344,31 @@ class JointBatch final : public JointFeature {
     }
   }
 
+  /// The same into an empty row; `known` is asked first, and keeps it.
+  double measure(const Substep& substep, const Joint& joint, int k, std::span<const double> starts,
+                 Row& row, Measured* known) const {
+    if (known == nullptr) return measure(substep, joint, k, starts, row);
+    if (known->coordinate != k) {
+      known->coordinate = k;
+      known->row.clear();
+      known->value = measure(substep, joint, k, starts, known->row);
+    }
+    row.term_count = known->row.term_count;
+    std::copy_n(known->row.terms.begin(), row.term_count, row.terms.begin());
+    row.curved = known->row.curved;
+    return known->value;
+  }
+
+  /// `row` must be empty.
   void evaluate_at(const Substep& substep, const Joint& joint, int i,
-                   std::span<const double> starts, Row& row) const {
-    row.clear();
+                   std::span<const double> starts, Row& row, Measured* known = nullptr) const {
     if (i < joint.lock_count) {
       JointTerms terms(substep, row);
       joint.kernel.lock(i, terms);
       return;
     }
     const JointEffect& acting = effect(joint, i);
-    double value = measure(substep, joint, acting.coordinate, starts, row);
+    double value = measure(substep, joint, acting.coordinate, starts, row, known);
     if (acting.second >= 0) value = add_second(substep, joint, acting, starts, value, row);
     set_effect(acting, substep, value, starts[at(joint.first_coordinate + acting.coordinate)], row);
     if (acting.motion >= 0 && acting.motion != acting.coordinate &&
@@ -374,8 +409,25 @@ class JointBatch final : public JointFeature {
     return sum;
   }
   void evaluate(const Substep& substep, const Joint& joint, int i, Row& row) const {
+    row.clear();
     evaluate_at(substep, joint, i, starts_, row);
     if (joint.restricted) drop_rounding(row, substep.moving);
+  }
+
+  /// Appends the first two locks, which ask for the same; returns how many that are.
+  int append_pair(const Substep& substep, const Joint& joint, RowList& rows) const {
+    rows.emplace_back();
+    Row& second = rows.emplace_back();
+    Row& first = rows[rows.size() - 2];
+    joint.kernel.lock_pair(substep, first, second);
+    first.index = joint.first_row;
+    second.index = first.index + 1;
+    for (Row* row : {&first, &second}) complete(substep, joint, *row);
+    return 2;
+  }
+  void complete(const Substep& substep, const Joint& joint, Row& row) const {
+    if (joint.restricted) drop_rounding(row, substep.moving);
+    row.active = acted_[at(row.index)] != 0;
   }
 
   /// What the joint does to body_b with the forces in `state`.
@@ -418,58 +470,9 @@ class JointBatch final : public JointFeature {
   }
 
   void append_coordinates(const Substep& now, const Joint& joint, const FeatureState& own,
-                          JointReport& report) const {
-    for (int k = 0; k < joint.reported; ++k) {
-      JointCoordinateReport coordinate{Kernel::coordinates[at(k)].name,
-                                       Kernel::coordinates[at(k)].angle};
-      Row row;
-      coordinate.value = measure(now, joint, k, coordinates(own), row);
-      for (const RowTerm& term : row.active_terms()) {
-        if (term.body >= now.bodies.count()) continue;
-        const BodyState& body = now.start.bodies[at(term.body)];
-        coordinate.rate += term.linear.dot(body.velocity) + term.angular.dot(body.angular_velocity);
-      }
-      for (int i = joint.lock_count; i < joint.lock_count + joint.effect_count; ++i) {
-        const JointEffect& acting = effect(joint, i);
-        if (acting.coordinate != k) continue;
-        if (acting.kind == JointEffect::Kind::friction) {
-          coordinate.friction_force += own.reals[at(joint.first_row + i)];
-        }
-        if (!acting.is_drive()) continue;
-        coordinate.drive_force = own.reals[at(joint.first_row + i)];
-        const DriveDemand demand(acting, now.start.controls);
-        coordinate.drive_target = demand.at(now.start.time);
-        coordinate.drive_error = drive_error(acting, demand, now.start.time, coordinate.drive_force,
-                                             coordinate.value, coordinate.rate);
-      }
-      report.coordinates.push_back(coordinate);
-    }
-  }
-
+                          JointReport& report) const;
   void find_errors(const Substep& now, const Joint& joint, const FeatureState& own,
-                   JointReport& report) const {
-    // Anchors coincide in any direction, so their errors add up as vectors do.
-    double squares = 0.0;
-    Row row;
-    for (int i = 0; i < joint.lock_count + joint.effect_count; ++i) {
-      const bool lock = i < joint.lock_count;
-      if (!lock && !effect(joint, i).holds()) continue;
-      evaluate_at(now, joint, i, coordinates(own), row);
-      if (row.compliance > 0.0) continue;
-      if (row.is_free()) continue;
-      const double error = std::abs(row.value);
-      const bool angle = std::all_of(row.terms.begin(), row.terms.begin() + row.term_count,
-                                     [](const RowTerm& term) { return is_zero(term.linear); });
-      if (angle && row.term_count > 0) {
-        report.angle_error = std::max(report.angle_error, error);
-      } else if (lock) {
-        squares += error * error;
-      } else {
-        report.error = std::max(report.error, error);
-      }
-    }
-    report.error = std::max(report.error, std::sqrt(squares));
-  }
+                   JointReport& report) const;
 
   std::string name_;
   std::string_view type_;
@@ -488,7 +491,10 @@ class JointBatch final : public JointFeature {
   std::vector<char> acted_;     // whether the row had a force in the last substep
   std::vector<double> starts_;  // of the coordinates
   std::vector<char> intact_;
+  Measured measured_;
   bool held_ = false;  // whether a joint has been locked again
 };
 
 }  // namespace sheave
+
+#include "engine/joints/joint_batch_report.h"

@@ -10,11 +10,13 @@ namespace sheave {
 inline void drop_rounding(Row& row, std::span<const MovingBody> bodies) {
   const auto keep = [](const Matrix3& inverse, Vector3& gradient) {
     constexpr double rounding = 1e-12;
-    const double full = inverse.trace() * gradient.norm();
+    const double trace = inverse(0, 0) + inverse(1, 1) + inverse(2, 2);
+    const double full = trace * trace * dot(gradient, gradient);
     // What nothing can move may yet move by itself: velocities of driven bodies count in those of
     // rows.
     if (!(full > 0.0)) return;
-    if (times(inverse, gradient).norm() <= rounding * full) gradient.setZero();
+    const Vector3 moved = times(inverse, gradient);
+    if (dot(moved, moved) <= rounding * rounding * full) gradient.setZero();
   };
   for (RowTerm& term : std::span(row.terms).first(static_cast<std::size_t>(row.term_count))) {
     const MovingBody& body = bodies[static_cast<std::size_t>(term.body)];

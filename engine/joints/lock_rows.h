@@ -28,8 +28,8 @@ inline void lock_point(const Anchor& a, const Anchor& b, int index, JointTerms& 
 /// How far B's anchor has moved along the axis `index` of A's frame: C = n . (p_b - p_a).
 inline void offset_along(const Anchor& a, const Anchor& b, int index, JointTerms& terms) {
   const Vector3 at_b = b.position(terms.substep());
-  const Vector3 direction = a.orientation(terms.substep()) * Vector3::Unit(index);
-  terms.set_value(direction.dot(at_b - a.position(terms.substep())));
+  const Vector3 direction = rotated(a.orientation(terms.substep()), Vector3::Unit(index));
+  terms.set_value(dot(direction, at_b - a.position(terms.substep())));
   terms.add_force(a.body, at_b, -direction);
   terms.add_force(b.body, at_b, direction);
 }

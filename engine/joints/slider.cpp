@@ -33,6 +33,13 @@ struct SliderKernel : AnchorPair {  // z of the frame is the axis
   }
 };
 
+/// Whether a body slides along the axis by its mobility, or never moves.
+bool slides_only(const BodyProperties& body, const Vector3& axis) {
+  constexpr double rounding = 1e-12;
+  if (body.mobility == Mobility::fixed) return true;
+  return body.mobility == Mobility::slider && body.axis.cross(axis).norm() <= rounding;
+}
+
 }  // namespace
 
 std::span<const Field> SliderJoint::field_table() {
@@ -71,6 +78,10 @@ std::unique_ptr<ConstraintBatch> SliderJoint::make_batch(
                                                         joint.anchor, frame_along(joint.axis)),
                                    joint.compliance, joint.angular_compliance},
                                   {}};
+    const Vector3 along = joint.axis.normalized();
+    part.locks_are_idle = slides_only(bodies[bodies.index(joint.body_a)], along) &&
+                          slides_only(bodies[bodies.index(joint.body_b)], along);
+    part.exact = part.locks_are_idle;
     append_effects(joint.travel, 0, part.effects);
     parts.push_back(std::move(part));
   }

@@ -1,5 +1,6 @@
 #include "engine/shapes/solid.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -34,6 +35,20 @@ std::vector<int> boundary(const Hull& hull, const std::vector<int>& triangles) {
   std::vector<int> loop{next.begin()->first};
   while (loop.size() < next.size()) loop.push_back(next[loop.back()]);
   return loop;
+}
+
+/// Sets ConvexSolid::Edge::repeats.
+void find_directions(ConvexSolid& solid) {
+  constexpr double parallel = 1e-12;
+  std::vector<Vector3> directions;
+  for (ConvexSolid::Edge& edge : solid.edges) {
+    const Vector3 along =
+        (solid.vertices[at(edge.to)] - solid.vertices[at(edge.from)]).normalized();
+    edge.repeats = std::any_of(directions.begin(), directions.end(), [&](const Vector3& other) {
+      return along.cross(other).norm() <= parallel;
+    });
+    if (!edge.repeats) directions.push_back(along);
+  }
 }
 
 }  // namespace
@@ -71,6 +86,7 @@ ConvexSolid solid_of_faces(std::span<const Vector3> vertices, std::vector<std::v
     const Vector3 normal = loop_area(vertices, loop).normalized();
     solid.faces.push_back({normal, std::move(loop)});
   }
+  find_directions(solid);
   return solid;
 }
 

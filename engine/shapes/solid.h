@@ -27,6 +27,7 @@ struct ConvexSolid {
     int to = 0;
     int left = -1;  ///< the face that runs along it from `from` to `to`; -1: the core is a segment
     int right = -1;
+    bool repeats = false;  ///< it is parallel to an edge before it
   };
 
   Kind kind = Kind::rounded;

@@ -124,43 +124,36 @@ void ActiveSetSolver::change_sides(ComplementarityProblem& problem, Course& cour
   changes_ += static_cast<int>(violated_.size());
 }
 
+void ActiveSetSolver::spread(const ComplementarityProblem& problem, std::size_t i, double moved,
+                             std::span<double> rhs) const {
+  for (int p = neighbour_start_[i]; p < neighbour_start_[i + 1]; ++p) {
+    const Neighbour& neighbour = neighbours_[at(p)];
+    if (problem.free[at(neighbour.other)] != 1) continue;
+    const bool below = !neighbour.transposed && !problem.symmetric;
+    const std::vector<double>& values = below ? problem.lower_values : problem.values;
+    rhs[at(neighbour.other)] -= values[at(neighbour.entry)] * moved;
+  }
+}
+
 void ActiveSetSolver::solve_free(const ComplementarityProblem& problem) {
   const std::size_t n = at(problem.size);
   solution_.resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const bool at_lower = is_at_lower(problem, i);
-    solution_[i] = problem.free[i] == 1 ? 0.0 : at_lower ? problem.lower[i] : problem.upper[i];
-  }
-  diagonal_ = problem.diagonal;
-  values_ = problem.values;
-  if (!problem.symmetric) lower_values_ = problem.lower_values;
-  std::vector<double>& rhs = residual_;
-  rhs.resize(n);
-  for (std::size_t i = 0; i < n; ++i) rhs[i] = -problem.constant[i];
-  for (std::size_t e = 0; e < entries_.size(); ++e) {
-    const auto [i, j] = entries_[e];
-    const bool free_i = problem.free[at(i)] == 1;
-    const bool free_j = problem.free[at(j)] == 1;
-    if (free_i && free_j) continue;
-    const double below = problem.symmetric ? values_[e] : lower_values_[e];
-    if (free_i) rhs[at(i)] -= values_[e] * solution_[at(j)];
-    if (free_j) rhs[at(j)] -= below * solution_[at(i)];
-    values_[e] = 0.0;
-    if (!problem.symmetric) lower_values_[e] = 0.0;
+    solution_[i] = problem.free[i] == 1      ? -problem.constant[i]
+                   : is_at_lower(problem, i) ? problem.lower[i]
+                                             : problem.upper[i];
   }
   for (std::size_t i = 0; i < n; ++i) {
-    if (problem.free[i] == 1) continue;
-    diagonal_[i] = 1.0;
-    rhs[i] = solution_[i];
+    if (problem.free[i] != 1 && solution_[i] != 0.0) spread(problem, i, solution_[i], solution_);
   }
+  factor_.select(problem.free, 1);
   if (problem.symmetric) {
-    factor_.factor(diagonal_, values_);
+    factor_.factor(problem.diagonal, problem.values);
   } else {
-    factor_.factor(diagonal_, values_, lower_values_);
+    factor_.factor(problem.diagonal, problem.values, problem.lower_values);
   }
   dropped_ = factor_.dropped();
-  factor_.solve(rhs);
-  solution_ = rhs;
+  factor_.solve(solution_);
   find_residuals(problem);
 }
 
@@ -175,13 +168,7 @@ bool ActiveSetSolver::refine(const ComplementarityProblem& problem,
         (is_at_lower(problem, i) ? problem.lower[i] : problem.upper[i]) - solution_[i];
     if (moved == 0.0) continue;
     refined_[i] = moved;
-    for (int p = neighbour_start_[i]; p < neighbour_start_[i + 1]; ++p) {
-      const Neighbour& neighbour = neighbours_[at(p)];
-      if (problem.free[at(neighbour.other)] != 1) continue;
-      const bool below = !neighbour.transposed && !problem.symmetric;
-      const std::vector<double>& values = below ? problem.lower_values : problem.values;
-      refined_[at(neighbour.other)] -= values[at(neighbour.entry)] * moved;
-    }
+    spread(problem, i, moved, refined_);
   }
   factor_.solve(refined_);
   for (std::size_t i = 0; i < n; ++i) refined_[i] += solution_[i];
@@ -217,35 +204,29 @@ double ActiveSetSolver::residual_of(const ComplementarityProblem& problem, std::
 void ActiveSetSolver::find_compromise(const ComplementarityProblem& problem) {
   constexpr double softness = 1e-6;
   const std::size_t n = at(problem.size);
-  softened_ = diagonal_;  // as solve_free() has left them
-  for (std::size_t i = 0; i < n; ++i) {
-    if (problem.free[i] == 1) softened_[i] *= 1.0 + softness;
-  }
+  softened_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) softened_[i] = (1.0 + softness) * problem.diagonal[i];
   if (problem.symmetric) {
-    factor_.factor(softened_, values_);
+    factor_.factor(softened_, problem.values);
   } else {
-    factor_.factor(softened_, values_, lower_values_);
+    factor_.factor(softened_, problem.values, problem.lower_values);
   }
   // The right-hand side of the free rows, then A B^-1 of it, in `null_vector_`.
   std::vector<double>& rhs = null_vector_;
   rhs.assign(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
-    rhs[i] = problem.free[i] == 1 ? -problem.constant[i] : solution_[i];
+    if (problem.free[i] == 1) rhs[i] = -problem.constant[i];
   }
-  for (std::size_t e = 0; e < entries_.size(); ++e) {
-    const auto [i, j] = entries_[e];
-    const bool free_i = problem.free[at(i)] == 1;
-    const bool free_j = problem.free[at(j)] == 1;
-    const double below = problem.symmetric ? problem.values[e] : problem.lower_values[e];
-    if (free_i && !free_j) rhs[at(i)] -= problem.values[e] * solution_[at(j)];
-    if (free_j && !free_i) rhs[at(j)] -= below * solution_[at(i)];
+  for (std::size_t i = 0; i < n; ++i) {
+    if (problem.free[i] != 1 && solution_[i] != 0.0) spread(problem, i, solution_[i], rhs);
   }
   factor_.solve(rhs);
-  for (std::size_t i = 0; i < n; ++i) residual_[i] = diagonal_[i] * rhs[i];
+  for (std::size_t i = 0; i < n; ++i) residual_[i] = problem.diagonal[i] * rhs[i];
   for (std::size_t e = 0; e < entries_.size(); ++e) {
     const auto [i, j] = entries_[e];
-    residual_[at(i)] += values_[e] * rhs[at(j)];
-    const double below = problem.symmetric ? values_[e] : lower_values_[e];
+    if (problem.free[at(i)] != 1 || problem.free[at(j)] != 1) continue;
+    residual_[at(i)] += problem.values[e] * rhs[at(j)];
+    const double below = problem.symmetric ? problem.values[e] : problem.lower_values[e];
     residual_[at(j)] += below * rhs[at(i)];
   }
   factor_.solve(residual_);
@@ -256,16 +237,13 @@ void ActiveSetSolver::find_compromise(const ComplementarityProblem& problem) {
 }
 
 void ActiveSetSolver::find_residuals(const ComplementarityProblem& problem) {
+  // r = c + A dl; 0 where the factors see to it, or where it may be anything.
   const std::size_t n = at(problem.size);
-  // r = c + A dl.
+  residual_.assign(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
-    residual_[i] = problem.constant[i] + problem.diagonal[i] * solution_[i];
-  }
-  for (std::size_t e = 0; e < entries_.size(); ++e) {
-    const auto [i, j] = entries_[e];
-    residual_[at(i)] += problem.values[e] * solution_[at(j)];
-    const double below = problem.symmetric ? problem.values[e] : problem.lower_values[e];
-    residual_[at(j)] += below * solution_[at(i)];
+    const bool found = problem.free[i] == 1 ? dropped_ == 0 : problem.lower[i] == problem.upper[i];
+    if (found) continue;
+    residual_[i] = residual_of(problem, i);
   }
 }
 

@@ -84,9 +84,12 @@ class ActiveSetSolver {
   /// Whether the tries go round in a circle, which is seen after at most three rounds of it.
   [[nodiscard]] bool repeats(const ComplementarityProblem& problem, int tries, const Course& now);
   void solve_free(const ComplementarityProblem& problem);
+  /// Brings the equations of the free rows up to date with unknown i, which is not, having moved.
+  void spread(const ComplementarityProblem& problem, std::size_t i, double moved,
+              std::span<double> rhs) const;
   /// r of unknown i with the solution.
   [[nodiscard]] double residual_of(const ComplementarityProblem& problem, std::size_t i) const;
-  /// The residuals of the solution.
+  /// The residuals of the solution, but for rows that the factors have satisfied.
   void find_residuals(const ComplementarityProblem& problem);
   /// Solves for the free unknowns again so that all rows that contradict each other give way.
   void find_compromise(const ComplementarityProblem& problem);
@@ -113,9 +116,6 @@ class ActiveSetSolver {
   std::vector<double> solution_;
   std::vector<double> refined_;
   std::vector<double> residual_;
-  std::vector<double> diagonal_;
-  std::vector<double> values_;
-  std::vector<double> lower_values_;
   std::vector<int> violated_;
   std::vector<double> null_vector_;
   bool blocked_above_ = false;  ///< by which of its bounds

@@ -2,131 +2,194 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numeric>
 
 #include "engine/index.h"
 
 namespace sheave {
 
+namespace {
+
+/// Tells a term from others that have other slots.
+[[gnu::always_inline]] inline int sign_of(const RowTerm& term) {
+  return 2 * term.body + (is_zero(term.linear) ? 1 : 0);
+}
+
+}  // namespace
+
+Freedom RowSlots::part_of(const BodyFreedom& freedom, const RowTerm& term) {
+  if (freedom.kind != Freedom::plane && freedom.kind != Freedom::space) return freedom.kind;
+  if (!is_zero(term.linear)) return freedom.kind;
+  return freedom.kind == Freedom::plane ? Freedom::angle : Freedom::turn;
+}
+
 bool RowSlots::same_pattern(const RowList& rows) const {
-  std::size_t next = 0;
-  const std::size_t size = signature_.size();
+  const int* next = signature_.data();
+  const int* const end = next + signature_.size();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
-    const auto terms = at(row.term_count);
+    const auto terms = static_cast<std::ptrdiff_t>(row.term_count);
+    if (end - next < terms + 1) return false;
     if (row.source != nullptr && i < copies_.size() && copies_[i].first == row.source &&
         copies_[i].second == row.edition) {
       next += terms + 1;
       continue;
     }
-    if (next + terms + 1 > size || signature_[next++] != (row.tied ? -2 : -1)) return false;
-    for (std::size_t t = 0; t < terms; ++t) {
-      if (signature_[next++] != row.terms[t].body) return false;
+    if (*next++ != (row.tied ? -2 : -1)) return false;
+    for (const RowTerm& term : row.active_terms()) {
+      if (*next++ != sign_of(term)) return false;
     }
   }
-  return next == size;
+  return next == end;
 }
 
 bool RowSlots::find_pattern(const Coordinates& coordinates, const RowList& rows) {
   if (same_pattern(rows)) return false;
   signature_.clear();
+  term_parts_.clear();
   for (const Row& row : rows) {
     signature_.push_back(row.tied ? -2 : -1);
-    for (const RowTerm& term : row.active_terms()) signature_.push_back(term.body);
+    for (const RowTerm& term : row.active_terms()) {
+      signature_.push_back(sign_of(term));
+      term_parts_.push_back(part_of(coordinates[term.body], term));
+    }
   }
   lay_out(coordinates, rows);
   find_couplings(coordinates);
+  sort_couplings();
   return true;
 }
 
 void RowSlots::lay_out(const Coordinates& coordinates, const RowList& rows) {
   row_start_.assign(1, 0);
-  row_dof_.clear();
-  place_.clear();
-  unknown_of_.clear();
-  unknown_start_.assign(1, 0);
   dof_.clear();
-  blocks_.clear();
-  joined_ = false;
-  std::size_t own_blocks = 0;  // of the unknown at hand
+  unknown_of_.clear();
+  unknowns_.clear();
   for (const Row& row : rows) {
-    if (row.tied) {
-      joined_ = true;
-      unknown_start_.pop_back();
-    } else {
-      own_blocks = blocks_.size();
-    }
-    const auto unknown = static_cast<int>(unknown_start_.size()) - 1;
-    unknown_of_.push_back(unknown);
     for (const RowTerm& term : row.active_terms()) {
       const BodyFreedom& freedom = coordinates[term.body];
-      const int count = size_of(freedom.kind);
-      if (count == 0) continue;
-      const auto known =
-          std::find_if(blocks_.begin() + static_cast<std::ptrdiff_t>(own_blocks), blocks_.end(),
-                       [&](const Block& block) { return block.body == term.body; });
-      const int first = known != blocks_.end() ? known->first : static_cast<int>(dof_.size());
-      if (known == blocks_.end()) {
-        blocks_.push_back({unknown, term.body, first, count});
-        for (int i = 0; i < count; ++i) dof_.push_back(freedom.first + i);
-      }
-      for (int i = 0; i < count; ++i) {
-        row_dof_.push_back(freedom.first + i);
-        place_.push_back(first + i);
-      }
+      const int whole = size_of(freedom.kind);
+      const int count = size_of(part_of(freedom, term));
+      for (int i = whole - count; i < whole; ++i) dof_.push_back(freedom.first + i);
     }
-    row_start_.push_back(static_cast<int>(row_dof_.size()));
-    unknown_start_.push_back(static_cast<int>(dof_.size()));
+    const auto index = static_cast<int>(row_start_.size()) - 1;
+    const auto end = static_cast<int>(dof_.size());
+    if (row.tied) {
+      unknowns_.back().rows.last = index + 1;
+    } else {
+      unknowns_.push_back({{row_start_.back(), end}, {index, index + 1}});
+    }
+    unknown_of_.push_back(static_cast<int>(unknowns_.size()) - 1);
+    row_start_.push_back(end);
   }
-  gradient_.resize(row_dof_.size());
-  motion_.resize(row_dof_.size());
+  place_.assign(dof_.size(), 0);
+  joint_.clear();
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    if (!unknowns_[u].joins()) continue;
+    joint_.push_back(static_cast<int>(u));
+    lay_out_joint(unknowns_[u]);
+  }
+  gradient_.resize(dof_.size());
+  motion_.resize(dof_.size());
   yields_.resize(rows.size());
   copies_.assign(rows.size(), {nullptr, 0});
-  joint_gradient_.resize(dof_.size());
-  joint_motion_.resize(dof_.size());
-  const std::size_t unknowns = unknown_start_.size() - 1;
-  uncancelled_.resize(unknowns);
-  diagonal_.assign(unknowns, 0.0);
-  changed_.assign(unknowns, 1);
+  uncancelled_.resize(unknowns_.size());
+  diagonal_.assign(unknowns_.size(), 0.0);
+  changed_.assign(unknowns_.size(), 1);
+  any_changed_ = true;
+}
+
+void RowSlots::lay_out_joint(Unknown& unknown) {
+  // In order, so that those of one body are next to each other.
+  const auto own = static_cast<std::ptrdiff_t>(dof_.size());
+  const int from = row_start_[at(unknown.rows.first)];
+  const int to = row_start_[at(unknown.rows.last)];
+  std::vector<int> dofs(dof_.begin() + from, dof_.begin() + to);
+  std::sort(dofs.begin(), dofs.end());
+  dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+  for (int s = from; s < to; ++s) {
+    const auto found = std::lower_bound(dofs.begin(), dofs.end(), dof_[at(s)]);
+    place_[at(s)] = static_cast<int>(own + (found - dofs.begin()));
+  }
+  dof_.insert(dof_.end(), dofs.begin(), dofs.end());
+  unknown.slots = {static_cast<int>(own), static_cast<int>(dof_.size())};
 }
 
 void RowSlots::find_couplings(const Coordinates& coordinates) {
-  std::vector<std::vector<Block>> touching(coordinates.movable().size());
-  std::map<int, std::size_t> number;
-  for (std::size_t i = 0; i < coordinates.movable().size(); ++i) {
-    number[coordinates.movable()[i].body] = i;
+  // The body of each degree of freedom, and the blocks at each body in the order of unknowns.
+  std::vector<int> body_of(at(coordinates.count()), 0);
+  int bodies = 0;
+  for (const BodyFreedom& freedom : coordinates.movable()) {
+    for (int i = 0; i < size_of(freedom.kind); ++i) body_of[at(freedom.first + i)] = freedom.body;
+    bodies = std::max(bodies, freedom.body + 1);
   }
-  for (const Block& block : blocks_) touching[number.at(block.body)].push_back(block);
-  entries_.clear();
-  std::map<std::pair<int, int>, std::size_t> entry_of;
-  std::vector<std::vector<Shared>> shared;
-  for (const std::vector<Block>& blocks : touching) {
-    for (std::size_t a = 0; a < blocks.size(); ++a) {
-      for (std::size_t b = a + 1; b < blocks.size(); ++b) {
-        const std::pair pair{blocks[a].unknown, blocks[b].unknown};
-        const auto [found, is_new] = entry_of.try_emplace(pair, entries_.size());
-        if (is_new) {
-          entries_.push_back(pair);
-          shared.emplace_back();
-        }
-        shared[found->second].push_back({blocks[a].first, blocks[b].first, blocks[a].count});
+  blocks_.clear();
+  for (std::size_t u = 0; u < unknowns_.size(); ++u) {
+    const Range slots = unknowns_[u].slots;
+    for (int s = slots.first; s < slots.last; ++s) {
+      const int body = body_of[at(dof_[at(s)])];
+      if (s == slots.first || body != blocks_.back().body) {
+        blocks_.push_back({static_cast<int>(u), body, s, 0});
       }
+      ++blocks_.back().count;
     }
   }
-  shared_start_.assign(1, 0);
-  shared_.clear();
-  for (const std::vector<Shared>& of_entry : shared) {
-    shared_.insert(shared_.end(), of_entry.begin(), of_entry.end());
-    shared_start_.push_back(static_cast<int>(shared_.size()));
+  std::vector<int> start(at(bodies) + 1, 0);
+  for (const Block& block : blocks_) ++start[at(block.body) + 1];
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<int> next = start;
+  std::vector<int> touching(blocks_.size());
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    touching[at(next[at(blocks_[b].body)]++)] = static_cast<int>(b);
   }
+  // Of each unknown those behind it that it couples with, at whatever body.
+  entries_.clear();
+  std::vector<std::pair<int, Shared>> found;  // with their entries
+  std::vector<int> entry_with(unknowns_.size(), -1);
+  int first_entry = 0;
+  next = start;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Block& block = blocks_[b];
+    if (b > 0 && block.unknown != blocks_[b - 1].unknown) {
+      first_entry = static_cast<int>(entries_.size());
+    }
+    for (int p = ++next[at(block.body)]; p < start[at(block.body) + 1]; ++p) {
+      const Block& other = blocks_[at(touching[at(p)])];
+      const Shared shared = common(block, other);
+      if (shared.count == 0) continue;
+      int& entry = entry_with[at(other.unknown)];
+      if (entry < first_entry) {
+        entry = static_cast<int>(entries_.size());
+        entries_.emplace_back(block.unknown, other.unknown);
+      }
+      found.emplace_back(entry, shared);
+    }
+  }
+  shared_start_.assign(entries_.size() + 1, 0);
+  for (const auto& [entry, shared] : found) ++shared_start_[at(entry) + 1];
+  std::partial_sum(shared_start_.begin(), shared_start_.end(), shared_start_.begin());
+  next = shared_start_;
+  shared_.resize(found.size());
+  for (const auto& [entry, shared] : found) shared_[at(next[at(entry)]++)] = shared;
+}
+
+RowSlots::Shared RowSlots::common(const Block& a, const Block& b) {
+  // Each block has a body's degrees of freedom from some of them to the last.
+  const int count = std::min(a.count, b.count);
+  return {a.first + a.count - count, b.first + b.count - count, count};
 }
 
 void RowSlots::fill(const Coordinates& coordinates, const RowList& rows,
                     std::span<const MovingBody> bodies) {
+  const Freedom* part = term_parts_.data();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
     auto& [source, edition] = copies_[i];
-    if (row.source != nullptr && source == row.source && edition == row.edition) continue;
+    if (row.source != nullptr && source == row.source && edition == row.edition) {
+      part += row.term_count;
+      continue;
+    }
+    any_changed_ = true;
     source = row.source;
     edition = row.edition;
     changed_[at(unknown_of_[i])] = 1;
@@ -136,12 +199,13 @@ void RowSlots::fill(const Coordinates& coordinates, const RowList& rows,
     for (const RowTerm& term : row.active_terms()) {
       const BodyFreedom& freedom = coordinates[term.body];
       const MovingBody& body = bodies[at(term.body)];
-      const int count = size_of(freedom.kind);
-      project(freedom, body, term.linear, term.angular, gradient);
-      weigh(freedom.kind, body, gradient, motion);
+      const int count = size_of(*part);
+      project(*part, freedom, body, term.linear, term.angular, gradient);
+      weigh(*part, body, gradient, motion);
       for (int s = 0; s < count; ++s) yield += gradient[s] * motion[s];
       gradient += count;
       motion += count;
+      ++part;
     }
     yields_[i] = yield;
   }
@@ -151,81 +215,123 @@ bool RowSlots::is_copy_as_in(int row, const RowSlots& other, int other_row) cons
   return copies_[at(row)].first != nullptr && copies_[at(row)] == other.copies_[at(other_row)];
 }
 
-void RowSlots::act_along(int row, const RowSlots& other, int other_row) {
-  const int count = row_start_[at(row) + 1] - row_start_[at(row)];
-  std::copy_n(other.motion_.begin() + other.row_start_[at(other_row)], count,
-              motion_.begin() + row_start_[at(row)]);
+bool RowSlots::act_along(int row, const RowSlots& other, int other_row) {
+  const int from = other.row_start_[at(other_row)];
+  const int to = row_start_[at(row)];
+  const int count = row_start_[at(row) + 1] - to;
+  if (other.row_start_[at(other_row) + 1] - from != count) return false;
+  for (int s = 0; s < count; ++s) {
+    if (dof_[at(to + s)] != other.dof_[at(from + s)]) return false;
+    motion_[at(to + s)] = other.motion_[at(from + s)];
+  }
   yields_[at(row)] = other.yields_[at(other_row)];
   copies_[at(row)].first = nullptr;
   changed_[at(unknown_of_[at(row)])] = 1;
+  any_changed_ = true;
+  return true;
 }
 
 void RowSlots::join(const RowList& rows) {
-  if (!joined_) return;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (changed_[at(unknown_of_[i])] == 0 || rows[i].tied) continue;
-    const auto unknown = at(unknown_of_[i]);
-    for (int s = unknown_start_[unknown]; s < unknown_start_[unknown + 1]; ++s) {
-      joint_gradient_[at(s)] = joint_motion_[at(s)] = 0.0;
+  for (const int u : joint_) {
+    if (changed_[at(u)] == 0) continue;
+    const Unknown& unknown = unknowns_[at(u)];
+    for (int s = unknown.slots.first; s < unknown.slots.last; ++s) {
+      gradient_[at(s)] = motion_[at(s)] = 0.0;
     }
-    uncancelled_[unknown] = 0.0;
-  }
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto unknown = at(unknown_of_[i]);
-    if (changed_[unknown] == 0) continue;
-    const double weight = rows[i].weight;
-    double sum = 0.0;
-    for (int s = row_start_[i]; s < row_start_[i + 1]; ++s) {
-      const double j = gradient_[at(s)];
-      const double m = weight * motion_[at(s)];
-      sum += std::abs(j * m);
-      joint_gradient_[at(place_[at(s)])] += j;
-      joint_motion_[at(place_[at(s)])] += m;
+    double uncancelled = 0.0;
+    for (int i = unknown.rows.first; i < unknown.rows.last; ++i) {
+      const double weight = rows[at(i)].weight;
+      for (int s = row_start_[at(i)]; s < row_start_[at(i) + 1]; ++s) {
+        const double j = gradient_[at(s)];
+        const double m = weight * motion_[at(s)];
+        uncancelled += std::abs(j * m);
+        gradient_[at(place_[at(s)])] += j;
+        motion_[at(place_[at(s)])] += m;
+      }
     }
-    uncancelled_[unknown] += sum;
+    uncancelled_[at(u)] = uncancelled;
   }
 }
 
 void RowSlots::assemble(bool symmetric) {
   constexpr double rounding = 1e-13;
-  const double* gradient = joint_gradient();
-  const double* motion = joint_motion();
+  if (!any_changed_ && (symmetric || !was_symmetric_)) return;
+  const double* gradient = gradient_.data();
+  const double* motion = motion_.data();
   for (std::size_t u = 0; u < diagonal_.size(); ++u) {
     if (changed_[u] == 0) continue;
+    const Unknown& unknown = unknowns_[u];
     double sum = 0.0;
     double whole = 0.0;
-    for (int s = unknown_start_[u]; s < unknown_start_[u + 1]; ++s) {
+    for (int s = unknown.slots.first; s < unknown.slots.last; ++s) {
       const double part = gradient[s] * motion[s];
       sum += part;
       whole += std::abs(part);
     }
-    if (joined_) whole = uncancelled_[u];
+    if (unknown.joins()) whole = uncancelled_[u];
     diagonal_[u] = sum < rounding * whole ? 0.0 : sum;
   }
-  above_.resize(entries_.size());
-  if (!symmetric) below_.resize(entries_.size());
-  const bool all = !symmetric && was_symmetric_;
-  for (std::size_t e = 0; e < entries_.size(); ++e) {
-    const auto [i, j] = entries_[e];
-    if (!all && changed_[at(i)] == 0 && changed_[at(j)] == 0) continue;
-    above_[e] = coupling(e, false);
-    if (!symmetric) below_[e] = coupling(e, true);
-  }
+  couple(false, above_);
+  if (!symmetric) couple(true, below_);
   was_symmetric_ = symmetric;
+  any_changed_ = false;
   std::fill(changed_.begin(), changed_.end(), 0);
 }
 
-double RowSlots::coupling(std::size_t entry, bool transposed) const {
-  const double* gradients = joint_gradient();
-  const double* motions = joint_motion();
-  double sum = 0.0;
-  for (int p = shared_start_[entry]; p < shared_start_[entry + 1]; ++p) {
-    const Shared& slots = shared_[at(p)];
-    const double* gradient = gradients + (transposed ? slots.second : slots.first);
-    const double* motion = motions + (transposed ? slots.first : slots.second);
-    for (int s = 0; s < slots.count; ++s) sum += gradient[s] * motion[s];
+void RowSlots::couple(bool transposed, std::vector<double>& values) const {
+  values.resize(entries_.size());
+  const double* gradient = gradient_.data();
+  const double* motion = motion_.data();
+  const Shared* slots = shared_.data();
+  std::size_t e = 0;
+  for (; e < ones_; ++e, ++slots) {
+    const int from = transposed ? slots->second : slots->first;
+    const int to = transposed ? slots->first : slots->second;
+    values[e] = gradient[from] * motion[to];
   }
-  return sum;
+  for (; e < threes_; ++e, ++slots) {
+    const double* g = gradient + (transposed ? slots->second : slots->first);
+    const double* m = motion + (transposed ? slots->first : slots->second);
+    values[e] = g[0] * m[0] + g[1] * m[1] + g[2] * m[2];
+  }
+  for (; e < entries_.size(); ++e) {
+    double sum = 0.0;
+    for (const Shared* end = shared_.data() + shared_start_[e + 1]; slots != end; ++slots) {
+      const double* g = gradient + (transposed ? slots->second : slots->first);
+      const double* m = motion + (transposed ? slots->first : slots->second);
+      for (int s = 0; s < slots->count; ++s) sum += g[s] * m[s];
+    }
+    values[e] = sum;
+  }
+}
+
+void RowSlots::sort_couplings() {
+  const auto kind_of = [&](std::size_t e) {
+    const int first = shared_start_[e];
+    if (shared_start_[e + 1] - first > 1) return 2;
+    const int count = shared_[at(first)].count;
+    return count == 1 ? 0 : count == 3 ? 1 : 2;
+  };
+  std::vector<std::size_t> order(entries_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return kind_of(a) < kind_of(b); });
+  const std::vector<std::pair<int, int>> entries = std::move(entries_);
+  const std::vector<int> starts = std::move(shared_start_);
+  const std::vector<Shared> shared = std::move(shared_);
+  entries_.clear();
+  shared_.clear();
+  shared_start_.assign(1, 0);
+  ones_ = threes_ = 0;
+  for (const std::size_t e : order) {
+    entries_.push_back(entries[e]);
+    shared_.insert(shared_.end(), shared.begin() + starts[e], shared.begin() + starts[e + 1]);
+    shared_start_.push_back(static_cast<int>(shared_.size()));
+    const Shared& last = shared_.back();
+    const bool single = starts[e + 1] - starts[e] == 1;
+    if (single && last.count == 1) ++ones_;
+    if (single && (last.count == 1 || last.count == 3)) ++threes_;
+  }
 }
 
 }  // namespace sheave

@@ -62,7 +62,7 @@ bool RowSystem::match_start() {
       if (row.compliance != start.compliance && start.compliance > 0.0) {
         start_values_[at(i)] *= row.compliance / start.compliance;
       }
-      slots_.act_along(i, start_slots_, place);
+      if (!slots_.act_along(i, start_slots_, place)) return false;
       std::swap(rows_[at(i)].weight, rows_[at(i)].start_weight);
     }
   }
@@ -370,6 +370,7 @@ void RowSystem::relax(Substep& substep, int sweeps) {
 }
 
 void RowSystem::remember_sides(Features features) {
+  knows_sides_ = true;
   sides_.resize(features.size());
   for (std::size_t f = 0; f < features.size(); ++f) {
     sides_[f].assign(features[f]->multipliers().size(), -1);
@@ -380,6 +381,7 @@ void RowSystem::remember_sides(Features features) {
 }
 
 void RowSystem::recall_sides() {
+  if (!knows_sides_) return;
   for (std::size_t f = 0; f < sides_.size(); ++f) {
     for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
       const char side = sides_[f][at(rows_[at(i)].index)];

@@ -146,7 +146,7 @@ class RowSystem {
   void apply_impulses(Substep& substep, Features features);
 
   /// Forgets what rounds of this substep leave for the next one.
-  void begin_rounds() { sides_.clear(); }
+  void begin_rounds() { knows_sides_ = false; }
   [[nodiscard]] int row_count() const { return static_cast<int>(rows_.size()); }
 
  private:
@@ -237,6 +237,7 @@ class RowSystem {
   /// Per feature and index of multiplier: ComplementarityProblem::free in the last round, -1 if
   /// there was none.
   std::vector<std::vector<char>> sides_;
+  bool knows_sides_ = false;
   std::vector<Pose> origin_;  ///< per body: where it moves from, in the first round its prediction
   std::vector<Pose> prediction_;  ///< per body, where corrections are added up
   std::vector<Pose> placed_;      ///< per body: where the last round among others has left it

@@ -31,76 +31,118 @@ std::vector<int> minimum_degree(int n, std::span<const std::pair<int, int>> entr
 
 }  // namespace
 
-int SparseFactor::count_fill(std::span<const std::pair<int, int>> entries) {
-  const int n = size_;
-  // Columns of the upper triangle.
-  std::vector<int> counts(at(n) + 1, 0);
-  for (const auto& [i, j] : entries) ++counts[at(std::max(place_[at(i)], place_[at(j)])) + 1];
-  std::partial_sum(counts.begin(), counts.end(), counts.begin());
-  column_start_ = counts;
-  entry_row_.resize(entries.size());
-  entry_of_.resize(entries.size());
-  turned_.resize(entries.size());
-  for (std::size_t e = 0; e < entries.size(); ++e) {
-    const int a = place_[at(entries[e].first)];
-    const int b = place_[at(entries[e].second)];
-    const int slot = counts[at(std::max(a, b))]++;
-    entry_row_[at(slot)] = std::min(a, b);
-    entry_of_[at(slot)] = static_cast<int>(e);
-    turned_[at(slot)] = a > b ? 1 : 0;
+void SparseFactor::sort_entries(std::span<const std::pair<int, int>> entries,
+                                std::span<const int> place) {
+  order_.resize(at(size_));
+  for (int i = 0; i < size_; ++i) order_[at(place[at(i)])] = i;
+  column_start_.assign(at(size_) + 1, 0);
+  for (const auto& [i, j] : entries) {
+    ++column_start_[at(std::max(place[at(i)], place[at(j)])) + 1];
   }
+  std::partial_sum(column_start_.begin(), column_start_.end(), column_start_.begin());
+  path_.assign(column_start_.begin(), column_start_.end());
+  entries_.resize(entries.size());
+  for (std::size_t e = 0; e < entries.size(); ++e) {
+    const auto [i, j] = entries[e];
+    const bool turned = place[at(i)] > place[at(j)];
+    const int column = turned ? place[at(i)] : place[at(j)];
+    entries_[at(path_[at(column)]++)] = {turned ? j : i, static_cast<int>(e), turned};
+  }
+}
+
+void SparseFactor::find_path(int k) {
   // Row k of L has an entry at each node on the ways in the tree from its entries of A up to k.
-  tree_.assign(at(n), -1);
-  mark_.assign(at(n), -1);
-  factor_count_.assign(at(n), 0);
-  int fill = 0;
-  for (int k = 0; k < n; ++k) {
-    mark_[at(k)] = k;
-    for (int p = column_start_[at(k)]; p < column_start_[at(k) + 1]; ++p) {
-      for (int i = entry_row_[at(p)]; mark_[at(i)] != k; i = tree_[at(i)]) {
-        if (tree_[at(i)] < 0) tree_[at(i)] = k;
-        mark_[at(i)] = k;
-        ++factor_count_[at(i)];
-        ++fill;
-      }
+  path_.clear();
+  mark_[at(k)] = k;
+  for (int p = step_start_[at(k)]; p < step_start_[at(k) + 1]; ++p) {
+    for (int i = steps_[at(p)].row; mark_[at(i)] != k; i = tree_[at(i)]) {
+      if (tree_[at(i)] < 0) tree_[at(i)] = k;
+      mark_[at(i)] = k;
+      path_.push_back(i);
     }
   }
-  return fill;
+  std::sort(path_.begin(), path_.end());
+}
+
+void SparseFactor::lay_out() {
+  unknown_.clear();
+  step_of_.assign(at(size_), -1);
+  step_start_.assign(1, 0);
+  steps_.clear();
+  for (int place = 0; place < size_; ++place) {
+    const int unknown = order_[at(place)];
+    if (chosen_[at(unknown)] == 0) continue;
+    for (int p = column_start_[at(place)]; p < column_start_[at(place) + 1]; ++p) {
+      Entry entry = entries_[at(p)];
+      entry.row = step_of_[at(entry.row)];
+      if (entry.row >= 0) steps_.push_back(entry);
+    }
+    step_of_[at(unknown)] = static_cast<int>(unknown_.size());
+    unknown_.push_back(unknown);
+    step_start_.push_back(static_cast<int>(steps_.size()));
+  }
+  const auto count = static_cast<int>(unknown_.size());
+  tree_.assign(at(count), -1);
+  mark_.assign(at(count), -1);
+  factor_start_.assign(at(count) + 1, 0);
+  row_start_.assign(1, 0);
+  below_.clear();
+  for (int k = 0; k < count; ++k) {
+    find_path(k);
+    for (const int i : path_) {
+      below_.push_back({i, factor_start_[at(i) + 1]++});
+    }
+    row_start_.push_back(static_cast<int>(below_.size()));
+  }
+  std::partial_sum(factor_start_.begin(), factor_start_.end(), factor_start_.begin());
+  row_of_.resize(below_.size());
+  for (int k = 0; k < count; ++k) {
+    for (int p = row_start_[at(k)]; p < row_start_[at(k) + 1]; ++p) {
+      below_[at(p)].place += factor_start_[at(below_[at(p)].column)];
+      row_of_[at(below_[at(p)].place)] = k;
+    }
+  }
+  factor_.resize(below_.size());
+  inverse_pivot_.resize(at(count));
+  work_.assign(at(count), 0.0);
+  lower_work_.assign(at(count), 0.0);
+  chain_ = is_chain();
+  if (chain_) factor_.assign(at(count), 0.0);
+  in_order_ = count == size_ && std::is_sorted(unknown_.begin(), unknown_.end());
 }
 
 void SparseFactor::analyse(int n, std::span<const std::pair<int, int>> entries) {
   size_ = n;
-  place_.resize(at(n));
-  std::iota(place_.begin(), place_.end(), 0);
-  int fill = count_fill(entries);
+  chosen_.assign(at(n), 1);
+  std::vector<int> place(at(n));
+  std::iota(place.begin(), place.end(), 0);
+  sort_entries(entries, place);
+  lay_out();
   // A chain in its own order fills nothing; only what does is worth another order.
-  if (fill > static_cast<int>(entries.size())) {
-    const std::vector<int> natural = place_;
-    const int natural_fill = fill;
-    place_ = minimum_degree(n, entries);
-    fill = count_fill(entries);
-    if (fill >= natural_fill) {
-      place_ = natural;
-      fill = count_fill(entries);
-    }
+  const int natural_fill = fill();
+  if (natural_fill <= static_cast<int>(entries.size())) return;
+  sort_entries(entries, minimum_degree(n, entries));
+  lay_out();
+  if (fill() < natural_fill) return;
+  sort_entries(entries, place);
+  lay_out();
+}
+
+void SparseFactor::select(std::span<const char> chosen, char value) {
+  bool changed = false;
+  for (std::size_t i = 0; i < chosen_.size(); ++i) {
+    const char takes_part = chosen[i] == value ? 1 : 0;
+    changed = changed || takes_part != chosen_[i];
+    chosen_[i] = takes_part;
   }
-  factor_start_.assign(at(n) + 1, 0);
-  std::partial_sum(factor_count_.begin(), factor_count_.end(), factor_start_.begin() + 1);
-  row_of_.resize(at(fill));
-  factor_.resize(at(fill));
-  inverse_pivot_.resize(at(n));
-  work_.assign(at(n), 0.0);
-  path_.resize(at(n));
-  chain_ = is_chain();
-  if (chain_) factor_.assign(at(n), 0.0);
+  if (changed) lay_out();
 }
 
 bool SparseFactor::is_chain() const {
-  for (int k = 0; k < size_; ++k) {
-    if (place_[at(k)] != k) return false;
-    const int start = column_start_[at(k)];
-    const int count = column_start_[at(k) + 1] - start;
-    if (count > 1 || (count == 1 && entry_row_[at(start)] != k - 1)) return false;
+  for (int k = 0; k < static_cast<int>(unknown_.size()); ++k) {
+    const int start = step_start_[at(k)];
+    const int count = step_start_[at(k) + 1] - start;
+    if (count > 1 || (count == 1 && steps_[at(start)].row != k - 1)) return false;
   }
   return true;
 }
@@ -108,21 +150,21 @@ bool SparseFactor::is_chain() const {
 void SparseFactor::factor_chain(std::span<const double> diagonal, std::span<const double> values,
                                 const double* transposed_values) {
   dropped_ = 0;
-  for (int k = 0; k < size_; ++k) {
-    const double full = diagonal[at(k)];
+  for (int k = 0; k < static_cast<int>(unknown_.size()); ++k) {
+    const double full = diagonal[at(unknown_[at(k)])];
     double pivot = full;
-    const int p = column_start_[at(k)];
     factor_[at(k)] = 0.0;
     if (transposed_values != nullptr) upper_[at(k)] = 0.0;
-    if (p < column_start_[at(k) + 1]) {
-      const auto entry = at(entry_of_[at(p)]);
-      const bool turned = turned_[at(p)] != 0;
+    const int p = step_start_[at(k)];
+    if (p < step_start_[at(k) + 1]) {
+      const auto entry = at(steps_[at(p)].value);
       const double inverse = inverse_pivot_[at(k) - 1];
       if (transposed_values == nullptr) {
         const double y = values[entry];
         factor_[at(k)] = y * inverse;
         pivot -= factor_[at(k)] * y;
       } else {
+        const bool turned = steps_[at(p)].turned;
         const double y = turned ? transposed_values[entry] : values[entry];
         const double z = turned ? values[entry] : transposed_values[entry];
         factor_[at(k)] = z * inverse;
@@ -135,54 +177,33 @@ void SparseFactor::factor_chain(std::span<const double> diagonal, std::span<cons
 }
 
 void SparseFactor::solve_chain(std::span<double> x) const {
-  if (size_ == 0) return;
+  const auto count = static_cast<int>(unknown_.size());
+  if (count == 0) return;
   const double* const below = factor_.data();
   const double* const above = (symmetric_ ? factor_ : upper_).data();
   const double* const inverse = inverse_pivot_.data();
-  double* const unknown = x.data();
-  double last = unknown[0];
-  for (int k = 1; k < size_; ++k) {
-    last = unknown[k] - below[k] * last;
-    unknown[k] = last;
-  }
-  // A dropped unknown is 0 whatever the others are, and so is what it couples.
-  last = inverse[size_ - 1] > 0.0 ? inverse[size_ - 1] * last : 0.0;
-  unknown[size_ - 1] = last;
-  for (int k = size_ - 1; k-- > 0;) {
-    const double y = unknown[k] * inverse[k] - above[k + 1] * last;
-    last = inverse[k] > 0.0 ? y : 0.0;
-    unknown[k] = last;
-  }
-}
-
-int SparseFactor::scatter(int k, std::span<const double> values, const double* transposed_values) {
-  int top = size_;
-  mark_[at(k)] = k;
-  for (int p = column_start_[at(k)]; p < column_start_[at(k) + 1]; ++p) {
-    int i = entry_row_[at(p)];
-    const auto entry = at(entry_of_[at(p)]);
-    if (transposed_values == nullptr) {
-      work_[at(i)] += values[entry];
-    } else {
-      const bool turned = turned_[at(p)] != 0;
-      work_[at(i)] += turned ? transposed_values[entry] : values[entry];
-      lower_work_[at(i)] += turned ? values[entry] : transposed_values[entry];
+  const auto sweep = [&](const auto& value) {
+    double last = value(0);
+    for (int k = 1; k < count; ++k) {
+      last = value(k) - below[k] * last;
+      value(k) = last;
     }
-    int length = 0;
-    for (; mark_[at(i)] != k; i = tree_[at(i)]) {
-      path_[at(length++)] = i;
-      mark_[at(i)] = k;
+    // A dropped unknown is 0 whatever the others are, and so is what it couples.
+    last = inverse[count - 1] > 0.0 ? inverse[count - 1] * last : 0.0;
+    value(count - 1) = last;
+    for (int k = count - 1; k-- > 0;) {
+      const double y = value(k) * inverse[k] - above[k + 1] * last;
+      last = inverse[k] > 0.0 ? y : 0.0;
+      value(k) = last;
     }
-    while (length > 0) path_[at(--top)] = path_[at(--length)];
+  };
+  double* const values = x.data();
+  if (in_order_) {
+    sweep([values](int k) -> double& { return values[k]; });
+  } else {
+    const int* const unknown = unknown_.data();
+    sweep([values, unknown](int k) -> double& { return values[unknown[k]]; });
   }
-  return top;
-}
-
-void SparseFactor::begin_factor(std::span<const double> diagonal) {
-  dropped_ = 0;
-  std::fill(factor_count_.begin(), factor_count_.end(), 0);
-  std::fill(mark_.begin(), mark_.end(), -1);
-  for (int i = 0; i < size_; ++i) inverse_pivot_[at(place_[at(i)])] = diagonal[at(i)];
 }
 
 void SparseFactor::keep_pivot(int k, double pivot, double full) {
@@ -195,25 +216,29 @@ void SparseFactor::keep_pivot(int k, double pivot, double full) {
 void SparseFactor::factor(std::span<const double> diagonal, std::span<const double> values) {
   symmetric_ = true;
   if (chain_) return factor_chain(diagonal, values, nullptr);
-  begin_factor(diagonal);
-  for (int k = 0; k < size_; ++k) {
-    const double full = inverse_pivot_[at(k)];
-    double pivot = full;
-    for (int top = scatter(k, values, nullptr); top < size_; ++top) {
-      const int i = path_[at(top)];
-      const double y = work_[at(i)];
-      work_[at(i)] = 0.0;
-      const int end = factor_start_[at(i)] + factor_count_[at(i)];
-      for (int p = factor_start_[at(i)]; p < end; ++p) {
-        work_[at(row_of_[at(p)])] -= factor_[at(p)] * y;
-      }
-      const double entry = y * inverse_pivot_[at(i)];
-      pivot -= entry * y;
-      row_of_[at(end)] = k;
-      factor_[at(end)] = entry;
-      ++factor_count_[at(i)];
+  dropped_ = 0;
+  double* work = work_.data();
+  double* factor = factor_.data();
+  const int* row_of = row_of_.data();
+  const int* factor_start = factor_start_.data();
+  const double* inverse_pivot = inverse_pivot_.data();
+  for (std::size_t k = 0; k < unknown_.size(); ++k) {
+    for (int p = step_start_[k]; p < step_start_[k + 1]; ++p) {
+      work[steps_[at(p)].row] = values[at(steps_[at(p)].value)];
     }
-    keep_pivot(k, pivot, full);
+    const double full = diagonal[at(unknown_[k])];
+    double pivot = full;
+    const Below* end = below_.data() + row_start_[k + 1];
+    for (const Below* below = below_.data() + row_start_[k]; below != end; ++below) {
+      const int i = below->column;
+      const double y = work[i];
+      work[i] = 0.0;
+      for (int p = factor_start[i]; p < below->place; ++p) work[row_of[p]] -= factor[p] * y;
+      const double entry = y * inverse_pivot[i];
+      pivot -= entry * y;
+      factor[below->place] = entry;
+    }
+    keep_pivot(static_cast<int>(k), pivot, full);
   }
 }
 
@@ -221,53 +246,68 @@ void SparseFactor::factor(std::span<const double> diagonal, std::span<const doub
                           std::span<const double> transposed_values) {
   symmetric_ = false;
   upper_.resize(factor_.size());
-  lower_work_.resize(at(size_), 0.0);
   if (chain_) return factor_chain(diagonal, values, transposed_values.data());
-  begin_factor(diagonal);
-  for (int k = 0; k < size_; ++k) {
-    const double full = inverse_pivot_[at(k)];
-    double pivot = full;
-    for (int top = scatter(k, values, transposed_values.data()); top < size_; ++top) {
-      const int i = path_[at(top)];
-      // D U of column k, and L D of row k.
-      const double y = work_[at(i)];
-      const double z = lower_work_[at(i)];
-      work_[at(i)] = lower_work_[at(i)] = 0.0;
-      const int end = factor_start_[at(i)] + factor_count_[at(i)];
-      for (int p = factor_start_[at(i)]; p < end; ++p) {
-        work_[at(row_of_[at(p)])] -= factor_[at(p)] * y;
-        lower_work_[at(row_of_[at(p)])] -= upper_[at(p)] * z;
-      }
-      pivot -= z * inverse_pivot_[at(i)] * y;
-      row_of_[at(end)] = k;
-      factor_[at(end)] = z * inverse_pivot_[at(i)];
-      upper_[at(end)] = y * inverse_pivot_[at(i)];
-      ++factor_count_[at(i)];
+  dropped_ = 0;
+  double* work = work_.data();
+  double* lower_work = lower_work_.data();
+  double* factor = factor_.data();
+  double* upper = upper_.data();
+  const int* row_of = row_of_.data();
+  for (std::size_t k = 0; k < unknown_.size(); ++k) {
+    for (int p = step_start_[k]; p < step_start_[k + 1]; ++p) {
+      const Entry& entry = steps_[at(p)];
+      const double above = values[at(entry.value)];
+      const double below = transposed_values[at(entry.value)];
+      work[entry.row] = entry.turned ? below : above;
+      lower_work[entry.row] = entry.turned ? above : below;
     }
-    keep_pivot(k, pivot, full);
+    const double full = diagonal[at(unknown_[k])];
+    double pivot = full;
+    const Below* end = below_.data() + row_start_[k + 1];
+    for (const Below* below = below_.data() + row_start_[k]; below != end; ++below) {
+      const int i = below->column;
+      // D U of column k, and L D of row k.
+      const double y = work[i];
+      const double z = lower_work[i];
+      work[i] = lower_work[i] = 0.0;
+      for (int p = factor_start_[at(i)]; p < below->place; ++p) {
+        work[row_of[p]] -= factor[p] * y;
+        lower_work[row_of[p]] -= upper[p] * z;
+      }
+      const double inverse = inverse_pivot_[at(i)];
+      pivot -= z * inverse * y;
+      factor[below->place] = z * inverse;
+      upper[below->place] = y * inverse;
+    }
+    keep_pivot(static_cast<int>(k), pivot, full);
   }
 }
 
 void SparseFactor::solve(std::span<double> x) {
   if (chain_) return solve_chain(x);
-  const std::vector<double>& back = symmetric_ ? factor_ : upper_;
-  for (int i = 0; i < size_; ++i) work_[at(place_[at(i)])] = x[at(i)];
-  for (int k = 0; k < size_; ++k) {
-    const double y = work_[at(k)];
-    for (int p = factor_start_[at(k)]; p < factor_start_[at(k) + 1]; ++p) {
-      work_[at(row_of_[at(p)])] -= factor_[at(p)] * y;
-    }
+  const double* forth = factor_.data();
+  const double* back = symmetric_ ? forth : upper_.data();
+  const int* row_of = row_of_.data();
+  double* work = work_.data();
+  const auto count = static_cast<int>(unknown_.size());
+  for (int k = 0; k < count; ++k) work[k] = x[at(unknown_[at(k)])];
+  for (int k = 0; k < count; ++k) {
+    const double y = work[k];
+    if (y == 0.0) continue;
+    const int end = factor_start_[at(k) + 1];
+    for (int p = factor_start_[at(k)]; p < end; ++p) work[row_of[p]] -= forth[p] * y;
   }
-  for (int k = size_ - 1; k >= 0; --k) {
-    double y = work_[at(k)] * inverse_pivot_[at(k)];
-    for (int p = factor_start_[at(k)]; p < factor_start_[at(k) + 1]; ++p) {
-      y -= back[at(p)] * work_[at(row_of_[at(p)])];
-    }
+  for (int k = count - 1; k >= 0; --k) {
+    double y = work[k] * inverse_pivot_[at(k)];
+    const int end = factor_start_[at(k) + 1];
+    for (int p = factor_start_[at(k)]; p < end; ++p) y -= back[p] * work[row_of[p]];
     // A dropped unknown is 0 whatever the others are.
-    work_[at(k)] = inverse_pivot_[at(k)] > 0.0 ? y : 0.0;
+    work[k] = inverse_pivot_[at(k)] > 0.0 ? y : 0.0;
   }
-  for (int i = 0; i < size_; ++i) x[at(i)] = work_[at(place_[at(i)])];
-  std::fill(work_.begin(), work_.end(), 0.0);
+  for (int k = 0; k < count; ++k) {
+    x[at(unknown_[at(k)])] = work[k];
+    work[k] = 0.0;
+  }
 }
 
 }  // namespace sheave

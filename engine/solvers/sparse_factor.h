@@ -5,9 +5,10 @@
 //
 // Up-looking (Davis, "Direct Methods for Sparse Linear Systems", 2006, chapter 4): row k of L
 // solves a triangular system with the rows before it, and which of its entries are not zero follows
-// from the elimination tree, found once per pattern. A chain, such as the spans of a cable over
-// wheels, has one entry per row, next to the diagonal: there the same operations are those of a
-// tridiagonal solver, and are written as one.
+// from the elimination tree. That is found once for the unknowns that take part, in an order that
+// is found once per pattern. A chain, such as the spans of a cable over wheels, has one entry per
+// row, next to the diagonal: there the same operations are those of a tridiagonal solver, and are
+// written as one.
 //
 // Redundant rows make A singular: a belt round two wheels, a frame with more joints than degrees of
 // freedom. Their pivots are what rounding leaves of zero. A pivot below `dropped_pivot` times the
@@ -27,8 +28,12 @@ class SparseFactor {
   static constexpr double dropped_pivot = 1e-14;
 
   /// Prepares for n x n matrices whose entries off the diagonal are at `entries`, (row, column)
-  /// with row != column, each pair once in either order. Chooses the order of elimination.
+  /// with row != column, each pair once in either order. Chooses the order of elimination; all
+  /// unknowns take part.
   void analyse(int n, std::span<const std::pair<int, int>> entries);
+  /// Lets only those unknowns take part for which `chosen` is `value`, as if the others had rows
+  /// and columns of the identity: solve() leaves them as they are.
+  void select(std::span<const char> chosen, char value);
   /// Factors the symmetric matrix with this diagonal and these values of the entries given to
   /// analyse(), in their order.
   void factor(std::span<const double> diagonal, std::span<const double> values);
@@ -43,18 +48,30 @@ class SparseFactor {
   [[nodiscard]] int dropped() const { return dropped_; }  ///< pivots left out in the last factor()
   /// Whether unknown i is one of them.
   [[nodiscard]] bool is_dropped(int i) const {
-    return !(inverse_pivot_[static_cast<std::size_t>(place_[static_cast<std::size_t>(i)])] > 0.0);
+    const int k = step_of_[static_cast<std::size_t>(i)];
+    return k >= 0 && !(inverse_pivot_[static_cast<std::size_t>(k)] > 0.0);
   }
   /// Entries of L below the diagonal: the cost of factor() and solve().
   [[nodiscard]] int fill() const { return static_cast<int>(row_of_.size()); }
 
  private:
-  [[nodiscard]] int count_fill(std::span<const std::pair<int, int>> entries);
-  /// The places of row k of L that are not 0, in an order in which each depends on earlier ones
-  /// only: path_ from the returned place on. Scatters the entries of A above the diagonal into
-  /// work_, and those below into lower_work_.
-  int scatter(int k, std::span<const double> values, const double* transposed_values);
-  void begin_factor(std::span<const double> diagonal);
+  /// An entry of A above the diagonal, in a column of the order of elimination.
+  struct Entry {
+    int row = 0;          ///< unknown; in steps_: step
+    int value = 0;        ///< which of the given values
+    bool turned = false;  ///< whether that was given as (column, row)
+  };
+  /// An entry of L: its column, and where it is in factor_.
+  struct Below {
+    int column = 0;
+    int place = 0;
+  };
+  /// Sorts the entries into columns by `place`, of each unknown in the order of elimination.
+  void sort_entries(std::span<const std::pair<int, int>> entries, std::span<const int> place);
+  /// Finds the pattern of L of the unknowns that take part.
+  void lay_out();
+  /// The steps whose entries in row k of L are not 0, in their order, into path_.
+  void find_path(int k);
   /// The factors of a chain; null `transposed_values`: symmetric.
   void factor_chain(std::span<const double> diagonal, std::span<const double> values,
                     const double* transposed_values);
@@ -65,24 +82,29 @@ class SparseFactor {
 
   int size_ = 0;
   int dropped_ = 0;
-  std::vector<int> place_;  ///< of unknown i in the order of elimination
-  std::vector<int> tree_;   ///< parent in the elimination tree, -1 at a root
-  // The matrix above its diagonal, by columns, in the order of elimination.
+  // The matrix above its diagonal, by columns, in the order of elimination of all unknowns.
+  std::vector<int> order_;  ///< unknown at each place
   std::vector<int> column_start_;
-  std::vector<int> entry_row_;
-  std::vector<int> entry_of_;  ///< which of the given values
-  std::vector<char>
-      turned_;  ///< whether that was given as (column, row) of the order of elimination
+  std::vector<Entry> entries_;
+  std::vector<char> chosen_;  ///< per unknown: takes part
+  // Of those that take part, in steps.
+  std::vector<int> unknown_;  ///< of each step
+  std::vector<int> step_of_;  ///< of each unknown, -1: none
+  std::vector<int> step_start_;
+  std::vector<Entry> steps_;
+  std::vector<int> tree_;       ///< parent in the elimination tree, -1 at a root
+  std::vector<int> row_start_;  ///< of rows of L in below_
+  std::vector<Below> below_;
   // L below its diagonal, by columns.
   std::vector<int> factor_start_;
-  std::vector<int> factor_count_;
   std::vector<int> row_of_;
   std::vector<double> factor_;  ///< of a chain per row: its entry left of the diagonal, or 0
   std::vector<double> upper_;   ///< U above its diagonal, by rows, with the pattern of L
   bool symmetric_ = true;
+  bool in_order_ = true;               ///< all unknowns take part, in their own order
   bool chain_ = false;                 ///< every entry joins neighbours, in their own order
   std::vector<double> inverse_pivot_;  ///< 0 where dropped
-  // Scratch of factor() and solve().
+  // Scratch.
   std::vector<double> work_;
   std::vector<double> lower_work_;
   std::vector<int> path_;

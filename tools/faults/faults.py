@@ -95,8 +95,8 @@ FAULTS = [
         "terms.set_value(dot(direction, at_a - at_b));\n  terms.add_force(a.body, at_a, direction);",
         "terms.set_value(dot(direction, at_a - at_b));\n  terms.add_force(a.body, at_a, 0.95 * direction);", JOINTS),
     one("offset-lever", "sliders push body_a at its own anchor, not at that of body_b", "engine/joints/lock_rows.h",
-        "terms.set_value(direction.dot(at_b - a.position(terms.substep())));\n  terms.add_force(a.body, at_b, -direction);",
-        "terms.set_value(direction.dot(at_b - a.position(terms.substep())));\n"
+        "terms.set_value(dot(direction, at_b - a.position(terms.substep())));\n  terms.add_force(a.body, at_b, -direction);",
+        "terms.set_value(dot(direction, at_b - a.position(terms.substep())));\n"
         "  terms.add_force(a.body, a.position(terms.substep()), -direction);", JOINTS),
     one("spring-start", "springs of joints relaxed elsewhere", "engine/joints/joint_effect.cpp",
         "case Kind::spring:\n      row.value = now - effect.at;", "case Kind::spring:\n      row.value = 0.9 * now - effect.at;"),
@@ -162,12 +162,12 @@ FAULTS = [
     one("half-multiplier", "the direct solver applies half of its last change", "engine/solvers/row_system.cpp",
         "const double multiplier = rows_[i].weight * unknown;", "const double multiplier = 0.99 * rows_[i].weight * unknown;"),
     one("matrix-entry", "an entry of the direct solver's matrix is 10 % off", "engine/solvers/row_slots.cpp",
-        "above_[e] = coupling(e, false);", "above_[e] = 0.9 * coupling(e, false);"),
+        "values[e] = gradient[from] * motion[to];", "values[e] = 0.9 * gradient[from] * motion[to];"),
     one("stale-copies", "rows keep the gradients of the substep before", "engine/solvers/row_slots.cpp",
-        "if (row.source != nullptr && source == row.source && edition == row.edition) continue;",
-        "if (changed_[at(unknown_of_[i])] == 0) continue;"),
+        "if (row.source != nullptr && source == row.source && edition == row.edition) {",
+        "if (changed_[at(unknown_of_[i])] == 0) {"),
     one("joint-weights", "rows that share an unknown act without their weights", "engine/solvers/row_slots.cpp",
-        "const double weight = rows[i].weight;", "const double weight = 1.0;"),
+        "const double weight = rows[at(i)].weight;", "const double weight = 1.0;"),
     # Contacts.
     one("contact-normal", "contacts that push one body only with 0.9", "engine/contacts/contact.cpp",
         "substep.add_force(row, body_b, surface_b, -normal);", "substep.add_force(row, body_b, surface_b, -0.9 * normal);"),
