@@ -160,6 +160,28 @@ void RowSlots::act_along(int row, const RowSlots& other, int other_row) {
   changed_[at(unknown_of_[at(row)])] = 1;
 }
 
+void RowSlots::mix(int first_row, int count, const Matrix3& mixture, bool gradients) {
+  const int slots = row_start_[at(first_row) + 1] - row_start_[at(first_row)];
+  const auto mix_slot = [&](std::vector<double>& values, int slot) {
+    Vector3 own = Vector3::Zero();
+    for (int k = 0; k < count; ++k) own[k] = values[at(row_start_[at(first_row + k)] + slot)];
+    const Vector3 mixed = times(mixture, own);
+    for (int k = 0; k < count; ++k) values[at(row_start_[at(first_row + k)] + slot)] = mixed[k];
+  };
+  for (int s = 0; s < slots; ++s) {
+    mix_slot(motion_, s);
+    if (gradients) mix_slot(gradient_, s);
+  }
+  for (int k = 0; k < count; ++k) {
+    const auto row = at(first_row + k);
+    changed_[at(unknown_of_[row])] = 1;
+    yields_[row] = 0.0;
+    for (int s = row_start_[row]; s < row_start_[row + 1]; ++s) {
+      yields_[row] += std::abs(gradient_[at(s)] * motion_[at(s)]);
+    }
+  }
+}
+
 void RowSlots::join(const RowList& rows) {
   if (!joined_) return;
   for (std::size_t i = 0; i < rows.size(); ++i) {

@@ -31,6 +31,9 @@ class RowSlots {
             std::span<const MovingBody> bodies);
   /// Lets row `row` act along the gradient of a row of `other` that touches the same bodies.
   void act_along(int row, const RowSlots& other, int other_row);
+  /// Makes `count` rows from `first_row` on, which touch the same bodies, the sums of them that the
+  /// rows of `mixture` tell: how the bodies respond, and, if asked, their gradients.
+  void mix(int first_row, int count, const Matrix3& mixture, bool gradients);
   /// Whether both rows are copies of the same.
   [[nodiscard]] bool is_copy_as_in(int row, const RowSlots& other, int other_row) const;
   /// Adds up the rows that share an unknown, with the weights that they have now.
