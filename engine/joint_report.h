@@ -37,8 +37,11 @@ struct JointReport {
   /// What the joint did to body_b in the last substep, in the world frame: the mean force, and its
   /// torque about body_b's anchor. Drives, springs, stops and friction are part of it. The opposite
   /// acts on body_a.
-  Vector3 force = Vector3::Zero();                 ///< [N]
-  Vector3 torque = Vector3::Zero();                ///< [N m]
+  Vector3 force = Vector3::Zero();   ///< [N]
+  Vector3 torque = Vector3::Zero();  ///< [N m]
+  /// Of that, what dry friction in several directions did (ball and plane joints).
+  Vector3 friction_force = Vector3::Zero();        ///< [N]
+  Vector3 friction_torque = Vector3::Zero();       ///< [N m]
   std::vector<JointCoordinateReport> coordinates;  ///< JointDef::coordinates()
   std::optional<double> broken_at;                 ///< when it broke [s]
   /// The largest errors of what holds rigidly: how far anchors are apart that coincide, axes from

@@ -96,6 +96,11 @@ struct Row {
   /// places before it [1].
   double friction = 0.0;
   int pressed_by = 0;
+  /// Friction in several directions: of the first of its rows their number, 2 or 3, of the others 0.
+  /// They follow each other, touch the same bodies in the same order, are of directions that are
+  /// perpendicular to each other, and have the same bounds, which are those of the norm of their
+  /// multipliers: friction_rows.h.
+  int shares = 0;
   int index = 0;        ///< of its multiplier among those of its feature
   bool active = false;  ///< whether its multiplier was off its bounds in the last substep
   /// Whether it shares one unknown with the row before it, which may do the same: their values are
@@ -117,7 +122,7 @@ struct Row {
 
   /// Makes the row empty: no terms, rigid, bilateral, value 0.
   void clear() {
-    index = pressed_by = 0;
+    index = pressed_by = shares = 0;
     source = nullptr;
     friction = 0.0;
     active = tied = curved = false;

@@ -57,15 +57,13 @@ void check_contact(const Evidence& evidence, const ContactEvidence& contact, Fin
       std::sqrt(a.static_friction.value_or(a.friction) * b.static_friction.value_or(b.friction));
   const double press = contact.press[0] + contact.press[1];
   const Vector3 drag = contact.drag[0] + contact.drag[1];
-  // Friction along two axes is bounded by a square (engine/contacts/contact.cpp): sqrt(2) at its
-  // corners.
   const double bound = std::max(sliding, sticking) * press;
   const double scale = std::max(bound, 1e-3 * evidence.largest_force);
   const auto name = [&] {
     return "the contact of " + evidence.body_name(contact.body_a) + " and " +
            evidence.body_name(contact.body_b);
   };
-  findings.note(Kind::friction, "N", std::max(drag.norm() - std::sqrt(2.0) * bound, 0.0), scale,
+  findings.note(Kind::friction, "N", std::max(drag.norm() - bound, 0.0), scale,
                 1e-7 * scale, name);
   if (contact.sticks) return;
   // What slides is dragged against its sliding.

@@ -10,7 +10,9 @@
 #include "cable/certificate/checks.h"
 #include "cable/certificate/joint_frames.h"
 #include "engine/body_drive.h"
+#include "engine/joints/ball.h"
 #include "engine/joints/gear.h"
+#include "engine/joints/plane.h"
 #include "engine/joints/rack.h"
 
 namespace sheave::certify {
@@ -66,6 +68,7 @@ class JointCheck {
     } else {
       check_locks();
     }
+    check_shared_friction();
     const std::vector<CoordinateSettings> settings = coordinates_of(*joint_.definition);
     for (std::size_t k = 0; k < settings.size() && k < joint_.end.coordinates.size(); ++k) {
       if (settings[k].settings == nullptr) continue;
@@ -362,6 +365,40 @@ class JointCheck {
       note(Kind::friction, now.angle ? "N m" : "N", weight * std::max(along, 0.0),
            std::max(largest, settings.friction), law_rounding);
     }
+  }
+
+  /// Dry friction in several directions is a vector within a ball, against what moves.
+  void check_shared_friction() {
+    const auto* ball = dynamic_cast<const BallJoint*>(joint_.definition);
+    const auto* plane = dynamic_cast<const PlaneJoint*>(joint_.definition);
+    const double bound = ball != nullptr    ? ball->friction
+                         : plane != nullptr ? plane->friction
+                                            : 0.0;
+    if (!(bound > 0.0)) return;
+    const auto part = [&](End when) {
+      const JointReport& acting = joint_.acting[at(when)];
+      return ball != nullptr ? acting.friction_torque : acting.friction_force;
+    };
+    const Vector3 friction = part(first_end) + part(last_end);
+    const std::string_view unit = ball != nullptr ? "N m" : "N";
+    const double scale = std::max(bound, ball != nullptr ? torque_.norm() : force_.norm());
+    const double slop =
+        rounding * 1e2 * scale + e_.force_rounding * (ball != nullptr ? size_ : 1.0);
+    note(Kind::friction, unit, std::max(friction.norm() - bound, 0.0), scale, slop);
+    const auto moved_by = [&](int body) -> Vector3 {
+      if (body == e_.bodies.count()) return Vector3::Zero();
+      if (ball != nullptr) return e_.turn_of(body);
+      return e_.displacement(body, frame_.anchor_b(e_.moments[last_end]), last_end);
+    };
+    Vector3 moved = (moved_by(frame_.body_b) - moved_by(frame_.body_a)) / e_.h;
+    if (plane != nullptr) {
+      const Vector3 normal = frame_.turned_a(e_.moments[last_end]) * frame_.axis_a;
+      moved -= normal * normal.dot(moved);
+    }
+    const double speed = moved.norm();
+    const double crawl = 1e-6 * (ball != nullptr ? 1.0 : size_) / std::max(e_.end.time, e_.h);
+    const double along = speed > 0.0 ? friction.dot(moved) / speed : 0.0;
+    note(Kind::friction, unit, std::max(along, 0.0) * speed / (speed + crawl), scale, slop);
   }
 
   const Evidence& e_;

@@ -12,10 +12,8 @@
 //
 // Tangents. What slides has friction against its sliding and none across it, so it has one row,
 // along its velocity at the start. (A second one would hold it to that direction.) What is slow
-// enough to stop, or sticks, has two. They bound the force by a square, which is right along its
-// axes and too large by up to sqrt(2) between them; so the first axis is the direction of the force
-// that the whole manifold holds: were it that of each point, points that press against each other
-// sideways could together hold more than they should.
+// enough to stop, or sticks, has two, which bound the norm of the force (engine/friction_rows.h). They begin
+// with the direction of the force that the whole manifold holds, along which it will slip.
 //
 // A rigid contact that overlaps at the start is opened by a fiftieth per substep only, because the
 // velocity that opening it at once would leave behind is energy that nobody has put in.
@@ -176,6 +174,7 @@ void Contact::evaluate(const Substep& substep, int index, Row& row) const {
   row.value = dot(tangent, slip(substep));
   row.friction = friction;
   row.pressed_by = index;
+  if (index == 1 && rows == 3) row.shares = 2;
   row.upper = friction * pressed;
   row.lower = -row.upper;
   substep.add_force(row, body_a, surface_a, tangent);

@@ -5,7 +5,7 @@
 // and s what friction has let slip at most by rounding since the point began to stick,
 //
 //   normal    C = n . (p_a - p_b) - r_a - r_b - target >= 0,       l_n in [0, inf)
-//   friction  C = t . (s + d_a - d_b) = 0,                         |l_t| <= mu l_n
+//   friction  C = t . (s + d_a - d_b) = 0,                         |l_t| <= mu l_n, the norm of both
 //             d = change of p + turn x arm,  arm_a = -r_a n,  arm_b = r_b n
 //
 // d is the path of the surface at the contact. The turn enters with the rotation vector, not with

@@ -8,11 +8,13 @@
 #include "engine/contacts/contact_batch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "engine/contacts/contact_state.h"
 #include "engine/contacts/planar_contact.h"
 #include "engine/contacts/rebound.h"
+#include "engine/friction_rows.h"
 #include "engine/model.h"
 
 namespace sheave {
@@ -94,13 +96,14 @@ class ContactBatch final : public ConstraintBatch {
       Contact& contact = contacts_[i];
       contact.slips = false;
       if (contact.friction == 0.0) continue;
-      for (std::size_t k = 1; k < at(contact.rows); ++k) {
-        double& multiplier = multipliers_[3 * i + k];
-        if (contact.pressed == 0.0 && multiplier == 0.0) continue;
-        row.clear();
-        contact.evaluate(substep, static_cast<int>(k), row);
-        correction = std::max(correction, solve_row(row, substep.h, multiplier, substep.moving));
-      }
+      const std::span<double> friction = std::span(multipliers_).subspan(3 * i + 1, 2);
+      if (contact.pressed == 0.0 && friction[0] == 0.0 && friction[1] == 0.0) continue;
+      std::array<Row, 2> rows;
+      for (int k = 1; k < contact.rows; ++k) contact.evaluate(substep, k, rows[at(k - 1)]);
+      correction =
+          std::max(correction, contact.rows == 3
+                                   ? solve_friction(rows, friction, substep.moving)
+                                   : solve_row(rows[0], substep.h, friction[0], substep.moving));
       note_slip(substep, i);
     }
     return correction;
@@ -128,8 +131,7 @@ class ContactBatch final : public ConstraintBatch {
       const double now = multipliers_[3 * i] / substep.load_share;
       // Where friction does not use what it has, having more or less changes nothing.
       const double needed =
-          std::max(std::abs(multipliers_[3 * i + 1]), std::abs(multipliers_[3 * i + 2])) /
-          substep.load_share;
+          std::hypot(multipliers_[3 * i + 1], multipliers_[3 * i + 2]) / substep.load_share;
       const bool matters = contact.slips || needed > contact.friction * now;
       const double change = std::abs(now - contact.pressed);
       if (matters && change > settled_share * std::max(now, contact.pressed)) changed = true;
@@ -298,8 +300,7 @@ class ContactBatch final : public ConstraintBatch {
     Contact& contact = contacts_[i];
     // Positions of `rattle` carry half of the force.
     const double limit = (1.0 - 1e-9) * substep.load_share * contact.friction * contact.pressed;
-    contact.slips =
-        std::abs(multipliers_[3 * i + 1]) >= limit || std::abs(multipliers_[3 * i + 2]) >= limit;
+    contact.slips = std::hypot(multipliers_[3 * i + 1], multipliers_[3 * i + 2]) >= limit;
   }
 
   /// Makes what acted in the second half of the substep four numbers per contact: along the normal,

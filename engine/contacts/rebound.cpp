@@ -17,6 +17,7 @@
 #include "engine/contacts/rebound.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/stages.h"
@@ -116,6 +117,29 @@ void Rebound::find_rebounds(Substep& substep, std::span<Contact> contacts,
   }
 }
 
+double Rebound::rub(Substep& substep, const Impact& impact, double limit, double* multipliers) {
+  // The force that would stop the slip, along one or both tangents, as far as the limit lets.
+  double w = 0.0;
+  for (std::size_t k = 1; k < impact.rows.size(); ++k) {
+    w = std::max(w, impact.responses[k].inverse_mass);
+  }
+  if (!(w > 0.0)) return 0.0;
+  std::array<double, 2> wanted{};
+  for (std::size_t k = 1; k < impact.rows.size(); ++k) {
+    wanted[k - 1] = multipliers[k - 1] - substep.h * velocity_along(substep, impact.rows[k]) / w;
+  }
+  const double size = std::hypot(wanted[0], wanted[1]);
+  const double share = size > limit ? limit / size : 1.0;
+  double change = 0.0;
+  for (std::size_t k = 1; k < impact.rows.size(); ++k) {
+    const double impulse = (share * wanted[k - 1] - multipliers[k - 1]) / substep.h;
+    multipliers[k - 1] = share * wanted[k - 1];
+    push(substep, impact.rows[k], impact.responses[k], impulse);
+    change = std::max(change, std::abs(impulse) * w);
+  }
+  return change;
+}
+
 void Rebound::sweep(Substep& substep, std::span<const Contact> contacts,
                     std::span<double> multipliers) {
   const double h = substep.h;
@@ -124,19 +148,18 @@ void Rebound::sweep(Substep& substep, std::span<const Contact> contacts,
     double change = 0.0;
     for (const Impact& impact : impacts_) {
       double* of_contact = &multipliers[3 * impact.contact];
-      for (std::size_t k = 0; k < impact.rows.size(); ++k) {
-        const double w = impact.responses[k].inverse_mass;
-        if (!(w > 0.0)) continue;
-        const double wanted = k == 0 ? impact.wanted : 0.0;
-        double next = of_contact[k] + h * (wanted - velocity_along(substep, impact.rows[k])) / w;
-        const double limit = contacts[impact.contact].friction * of_contact[0];
-        next = k == 0 ? std::max(next, 0.0) : std::clamp(next, -limit, limit);
-        const double impulse = (next - of_contact[k]) / h;
-        of_contact[k] = next;
-        push(substep, impact.rows[k], impact.responses[k], impulse);
+      largest = std::max(largest, std::abs(impact.wanted));
+      const double w = impact.responses[0].inverse_mass;
+      if (w > 0.0) {
+        const double off = impact.wanted - velocity_along(substep, impact.rows[0]);
+        const double next = std::max(of_contact[0] + h * off / w, 0.0);
+        const double impulse = (next - of_contact[0]) / h;
+        of_contact[0] = next;
+        push(substep, impact.rows[0], impact.responses[0], impulse);
         change = std::max(change, std::abs(impulse) * w);
-        largest = std::max(largest, std::abs(wanted));
       }
+      const double limit = contacts[impact.contact].friction * of_contact[0];
+      change = std::max(change, rub(substep, impact, limit, of_contact + 1));
     }
     if (change <= 1e-12 * largest) break;
   }

@@ -27,6 +27,9 @@ class Rebound {
                std::span<const double> multipliers);
   void find_rebounds(Substep& substep, std::span<Contact> contacts,
                      std::span<const double> multipliers);
+  /// Friction of one contact, whose norm has this limit [kg m]; returns how far it has changed the
+  /// velocities [m/s].
+  static double rub(Substep& substep, const Impact& impact, double limit, double* multipliers);
   void sweep(Substep& substep, std::span<const Contact> contacts, std::span<double> multipliers);
 
   std::vector<Impact> impacts_;

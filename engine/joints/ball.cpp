@@ -1,8 +1,7 @@
 // Locks: the anchors coincide. Coordinates: the twist (angle_about in lock_rows.h); the swing s of
 // B's axis b from A's a, s = atan2(|a x b|, a . b), which a rotation d of B changes by d . n, n = a
-// x b / |a x b|; and, for friction and damping, the rotations about three directions, of which the
-// first is that of the relative angular velocity at the start, so that dry friction is the same
-// against any rotation.
+// x b / |a x b|; and, for friction and damping, the rotations about the three axes of
+// A's frame.
 
 #include "engine/joints/ball.h"
 
@@ -35,7 +34,7 @@ struct BallKernel : AnchorPair {
     } else if (index == swing) {
       measure_swing(terms);
     } else {
-      const Vector3 direction = turning_frame(terms.substep()) * Vector3::Unit(index - first_turn);
+      const Vector3 direction = a.orientation(terms.substep()) * Vector3::Unit(index - first_turn);
       terms.add_torque(a.body, -direction);
       terms.add_torque(b.body, direction);
     }
@@ -53,17 +52,6 @@ struct BallKernel : AnchorPair {
   }
   [[nodiscard]] JointHold hold_here(const BallKernel& defined, const Substep& now) const {
     return JointHold::of(defined.a, now, b.position(now), a.orientation(now));
-  }
-  /// A frame whose x axis is that of the relative rotation at the start of the substep.
-  [[nodiscard]] Quaternion turning_frame(const Substep& substep) const {
-    const auto velocity = [&](int body) -> Vector3 {
-      return body < substep.bodies.count() ? substep.start.bodies[at(body)].angular_velocity
-                                           : Vector3(Vector3::Zero());
-    };
-    const Vector3 relative = velocity(b.body) - velocity(a.body);
-    const double speed = relative.norm();
-    if (!(speed > 0.0)) return Quaternion::Identity();
-    return Quaternion(Quaternion::FromTwoVectors(Vector3::UnitX(), relative / speed));
   }
 };
 
@@ -125,15 +113,9 @@ std::unique_ptr<ConstraintBatch> BallJoint::make_batch(
     JointCoordinate swing;
     swing.upper = joint.swing_limit;
     swing.limit_compliance = joint.swing_limit_compliance;
-    JointCoordinate turn;
-    turn.damping = joint.damping;
-    turn.friction = joint.friction;
     append_effects(joint.twist, BallKernel::twist, part.effects);
     append_effects(swing, BallKernel::swing, part.effects);
-    for (int k = 0; k < 3; ++k) {
-      append_effects(turn, BallKernel::first_turn + k, part.effects);
-      if (joint.friction > 0.0) part.effects.back().motion = BallKernel::first_turn;
-    }
+    append_resistance(joint.damping, joint.friction, BallKernel::first_turn, 3, part.effects);
     part.counts_coordinates = joint.axis.has_value() || !part.effects.empty();
     parts.push_back(std::move(part));
   }

@@ -19,6 +19,7 @@
 #include <string>
 #include <utility>
 
+#include "engine/friction_rows.h"
 #include "engine/index.h"
 #include "engine/joint.h"
 #include "engine/joint_feature.h"
@@ -104,10 +105,14 @@ class JointBatch final : public JointFeature {
     for (std::size_t j = 0; j < joints_.size(); ++j) {
       if (intact_[j] == 0) continue;
       const Joint& joint = joints_[j];
-      auto multiplier = multipliers_.begin() + joint.first_row + joint.first_acting;
+      const std::span<double> multipliers = std::span(multipliers_).subspan(at(joint.first_row));
       for (int i = joint.first_acting; i < joint.lock_count + joint.effect_count; ++i) {
         evaluate(substep, joint, i, row);
-        correction = std::max(correction, solve_row(row, substep.h, *multiplier++, substep.moving));
+        const double change = row.shares > 1
+                                  ? sweep_friction(substep, joint, i, row.shares)
+                                  : solve_row(row, substep.h, multipliers[at(i)], substep.moving);
+        correction = std::max(correction, change);
+        i += std::max(row.shares - 1, 0);
       }
     }
     return correction;
@@ -181,6 +186,9 @@ class JointBatch final : public JointFeature {
     const Wrench wrench = reaction(now, joint, own);
     report.force = wrench.force;
     report.torque = wrench.torque;
+    const Wrench friction = reaction(now, joint, own, true);
+    report.friction_force = friction.force;
+    report.friction_torque = friction.torque;
     append_coordinates(now, joint, own, report);
     if (!report.broken_at) find_errors(now, joint, own, report);
     return report;
@@ -371,25 +379,6 @@ class JointBatch final : public JointFeature {
     double value = measure(substep, joint, acting.coordinate, starts, row, known);
     if (acting.second >= 0) value = add_second(substep, joint, acting, starts, value, row);
     set_effect(acting, substep, value, starts[at(joint.first_coordinate + acting.coordinate)], row);
-    if (acting.motion >= 0 && acting.motion != acting.coordinate &&
-        goes_on(substep, joint, acting, starts)) {
-      row.lower = row.upper = 0.0;
-    }
-  }
-  /// Whether the bodies move on, along the direction of their motion, whatever friction does in a
-  /// substep.
-  bool goes_on(const Substep& substep, const Joint& joint, const JointEffect& friction,
-               std::span<const double> starts) const {
-    Row row;
-    measure(substep, joint, friction.motion, starts, row);
-    double speed = 0.0;
-    for (const RowTerm& term : row.active_terms()) {
-      const BodyState& body = substep.start.bodies[at(term.body)];
-      speed += dot(term.linear, body.velocity) + dot(term.angular, body.angular_velocity);
-    }
-    RowResponse response;
-    respond(row, substep.moving, response);
-    return std::abs(speed) > substep.h * friction.limit * response.inverse_mass;
   }
   /// Makes `row`, of the first coordinate, that of the sum of two; returns the sum.
   double add_second(const Substep& substep, const Joint& joint, const JointEffect& acting,
@@ -429,15 +418,25 @@ class JointBatch final : public JointFeature {
     if (joint.restricted) drop_rounding(row, substep.moving);
     row.active = acted_[at(row.index)] != 0;
   }
+  /// Of friction in several directions: its `count` rows from `first` on.
+  double sweep_friction(Substep& substep, const Joint& joint, int first, int count) {
+    std::array<Row, 3> rows;
+    for (int k = 0; k < count; ++k) evaluate(substep, joint, first + k, rows[at(k)]);
+    return solve_friction(std::span(rows).first(at(count)),
+                          std::span(multipliers_).subspan(at(joint.first_row + first)),
+                          substep.moving);
+  }
 
-  /// What the joint does to body_b with the forces in `state`.
+  /// What the joint does to body_b with the forces in `state`, or its shared friction alone.
   [[nodiscard]] Wrench reaction(const Substep& substep, const Joint& joint,
-                                const FeatureState& state) const {
+                                const FeatureState& state, bool friction_alone = false) const {
     Wrench wrench;
     wrench.about = joint.kernel.anchor(substep);
-    for (int i = 0; i < joint.lock_count + joint.effect_count; ++i) {
+    for (int i = friction_alone ? joint.lock_count : 0; i < joint.lock_count + joint.effect_count;
+         ++i) {
       const double force = state.reals[at(joint.first_row + i)];
       if (force == 0.0) continue;
+      if (friction_alone && !effect(joint, i).shared) continue;
       Row row;
       const auto on_b = [&](double scale) {
         return JointTerms(substep, row, joint.kernel.anchor_body(), scale, wrench);

@@ -49,6 +49,20 @@ void append_effects(const JointCoordinate& settings, int coordinate,
   }
 }
 
+void append_resistance(double damping, double friction, int first, int count,
+                       std::vector<JointEffect>& effects) {
+  JointCoordinate damper;
+  damper.damping = damping;
+  for (int k = 0; k < count; ++k) append_effects(damper, first + k, effects);
+  if (!(friction > 0.0)) return;
+  JointCoordinate rubbing;
+  rubbing.friction = friction;
+  const std::size_t own = effects.size();
+  for (int k = 0; k < count; ++k) append_effects(rubbing, first + k, effects);
+  effects[own].shares = count;
+  for (std::size_t k = own; k < effects.size(); ++k) effects[k].shared = true;
+}
+
 double drive_error(const JointEffect& drive, const DriveDemand& demand, double time, double force,
                    double value, double rate) {
   constexpr double nearly = 1.0 - 1e-9;
@@ -106,6 +120,7 @@ void set_effect(const JointEffect& effect, const Substep& substep, double now, d
       break;
     case Kind::friction:
       row.value = now - start;
+      row.shares = effect.shares;
       break;
     case Kind::position:
       row.value = now - drive.at(to);

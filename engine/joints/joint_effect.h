@@ -7,8 +7,7 @@
 //   spring           C = c - rest                 compliance 1 / stiffness, with the damping
 //   damper           C = c - c0                   a row without memory: force = -damping dc/dt
 //   dry friction     C = c - c0                   |force| <= friction: it holds what it can. Where several directions share one
-//                                                 friction, it acts along the motion alone while that is faster than friction
-//                                                 can stop in a substep; slower, each direction is held by itself
+//                                                 friction, that is the norm of a vector (engine/friction_rows.h)
 //   drive, position  C = c - p(t)                 |force| <= limit
 //   drive, speed     C = c - c0 - integral of v   |force| <= limit
 //   drive, force     the multiplier has equal bounds: the mean of F over the substep
@@ -40,10 +39,9 @@ struct JointEffect {
   double compliance = 0.0;        ///< [m/N or rad/(N m)]
   double damping = 0.0;           ///< [N s/m or N m s/rad]
   double limit = Row::unbounded;  ///< of the force [N or N m]
-  /// Friction in several directions: the coordinate whose direction is that of the motion; < 0 if
-  /// there is but one direction.
-  int motion = -1;
-  TimeSignal signal;  ///< of drives
+  int shares = 0;                 ///< of friction: Row::shares
+  bool shared = false;            ///< of friction: it is one of those
+  TimeSignal signal;              ///< of drives
   int control =
       -1;  ///< of a drive: where what has been set for it is to be found (Controls::joint_drives)
 
@@ -91,6 +89,12 @@ class DriveDemand {
 /// Appends what `settings` ask for along the coordinate of this number.
 void append_effects(const JointCoordinate& settings, int coordinate,
                     std::vector<JointEffect>& effects);
+
+/// Appends damping and dry friction against any motion along `count` coordinates, 2 or 3, from
+/// `first` on, of directions that are perpendicular to each other: both depend on how fast it is,
+/// not on where it goes.
+void append_resistance(double damping, double friction, int first, int count,
+                       std::vector<JointEffect>& effects);
 
 /// By how much a coordinate with this value and rate is off what the drive asks for at `time`,
 /// while it has this force; 0 if it asks for nothing (JointCoordinateReport::drive_error).

@@ -1,8 +1,6 @@
 // Locks: B's anchor stays in the plane of A; the normal of A is perpendicular to two directions of
 // B across its own (lock_rows.h). Coordinates: the angle about the normal; and, for friction and
-// damping, the sliding of B's anchor along two directions in the plane, of which the first is that
-// of its velocity against A at the start of the substep, so that dry friction is the same in all
-// directions.
+// damping, the sliding of B's anchor along two directions in the plane, fixed to A.
 
 #include "engine/joints/plane.h"
 
@@ -36,13 +34,8 @@ struct PlaneKernel : AnchorPair {  // z of the frame is the normal
       angle_about(a, b, terms);
       return;
     }
-    const Vector3 normal = a.orientation(terms.substep()) * Vector3::UnitZ();
     const Vector3 at_b = b.position(terms.substep());
-    Vector3 along = sliding(terms.substep());
-    along -= normal.dot(along) * normal;
-    const double size = along.norm();
-    along = size > 0.0 ? Vector3(along / size) : any_perpendicular(normal);
-    const Vector3 direction = index == 1 ? along : Vector3(normal.cross(along));
+    const Vector3 direction = a.orientation(terms.substep()) * Vector3::Unit(index - 1);
     terms.add_force(a.body, at_b, -direction);
     terms.add_force(b.body, at_b, direction);
   }
@@ -51,16 +44,6 @@ struct PlaneKernel : AnchorPair {  // z of the frame is the normal
     const Vector3 normal = frame * Vector3::UnitZ();
     const Vector3 at_a = a.position(now);
     return JointHold::of(defined.a, now, at_a + normal.dot(b.position(now) - at_a) * normal, frame);
-  }
-  /// Velocity of B's anchor against A at the start of the substep.
-  [[nodiscard]] Vector3 sliding(const Substep& substep) const {
-    const Vector3 point = b.position(substep);
-    const auto velocity = [&](int body) -> Vector3 {
-      if (body >= substep.bodies.count()) return Vector3::Zero();
-      const BodyState& state = substep.start.bodies[at(body)];
-      return state.velocity + state.angular_velocity.cross(point - substep.position(body));
-    };
-    return velocity(b.body) - velocity(a.body);
   }
 };
 
@@ -107,13 +90,7 @@ std::unique_ptr<ConstraintBatch> PlaneJoint::make_batch(
                                   joint.compliance, joint.angular_compliance},
                                  {}};
     append_effects(joint.angle, 0, part.effects);
-    JointCoordinate slide;
-    slide.damping = joint.damping;
-    slide.friction = joint.friction;
-    for (int k = 1; k <= 2; ++k) {
-      append_effects(slide, k, part.effects);
-      if (joint.friction > 0.0) part.effects.back().motion = 1;
-    }
+    append_resistance(joint.damping, joint.friction, 1, 2, part.effects);
     parts.push_back(std::move(part));
   }
   return std::make_unique<JointBatch<PlaneKernel>>("plane joints", bodies, joints,

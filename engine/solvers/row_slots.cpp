@@ -10,24 +10,43 @@ namespace sheave {
 
 namespace {
 
-/// Tells a term from others that have other slots.
-[[gnu::always_inline]] inline int sign_of(const RowTerm& term) {
-  return 2 * term.body + (is_zero(term.linear) ? 1 : 0);
+/// Tells a term from others that have other slots; of a row that has all slots of its bodies.
+[[gnu::always_inline]] inline int sign_of(const RowTerm& term, bool whole) {
+  return 2 * term.body + (!whole && is_zero(term.linear) ? 1 : 0);
 }
+
+/// Begins the slots of a row.
+int mark_of(const Row& row, bool whole) { return whole ? -3 : row.tied ? -2 : -1; }
+
+/// Which rows have all slots of their bodies: those of friction in several directions, because they
+/// become sums of each other.
+class WholeRows {
+ public:
+  /// Whether the next row does.
+  bool next(const Row& row) {
+    if (row.shares > 1) left_ = row.shares;
+    return left_ > 0 && left_-- > 0;
+  }
+
+ private:
+  int left_ = 0;
+};
 
 }  // namespace
 
-Freedom RowSlots::part_of(const BodyFreedom& freedom, const RowTerm& term) {
+Freedom RowSlots::part_of(const BodyFreedom& freedom, const RowTerm& term, bool whole) {
   if (freedom.kind != Freedom::plane && freedom.kind != Freedom::space) return freedom.kind;
-  if (!is_zero(term.linear)) return freedom.kind;
+  if (whole || !is_zero(term.linear)) return freedom.kind;
   return freedom.kind == Freedom::plane ? Freedom::angle : Freedom::turn;
 }
 
 bool RowSlots::same_pattern(const RowList& rows) const {
   const int* next = signature_.data();
   const int* const end = next + signature_.size();
+  WholeRows whole_rows;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
+    const bool whole = whole_rows.next(row);
     const auto terms = static_cast<std::ptrdiff_t>(row.term_count);
     if (end - next < terms + 1) return false;
     if (row.source != nullptr && i < copies_.size() && copies_[i].first == row.source &&
@@ -35,9 +54,9 @@ bool RowSlots::same_pattern(const RowList& rows) const {
       next += terms + 1;
       continue;
     }
-    if (*next++ != (row.tied ? -2 : -1)) return false;
+    if (*next++ != mark_of(row, whole)) return false;
     for (const RowTerm& term : row.active_terms()) {
-      if (*next++ != sign_of(term)) return false;
+      if (*next++ != sign_of(term, whole)) return false;
     }
   }
   return next == end;
@@ -47,11 +66,13 @@ bool RowSlots::find_pattern(const Coordinates& coordinates, const RowList& rows)
   if (same_pattern(rows)) return false;
   signature_.clear();
   term_parts_.clear();
+  WholeRows whole_rows;
   for (const Row& row : rows) {
-    signature_.push_back(row.tied ? -2 : -1);
+    const bool whole = whole_rows.next(row);
+    signature_.push_back(mark_of(row, whole));
     for (const RowTerm& term : row.active_terms()) {
-      signature_.push_back(sign_of(term));
-      term_parts_.push_back(part_of(coordinates[term.body], term));
+      signature_.push_back(sign_of(term, whole));
+      term_parts_.push_back(part_of(coordinates[term.body], term, whole));
     }
   }
   lay_out(coordinates, rows);
@@ -65,12 +86,12 @@ void RowSlots::lay_out(const Coordinates& coordinates, const RowList& rows) {
   dof_.clear();
   unknown_of_.clear();
   unknowns_.clear();
+  const Freedom* part = term_parts_.data();
   for (const Row& row : rows) {
     for (const RowTerm& term : row.active_terms()) {
       const BodyFreedom& freedom = coordinates[term.body];
       const int whole = size_of(freedom.kind);
-      const int count = size_of(part_of(freedom, term));
-      for (int i = whole - count; i < whole; ++i) dof_.push_back(freedom.first + i);
+      for (int i = whole - size_of(*part++); i < whole; ++i) dof_.push_back(freedom.first + i);
     }
     const auto index = static_cast<int>(row_start_.size()) - 1;
     const auto end = static_cast<int>(dof_.size());
@@ -229,6 +250,30 @@ bool RowSlots::act_along(int row, const RowSlots& other, int other_row) {
   changed_[at(unknown_of_[at(row)])] = 1;
   any_changed_ = true;
   return true;
+}
+
+void RowSlots::mix(int first_row, int count, const Matrix3& mixture, bool gradients) {
+  const int slots = row_start_[at(first_row) + 1] - row_start_[at(first_row)];
+  const auto mix_slot = [&](std::vector<double>& values, int slot) {
+    Vector3 own = Vector3::Zero();
+    for (int k = 0; k < count; ++k) own[k] = values[at(row_start_[at(first_row + k)] + slot)];
+    const Vector3 mixed = times(mixture, own);
+    for (int k = 0; k < count; ++k) values[at(row_start_[at(first_row + k)] + slot)] = mixed[k];
+  };
+  for (int s = 0; s < slots; ++s) {
+    mix_slot(motion_, s);
+    if (gradients) mix_slot(gradient_, s);
+  }
+  for (int k = 0; k < count; ++k) {
+    const auto row = at(first_row + k);
+    copies_[row].first = nullptr;
+    changed_[at(unknown_of_[row])] = 1;
+    yields_[row] = 0.0;
+    for (int s = row_start_[row]; s < row_start_[row + 1]; ++s) {
+      yields_[row] += std::abs(gradient_[at(s)] * motion_[at(s)]);
+    }
+  }
+  any_changed_ = true;
 }
 
 void RowSlots::join(const RowList& rows) {

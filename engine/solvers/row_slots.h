@@ -32,6 +32,9 @@ class RowSlots {
             std::span<const MovingBody> bodies);
   /// Lets row `row` act along the gradient of a row of `other`; false if that has other slots.
   [[nodiscard]] bool act_along(int row, const RowSlots& other, int other_row);
+  /// Makes `count` rows from `first_row` on, which have the same slots, the sums of them that the
+  /// rows of `mixture` tell: how the bodies respond, and, if asked, their gradients.
+  void mix(int first_row, int count, const Matrix3& mixture, bool gradients);
   /// Whether both rows are copies of the same.
   [[nodiscard]] bool is_copy_as_in(int row, const RowSlots& other, int other_row) const;
   /// Adds up the rows that share an unknown, with the weights that they have now.
@@ -96,7 +99,7 @@ class RowSlots {
     for (int s = slots.first; s < slots.last; ++s) motion[dof[s]] += change * response[s];
   }
   /// What of a body's degrees of freedom the term is about: that of the body, or of its rotation.
-  [[nodiscard]] static Freedom part_of(const BodyFreedom& freedom, const RowTerm& term);
+  [[nodiscard]] static Freedom part_of(const BodyFreedom& freedom, const RowTerm& term, bool whole);
   [[nodiscard]] bool same_pattern(const RowList& rows) const;
   void lay_out(const Coordinates& coordinates, const RowList& rows);
   void lay_out_joint(Unknown& unknown);

@@ -17,12 +17,16 @@ void RowSystem::collect_rows(Substep& substep, Features features) {
   }
   feature_rows_.push_back(static_cast<int>(rows_.size()));
   previous_.resize(rows_.size());
+  std::size_t shared = 0;
   for (std::size_t f = 0; f < features.size(); ++f) {
     const std::span<const double> multipliers = features[f]->multipliers();
     for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
       previous_[at(i)] = multipliers[at(rows_[at(i)].index)];
+      if (rows_[at(i)].shares > 1) note_shared(f, i, shared++);
     }
   }
+  shared_.resize(shared);
+  if (shared > 0) follow_slip(substep);
 }
 
 void RowSystem::remember_start(Substep& substep, Features features) {
@@ -66,14 +70,17 @@ bool RowSystem::match_start() {
       std::swap(rows_[at(i)].weight, rows_[at(i)].start_weight);
     }
   }
+  for (const SharedFriction& friction : shared_) {
+    if (friction.turned) slots_.mix(friction.first_row, friction.count, friction.frame, false);
+  }
   return true;
 }
 
 bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool from_here) {
+  bound_share_ = rule == Rule::backward ? 1.0 : 0.5;
   collect_rows(substep, features);
   problem_.rounding = value_rounding * substep.bodies.scale();
   symmetric_rows_ = forces_turn_ = rule == Rule::backward;
-  bound_share_ = rule == Rule::backward ? 1.0 : 0.5;
   fill_slots(substep);
   if (rule == Rule::midpoint && !match_start()) return false;
   slots_.join(rows_);
@@ -88,6 +95,7 @@ bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool f
     }
   }
   recall_sides();
+  if (!shared_.empty()) set_slipping_sides();
   from_here_ = from_here;
   if (from_here) {
     remember_origin(substep);
@@ -337,6 +345,7 @@ double RowSystem::violation() const {
     // What nothing can yield to no further round mends, nor a shorter substep.
     if (off > worst * groups_[g].scale && yield(g) > 0.0) worst = off / groups_[g].scale;
   }
+  if (!shared_.empty()) worst = std::max(worst, excess_friction());
   return worst;
 }
 
@@ -410,6 +419,9 @@ void RowSystem::apply(Substep& substep, Features features) {
       const double gain = from_here_ ? multiplier - previous_[i] : multiplier;
       if (gain != 0.0) slots_.add_row(r, gain, motion_.data());
     }
+  }
+  for (const SharedFriction& friction : shared_) {
+    if (friction.turned) turn_back(friction, features[friction.feature]->multipliers());
   }
   if (bent_) {
     for (std::size_t d = 0; d < motion_.size(); ++d) motion_[d] += bend_[d];

@@ -146,7 +146,10 @@ class RowSystem {
   void apply_impulses(Substep& substep, Features features);
 
   /// Forgets what rounds of this substep leave for the next one.
-  void begin_rounds() { knows_sides_ = false; }
+  void begin_rounds() {
+    knows_sides_ = false;
+    shared_.clear();
+  }
   [[nodiscard]] int row_count() const { return static_cast<int>(rows_.size()); }
 
  private:
@@ -194,6 +197,38 @@ class RowSystem {
   void assemble();
   /// Adds what `motion_` changes of the groups' values to the constants of the problem.
   void count_motion();
+  /// Friction in several directions (engine/friction_rows.h), and what rounds have found of it.
+  struct SharedFriction {
+    std::size_t feature = 0;
+    int index = 0;  ///< of its first multiplier
+    int first_row = 0;
+    int count = 0;
+    /// Directions that its rows are of now, as sums of those of the feature; the first is that of
+    /// the slip.
+    Matrix3 frame = Matrix3::Identity();
+    bool turned = false;  ///< `frame` is no unit matrix
+    bool slips = false;
+    double softness = 0.0;  ///< by which the rows across the slip give
+  };
+  /// Of that which begins with `row`: `place` is its number among all.
+  void note_shared(std::size_t feature, int row, std::size_t place);
+  /// Turns the rows of friction in several directions to how it slips with the multipliers and
+  /// positions of now.
+  void follow_slip(const Substep& substep);
+  /// Makes its rows those along its frame.
+  void turn_rows(const SharedFriction& friction);
+  /// The sides that slipping friction begins with.
+  void set_slipping_sides();
+  /// How far friction is beyond its bound, in what that moves [m or rad].
+  [[nodiscard]] double excess_friction() const;
+  /// Turns rows to how friction slips with the velocities just found. Whether that makes a
+  /// difference.
+  [[nodiscard]] bool turn_friction();
+  bool turn_to_slip(double bound, SharedFriction& friction);
+  /// Of the velocities: that of the positions goes on.
+  void begin_shared_friction();
+  /// Makes `multipliers` of the feature what they are in its own directions.
+  void turn_back(const SharedFriction& friction, std::span<double> multipliers) const;
   /// A row of friction whose bounds follow the pressure within a round.
   struct Rubbing {
     int row = 0;
@@ -246,6 +281,7 @@ class RowSystem {
   double swing_ = 0.0;
   bool forces_turn_ = true;  ///< K is that of where the bodies are
   std::vector<Rubbing> rubbing_;
+  std::vector<SharedFriction> shared_;
   Curvature curvature_;
   bool bent_ = false;  ///< the last round has counted in how forces turn
   /// Per degree of freedom, of the round: from where bodies are to where they should be

@@ -64,6 +64,8 @@ void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
     problem_.upper[g] = upper - group.multiplier;
   }
   if (redundant) start_from_impulses();
+  shared_ = positions.shared_;
+  if (!shared_.empty()) begin_shared_friction();
 }
 
 bool RowSystem::bound_friction() {
@@ -104,7 +106,9 @@ bool RowSystem::solve_velocities(Substep& substep, bool direct, int sweeps) {
     } else if (!solve(substep, true)) {
       return false;
     }
-    if (!bound_friction()) break;
+    const bool bounds = bound_friction();
+    const bool directions = !shared_.empty() && turn_friction();
+    if (!bounds && !directions) break;
   }
   return true;
 }
@@ -160,6 +164,11 @@ void RowSystem::apply_impulses(Substep& substep, Features features) {
       multipliers[at(rows_[i].index)] = previous_[i] + substep.h * impulse;
       late[at(rows_[i].index)] = impulse / substep.h;
       if (!group.elastic) slots_.add_row(r, impulse, motion_.data());
+    }
+    for (const SharedFriction& friction : shared_) {
+      if (friction.feature != f || !friction.turned) continue;
+      turn_back(friction, multipliers);
+      turn_back(friction, late);
     }
   }
   move_velocities(substep);

@@ -66,6 +66,30 @@ TEST(ContactFriction, ABoxSlidesJustBeyondTheFrictionAngle) {
   }
 }
 
+TEST(ContactFriction, ABoxSlidesOffAlongTheForceWhateverItsDirection) {
+  // From rest, F - mu m g along F. The box's inertia is so large that what lies between the forces
+  // tips it by nothing.
+  const double friction = 0.5;
+  for (const test::Method& method : test::methods) {
+    for (const double angle : {0.0, 10.0, 22.5, 45.0, 80.0, 90.0, 200.0}) {
+      for (const double force : {4.8, 6.0}) {
+        SCOPED_TRACE(test::name_of(method) + ", degrees: " + std::to_string(angle));
+        Heap heap(method.solver, method.integrator);
+        heap.surface.friction = friction;
+        sweep_enough(method, heap);
+        heap.floor();
+        const BodyId box = heap.put(test::box({0.3, 0.02, 0.3}), {0.0, 0.01, 0.0});
+        const Vector3 along(std::cos(angle * degree), 0.0, std::sin(angle * degree));
+        heap.last().force = force * along;
+        World world = heap.start();
+        test::run(world, 0.5);
+        const double gained = std::max(force - friction * g, 0.0) * world.state().time;
+        EXPECT_NEAR((world.velocity(box) - gained * along).norm(), 0.0, 1e-4);
+      }
+    }
+  }
+}
+
 TEST(ContactFriction, AnImpactTakesFrictionTimesWhatItGives) {
   // A box hits the floor while it slides. As long as it does, friction is mu times the normal force
   // at every moment, those of the impact among them, so v_x falls by mu times what the floor adds

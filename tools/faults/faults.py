@@ -109,6 +109,8 @@ FAULTS = [
     one("joint-friction", "dry friction of joints twice as large", "engine/joints/joint_effect.cpp",
         "if (settings.friction > 0.0) add(Kind::friction).limit = settings.friction;",
         "if (settings.friction > 0.0) add(Kind::friction).limit = 2.0 * settings.friction;"),
+    one("friction-box", "friction of joints in several directions bounded along each by itself",
+        "engine/joints/joint_effect.cpp", "effects[own].shares = count;", "effects[own].shares = 0;"),
     one("joint-stop", "stops of joints 0.05 too far", "engine/joints/joint_effect.cpp",
         "effect.at = *stop;", "effect.at = *stop * 1.1 + (*stop > 0.0 ? 0.05 : -0.05);"),
     one("gear-ratio", "gears with 1.02 times their ratio", "engine/joints/coupling.h",
