@@ -2,6 +2,8 @@
 
 #include <pybind11/stl.h>
 
+#include "cable/compiled_cable.h"
+#include "engine/body_set.h"
 #include "engine/index.h"
 #include "python/bindings/arguments.h"
 #include "python/bindings/bind.h"

@@ -4,6 +4,7 @@
 
 #include <pybind11/stl.h>
 
+#include "engine/body_set.h"
 #include "python/bindings/arguments.h"
 #include "python/bindings/bind.h"
 #include "python/bindings/errors.h"

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "cable/cable_system.h"
+#include "cable/compiled_cable.h"
 #include "engine/index.h"
 #include "python/bindings/bind.h"
 
