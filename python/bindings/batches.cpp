@@ -33,6 +33,7 @@ class AtWork {
  public:
   explicit AtWork(SharedBatch& shared) : shared_(shared) {
     shared_.runs = true;
+    // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): only once that is marked
     thread_ = PyEval_SaveThread();
   }
   ~AtWork() {
@@ -131,7 +132,7 @@ py::array_t<double> gather(SharedBatch& shared, py::ssize_t width, const Read& r
   double* to = values.mutable_data();
   for (std::size_t i = 0; i < batch.size(); ++i) {
     for (const BodyState& body : batch.world(i).world.state().bodies) {
-      const auto numbers = read(body);
+      const auto& numbers = read(body);
       to = std::copy(numbers.data(), numbers.data() + width, to);
     }
   }

@@ -103,6 +103,7 @@ class Core::Stepper {
         outer_(core.stepper_) {
     core_.stepper_ = std::this_thread::get_id();
     core_.runs_ = true;
+    // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): only once that is marked
     thread_ = PyEval_SaveThread();
     if (!before_substep_.is_none()) substep_ = [this] { call(before_substep_); };
     stop_ = [this] { return fault_ || (core_.is_slow_ && looks_at_signals()); };
