@@ -63,8 +63,7 @@ void check_contact(const Evidence& evidence, const ContactEvidence& contact, Fin
     return "the contact of " + evidence.body_name(contact.body_a) + " and " +
            evidence.body_name(contact.body_b);
   };
-  findings.note(Kind::friction, "N", std::max(drag.norm() - bound, 0.0), scale,
-                1e-7 * scale, name);
+  findings.note(Kind::friction, "N", std::max(drag.norm() - bound, 0.0), scale, 1e-7 * scale, name);
   if (contact.sticks) return;
   // What slides is dragged against its sliding.
   const Moment& now = evidence.moments[last_end];

@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include "cable/cable_system.h"
 #include "cable/compiled_cable.h"
 #include "engine/body_set.h"
 #include "engine/index.h"
