@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "cable/links/spool.h"
+#include "engine/body_set.h"
 #include "engine/shapes/box.h"
 #include "tests/support/builders.h"
 #include "tests/support/random.h"
