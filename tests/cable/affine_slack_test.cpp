@@ -107,7 +107,8 @@ test::Machine random_machine(Random& random, IntegratorKind integrator) {
     if (random.chance(0.5)) cable.damping = decades(random, -1, 2);
   }
   m.cables.push_back(cable);
-  for (const SpanReport& span : test::start(m).cable_reports()[0].spans) {
+  const CableReport drawn = test::start(m).cable_reports()[0];
+  for (const SpanReport& span : drawn.spans) {
     const bool slack = random.chance(0.4);
     m.cables[0].rest_lengths.push_back(span.length + (slack ? decades(random, -6, -1) : 0.0));
   }
