@@ -46,12 +46,13 @@ class Pid:
 def main(figure: str = "") -> float:
     """The tension at the end [N]."""
     sim = build().simulation()
-    recording = sim.record(["rope.0.tension", "boat.x"], every=10, before_step=Pid(sim))
+    recording = sim.record(["rope.0.tension"], every=10, before_step=Pid(sim))
     tension = float(recording["rope.0.tension"][-1])
     print(f"the boat is at {sim.bodies['boat'].position[0]:.2f} m, the tension is {tension:.2f} N")
     assert abs(tension - WANTED) < 1.0
     if figure:
         axes = recording.plot()
+        axes.set_ylabel("tension [N]")
         axes.figure.savefig(figure)
     return tension
 
