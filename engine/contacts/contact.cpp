@@ -20,6 +20,7 @@
 
 #include "engine/contacts/contact.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sheave {
@@ -31,6 +32,11 @@ constexpr double slow_impact = 2.0;  // of what gravity does in a substep
 /// which four rows hold where three would do, it shares the load. It lets contacts sink by this
 /// share of what the load would move the body by in a substep if nothing held it.
 constexpr double softened_share = 1e-9;
+/// It is made larger where that would be less than `least_sink` of the scene's size, a thousand
+/// times what rounding leaves of a gap: below it rounding would share the load, another way in each
+/// round, and friction at corners that carry little would follow it about without an end.
+constexpr double least_sink = 1e-11;
+constexpr double most_softened = 1e-6;
 /// The same for friction, which is hyperstatic far more often: a taut rope over a wheel sticks at
 /// many points to what moves as one. With less, rounding decides which of them slip, and the search
 /// for them goes on and on (373 changes per substep for a rope of 100 segments, 61 with this, 10
@@ -140,7 +146,13 @@ void prepare_contact(const Substep& substep, const ContactMaterial& material,
     row.clear();
     contact.evaluate(substep, i, row);
     respond(row, substep.moving, response);
-    contact.softness[at(i)] = (i == 0 ? softened_share : softened_friction) * response.inverse_mass;
+    double share = softened_friction;
+    if (i == 0) {
+      const double pushed = std::max(pressure * response.inverse_mass, free_acceleration.norm());
+      share = std::clamp(least_sink * substep.bodies.scale() / (h * (std::abs(rate) + h * pushed)),
+                         softened_share, most_softened);
+    }
+    contact.softness[at(i)] = share * response.inverse_mass;
   }
 }
 

@@ -17,6 +17,7 @@
 #include <optional>
 
 #include "engine/contacts/contact_finder.h"
+#include "engine/followed_pressure.h"
 
 namespace sheave {
 
@@ -58,6 +59,7 @@ struct Contact {
   bool stuck = true;
   // What the solver has found so far.
   double pressed = 0.0;  ///< l_n that bounds friction
+  FollowedPressure pressure;  ///< what `pressed` becomes from round to round
   bool slips = false;
 
   int rows = 1;  ///< the normal, and friction along the first or both tangents

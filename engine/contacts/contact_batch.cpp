@@ -135,7 +135,7 @@ class ContactBatch final : public ConstraintBatch {
       const bool matters = contact.slips || needed > contact.friction * now;
       const double change = std::abs(now - contact.pressed);
       if (matters && change > settled_share * std::max(now, contact.pressed)) changed = true;
-      contact.pressed = now;
+      contact.pressed = contact.pressure.next(contact.pressed, now);
     }
     return changed;
   }

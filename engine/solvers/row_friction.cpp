@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "engine/index.h"
 #include "engine/solvers/row_system.h"
@@ -67,7 +68,7 @@ void RowSystem::follow_slip(const Substep& substep) {
   for (SharedFriction& friction : shared_) {
     const auto first = at(friction.first_row);
     const double bound = bound_share_ * rows_[first].upper;
-    friction.slips = false;
+    const bool slipped = std::exchange(friction.slips, false);
     friction.softness = 0.0;
     Vector3 force = Vector3::Zero();
     Vector3 slip = Vector3::Zero();
@@ -76,7 +77,7 @@ void RowSystem::follow_slip(const Substep& substep) {
       slip[k] = rows_[first + at(k)].value;
     }
     const double used = force.norm();
-    if (bound > 0.0 && (used == 0.0 || used >= nearly * bound)) {
+    if (bound > 0.0 && (used == 0.0 || slipped || used >= nearly * bound)) {
       double yield = 0.0;
       RowResponse response;
       for (int k = 0; k < friction.count; ++k) {

@@ -338,6 +338,9 @@ double RowSystem::violation() const {
     // that has just ended are none of a violation, though bounds that follow other forces have
     // moved on a little.
     const double room = r > 0.0 ? -problem_.lower[g] : problem_.upper[g];
+    // Beyond its bounds, which have moved since it was found, an unknown moves what it must not.
+    const double excess = std::max(problem_.lower[g], -problem_.upper[g]);
+    if (excess > 0.0) worst = std::max(worst, excess * yield(g) / groups_[g].scale);
     if (!(room > 0.0)) continue;
     double off = std::abs(r);
     if (!(off > worst * groups_[g].scale)) continue;

@@ -49,6 +49,7 @@
 #include <vector>
 
 #include "engine/constraint_batch.h"
+#include "engine/followed_pressure.h"
 #include "engine/solvers/active_set.h"
 #include "engine/solvers/curvature.h"
 #include "engine/solvers/row_slots.h"
@@ -281,6 +282,7 @@ class RowSystem {
   double swing_ = 0.0;
   bool forces_turn_ = true;  ///< K is that of where the bodies are
   std::vector<Rubbing> rubbing_;
+  std::vector<FollowedPressure> pressures_;  ///< per row, between rounds of the velocities
   std::vector<SharedFriction> shared_;
   Curvature curvature_;
   bool bent_ = false;  ///< the last round has counted in how forces turn

@@ -86,13 +86,15 @@ bool RowSystem::bound_friction() {
     if (matters && std::abs(bound - before) > settled_share * std::max(bound, before)) {
       changed = true;
     }
-    problem_.lower[g] = -bound - groups_[g].multiplier;
-    problem_.upper[g] = bound - groups_[g].multiplier;
+    const double next = pressures_[i].next(before, bound);
+    problem_.lower[g] = -next - groups_[g].multiplier;
+    problem_.upper[g] = next - groups_[g].multiplier;
   }
   return changed;
 }
 
 bool RowSystem::solve_velocities(Substep& substep, bool direct, int sweeps) {
+  pressures_.assign(rows_.size(), {});
   for (int round = 0; round < std::max(sweeps, 1); ++round) {
     if (round > 0) {
       // The matrix is that of the first round.
