@@ -31,7 +31,7 @@ bool CableSystem::gauge(const FeatureState& own, std::vector<CableGauge>& gauges
       gauge.total_length += own.reals[stored_length_index(i)];
       if (definitions_[at(i)].feeds) fed += own.reals[slip_index(i)];
     }
-    gauge.length_error = (gauge.total_length - cable.start_length - fed) / cable.start_length;
+    gauge.length_error = cable.length_error(gauge.total_length, fed);
     gauges[c] = gauge;
   }
   return true;

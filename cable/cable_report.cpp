@@ -181,7 +181,7 @@ void CableSystem::measure(const CableView& view, const CompiledCable& cable, int
     const int place = strain_places_[at(i)];
     if (place >= 0) report.creep_loss += view.own.reals[creep_index(place)];
   }
-  report.length_error = (report.total_length - cable.start_length - fed) / cable.start_length;
+  report.length_error = cable.length_error(report.total_length, fed);
 }
 
 double CableSystem::length_before(const FeatureState& own, const CompiledCable& cable,

@@ -107,8 +107,8 @@ struct CableReport {
   /// Of a cut cable the lengths of its two pieces, from the first link and from the last [m].
   std::array<double, 2> pieces{};
   double total_length = 0.0;  ///< sum of rest lengths and stored lengths [m]
-  /// (total_length - its value at time 0 - what was fed, or put in by placements) / that value; the
-  /// length invariant.
+  /// (total_length - its value at time 0 - what was fed, or put in by placements) / that value, or
+  /// total_length where that is 0; the length invariant.
   double length_error = 0.0;
   /// Energy lost since time 0 where cable of a material came off a wheel with another strain than
   /// its span's [J]: the creep of belts (cable/cable_material.cpp).

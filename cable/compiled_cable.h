@@ -46,7 +46,13 @@ struct CompiledCable {
   bool has_friction = false;  ///< and at one of them with friction
   TangentUpdate tangent_update = TangentUpdate::iteration;
   double start_length = 0.0;  ///< rest and stored lengths at time 0 [m]
-  BodyFrames defined_in;      ///< where bodies were when it was defined
+  /// How far a length of now is from what it was at the start and what was fed since, relative to
+  /// the start, or to now where all of it has been fed.
+  [[nodiscard]] double length_error(double total, double fed) const {
+    const double all = start_length > 0.0 ? start_length : total;
+    return all > 0.0 ? (total - start_length - fed) / all : 0.0;
+  }
+  BodyFrames defined_in;  ///< where bodies were when it was defined
   /// Power of two that all rest and stored lengths are multiples of [m], about 1e-15 of the cable.
   /// Sums and differences of such numbers are exact, so moving cable from span to wheel to span
   /// cannot lose any: the length invariant holds to the last bit, for ever.

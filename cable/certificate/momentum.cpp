@@ -382,7 +382,8 @@ class MomentumCheck {
               ? Vector3(e_.moments[at(when)].orientation(e_.bodies[i].mount) * e_.bodies[i].axis)
               : e_.bodies[i].axis;
       findings_.note(CertificateItem::Kind::angular_momentum, "N m",
-                     std::abs(axis.dot(balance.torque[at(when)])), balance.largest_torque, 0.0,
+                     std::abs(axis.dot(balance.torque[at(when)])),
+                     std::max(balance.largest_torque, lever(i)), 0.0,
                      [&] { return e_.body_name(i); });
     }
   }

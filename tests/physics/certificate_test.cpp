@@ -13,6 +13,7 @@
 #include "engine/joints/hinge.h"
 #include "engine/joints/slider.h"
 #include "engine/shapes/box.h"
+#include "engine/shapes/cylinder.h"
 #include "tests/support/builders.h"
 
 namespace sheave::test {
@@ -241,6 +242,52 @@ TEST_P(CertificateOf, DashpotLocksNothing) {
   EXPECT_TRUE(all.clean(1e-6)) << worst_of(all);
   // It has sunk: m v' = m g - c v.
   EXPECT_LT(simulation.world.position({0}).y(), -1.8);
+}
+
+// A wheel without inertia lands on the ground with what carries it: what rounding leaves of its
+// torque is measured by the forces that act on it.
+TEST_P(CertificateOf, MasslessWheelThatLands) {
+  Machine machine;
+  machine.model.step = exact(GetParam());
+  machine.model.step.dt = 0.013672361515376399;
+  machine.model.step.substeps = 5;
+  machine.model.gravity = down;
+  BodyDef block = lump("block", {0, 0, 0}, 0.7500398738144769);
+  block.orientation = Quaternion(0.9326195836130391, 0, 0, 0.3608610705817983);
+  block.shapes.push_back({make<Box>([](Box& box) { box.size = {0.3, 0.3, 0.3}; })});
+  machine.model.add(std::move(block));
+  BodyDef idle;
+  idle.name = "wheel";
+  idle.mobility = Mobility::rotor;
+  idle.mount = BodyId{0};
+  idle.mass = 1.910010207206312;
+  idle.spin_inertia = 0.0;
+  idle.shapes.push_back({make<Cylinder>([](Cylinder& c) {
+    c.radius = 0.2683074085914011;
+    c.length = 0.1;
+  })});
+  machine.model.add(std::move(idle));
+  machine.model.ground.emplace().point = {0, -0.7339483590912778, 0};
+  Simulation simulation = start(machine);
+  const Certificate all = certify(simulation, 1.5);
+  EXPECT_TRUE(all.clean(1e-6)) << worst_of(all);
+}
+
+// All of a cable may have been fed.
+TEST_P(CertificateOf, CableThatBeginsWithNothing) {
+  Machine machine;
+  machine.model.step = exact(GetParam());
+  machine.model.gravity = down;
+  machine.model.add(lump("a", {0, 0, 0}, 1.0));
+  machine.model.add(lump("b", {0, 0, 0}, 2.0));
+  auto mouth = attach({1});
+  mouth->feed_speed = 0.2;
+  machine.cables.push_back(cable("rope", {attach({0}), mouth}));
+  Simulation simulation = start(machine);
+  const Certificate all = certify(simulation, 0.5);
+  EXPECT_TRUE(all.clean(1e-6)) << worst_of(all);
+  EXPECT_NEAR(simulation.cable_reports()[0].total_length, 0.1, 1e-12);
+  EXPECT_EQ(simulation.cable_reports()[0].length_error, 0.0);
 }
 
 // What falls together with its cable pulls at nothing: what rounding leaves of tensions has no
