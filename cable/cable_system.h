@@ -103,6 +103,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   void limit_drives(Substep& substep) override;
   double sweep(Substep& substep) override;
   void linearise(Substep& substep, RowList& rows) override;
+  [[nodiscard]] bool has_all_rows() const override { return true; }
   [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
   bool revise(Substep& substep) override;
   void finish(Substep& substep, FeatureState& next) override;

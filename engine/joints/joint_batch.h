@@ -38,7 +38,7 @@ struct JointParts {
   bool counts_coordinates = true;       ///< whether the state has their values; effects need them
   int lock_count = Kernel::lock_count;  ///< fewer where mobilities keep bodies from moving, too
   bool locks_are_idle = false;          ///< mobilities do all that they do, and they need no rows
-  bool exact = false;                   ///< no part of a row's gradient is but rounding
+  bool exact = false;  ///< rows are Row::told, and no part of a gradient is but rounding
 };
 
 /// All joints of one type. Their state: engine/joints/joint_state.h.
@@ -135,6 +135,7 @@ class JointBatch final : public JointFeature {
       }
     }
   }
+  [[nodiscard]] bool has_all_rows() const override { return true; }
   [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
 
   void finish(Substep& substep, FeatureState& next) override {
@@ -396,6 +397,8 @@ class JointBatch final : public JointFeature {
   void complete(const Substep& substep, const Joint& joint, Row& row) const {
     if (joint.restricted) drop_rounding(row, substep.moving);
     row.active = acted_[at(row.index)] != 0;
+    // What is pressed together finds its bound from round to round.
+    row.told = joint.exact && row.friction == 0.0;
   }
   /// Of friction in several directions: its `count` rows from `first` on.
   double sweep_friction(Substep& substep, const Joint& joint, int first, int count) {
