@@ -104,6 +104,7 @@ std::vector<AffineSpan> CableSystem::affine_spans(const BodySet& bodies, bool en
     if (!start || start->frames != cable.defined_in) start.emplace(bodies, cable.defined_in);
     spans[k] = affine_span(start->now, setup, ends_stay);
     spans[k].row.lower = 0.0;
+    spans[k].row.told = true;
     spans[k].row.damping = cable.damping;
     spans[k].row.compliance = cable.compliance;
     spans[k].row.index = static_cast<int>(k);

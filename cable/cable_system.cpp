@@ -169,6 +169,10 @@ void CableSystem::linearise_spans(Substep& substep, const CompiledCable& cable, 
     if (!spans_[at(k)].active) continue;
     if (is_affine_[at(k)] == 0) {
       linearise_run(substep, cable, {k, 1}, rows);
+      Row& row = rows[rows.size() - 1];
+      const bool grows = has_layers_ && layered(k);
+      row.told = row.curved && row.compliance == 0.0 && cable.inverse_stiffness == 0.0 &&
+                 !spans_[at(k)].outlined && !grows && spans_[at(k)].kind != SpanKind::spatial;
       continue;
     }
     const AffineSpan& affine = affine_[at(k)];

@@ -46,6 +46,13 @@ function(sheave_target_flags target)
   target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:${SHEAVE_WARNINGS}>)
 endfunction()
 
+# Sanitized code that only drives the libraries needs no optimiser, which takes most of the time of compiling it.
+function(sheave_drives_libraries target)
+  if(SHEAVE_SANITIZE)
+    target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-O0>)
+  endif()
+endfunction()
+
 # sheave_library(<folder> LINKS <targets...> [LINKS_PRIVATE <targets...>] [PCH <headers...>]
 #                [PCH_FROM <target>] [GENERATED <sources...>])
 # makes the static library sheave_<folder>, alias sheave::<folder>, of all sources below the folder.
@@ -66,6 +73,11 @@ function(sheave_library folder)
   add_library(sheave::${folder} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder} POSITION_INDEPENDENT_CODE ON)
   sheave_target_flags(${target})
+  if(SHEAVE_FUZZ)
+    # Tells the fuzzer which branches an input takes and what is compared; its own main program comes with the link.
+    # All libraries do, because some share precompiled headers.
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
+  endif()
   target_include_directories(
     ${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sheave>)
@@ -97,6 +109,7 @@ endfunction()
 # Flags, include root and sanitizer defaults of an executable.
 function(sheave_executable_settings target)
   sheave_target_flags(${target})
+  sheave_drives_libraries(${target})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}" "${SHEAVE_GENERATED_DIR}")
   if(SHEAVE_SANITIZE)
     target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/cmake/sanitizer_defaults.cpp")

@@ -58,6 +58,9 @@ class ConstraintBatch {
   /// Appends all rows at the current positions without moving anything; their multipliers are those
   /// of multipliers().
   virtual void linearise(Substep& substep, RowList& rows) = 0;
+  /// Whether linearise() always appends the same rows within a substep, unless revise() says that
+  /// something has changed. (The ground has none for what is far from it.)
+  [[nodiscard]] virtual bool has_all_rows() const { return false; }
   /// The accumulated multipliers, which a row refers to by its index; a solver changes them with
   /// the positions.
   [[nodiscard]] virtual std::span<double> multipliers() = 0;

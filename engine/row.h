@@ -113,6 +113,9 @@ struct Row {
   /// Of a curved row between two points: 1 / their distance, by which its direction turns [1/m]; 0
   /// if it never does.
   double turning = 0.0;
+  /// Whether its value changes by its gradient, and by how that turns as `curved` tells, and by
+  /// nothing else.
+  bool told = false;
   double weight = 1.0;        ///< > 0
   double start_weight = 1.0;  ///< the same at the start of the substep; `rattle` needs it
   /// Null, or what this is a copy of (engine/row_list.h): the same bodies, gradient and weights as
@@ -125,7 +128,7 @@ struct Row {
     index = pressed_by = shares = 0;
     source = nullptr;
     friction = 0.0;
-    active = tied = curved = false;
+    active = tied = curved = told = false;
     turning = 0.0;
     weight = start_weight = 1.0;
     softness = 0.0;

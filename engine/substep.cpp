@@ -27,21 +27,19 @@ double left_by_drag(double rate, double time) {
 /// drag.
 void set_undamped(const BodyProperties& properties, MovingBody& body) {
   const Vector3& axis = properties.axis;
-  const Matrix3 along = axis * axis.transpose();
+  Matrix3 along = Matrix3::Zero();
+  if (properties.mobility != Mobility::free) along = axis * axis.transpose();
   switch (properties.mobility) {
     case Mobility::fixed:
     case Mobility::kinematic:
       break;
-    case Mobility::free: {
-      const Matrix3 rotation = body.orientation.toRotationMatrix();
+    case Mobility::free:
       body.inverse_mass = Matrix3::Identity() / properties.mass;
       body.linear_yield = 1.0 / properties.mass;
-      body.inverse_inertia =
-          properties.isotropic
-              ? properties.inverse_inertia
-              : Matrix3(rotation * properties.inverse_inertia * rotation.transpose());
+      body.inverse_inertia = properties.isotropic
+                                 ? properties.inverse_inertia
+                                 : turned_tensor(body.orientation, properties.inverse_inertia);
       break;
-    }
     case Mobility::planar:
       body.inverse_mass = (Matrix3::Identity() - along) / properties.mass;
       body.inverse_inertia = along / properties.axis_inertia;
@@ -96,11 +94,16 @@ void set_mounted_inverse_inertia(const BodyProperties& rotor, const Vector3& axl
   body.angular_yield = 1.0 / rotor.axis_inertia;
 }
 
-/// Whether they differ from substep to substep.
-bool inverse_masses_change(const BodySet& bodies, int i) {
+/// Those that differ from substep to substep.
+void renew_inverse_masses(const BodySet& bodies, int i, double time, MovingBody& body) {
+  const BodyProperties& properties = bodies[i];
+  if (properties.mount >= 0) return;
   const BodyDef& definition = bodies.definition(i);
-  return bodies[i].mount < 0 && ((bodies[i].mobility == Mobility::free && !bodies[i].isotropic) ||
-                                 definition.damping > 0.0 || definition.angular_damping > 0.0);
+  if (definition.damping > 0.0 || definition.angular_damping > 0.0) {
+    set_inverse_masses(bodies, i, time, body);
+  } else if (properties.mobility == Mobility::free && !properties.isotropic) {
+    body.inverse_inertia = turned_tensor(body.orientation, properties.inverse_inertia);
+  }
 }
 
 }  // namespace
@@ -139,7 +142,7 @@ void Substep::restart() {
     body.free_orientation = body.orientation;
     body.free_turn.setZero();
     const BodyProperties& properties = bodies[i];
-    if (inverse_masses_change(bodies, i)) set_inverse_masses(bodies, i, load_share * h, body);
+    renew_inverse_masses(bodies, i, load_share * h, body);
     if (properties.mount >= 0) {
       set_mounted_inverse_inertia(
           properties, rotated(start.bodies[at(properties.mount)].orientation, properties.axis),
@@ -159,7 +162,7 @@ void Substep::update_inertias() {
   for (int i = 0; i < bodies.count(); ++i) {
     const BodyProperties& properties = bodies[i];
     MovingBody& body = moving[at(i)];
-    if (inverse_masses_change(bodies, i)) set_inverse_masses(bodies, i, load_share * h, body);
+    renew_inverse_masses(bodies, i, load_share * h, body);
     if (properties.mount >= 0) {
       set_mounted_inverse_inertia(properties,
                                   moving[at(properties.mount)].orientation * properties.axis, body);

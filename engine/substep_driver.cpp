@@ -19,18 +19,29 @@ SubstepDriver::SubstepDriver(const Model& model,
 
 void SubstepDriver::forget() {
   has_stepped_ = false;
-  controls_changed_ = true;
+  controls_changed_ = start_lacks_controls_ = true;
   if (affine_) affine_->forget();
 }
 
 int SubstepDriver::run_affine(int index, int end, State* start) {
   const int done = affine_ ? affine_->advance(index, end, state_, before_, substep_, start) : 0;
-  if (done == 0 && start != nullptr) *start = state_;
+  if (done == 0 && start != nullptr) keep_start(*start);
   if (done == 0) return 0;
   if (controls_changed_) before_.controls = state_.controls;
   controls_changed_ = false;
   has_stepped_ = next_is_old_ = true;
   return done;
+}
+
+void SubstepDriver::keep_start(State& start) {
+  start.steps = state_.steps;
+  start.time = state_.time;
+  start.bodies = state_.bodies;
+  if (!features_.empty()) start.features = state_.features;
+  start.memory = state_.memory;
+  // What steps do not change need not be copied each time.
+  if (start_lacks_controls_) start.controls = state_.controls;
+  start_lacks_controls_ = false;
 }
 
 std::optional<Divergence> SubstepDriver::run(int index) {
@@ -176,7 +187,7 @@ void SubstepDriver::keep() {
   // Same shape on all sides, so this copies without allocating, and what was is kept without a
   // copy.
   state_.bodies.swap(before_.bodies);
-  state_.features.swap(before_.features);
+  if (!features_.empty()) state_.features.swap(before_.features);
   before_.time = state_.time;
   before_.steps = state_.steps;
   // What steps through without being changed need not be copied each time.
@@ -184,7 +195,7 @@ void SubstepDriver::keep() {
   controls_changed_ = false;
   has_stepped_ = true;
   state_.bodies = substep_.next.bodies;
-  state_.features = substep_.next.features;
+  if (!features_.empty()) state_.features = substep_.next.features;
   state_.time = substep_.next.time;
 }
 

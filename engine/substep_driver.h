@@ -51,7 +51,8 @@ class SubstepDriver {
 
   /// Advances the state by the substeps of the step from `index` to before `end` that need none of
   /// the stages (engine/solvers/affine_motion.h), and returns their number. If these are not all,
-  /// `start`, unless it is null, becomes the state before them.
+  /// `start`, unless it is null, becomes the state before them; it must be the same one each time,
+  /// and nobody else may change it unless by the whole state.
   int run_affine(int index, int end, State* start);
   /// Advances the state by substep `index` of the step. If it diverges the state is the last good
   /// one.
@@ -64,7 +65,7 @@ class SubstepDriver {
   /// and the numbers of the last feature are at these addresses, if they are among the two.
   void put_in_place(const BodyState* bodies, const double* reals);
   /// To be called when the state's controls have been changed.
-  void note_controls() { controls_changed_ = true; }
+  void note_controls() { controls_changed_ = start_lacks_controls_ = true; }
 
  private:
   /// One of `count` equal parts of the step; counts are the number of substeps times a power of
@@ -91,6 +92,7 @@ class SubstepDriver {
   bool advance_in_halves(Part part);
   bool advance_half(Part part);
   void keep();
+  void keep_start(State& start);
   /// Whether there is nothing more to be tried.
   [[nodiscard]] bool over() const { return divergence_ || substep_.work.stopped(); }
   /// Whether another integrator can stand in.
@@ -106,7 +108,8 @@ class SubstepDriver {
   bool next_is_old_ = false;              ///< substep_.next is not what a stage builds on
   State start_;                           ///< of a substep that is cut
   bool has_stepped_ = false;
-  bool controls_changed_ = false;  ///< since before_ has had them
+  bool controls_changed_ = false;     ///< since before_ has had them
+  bool start_lacks_controls_ = true;  ///< nor has the `start` of run_affine()
   std::optional<Divergence> divergence_;
   int left_to_others_ = 0;          ///< parts of this substep that another integrator has done
   std::int64_t parts_ = 0;          ///< of this substep that are done

@@ -63,6 +63,20 @@ constexpr double pi = 3.14159265358979323846;
           v[2] + q.w() * twice[2] + last[2]};
 }
 
+/// R m R^T of a symmetric m, with the matrix R of q.
+[[nodiscard]] inline Matrix3 turned_tensor(const Quaternion& q, const Matrix3& m) {
+  const Matrix3 r = q.toRotationMatrix();
+  Matrix3 result;
+  for (int i = 0; i < 3; ++i) {
+    const Vector3 row = times(m, Vector3{r(i, 0), r(i, 1), r(i, 2)});
+    for (int j = 0; j <= i; ++j) {
+      result(i, j) = row[0] * r(j, 0) + row[1] * r(j, 1) + row[2] * r(j, 2);
+      result(j, i) = result(i, j);
+    }
+  }
+  return result;
+}
+
 /// The rotation by |turn| radians about turn/|turn| [rad], exact to rounding for any size.
 /// Small turns (every correction of a solver is one) use the Taylor series of sin and cos, which
 /// at |turn| < 0.2 is exact to the last bit and several times faster.

@@ -10,9 +10,14 @@ namespace sheave {
 
 Matrix3 world_inertia(const BodyProperties& body, const Quaternion& orientation, bool inverse) {
   const Matrix3& own = inverse ? body.inverse_inertia : body.inertia;
-  if (body.isotropic) return own;
-  const Matrix3 rotation = orientation.toRotationMatrix();
-  return rotation * own * rotation.transpose();
+  return body.isotropic ? own : turned_tensor(orientation, own);
+}
+
+Vector3 times_inertia(const BodyProperties& body, const Quaternion& orientation, bool inverse,
+                      const Vector3& vector) {
+  const Matrix3& own = inverse ? body.inverse_inertia : body.inertia;
+  if (body.isotropic) return times(own, vector);
+  return rotated(orientation, times(own, rotated(orientation.conjugate(), vector)));
 }
 
 Vector3 rotor_momentum(const Substep& substep, const BodyProperties& carrier,
@@ -96,6 +101,7 @@ double work_of_set_forces(const Substep& substep) {
 }
 
 Vector3 allowed_velocity(const BodyProperties& body, const Vector3& velocity) {
+  if (body.mobility == Mobility::free) return velocity;
   const Vector3 along = body.axis * body.axis.dot(velocity);
   if (body.mobility == Mobility::slider) return along;
   if (body.mobility == Mobility::planar) return velocity - along;
@@ -107,11 +113,13 @@ Decay decay(double rate, double time) {
   return {std::exp(-rate * time), -std::expm1(-rate * time) / rate};
 }
 
-Vector3 damped_rotation(const BodyDef& body, const Matrix3& inertia,
+Vector3 damped_rotation(const Substep& substep, int i, const Quaternion& orientation,
                         const Vector3& angular_velocity, double time) {
-  if (body.angular_damping == 0.0) return angular_velocity;
+  const double damping = substep.bodies.definition(i).angular_damping;
+  if (damping == 0.0) return angular_velocity;
+  const Matrix3 inertia = world_inertia(substep.bodies[i], orientation, false);
   // I dw = -c w dt: (I + c t / 2) w' = (I - c t / 2) w.
-  const Matrix3 half = 0.5 * time * body.angular_damping * Matrix3::Identity();
+  const Matrix3 half = 0.5 * time * damping * Matrix3::Identity();
   return (inertia + half).inverse() * ((inertia - half) * angular_velocity);
 }
 

@@ -9,6 +9,11 @@ namespace sheave {
 [[nodiscard]] Matrix3 world_inertia(const BodyProperties& body, const Quaternion& orientation,
                                     bool inverse);
 
+/// What that makes of a vector: of an angular velocity the angular momentum, or the inverse. Cheaper
+/// than by the matrix.
+[[nodiscard]] Vector3 times_inertia(const BodyProperties& body, const Quaternion& orientation,
+                                    bool inverse, const Vector3& vector);
+
 /// Angular momentum [kg m2/s] of the rotors mounted on a body with this orientation, with the spins
 /// that they had at the start of the substep.
 [[nodiscard]] Vector3 rotor_momentum(const Substep& substep, const BodyProperties& carrier,
@@ -42,7 +47,7 @@ struct Decay {
 
 /// The same for the angular velocity of a free body whose moments of inertia differ, without
 /// torque: implicit midpoint, of second order and stable for any drag.
-[[nodiscard]] Vector3 damped_rotation(const BodyDef& body, const Matrix3& inertia,
+[[nodiscard]] Vector3 damped_rotation(const Substep& substep, int i, const Quaternion& orientation,
                                       const Vector3& angular_velocity, double time);
 
 }  // namespace sheave

@@ -27,8 +27,11 @@ double energy_of_motion(const Substep& substep) {
 }  // namespace
 
 void RattleSolver::begin(Substep& substep, Features features) {
-  substep.load_share = 0.5;
-  substep.update_inertias();
+  // Mostly the substep has begun with it.
+  if (substep.load_share != 0.5) {
+    substep.load_share = 0.5;
+    substep.update_inertias();
+  }
   // Without rows the prediction is the motion, here and below.
   if (!features.empty()) positions_.remember_start(substep, features);
 }
@@ -149,12 +152,11 @@ void correct_gyroscopic_velocities(Substep& substep) {
     BodyState& next = substep.next.bodies[at(i)];
     // L after the first half of loads and constraints, which act at the start; it is constant from
     // there on.
-    const Matrix3 inertia = world_inertia(body, start.orientation, false);
     const Vector3 turned_by = substep.moving[at(i)].turn - substep.predicted_turn[at(i)];
     const Vector3 damped =
-        damped_rotation(substep.bodies.definition(i), inertia, start.angular_velocity, 0.5 * h);
-    Vector3 momentum =
-        inertia * (damped + turned_by / h) + 0.5 * h * torque_on(substep, i, substep.start.bodies);
+        damped_rotation(substep, i, start.orientation, start.angular_velocity, 0.5 * h);
+    Vector3 momentum = times_inertia(body, start.orientation, false, damped + turned_by / h) +
+                       0.5 * h * torque_on(substep, i, substep.start.bodies);
     for (const int r : body.mounted_rotors) {
       const BodyProperties& rotor = substep.bodies[r];
       const Vector3 axis = start.orientation * rotor.axis;
@@ -164,7 +166,7 @@ void correct_gyroscopic_velocities(Substep& substep) {
       momentum += rotor.axis_inertia *
                   (spin * axis + change * axis - (spin + change) * (next.orientation * rotor.axis));
     }
-    next.angular_velocity = world_inertia(body, next.orientation, true) * momentum;
+    next.angular_velocity = times_inertia(body, next.orientation, true, momentum);
   }
 }
 
@@ -187,15 +189,16 @@ void add_second_half_of_loads(Substep& substep) {
     if (!moving.rotates) continue;
     const Vector3 torque = torque_on(substep, i, substep.next.bodies);
     if (body.mobility == Mobility::free) {
-      const Vector3 turning = world_inertia(body, next.orientation, true) * torque;
+      Vector3 turning = torque;
+      if (!is_zero(torque)) turning = times_inertia(body, next.orientation, true, torque);
       if (body.isotropic) {
         const auto [keep, gain] =
             decay(definition.angular_damping * body.inverse_inertia(0, 0), half);
         next.angular_velocity = keep * next.angular_velocity + gain * turning;
       } else {
-        const Matrix3 inertia = world_inertia(body, next.orientation, false);
         next.angular_velocity =
-            damped_rotation(definition, inertia, next.angular_velocity, half) + half * turning;
+            damped_rotation(substep, i, next.orientation, next.angular_velocity, half) +
+            half * turning;
       }
       continue;
     }

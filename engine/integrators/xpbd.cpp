@@ -57,30 +57,31 @@ void rotate_freely(Substep& substep, int i) {
   if (body.isotropic && body.mounted_rotors.empty()) {
     const double rate = substep.bodies.definition(i).angular_damping * body.inverse_inertia(0, 0);
     const auto [keep, gain] = decay(rate, substep.load_share * h);
-    end_velocity = keep * start.angular_velocity + gain * (body.inverse_inertia * torque);
+    end_velocity = sum(keep * start.angular_velocity, gain, times(body.inverse_inertia, torque));
     half_velocity = end_velocity;
     moving.orientation = turned(start.orientation, h * half_velocity);
   } else {
     const auto rotors = [&](const Quaternion& q) {
       return rotor_momentum(substep, body, start.orientation, q);
     };
-    const Matrix3 inertia = world_inertia(body, start.orientation, false);
-    const Vector3 velocity = damped_rotation(substep.bodies.definition(i), inertia,
-                                             start.angular_velocity, substep.load_share * h);
-    const Vector3 momentum = inertia * velocity + rotors(start.orientation);
+    const Vector3 velocity = damped_rotation(substep, i, start.orientation, start.angular_velocity,
+                                             substep.load_share * h);
+    const Vector3 momentum =
+        times_inertia(body, start.orientation, false, velocity) + rotors(start.orientation);
     if (body.symmetry_axis && body.mounted_rotors.empty()) {
       half_velocity = turn_symmetric_body(substep, i, momentum + 0.5 * h * torque);
     } else {
       const Quaternion half = turned(start.orientation, 0.5 * h * velocity);
-      half_velocity =
-          world_inertia(body, half, true) * (momentum + 0.5 * h * torque - rotors(half));
+      half_velocity = times_inertia(body, half, true, momentum + 0.5 * h * torque - rotors(half));
       moving.orientation = turned(start.orientation, h * half_velocity);
     }
-    const Matrix3 inverse = world_inertia(body, moving.orientation, true);
     end_velocity =
-        inverse * (momentum + substep.load_share * h * torque - rotors(moving.orientation));
+        times_inertia(body, moving.orientation, true,
+                      momentum + substep.load_share * h * torque - rotors(moving.orientation));
     // Multipliers of `rattle` act at the start.
-    if (substep.load_share == 1.0) moving.inverse_inertia = inverse;
+    if (substep.load_share == 1.0) {
+      moving.inverse_inertia = world_inertia(body, moving.orientation, true);
+    }
   }
   moving.turn = h * half_velocity;
   substep.predicted[at(i)].angular_velocity = end_velocity;
@@ -163,8 +164,8 @@ void predict(Substep& substep) {
           body.mass * substep.gravity + force_on(substep, i, substep.start.bodies);
       const double time = substep.load_share * h;
       const double keep = decay(substep.bodies.definition(i).damping / body.mass, time).keep;
-      const Vector3 velocity = keep * start.velocity + time * times(moving.inverse_mass, force);
-      moving.position = start.position + h * velocity;
+      const Vector3 velocity = sum(keep * start.velocity, time, times(moving.inverse_mass, force));
+      moving.position = sum(start.position, h, velocity);
     }
     switch (body.mobility) {
       case Mobility::free:

@@ -38,7 +38,7 @@ struct JointParts {
   bool counts_coordinates = true;       ///< whether the state has their values; effects need them
   int lock_count = Kernel::lock_count;  ///< fewer where mobilities keep bodies from moving, too
   bool locks_are_idle = false;          ///< mobilities do all that they do, and they need no rows
-  bool exact = false;                   ///< no part of a row's gradient is but rounding
+  bool exact = false;  ///< rows are Row::told, and no part of a gradient is but rounding
 };
 
 /// All joints of one type. Their state: engine/joints/joint_state.h.
@@ -135,6 +135,7 @@ class JointBatch final : public JointFeature {
       }
     }
   }
+  [[nodiscard]] bool has_all_rows() const override { return true; }
   [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
 
   void finish(Substep& substep, FeatureState& next) override {
@@ -308,30 +309,9 @@ class JointBatch final : public JointFeature {
     return result;
   }
   /// How far a coupling is out of mesh, or its play [m or rad].
-  double coupling_excess(const Substep& now, const Joint& joint, const FeatureState& own) const {
-    double excess = 0.0;
-    Row row;
-    for (int i = joint.lock_count; i < joint.lock_count + joint.effect_count; ++i) {
-      if (effect(joint, i).second < 0) continue;
-      row.clear();
-      evaluate_at(now, joint, i, coordinates(own), row);
-      if (!row.is_free()) excess += row.value;
-    }
-    return excess;
-  }
+  double coupling_excess(const Substep& now, const Joint& joint, const FeatureState& own) const;
   /// What would not let the joint be locked; empty if nothing.
-  std::string fault_of_hold(const Substep& now, const Joint& joint, const FeatureState& own) const {
-    Row row;
-    for (int i = joint.lock_count; i < joint.lock_count + joint.effect_count; ++i) {
-      row.clear();
-      evaluate_at(now, joint, i, coordinates(own), row);
-      const JointEffect& acting = effect(joint, i);
-      std::string fault =
-          hold_fault(acting, Kernel::coordinates[at(acting.coordinate)], row, now.bodies.scale());
-      if (!fault.empty()) return fault;
-    }
-    return {};
-  }
+  std::string fault_of_hold(const Substep& now, const Joint& joint, const FeatureState& own) const;
 
   /// Value of a coordinate, and its gradient into `row`; `starts` are the values at the start of
   /// the substep.
@@ -417,6 +397,8 @@ class JointBatch final : public JointFeature {
   void complete(const Substep& substep, const Joint& joint, Row& row) const {
     if (joint.restricted) drop_rounding(row, substep.moving);
     row.active = acted_[at(row.index)] != 0;
+    // What is pressed together finds its bound from round to round.
+    row.told = joint.exact && row.friction == 0.0;
   }
   /// Of friction in several directions: its `count` rows from `first` on.
   double sweep_friction(Substep& substep, const Joint& joint, int first, int count) {
@@ -429,44 +411,9 @@ class JointBatch final : public JointFeature {
 
   /// What the joint does to body_b with the forces in `state`, or its shared friction alone.
   [[nodiscard]] Wrench reaction(const Substep& substep, const Joint& joint,
-                                const FeatureState& state, bool friction_alone = false) const {
-    Wrench wrench;
-    wrench.about = joint.kernel.anchor(substep);
-    for (int i = friction_alone ? joint.lock_count : 0; i < joint.lock_count + joint.effect_count;
-         ++i) {
-      const double force = state.reals[at(joint.first_row + i)];
-      if (force == 0.0) continue;
-      if (friction_alone && !effect(joint, i).shared) continue;
-      Row row;
-      const auto on_b = [&](double scale) {
-        return JointTerms(substep, row, joint.kernel.anchor_body(), scale, wrench);
-      };
-      if (i < joint.lock_count) {
-        JointTerms terms = on_b(force);
-        joint.kernel.lock(i, terms);
-      } else if constexpr (coordinate_count > 0) {
-        const JointEffect& acting = effect(joint, i);
-        JointTerms first = on_b(acting.factor * force);
-        joint.kernel.coordinate(acting.coordinate, first);
-        if (acting.second < 0) continue;
-        JointTerms second = on_b(acting.second_factor * force);
-        joint.kernel.coordinate(acting.second, second);
-      }
-    }
-    return wrench;
-  }
+                                const FeatureState& state, bool friction_alone = false) const;
 
-  void break_joints(const Substep& substep, FeatureState& next) const {
-    for (std::size_t j = 0; j < joints_.size(); ++j) {
-      const BreakingLimits& limit = limits_[j];
-      if (intact_[j] == 0 || (!limit.force && !limit.torque)) continue;
-      const Wrench wrench = reaction(substep, joints_[j], next);
-      if ((limit.force && wrench.force.norm() > *limit.force) ||
-          (limit.torque && wrench.torque.norm() > *limit.torque)) {
-        layout_.set_broken(next, j, substep.next.time);
-      }
-    }
-  }
+  void break_joints(const Substep& substep, FeatureState& next) const;
 
   void append_coordinates(const Substep& now, const Joint& joint, const FeatureState& own,
                           JointReport& report) const;

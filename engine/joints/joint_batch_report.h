@@ -1,6 +1,6 @@
 #pragma once
-// What reports tell of a joint's coordinates and errors: a part of engine/joints/joint_batch.h, which
-// includes it.
+// What a joint does to its bodies, and what is told of it: a part of engine/joints/joint_batch.h,
+// which includes it.
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +8,77 @@
 #include "engine/joints/joint_batch.h"
 
 namespace sheave {
+
+template <class Kernel>
+double JointBatch<Kernel>::coupling_excess(const Substep& now, const Joint& joint,
+                                           const FeatureState& own) const {
+  double excess = 0.0;
+  Row row;
+  for (int i = joint.lock_count; i < joint.lock_count + joint.effect_count; ++i) {
+    if (effect(joint, i).second < 0) continue;
+    row.clear();
+    evaluate_at(now, joint, i, coordinates(own), row);
+    if (!row.is_free()) excess += row.value;
+  }
+  return excess;
+}
+
+template <class Kernel>
+std::string JointBatch<Kernel>::fault_of_hold(const Substep& now, const Joint& joint,
+                                              const FeatureState& own) const {
+  Row row;
+  for (int i = joint.lock_count; i < joint.lock_count + joint.effect_count; ++i) {
+    row.clear();
+    evaluate_at(now, joint, i, coordinates(own), row);
+    const JointEffect& acting = effect(joint, i);
+    std::string fault =
+        hold_fault(acting, Kernel::coordinates[at(acting.coordinate)], row, now.bodies.scale());
+    if (!fault.empty()) return fault;
+  }
+  return {};
+}
+
+template <class Kernel>
+Wrench JointBatch<Kernel>::reaction(const Substep& substep, const Joint& joint,
+                                    const FeatureState& state, bool friction_alone) const {
+  Wrench wrench;
+  wrench.about = joint.kernel.anchor(substep);
+  for (int i = friction_alone ? joint.lock_count : 0; i < joint.lock_count + joint.effect_count;
+       ++i) {
+    const double force = state.reals[at(joint.first_row + i)];
+    if (force == 0.0) continue;
+    if (friction_alone && !effect(joint, i).shared) continue;
+    Row row;
+    const auto on_b = [&](double scale) {
+      return JointTerms(substep, row, joint.kernel.anchor_body(), scale, wrench);
+    };
+    if (i < joint.lock_count) {
+      JointTerms terms = on_b(force);
+      joint.kernel.lock(i, terms);
+    } else if constexpr (coordinate_count > 0) {
+      const JointEffect& acting = effect(joint, i);
+      JointTerms first = on_b(acting.factor * force);
+      joint.kernel.coordinate(acting.coordinate, first);
+      if (acting.second < 0) continue;
+      JointTerms second = on_b(acting.second_factor * force);
+      joint.kernel.coordinate(acting.second, second);
+    }
+  }
+  return wrench;
+}
+
+template <class Kernel>
+void JointBatch<Kernel>::break_joints(const Substep& substep, FeatureState& next) const {
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    const BreakingLimits& limit = limits_[j];
+    if (intact_[j] == 0 || (!limit.force && !limit.torque)) continue;
+    const Wrench wrench = reaction(substep, joints_[j], next);
+    if ((limit.force && wrench.force.norm() > *limit.force) ||
+        (limit.torque && wrench.torque.norm() > *limit.torque)) {
+      layout_.set_broken(next, j, substep.next.time);
+    }
+  }
+}
 
 template <class Kernel>
 void JointBatch<Kernel>::append_coordinates(const Substep& now, const Joint& joint,

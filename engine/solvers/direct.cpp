@@ -26,6 +26,11 @@ bool DirectSolver::arrives(Substep& substep, double& astray) const {
   return true;
 }
 
+bool DirectSolver::leaves_nothing(const Substep& substep) {
+  return !system_.contradicts() &&
+         system_.remainder(substep) <= RowSystem::value_rounding * substep.bodies.scale();
+}
+
 void DirectSolver::solve(Substep& substep, Features features) {
   const double enough = tolerance * substep.bodies.scale();
   double violated = 0.0;
@@ -63,19 +68,19 @@ void DirectSolver::solve(Substep& substep, Features features) {
       system_.linearise(substep, features, RowSystem::Rule::backward, true);
     }
     if (!system_.solve(substep, compromise)) return give_up(substep, features, round == 0);
-    // Where nothing swings the first round mostly is all there is, and gradients that are this much
-    // off are none the worse.
-    constexpr double least_swing = 1e-6;  // [rad]
-    if (!compromise && round + 1 < substep.iterations &&
-        (round > 0 || system_.swing() > least_swing)) {
-      system_.bend(substep, enough);
-    }
+    const bool swings = system_.swing() > least_swing;
+    const bool done = !compromise && !swings && leaves_nothing(substep);
+    const bool goes_on = !done && round + 1 < substep.iterations;
+    if (!compromise && goes_on && (round > 0 || swings)) system_.bend(substep, enough);
     system_.apply(substep, features);
     revised = false;
     // What the last round finds would have no round to act in; the features decide it for the next
     // substep.
     if (round + 1 == substep.iterations) break;
     for (const auto& feature : features) revised = feature->revise(substep) || revised;
+    if (!done || revised) continue;
+    violated = 0.0;
+    break;
   }
   // Two rounds do not tell whether more of them would converge: so few were asked for.
   const bool tried = adding_up || substep.iterations > 2;

@@ -39,6 +39,9 @@ class DirectSolver {
   /// The same once the violation is larger by this than that of the first round, whatever the
   /// features decide meanwhile.
   static constexpr double growth = 10.0;
+  /// Where bodies turn by no more than this in a substep [rad] the first round mostly is all there
+  /// is, and gradients that are this much off are none the worse.
+  static constexpr double least_swing = 1e-6;
 
   /// What is left of the violation that the first round found counts as no solution above this
   /// share.
@@ -59,6 +62,10 @@ class DirectSolver {
   /// is how far they were off when this was last asked, infinite at first, and becomes how far they
   /// are.
   bool arrives(Substep& substep, double& astray) const;
+
+  /// Whether all rows tell that what solve() has found turns them by no more than rounding: another
+  /// look at them would find what they have told.
+  bool leaves_nothing(const Substep& substep);
 
   RowSystem system_;
   GaussSeidelSolver sweeps_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/index.h"
 #include "engine/solvers/row_system.h"
@@ -25,6 +26,29 @@ void RowSystem::find_motion() {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     if (change[g] != 0.0) slots_.add_unknown(static_cast<int>(g), change[g], trial_.data());
   }
+}
+
+double RowSystem::remainder(const Substep& substep) {
+  if (from_here_ || !told_) return std::numeric_limits<double>::infinity();
+  if (!curvature_.collect(rows_, substep.bodies.coordinates(), substep.moving)) return 0.0;
+  begin_bending();
+  find_motion();
+  std::vector<double>& turned = bend_;
+  if (!curvature_.turn(substep.bodies.coordinates(), substep.moving, row_multipliers_, trial_,
+                       turned, second_order_)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  double most = curvature_.largest(second_order_);
+  for (const double motion : turned) most = std::max(most, std::abs(motion));
+  return most;
+}
+
+void RowSystem::begin_bending() {
+  residual_ = motion_;
+  bend_.assign(motion_.size(), 0.0);
+  trial_.resize(motion_.size());
+  row_multipliers_.resize(rows_.size());
+  second_order_.assign(rows_.size(), 0.0);
 }
 
 void RowSystem::find_rubbing_rows() {
@@ -114,12 +138,8 @@ void RowSystem::bend(const Substep& substep, double negligible) {
   find_rubbing_rows();
   const bool curved = curvature_.collect(rows_, substep.bodies.coordinates(), substep.moving);
   if (!curved && rubbing_.empty()) return;
-  residual_ = motion_;
+  begin_bending();
   constant_ = problem_.constant;
-  bend_.assign(motion_.size(), 0.0);
-  trial_.resize(motion_.size());
-  row_multipliers_.resize(rows_.size());
-  second_order_.assign(rows_.size(), 0.0);
   double before = 0.0;
   double whole = 0.0;
   for (int i = 0; i < most_turns; ++i) {

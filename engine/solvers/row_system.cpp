@@ -11,7 +11,9 @@ namespace sheave {
 void RowSystem::collect_rows(Substep& substep, Features features) {
   rows_.clear();
   feature_rows_.clear();
+  has_all_rows_ = true;
   for (const auto& feature : features) {
+    has_all_rows_ = has_all_rows_ && feature->has_all_rows();
     feature_rows_.push_back(static_cast<int>(rows_.size()));
     feature->linearise(substep, rows_);
   }
@@ -122,12 +124,14 @@ void RowSystem::make_groups() {
   problem_.symmetric = symmetric_rows_;
   double heaviest = 0.0;  // of the group's rows so far
   std::size_t n = 0;
+  told_ = has_all_rows_;
   for (std::size_t i = 0; i < rows; ++i) {
     const Row& row = rows_[i];
     if (!row.tied) groups_[n++] = {static_cast<int>(i), 0, 0.0, 1.0, false};
     Group& group = groups_[n - 1];
     ++group.row_count;
     group.elastic = group.elastic || row.compliance > 0.0;
+    told_ = told_ && row.told;
     group_of_[i] = static_cast<int>(n) - 1;
     // The heaviest row tells the unknown best.
     if (group.row_count == 1 || row.weight > heaviest) {

@@ -128,6 +128,9 @@ class RowSystem {
   /// round's work. By the midpoint rule forces do not turn, but values do. Turns that move nothing
   /// by more than `negligible` [m or rad] are left out.
   void bend(const Substep& substep, double negligible);
+  /// What the motion that solve() has found would leave for another round to do [m or rad]: by how
+  /// much it turns rows, in their values and in the motion. Infinite where rows do not tell.
+  [[nodiscard]] double remainder(const Substep& substep);
   /// How far the bodies are from where the multipliers of before solve() put them along the
   /// gradients of now [m or rad].
   [[nodiscard]] double astray() const;
@@ -239,6 +242,7 @@ class RowSystem {
     double wanted = 0.0;
     double last_wanted = 0.0;
   };
+  void begin_bending();
   void find_rubbing_rows();
   /// Bounds friction by the pressures just found; returns by how much that may move anything [m].
   /// `first`: without regard to the step before.
@@ -285,7 +289,9 @@ class RowSystem {
   std::vector<FollowedPressure> pressures_;  ///< per row, between rounds of the velocities
   std::vector<SharedFriction> shared_;
   Curvature curvature_;
-  bool bent_ = false;  ///< the last round has counted in how forces turn
+  bool has_all_rows_ = false;  ///< ConstraintBatch::has_all_rows() of all features
+  bool told_ = false;          ///< that, and all rows are Row::told
+  bool bent_ = false;          ///< the last round has counted in how forces turn
   /// Per degree of freedom, of the round: from where bodies are to where they should be
   std::vector<double> residual_;
   std::vector<double> bend_;  ///< and what the turn of the forces adds
