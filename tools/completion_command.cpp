@@ -47,7 +47,7 @@ std::vector<Level> levels_of(const CLI::App& app) {
 }
 
 /// As a shell's word in single quotes, on one line.
-std::string quoted(const std::string& text) {
+std::string shell_word(const std::string& text) {
   std::string result = "'";
   for (const char c : text) {
     if (c == '\'') {
@@ -79,9 +79,9 @@ std::string words_of(const Level& level) {
 std::string bash_script(const CLI::App& app) {
   std::string cases;
   for (const Level& level : levels_of(app)) {
-    cases +=
-        fmt::format("    {}) words={} ;;\n", quoted(fmt::format("{}", fmt::join(level.path, " "))),
-                    quoted(words_of(level)));
+    cases += fmt::format("    {}) words={} ;;\n",
+                         shell_word(fmt::format("{}", fmt::join(level.path, " "))),
+                         shell_word(words_of(level)));
   }
   return fmt::format(R"(# bash completion for sheave, made by `sheave completion bash`.
 _sheave() {{
@@ -107,7 +107,7 @@ complete -o filenames -F _sheave sheave
                        std::vector<std::string> paths;
                        for (const Level& level : levels_of(app)) {
                          if (level.path.empty()) continue;
-                         paths.push_back(quoted(fmt::format("{}", fmt::join(level.path, " "))));
+                         paths.push_back(shell_word(fmt::format("{}", fmt::join(level.path, " "))));
                        }
                        return fmt::format("{}", fmt::join(paths, " | "));
                      }(),
@@ -121,7 +121,7 @@ std::string zsh_item(const std::string& name, const std::string& meaning) {
     if (c == ':') escaped += '\\';
     escaped += c;
   }
-  return quoted(escaped + ":" + meaning);
+  return shell_word(escaped + ":" + meaning);
 }
 
 std::string zsh_script(const CLI::App& app) {
@@ -137,11 +137,12 @@ std::string zsh_script(const CLI::App& app) {
       }
     }
     cases += fmt::format("    {})\n      items=(\n{}      ) ;;\n",
-                         quoted(fmt::format("{}", fmt::join(level.path, " "))), items);
+                         shell_word(fmt::format("{}", fmt::join(level.path, " "))), items);
   }
   std::vector<std::string> paths;
   for (const Level& level : levels_of(app)) {
-    if (!level.path.empty()) paths.push_back(quoted(fmt::format("{}", fmt::join(level.path, " "))));
+    if (!level.path.empty())
+      paths.push_back(shell_word(fmt::format("{}", fmt::join(level.path, " "))));
   }
   return fmt::format(R"(#compdef sheave
 # zsh completion for sheave, made by `sheave completion zsh`.
@@ -182,7 +183,7 @@ std::string fish_condition(const Level& level) {
 std::string fish_script(const CLI::App& app) {
   std::string text = "# fish completion for sheave, made by `sheave completion fish`.\n";
   for (const Level& level : levels_of(app)) {
-    const std::string condition = quoted(fish_condition(level));
+    const std::string condition = shell_word(fish_condition(level));
     for (const CLI::App* sub : subcommands(*level.app)) {
       std::string only_here = fish_condition(level);
       if (!level.path.empty()) {
@@ -190,8 +191,8 @@ std::string fish_script(const CLI::App& app) {
         for (const CLI::App* other : subcommands(*level.app)) names.push_back(other->get_name());
         only_here += fmt::format("; and not __fish_seen_subcommand_from {}", fmt::join(names, " "));
       }
-      text += fmt::format("complete -c sheave -f -n {} -a {} -d {}\n", quoted(only_here),
-                          sub->get_name(), quoted(sub->get_description()));
+      text += fmt::format("complete -c sheave -f -n {} -a {} -d {}\n", shell_word(only_here),
+                          sub->get_name(), shell_word(sub->get_description()));
     }
     for (const CLI::Option* option : named_options(*level.app)) {
       std::string names;
@@ -199,7 +200,7 @@ std::string fish_script(const CLI::App& app) {
       for (const std::string& name : option->get_lnames()) names += " -l " + name;
       text += fmt::format("complete -c sheave -n {}{}{} -d {}\n", condition, names,
                           option->get_items_expected_max() > 0 ? " -r" : "",
-                          quoted(option->get_description()));
+                          shell_word(option->get_description()));
     }
   }
   return text;
