@@ -1,6 +1,8 @@
 """Builds the Python package: CMake makes the compiled half.
 
     python3 -m pip install --no-build-isolation .
+
+With SHEAVE_MODULE, a compiled half that is there already, nothing is compiled.
 """
 
 import os
@@ -18,8 +20,13 @@ class CMakeBuild(build_ext):
     """Lets CMake build what is compiled, and puts it where setuptools looks for it."""
 
     def build_extension(self, ext):
-        build = Path(os.environ.get("SHEAVE_BUILD_DIR", ROOT / "build" / "python-package"))
         target = Path(self.get_ext_fullpath(ext.name)).resolve()
+        target.parent.mkdir(parents=True, exist_ok=True)
+        made = os.environ.get("SHEAVE_MODULE") or self.compiled()
+        self.copy_file(str(made), str(target))
+
+    def compiled(self):
+        build = Path(os.environ.get("SHEAVE_BUILD_DIR", ROOT / "build" / "python-package"))
         options = [f"-DPython_EXECUTABLE={sys.executable}", "-DCMAKE_BUILD_TYPE=Release",
                    "-DSHEAVE_PYTHON=ON", "-DSHEAVE_TESTS=OFF", "-DSHEAVE_BENCH=OFF",
                    "-DSHEAVE_WARNINGS_AS_ERRORS=OFF"]
@@ -29,8 +36,7 @@ class CMakeBuild(build_ext):
         if made is None:
             raise SystemExit("sheave: the module has not been built; are pybind11 and Python's "
                              "headers there? tools/install-dependencies installs them")
-        target.parent.mkdir(parents=True, exist_ok=True)
-        self.copy_file(str(made), str(target))
+        return made
 
 
 setup(ext_modules=[Extension("sheave._sheave", sources=[])], cmdclass={"build_ext": CMakeBuild})

@@ -67,6 +67,13 @@ if(installed)
           "${CMAKE_CURRENT_BINARY_DIR}/sheave-config-version.cmake"
     DESTINATION "${package_dir}"
     COMPONENT development)
+  # The prefix as seen from the file itself, so that an installed tree can be moved.
+  string(REGEX REPLACE "[^/]+" ".." SHEAVE_PC_PREFIX "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+  configure_file(cmake/sheave.pc.in "${CMAKE_CURRENT_BINARY_DIR}/sheave.pc" @ONLY)
+  install(
+    FILES "${CMAKE_CURRENT_BINARY_DIR}/sheave.pc"
+    DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig"
+    COMPONENT development)
 endif()
 if(TARGET sheave)
   install(TARGETS sheave RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT command)

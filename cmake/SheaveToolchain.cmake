@@ -12,7 +12,9 @@ endif()
 # time. Names in unnamed namespaces must therefore differ within a folder.
 if(SHEAVE_UNITY)
   set(CMAKE_UNITY_BUILD ON)
-  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+  if(NOT CMAKE_UNITY_BUILD_BATCH_SIZE)
+    set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+  endif()
 endif()
 
 include(CheckLinkerFlag)

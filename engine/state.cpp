@@ -12,6 +12,16 @@ namespace {
 constexpr std::uint64_t format_tag = 0x32'45'54'41'54'53'48'53;            // "SHSTATE2"
 constexpr std::uint64_t tag_without_controls = 0x31'45'54'41'54'53'48'53;  // "SHSTATE1"
 
+/// Files are little-endian on every machine.
+std::uint64_t little_endian(std::uint64_t word) {
+  if constexpr (std::endian::native == std::endian::little) return word;
+  std::uint64_t turned = 0;
+  for (int byte = 0; byte < 8; ++byte) {
+    turned = turned << 8U | (word >> (8U * static_cast<unsigned>(byte)) & 0xffU);
+  }
+  return turned;
+}
+
 /// Calls visit(word) for every word of a member of a control.
 template <class Visit>
 struct MemberWords {
@@ -110,7 +120,7 @@ class Reader {
     }
     std::memcpy(&result, bytes_.data() + position_, sizeof result);
     position_ += sizeof result;
-    return result;
+    return little_endian(result);
   }
   double real() { return std::bit_cast<double>(word()); }
   std::int64_t integer() { return std::bit_cast<std::int64_t>(word()); }
@@ -176,6 +186,7 @@ std::uint64_t hash(const State& state) {
 std::string to_bytes(const State& state) {
   std::string bytes;
   const auto append = [&](std::uint64_t word) {
+    word = little_endian(word);
     char buffer[sizeof word];
     std::memcpy(buffer, &word, sizeof word);
     bytes.append(buffer, sizeof word);

@@ -48,5 +48,6 @@ Action declare_generate(CLI::App& app);
 Action declare_bench(CLI::App& app);
 Action declare_trade(CLI::App& app);
 Action declare_stress(CLI::App& app);
+Action declare_completion(CLI::App& app);
 
 }  // namespace sheave::tools

@@ -13,7 +13,7 @@
 namespace sheave::tools {
 
 std::span<const Command> commands() {
-  static constexpr std::array<Command, 10> table{{
+  static constexpr std::array<Command, 11> table{{
       {"run", "Simulate a scene; write tables, print a summary", declare_run},
       {"live", "Hold a world for a program that talks to it in lines", declare_live},
       {"render", "Simulate a scene; write a video or pictures", declare_render},
@@ -24,6 +24,7 @@ std::span<const Command> commands() {
       {"generate", "Write a scene of a given kind and size", declare_generate},
       {"schema", "Print the JSON Schema of scenes", declare_schema},
       {"reference", "Print the reference of the scene format (Markdown)", declare_reference},
+      {"completion", "Print the script by which a shell completes words", declare_completion},
   }};
   return table;
 }

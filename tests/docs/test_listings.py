@@ -1,0 +1,143 @@
+"""What the pages list does what they say.
+
+* A ```console block: its commands run (in docs/, or for README.md in a folder with its scenes), and print what stands
+  below; "..." stands for any lines. Numbers may differ by a hundred-thousandth, for pages show more digits than anybody
+  promises.
+* A ```json block below <!-- file: NAME --> is part of that file. One below the words `NAME.json` is a scene that the
+  page's commands find under that name.
+* Commands in other pages name scenes that are there, and options that the command knows.
+"""
+
+import os
+import pathlib
+import re
+import subprocess
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+COMMAND = pathlib.Path(os.environ.get("SHEAVE_COMMAND", ROOT / "build/release/tools/sheave"))
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+CONSOLE = re.compile(r"^```console\n(.*?)^```", re.DOTALL | re.MULTILINE)
+PART = re.compile(r"<!-- file: (\S+) -->\n```json\n(.*?)^```", re.DOTALL | re.MULTILINE)
+NAMED = re.compile(r"`([\w-]+\.json)`[^`]*?\n```json\n(.*?)^```", re.DOTALL | re.MULTILINE)
+NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?(?![\w])")
+RELATIVE, ABSOLUTE = 1e-5, 1e-6
+
+
+def sessions(page):
+    """[(command, lines below it)] of a page's console blocks."""
+    found = []
+    for block in CONSOLE.findall(page.read_text(encoding="utf-8")):
+        for line in block.splitlines():
+            if line.startswith("$ "):
+                found.append((line[2:], []))
+            else:
+                found[-1][1].append(line)
+    return found
+
+
+def same_line(shown, printed):
+    """Are two lines the same but for spaces and the last digits of numbers?"""
+    if " ".join(NUMBER.sub("#", shown).split()) != " ".join(NUMBER.sub("#", printed).split()):
+        return False
+    pairs = zip(map(float, NUMBER.findall(shown)), map(float, NUMBER.findall(printed)))
+    return all(abs(a - b) <= ABSOLUTE + RELATIVE * abs(a) for a, b in pairs)
+
+
+def fault(shown, printed):
+    """The first shown line that is not printed in its place, or None."""
+    place, gap = 0, False
+    for line in shown:
+        if line == "...":
+            gap = True
+            continue
+        while gap and place < len(printed) and not same_line(line, printed[place]):
+            place += 1
+        if place >= len(printed) or not same_line(line, printed[place]):
+            return line
+        place, gap = place + 1, False
+    return None if gap or place == len(printed) else f"nothing below {shown[-1]!r}"
+
+
+@pytest.fixture(scope="module")
+def shell(tmp_path_factory):
+    """Runs a command of a page where the page's files are."""
+    folder = tmp_path_factory.mktemp("pages")
+    (folder / "bin").mkdir()
+    (folder / "bin" / "sheave").symlink_to(COMMAND)
+    for name in ("scenes", "docs", "build", "examples", "tools"):
+        (folder / name).symlink_to(ROOT / name)
+    (folder / "tutorial").symlink_to(ROOT / "docs" / "tutorial")
+    for page in PAGES:
+        for name, text in NAMED.findall(page.read_text(encoding="utf-8")):
+            (folder / name).write_text(text, encoding="utf-8")
+    environment = {**os.environ, "PATH": f"{folder / 'bin'}:{os.environ['PATH']}"}
+
+    def run(command):
+        return subprocess.run(["bash", "-c", command.replace("build/release/tools/sheave", "sheave")],
+                              cwd=folder, env=environment, text=True, capture_output=True,
+                              timeout=600, check=False)
+    return run
+
+
+def test_a_wrong_listing_is_found():
+    assert fault(["a 1.00000", "..."], ["a 1.000001", "b"]) is None
+    assert fault(["a 1.001", "..."], ["a 1.0", "b"]) == "a 1.001"
+    assert fault(["...", "c", "..."], ["a", "b"]) == "c"
+    assert fault(["a"], ["a", "b"]) is not None
+
+
+CASES = [(page, command, shown) for page in PAGES for command, shown in sessions(page)
+         if not command.startswith(("sudo", "sheave live"))]
+
+
+def test_there_are_listings():
+    assert len([page for page, _, _ in CASES if page.name == "tutorial.md"]) >= 10
+
+
+@pytest.mark.parametrize("page, command, shown", CASES,
+                         ids=[f"{page.name}: {command}"[:70] for page, command, _ in CASES])
+def test_a_command_prints_what_the_page_says(page, command, shown, shell):
+    # Two seconds of a video tell as much as twenty.
+    made = shell(command + " --duration 2" if "--video" in command else command)
+    assert "sheave: error" not in made.stderr, made.stderr
+    printed = made.stdout.splitlines()
+    assert fault(shown, printed) is None, f"{fault(shown, printed)!r} is not in:\n{made.stdout}"
+
+
+PARTS = [(page, name, text) for page in PAGES for name, text in PART.findall(page.read_text(encoding="utf-8"))]
+
+
+@pytest.mark.parametrize("page, name, text", PARTS, ids=[f"{page.name}: {name}" for page, name, _ in PARTS])
+def test_a_part_of_a_scene_is_in_its_file(page, name, text):
+    whole = " ".join((page.parent / name).read_text(encoding="utf-8").split())
+    assert " ".join(text.split()) in whole
+
+
+def commands_in(page):
+    """`sheave ...` in a page's text, with the options and scenes it names."""
+    text = page.read_text(encoding="utf-8")
+    return sorted({match for match in re.findall(r"`(?:build/release/tools/)?sheave ((?:run|render|validate|trade|stress|bench) [^`|\n]*)`", text)})
+
+
+def test_scenes_and_options_in_pages_are_there(shell):
+    options = {name: set(re.findall(r"--[\w-]+", shell(f"sheave {name} --help").stdout))
+               for name in ("run", "render", "validate", "trade", "stress", "bench")}
+    faults = []
+    for page in PAGES:
+        for command in commands_in(page):
+            name = command.split()[0]
+            for option in re.findall(r"(?<=\s)--[\w-]+", command):
+                if option not in options[name]:
+                    faults.append(f"{page.name}: sheave {command}: no option {option}")
+            for scene in re.findall(r"\bscenes/[\w/-]+\.json", command):
+                if not (ROOT / scene).exists():
+                    faults.append(f"{page.name}: sheave {command}: no {scene}")
+    assert not faults, "\n".join(faults)
+
+
+def test_the_page_of_commands_is_what_the_help_says():
+    made = subprocess.run([str(ROOT / "tools/command-pages"), str(COMMAND)], text=True, capture_output=True, check=True)
+    assert made.stdout == (ROOT / "docs/commands.md").read_text(encoding="utf-8"), \
+        "run: tools/command-pages build/release/tools/sheave > docs/commands.md"
