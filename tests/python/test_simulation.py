@@ -262,6 +262,34 @@ def test_plots(atwood, tmp_path):
     assert (tmp_path / "plot.png").stat().st_size > 1000
 
 
+def test_plots_have_axes_for_each_unit(atwood):
+    from matplotlib.figure import Figure
+
+    recording = atwood.record(["heavy.y", "cable.0.tension", "light.y", "cable.1.tension"], steps=10)
+    assert dict(recording.units) == {"heavy.y": "m", "light.y": "m", "cable.0.tension": "N",
+                                     "cable.1.tension": "N"}
+    axes = recording.plot()
+    assert [one.get_ylabel() for one in axes] == ["y [m]", "tension [N]"]
+    assert [[line.get_label() for line in one.lines] for one in axes] == [
+        ["heavy.y", "light.y"], ["cable.0.tension", "cable.1.tension"]]
+    mine = Figure().subplots(2)
+    assert recording.plot(axes=mine)[1] is mine[1]
+    with pytest.raises(sheave.ArgumentError, match=r"axes: must be 2, one for each unit \(\[m\], \[N\]\)"):
+        recording.plot(axes=mine[0])
+
+
+def test_quantities_have_units(atwood):
+    units = {name: atwood.unit(name) for name in atwood.observables}
+    assert units["t"] == "s"
+    assert units["heavy.qw"] == ""
+    assert units["cable.link1.wrap_angle"] == "rad"
+    assert units["energy.total"] == "J"
+    with pytest.raises(sheave.UnknownNameError, match="heavy.vy"):
+        atwood.unit("heavy.yv")
+    with pytest.raises(sheave.ArgumentError, match="name: "):
+        atwood.unit(3)
+
+
 @pytest.mark.skipif(not sheave.has_render, reason="built without the renderer")
 def test_pictures(atwood):
     pixels = atwood.render(160, 90)
