@@ -37,6 +37,8 @@ class Model:
     >>> sim = model.simulation()
     """
 
+    __slots__ = (*PLAIN, *SINGLE, *LISTS)
+
     def __init__(self, gravity: Sequence[float] = (0.0, -9.81, 0.0), duration: float = 1.0,
                  name: Optional[str] = None, description: Optional[str] = None,
                  step: Optional[parts.Step] = None) -> None:
@@ -80,12 +82,18 @@ class Model:
             if getattr(self, name) is not None:
                 scene[name] = whole(getattr(self, name))
         for name in LISTS:
-            if getattr(self, name):
-                scene[name] = [whole(part) for part in getattr(self, name)]
+            parts_of_it = getattr(self, name)
+            if not isinstance(parts_of_it, (list, tuple)):
+                raise ArgumentError(f"{name}: must be a list, was {parts_of_it!r}"[:300])
+            if parts_of_it:
+                scene[name] = [whole(part) for part in parts_of_it]
         return scene
 
     def to_json(self, indent: Optional[int] = None) -> str:
-        """The scene as a text."""
+        """The scene as a text, with so many spaces for each level, or in one line."""
+        if indent is not None and (isinstance(indent, bool) or not isinstance(indent, int)
+                                   or not 0 <= indent <= 100):
+            raise ArgumentError(f"indent: must be an integer from 0 to 100, or None, was {indent!r}"[:300])
         return json.dumps(json.loads(json_text(self)), indent=indent)
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:

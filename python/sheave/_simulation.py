@@ -61,6 +61,8 @@ class Simulation(_sheave.Simulation):
     refer to is no more. What is set is part of the state: hash, snapshot and restore hold.
     """
 
+    __slots__ = ()  # a name that is misspelt must not become an attribute
+
     def __init__(self, scene: SceneLike, set: Optional[Mapping[str, Any]] = None):
         super().__init__(*source_of(scene), overrides_of(set))
 
