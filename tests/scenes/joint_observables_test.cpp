@@ -198,8 +198,7 @@ TEST(JointQuantities, AreSharedWithBodiesInTheAngleOnly) {
   for (const std::string_view name : of_joints) EXPECT_FALSE(of_cables.contains(name)) << name;
 }
 
-TEST_F(JointObservables, have_the_units_of_their_coordinates) {
-  const ObservableSet set(simulation_);
+TEST_F(JointObservables, HaveTheUnitsOfTheirCoordinates) {
   const auto unit = [&](std::string_view name) {
     const Result<int> index = set.index_of(name);
     EXPECT_TRUE(index) << name;
