@@ -50,15 +50,15 @@ def live_and_die(i):
 
 def growth(worlds, log=lambda text: None):
     """By how much memory grows from the first tenth of the worlds to the last one [bytes]."""
-    begin = resident()
+    tenth = max(1, worlds // 10)
+    begin = 0
     for i in range(worlds):
         live_and_die(i)
-        if (i + 1) % max(1, worlds // 10) == 0:
+        if (i + 1) % tenth == 0:
             gc.collect()
-            now = resident()
-            if i < worlds // 5:
-                begin = now if i + 1 == max(1, worlds // 10) else begin
-            log(f"{i + 1:8} worlds: {now / 2**20:.2f} MiB")
+            log(f"{i + 1:8} worlds: {resident() / 2**20:.2f} MiB")
+        if i + 1 == tenth:
+            begin = resident()
     return resident() - begin
 
 
