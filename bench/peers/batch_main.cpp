@@ -26,19 +26,19 @@ namespace {
 
 /// One machine in one engine with one setting: a fleet for each number of threads.
 struct Entry {
-  std::string machine;
-  std::string engine;
-  std::string setting;
+  std::string machine{};
+  std::string engine{};
+  std::string setting{};
   int frames = 0;    ///< of a sample
   int substeps = 1;  ///< of a frame
-  std::string error;
+  std::string error{};
   bool other = false;  ///< another engine than ours
-  std::vector<std::shared_ptr<Fleet>> fleets;
+  std::vector<std::shared_ptr<Fleet>> fleets{};
 
   struct Sample {
     double wall = 0.0, cpu = 0.0;  ///< per world and frame [s]
   };
-  std::vector<std::vector<Sample>> samples;  ///< by fleet, then repetition
+  std::vector<std::vector<Sample>> samples{};  ///< by fleet, then repetition
 };
 
 struct Arguments {
