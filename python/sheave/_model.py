@@ -58,6 +58,13 @@ class Model:
         self.paint: List[parts.Paint] = []
         self.checks: List[parts.Check] = []
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in LISTS and not isinstance(value, list):
+            if not isinstance(value, tuple):
+                raise ArgumentError(f"{name}: must be a list, was {value!r}"[:300])
+            value = list(value)
+        object.__setattr__(self, name, value)
+
     def add(self, part: A) -> A:
         """Appends a body, joint, cable, controller, trigger, collider, paint or check; gives it."""
         given: Any = part
@@ -82,11 +89,8 @@ class Model:
             if getattr(self, name) is not None:
                 scene[name] = whole(getattr(self, name))
         for name in LISTS:
-            parts_of_it = getattr(self, name)
-            if not isinstance(parts_of_it, (list, tuple)):
-                raise ArgumentError(f"{name}: must be a list, was {parts_of_it!r}"[:300])
-            if parts_of_it:
-                scene[name] = [whole(part) for part in parts_of_it]
+            if getattr(self, name):
+                scene[name] = [whole(part) for part in getattr(self, name)]
         return scene
 
     def to_json(self, indent: Optional[int] = None) -> str:

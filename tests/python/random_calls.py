@@ -230,7 +230,7 @@ class Caller:
             raise error
         allowed = (isinstance(error, (sheave.Error, ZeroDivisionError))
                    or (isinstance(error, (TypeError, AttributeError)) and SIGNATURE.search(str(error)))
-                   or (isinstance(error, AttributeError) and "has no" in str(error))
+                   or (isinstance(error, AttributeError) and ("has no" in str(error) or " = " in text))
                    or isinstance(error, StopIteration))
         if not allowed or not str(error) and not isinstance(error, (ZeroDivisionError, StopIteration)):
             raise Fault(f"{text}: {kind}: {error}") from error
