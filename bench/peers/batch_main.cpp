@@ -96,6 +96,7 @@ Errors add_scene(const std::string& file, std::size_t count, int frames, const A
   if (!loaded) return {{"", to_string(loaded.errors.front())}};
   Scene& scene = *loaded.scene;
   scene.duration = frames * scene.model.step.dt;
+  scene.checks.clear();  // of times that are later
   std::cerr << file << ": reference\n";
   const Result<measure::Trajectory> run = measure::record(scene);
   if (!run) return run.errors();

@@ -234,7 +234,7 @@ def test_records_quantities(atwood):
     frame = recording.to_pandas()
     assert frame["heavy.vy"].iloc[-1] == atwood.observe("heavy.vy")
     assert frame.index.name == "t"
-    with pytest.raises(KeyError, match="heavy.vy"):
+    with pytest.raises(KeyError, match='did you mean "heavy'):
         recording["light.vy"]
 
 
@@ -283,7 +283,7 @@ def test_quantities_have_units(atwood):
     assert units["heavy.qw"] == ""
     assert units["cable.link1.wrap_angle"] == "rad"
     assert units["energy.total"] == "J"
-    with pytest.raises(sheave.UnknownNameError, match="heavy.vy"):
+    with pytest.raises(sheave.UnknownNameError, match='did you mean "heavy'):
         atwood.unit("heavy.yv")
     with pytest.raises(sheave.ArgumentError, match="name: "):
         atwood.unit(3)
