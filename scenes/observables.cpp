@@ -303,10 +303,11 @@ void ObservableSet::add_joints(const Model& model) {
     }
     const std::span<const JointCoordinateInfo> coordinates = joint.coordinates();
     for (int k = 0; k < static_cast<int>(coordinates.size()); ++k) {
-      const auto names = coordinate_names(joint, coordinates[static_cast<std::size_t>(k)]);
+      const JointCoordinateInfo& coordinate = coordinates[static_cast<std::size_t>(k)];
+      const auto names = coordinate_names(joint, coordinate);
       for (int q = 0; q < static_cast<int>(names.size()); ++q) {
         add(fmt::format("{}.{}", joint.name, names[static_cast<std::size_t>(q)]),
-            {Group::coordinate, i, k, q});
+            {Group::coordinate, i, k, q, coordinate.angle});
       }
     }
   }
@@ -358,12 +359,12 @@ void ObservableSet::add_requested_joints(const Model& model) {
     add(fmt::format("{}.{}", joint.name, joint_friction_quantities[0].name),
         {Group::joint_friction, i, 0, 0});
     for (int k = 0; k < static_cast<int>(coordinates.size()); ++k) {
-      const std::string_view own = coordinates[static_cast<std::size_t>(k)].name;
-      const std::string prefix = coordinates.size() == 1 ? "" : std::string(own) + "_";
+      const JointCoordinateInfo& own = coordinates[static_cast<std::size_t>(k)];
+      const std::string prefix = coordinates.size() == 1 ? "" : std::string(own.name) + "_";
       for (int q = 0; q < 2; ++q) {
         add(fmt::format("{}.{}{}", joint.name, prefix,
                         joint_drive_quantities[static_cast<std::size_t>(q)].name),
-            {Group::joint_drive, i, k, q});
+            {Group::joint_drive, i, k, q, own.angle});
       }
     }
   }

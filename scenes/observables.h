@@ -62,6 +62,10 @@ class ObservableSet {
   /// Whether the observable means something before the first step. Forces do not.
   [[nodiscard]] bool known_at_start(int index) const;
 
+  /// The unit of an observable: "N", "rad/s", ...; empty for a pure number. Where the joint's drive
+  /// decides, both that it may be ("m, m/s").
+  [[nodiscard]] std::string_view unit(int index) const;
+
   /// Whether a state alone tells it. Forces of bearings and powers take the substep before.
   [[nodiscard]] bool follows_from_state(int index) const;
 
@@ -96,9 +100,10 @@ class ObservableSet {
   };
   struct Source {
     Group group = Group::time;
-    int entity = 0;    ///< index of the body, cable or joint
-    int item = 0;      ///< index of the span, link or coordinate
-    int quantity = 0;  ///< which of the group's names
+    int entity = 0;      ///< index of the body, cable or joint
+    int item = 0;        ///< index of the span, link or coordinate
+    int quantity = 0;    ///< which of the group's names
+    bool angle = false;  ///< of coordinates: units have rad for m
   };
   class Sampler;
 

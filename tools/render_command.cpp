@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 
 #include "engine/field_check.h"
+#include "render/scene_view.h"
 #include "render/view_builder.h"
 #include "render/view_survey.h"
-#include "tools/camera_choice.h"
 #include "tools/command_line.h"
 #include "tools/interrupt.h"
 #include "tools/output_paths.h"
@@ -117,25 +117,14 @@ Look survey(const Scene& scene, const RenderOptions& settings, std::span<const d
   }
   const Simulation start = make_simulation(scene);
   const std::vector<CableReport> cables = start.cable_reports();
-  render::ViewOptions view;
+  render::ViewOptions view = render::scene_view_options(scene);
   view.tension_max = survey.tension_max();
   view.run_bounds = survey.bounds();
-  view.force_labels = options.labels || (scene.camera && scene.camera->labels);
-  view.title = scene.name;
-  if (scene.camera) {
-    view.joints = scene.camera->joints;
-    view.cable_radius = scene.camera->cable_radius;
-  }
-  view.body_colors.resize(scene.model.bodies.size());
-  for (const PaintDef& paint : scene.paint) {
-    view.body_colors[static_cast<std::size_t>(paint.body.index)] =
-        render::Color{static_cast<float>(paint.color.x()), static_cast<float>(paint.color.y()),
-                      static_cast<float>(paint.color.z())};
-  }
+  view.force_labels = view.force_labels || options.labels;
   render::ViewBuilder builder(start.world, cables, view);
   const render::DrawList typical = builder.build(start.world, cables);
   const render::Camera camera =
-      choose_camera(scene, cables, survey.bounds(), typical, options.width, options.height);
+      render::scene_camera(scene, cables, survey.bounds(), typical, options.width, options.height);
   return {std::move(builder), camera};
 }
 

@@ -20,18 +20,7 @@ class SheaveMachine final : public Machine {
   void restart() override { static_cast<void>(simulation_.world.restore(start_)); }
   bool step() override { return simulation_.step().ok(); }
   void read(std::vector<double>& positions, std::vector<double>& rates) const override {
-    positions.clear();
-    rates.clear();
-    for (const Coordinate& own : coordinates_) {
-      const auto i = static_cast<std::size_t>(own.body);
-      const BodyState& now = simulation_.world.state().bodies[i];
-      const BodyState& then = start_.bodies[i];
-      const bool wheel = own.radius > 0.0;
-      positions.push_back(own.sense * (wheel ? own.radius * (now.angle - then.angle)
-                                             : now.position.y() - then.position.y()));
-      rates.push_back(own.sense *
-                      (wheel ? own.radius * now.angular_velocity.z() : now.velocity.y()));
-    }
+    read_coordinates(simulation_.world.state(), start_, coordinates_, positions, rates);
   }
 
  private:
@@ -72,6 +61,22 @@ MachineError error_of(const Problem& problem, Machine& machine) {
     }
   }
   return error;
+}
+
+void read_coordinates(const State& now, const State& start,
+                      const std::vector<Coordinate>& coordinates, std::vector<double>& positions,
+                      std::vector<double>& rates) {
+  positions.clear();
+  rates.clear();
+  for (const Coordinate& own : coordinates) {
+    const BodyState& body = now.bodies[static_cast<std::size_t>(own.body)];
+    const BodyState& then = start.bodies[static_cast<std::size_t>(own.body)];
+    const bool wheel = own.radius > 0.0;
+    positions.push_back(own.sense * (wheel ? own.radius * (body.angle - then.angle)
+                                           : body.position.y() - then.position.y()));
+    rates.push_back(own.sense *
+                    (wheel ? own.radius * body.angular_velocity.z() : body.velocity.y()));
+  }
 }
 
 measure::Contender contender_of(std::string name, const Problem& problem,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/peers/problem.h"
+#include "engine/state.h"
 #include "measure/timing.h"
 
 namespace sheave::peers {
@@ -44,6 +45,12 @@ inline constexpr double right_error = 1e-3;
 
 /// Runs it once; infinite if it fails.
 [[nodiscard]] MachineError error_of(const Problem& problem, Machine& machine);
+
+/// Coordinates and their rates, as Machine::read() gives them, of a state of the problem's scene
+/// that began as `start`.
+void read_coordinates(const State& now, const State& start,
+                      const std::vector<Coordinate>& coordinates, std::vector<double>& positions,
+                      std::vector<double>& rates);
 
 /// For timing; keeps the machine alive.
 [[nodiscard]] measure::Contender contender_of(std::string name, const Problem& problem,

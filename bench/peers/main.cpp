@@ -57,13 +57,9 @@ Errors add_sheave(const Problem& problem, std::vector<Entry>& entries) {
   return {};
 }
 
-/// The fastest of the settings that are right, and of those whose positions are right like the best
-/// ones', within a factor of two.
 Errors add_mujoco(const Problem& problem, bool print, std::vector<Entry>& entries) {
-  Result<std::vector<MujocoTrial>> trials = mujoco_trials(problem);
+  const Result<std::vector<MujocoTrial>> trials = mujoco_trials(problem);
   if (!trials) return trials.errors();
-  std::sort(trials->begin(), trials->end(),
-            [](const MujocoTrial& a, const MujocoTrial& b) { return a.seconds < b.seconds; });
   if (print) {
     for (const MujocoTrial& trial : *trials) {
       std::cout << fmt::format(
@@ -72,26 +68,18 @@ Errors add_mujoco(const Problem& problem, bool print, std::vector<Entry>& entrie
           trial.settings.text());
     }
   }
-  double best = 1.0;
-  for (const MujocoTrial& trial : *trials) best = std::min(best, trial.error.position);
-  const auto fast = std::find_if(trials->begin(), trials->end(), [](const MujocoTrial& trial) {
-    return trial.error.speed <= right_error;
-  });
-  const auto exact = std::find_if(trials->begin(), trials->end(), [&](const MujocoTrial& trial) {
-    return trial.error.position <= 2.0 * best;
-  });
-  for (const auto chosen : {fast, exact}) {
-    if (chosen == trials->end() || (chosen == exact && fast == exact)) continue;
-    const auto machine = mujoco_machine(problem, chosen->settings);
+  const std::vector<MujocoTrial> best = best_trials(*trials);
+  for (const MujocoTrial& chosen : best) {
+    const auto machine = mujoco_machine(problem, chosen.settings);
     if (!machine) return machine.errors();
     entries.push_back({problem.name,
                        mujoco_version(),
-                       chosen->settings.text(),
-                       chosen->error,
+                       chosen.settings.text(),
+                       chosen.error,
                        contender_of(problem.name, problem, *machine),
                        {}});
   }
-  if (fast == trials->end()) {
+  if (best.empty() || best.front().error.speed > right_error) {
     std::cerr << "sheave_peers: " << problem.name << ": no setting of MuJoCo is right\n";
   }
   return {};

@@ -19,6 +19,24 @@ struct DataDeleter {
   void operator()(mjData* data) const { mj_deleteData(data); }
 };
 
+void read_coordinates(const mjData& data, const std::vector<Coordinate>& coordinates,
+                      std::vector<double>& positions, std::vector<double>& rates) {
+  positions.clear();
+  rates.clear();
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const double r = coordinates[i].radius;
+    const double factor = r > 0.0 ? r : 1.0;
+    positions.push_back(factor * data.qpos[i]);
+    rates.push_back(factor * data.qvel[i]);
+  }
+}
+
+/// It reports by itself that a state means nothing, and then starts from the beginning.
+bool means_something(const mjData& data) {
+  return data.warning[mjWARN_BADQPOS].number == 0 && data.warning[mjWARN_BADQVEL].number == 0 &&
+         data.warning[mjWARN_BADQACC].number == 0;
+}
+
 class MujocoMachine final : public Machine {
  public:
   MujocoMachine(std::unique_ptr<mjModel, ModelDeleter> model,
@@ -28,25 +46,42 @@ class MujocoMachine final : public Machine {
   void restart() override { mj_resetData(model_.get(), data_.get()); }
   bool step() override {
     mj_step(model_.get(), data_.get());
-    // What it reports by itself after a state that means nothing: it then starts from the
-    // beginning.
-    return data_->warning[mjWARN_BADQPOS].number == 0 &&
-           data_->warning[mjWARN_BADQVEL].number == 0 && data_->warning[mjWARN_BADQACC].number == 0;
+    return means_something(*data_);
   }
   void read(std::vector<double>& positions, std::vector<double>& rates) const override {
-    positions.clear();
-    rates.clear();
-    for (std::size_t i = 0; i < coordinates_.size(); ++i) {
-      const double r = coordinates_[i].radius;
-      const double factor = r > 0.0 ? r : 1.0;
-      positions.push_back(factor * data_->qpos[i]);
-      rates.push_back(factor * data_->qvel[i]);
-    }
+    read_coordinates(*data_, coordinates_, positions, rates);
   }
 
  private:
   std::unique_ptr<mjModel, ModelDeleter> model_;
   std::unique_ptr<mjData, DataDeleter> data_;
+  std::vector<Coordinate> coordinates_;
+};
+
+class ManyMujocoWorlds final : public MujocoWorlds {
+ public:
+  ManyMujocoWorlds(std::unique_ptr<mjModel, ModelDeleter> model,
+                   std::vector<std::unique_ptr<mjData, DataDeleter>> worlds,
+                   std::vector<Coordinate> coordinates)
+      : model_(std::move(model)),
+        worlds_(std::move(worlds)),
+        coordinates_(std::move(coordinates)) {}
+
+  [[nodiscard]] std::size_t size() const override { return worlds_.size(); }
+  void restart(std::size_t world) override { mj_resetData(model_.get(), worlds_[world].get()); }
+  bool step(std::size_t world, int steps) override {
+    mjData* const data = worlds_[world].get();
+    for (int i = 0; i < steps; ++i) mj_step(model_.get(), data);
+    return means_something(*data);
+  }
+  void read(std::size_t world, std::vector<double>& positions,
+            std::vector<double>& rates) const override {
+    read_coordinates(*worlds_[world], coordinates_, positions, rates);
+  }
+
+ private:
+  std::unique_ptr<mjModel, ModelDeleter> model_;
+  std::vector<std::unique_ptr<mjData, DataDeleter>> worlds_;
   std::vector<Coordinate> coordinates_;
 };
 
@@ -140,8 +175,10 @@ std::string mujoco_xml(const Problem& problem, const MujocoSettings& settings) {
   return xml + "</tendon>\n</mujoco>\n";
 }
 
-Result<std::shared_ptr<Machine>> mujoco_machine(const Problem& problem,
-                                                const MujocoSettings& settings) {
+namespace {
+
+Result<std::unique_ptr<mjModel, ModelDeleter>> mujoco_model(const Problem& problem,
+                                                            const MujocoSettings& settings) {
   // Files in memory have names of 100 characters at most.
   const VirtualFile file("problem.xml", mujoco_xml(problem, settings));
   if (!file.made()) return Error{"", "MuJoCo: no memory for the problem"};
@@ -149,10 +186,33 @@ Result<std::shared_ptr<Machine>> mujoco_machine(const Problem& problem,
   std::unique_ptr<mjModel, ModelDeleter> model(
       mj_loadXML("problem.xml", file.get(), message.data(), static_cast<int>(message.size())));
   if (!model) return Error{"", std::string("MuJoCo: ") + message.data()};
-  std::unique_ptr<mjData, DataDeleter> data(mj_makeData(model.get()));
+  return model;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<Machine>> mujoco_machine(const Problem& problem,
+                                                const MujocoSettings& settings) {
+  auto model = mujoco_model(problem, settings);
+  if (!model) return model.errors();
+  std::unique_ptr<mjData, DataDeleter> data(mj_makeData(model->get()));
   if (!data) return Error{"", "MuJoCo: no memory for the state"};
-  return std::shared_ptr<Machine>(
-      std::make_shared<MujocoMachine>(std::move(model), std::move(data), problem.coordinates));
+  return std::shared_ptr<Machine>(std::make_shared<MujocoMachine>(
+      std::move(model).value(), std::move(data), problem.coordinates));
+}
+
+Result<std::unique_ptr<MujocoWorlds>> MujocoWorlds::create(const Problem& problem,
+                                                           const MujocoSettings& settings,
+                                                           std::size_t count) {
+  auto model = mujoco_model(problem, settings);
+  if (!model) return model.errors();
+  std::vector<std::unique_ptr<mjData, DataDeleter>> worlds;
+  for (std::size_t i = 0; i < count; ++i) {
+    worlds.emplace_back(mj_makeData(model->get()));
+    if (!worlds.back()) return Error{"", "MuJoCo: no memory for the state"};
+  }
+  return std::unique_ptr<MujocoWorlds>(std::make_unique<ManyMujocoWorlds>(
+      std::move(model).value(), std::move(worlds), problem.coordinates));
 }
 
 std::string mujoco_version() { return std::string("MuJoCo ") + mj_versionString(); }

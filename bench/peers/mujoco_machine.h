@@ -51,7 +51,32 @@ struct MujocoTrial {
   MachineError error;
   double seconds = 0.0;  ///< per frame, best of three
 };
-/// Tries all of them.
+/// Tries all of them; the fastest first.
 [[nodiscard]] Result<std::vector<MujocoTrial>> mujoco_trials(const Problem& problem);
+/// The fastest of the settings that are right, and the fastest of those whose positions are right
+/// like the best ones', within a factor of two, if that is another.
+[[nodiscard]] std::vector<MujocoTrial> best_trials(const std::vector<MujocoTrial>& trials);
+
+/// Many worlds of one problem; threads may step different ones at the same time.
+class MujocoWorlds {
+ public:
+  /// Errors are those of mujoco_machine().
+  static Result<std::unique_ptr<MujocoWorlds>> create(const Problem& problem,
+                                                      const MujocoSettings& settings,
+                                                      std::size_t count);
+  virtual ~MujocoWorlds() = default;
+  [[nodiscard]] virtual std::size_t size() const = 0;
+  virtual void restart(std::size_t world) = 0;
+  /// So many steps of one of them; false if its state means nothing any more.
+  virtual bool step(std::size_t world, int steps) = 0;
+  /// As Machine::read().
+  virtual void read(std::size_t world, std::vector<double>& positions,
+                    std::vector<double>& rates) const = 0;
+
+ protected:
+  MujocoWorlds() = default;
+  MujocoWorlds(const MujocoWorlds&) = default;
+  MujocoWorlds& operator=(const MujocoWorlds&) = default;
+};
 
 }  // namespace sheave::peers

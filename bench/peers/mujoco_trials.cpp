@@ -61,7 +61,24 @@ Result<std::vector<MujocoTrial>> mujoco_trials(const Problem& problem) {
     }
     trials.push_back({settings, error, seconds});
   }
+  std::sort(trials.begin(), trials.end(),
+            [](const MujocoTrial& a, const MujocoTrial& b) { return a.seconds < b.seconds; });
   return trials;
+}
+
+std::vector<MujocoTrial> best_trials(const std::vector<MujocoTrial>& trials) {
+  double best = 1.0;
+  for (const MujocoTrial& trial : trials) best = std::min(best, trial.error.position);
+  const auto fast = std::find_if(trials.begin(), trials.end(), [](const MujocoTrial& trial) {
+    return trial.error.speed <= right_error;
+  });
+  const auto exact = std::find_if(trials.begin(), trials.end(), [&](const MujocoTrial& trial) {
+    return trial.error.position <= 2.0 * best;
+  });
+  std::vector<MujocoTrial> chosen;
+  if (fast != trials.end()) chosen.push_back(*fast);
+  if (exact != trials.end() && exact != fast) chosen.push_back(*exact);
+  return chosen;
 }
 
 }  // namespace sheave::peers

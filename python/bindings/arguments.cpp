@@ -11,12 +11,12 @@ namespace {
 /// What a value looks like in a message.
 std::string shown(py::handle value) {
   constexpr std::size_t longest = 80;
-  std::string text;
-  try {
-    text = py::cast<std::string>(py::repr(value));
-  } catch (const py::error_already_set&) {
-    text = "<" + std::string(Py_TYPE(value.ptr())->tp_name) + ">";
-  }
+  std::string text = "<" + std::string(Py_TYPE(value.ptr())->tp_name) + ">";
+  // What it says of itself may be no valid Unicode, or fail.
+  const auto own = py::reinterpret_steal<py::object>(PyObject_Repr(value.ptr()));
+  const char* const utf8 = own ? PyUnicode_AsUTF8(own.ptr()) : nullptr;
+  if (utf8 != nullptr) text = utf8;
+  PyErr_Clear();
   for (char& c : text) {
     if (c == '\n') c = ' ';
   }
@@ -55,11 +55,13 @@ std::array<double, Count> components(py::handle value, const char* name, const c
     PyErr_Clear();
     refuse(name, value, allowed);
   }
-  if (PySequence_Fast_GET_SIZE(items.ptr()) != static_cast<Py_ssize_t>(Count)) {
-    refuse(name, value, allowed);
-  }
   for (std::size_t i = 0; i < Count; ++i) {
-    const py::handle item = PySequence_Fast_GET_ITEM(items.ptr(), static_cast<Py_ssize_t>(i));
+    // An item that makes itself a number may change the list that it is in.
+    if (PySequence_Fast_GET_SIZE(items.ptr()) != static_cast<Py_ssize_t>(Count)) {
+      refuse(name, value, allowed);
+    }
+    const auto item = py::reinterpret_borrow<py::object>(
+        PySequence_Fast_GET_ITEM(items.ptr(), static_cast<Py_ssize_t>(i)));
     if (!read(item, read_ones[i]) || !std::isfinite(read_ones[i])) refuse(name, value, allowed);
   }
   return read_ones;
@@ -118,6 +120,12 @@ std::string text(py::handle value, const char* name) {
     refuse(name, value, "a string of valid Unicode");
   }
   return {data, static_cast<std::size_t>(size)};
+}
+
+void check_callback(py::handle value, const char* name) {
+  if (!value.is_none() && PyCallable_Check(value.ptr()) == 0) {
+    refuse(name, value, "a function of the simulation, or None");
+  }
 }
 
 std::vector<std::string> texts(py::handle value, const char* name) {

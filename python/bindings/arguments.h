@@ -26,6 +26,8 @@ namespace py = pybind11;
                                    std::int64_t most);
 [[nodiscard]] bool truth(py::handle value, const char* name);
 [[nodiscard]] std::string text(py::handle value, const char* name);
+/// Raises if it is neither None nor can be called.
+void check_callback(py::handle value, const char* name);
 [[nodiscard]] std::vector<std::string> texts(py::handle value, const char* name);
 /// Three numbers.
 [[nodiscard]] Vector3 vector(py::handle value, const char* name);

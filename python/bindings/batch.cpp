@@ -145,18 +145,28 @@ Errors Batch::set(const std::string& name, std::span<const double> values,
                   std::optional<double> over, std::span<const char> chosen) {
   const Result<const std::vector<ControlPoint>*> points = control(name);
   if (!points) return points.errors();
+  std::vector<Controls> before;  // of those that have been set
   for (std::size_t i = 0; i < size(); ++i) {
     if (chosen[i] == 0) continue;
     Simulation& simulation = worlds_[i].simulation;
     const ControlPoint& point = (**points)[i];
     const double time = over.value_or(simulation.world.model().step.dt);
+    before.push_back(simulation.world.state().controls);
     const Errors errors =
         values.empty() ? point.clear(simulation) : point.set(simulation, values[i], time);
-    if (!errors.empty()) {
-      return {{"", fmt::format("world {}: {}", i, errors.front().message)}};
-    }
+    if (errors.empty()) continue;
+    take_back(chosen, before);
+    return {{"", fmt::format("world {}: {}", i, errors.front().message)}};
   }
   return {};
+}
+
+void Batch::take_back(std::span<const char> chosen, const std::vector<Controls>& before) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < size() && next < before.size(); ++i) {
+    if (chosen[i] == 0) continue;
+    worlds_[i].simulation.world.controls_of_features() = before[next++];
+  }
 }
 
 Errors Batch::restore(std::size_t index, const State& state) {

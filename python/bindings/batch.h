@@ -75,7 +75,8 @@ class Batch {
     const auto found = control(name);
     return found ? Errors() : found.errors();
   }
-  /// Sets a control, or clears it if `values` is empty; the fault of the first world that has one.
+  /// Sets a control, or clears it if `values` is empty; the fault of the first world that has one,
+  /// and then none has been set.
   [[nodiscard]] Errors set(const std::string& name, std::span<const double> values,
                            std::optional<double> over, std::span<const char> chosen);
   /// Back to the start, or to what mark_start() has made that.
@@ -92,6 +93,8 @@ class Batch {
   };
   Batch(std::vector<World> worlds, double duration, std::size_t threads);
   [[nodiscard]] Result<const std::vector<ControlPoint>*> control(const std::string& name);
+  /// Puts the controls of the first worlds that are chosen back.
+  void take_back(std::span<const char> chosen, const std::vector<Controls>& before);
 
   std::vector<World> worlds_;
   double duration_ = 0.0;

@@ -179,13 +179,26 @@ void restore_batch(SharedBatch& shared, const py::object& states, const py::obje
     refuse("states", states, fmt::format("a list of {} states", batch.size()));
   }
   const auto list = py::reinterpret_borrow<py::sequence>(states);
+  std::vector<State> wanted;
   for (std::size_t i = 0; i < batch.size(); ++i) {
-    if (chosen[i] == 0) continue;
     const py::object one = list[i];
+    if (chosen[i] == 0) {
+      wanted.push_back(batch.world(i).world.state());
+      continue;
+    }
     if (!py::isinstance<py::bytes>(one)) refuse("states", one, "bytes of a state");
-    const State state = value_of(state_from_bytes(one.cast<std::string>()), "StateError");
-    const Errors errors = batch.restore(i, state);
-    if (!errors.empty()) raise("StateError", errors);
+    wanted.push_back(value_of(state_from_bytes(one.cast<std::string>()), "StateError"));
+  }
+  // All of them or none.
+  std::vector<State> before;
+  for (std::size_t i = 0; i < batch.size(); ++i) {
+    before.push_back(batch.world(i).world.state());
+    const Errors errors = chosen[i] == 0 ? Errors() : batch.restore(i, wanted[i]);
+    if (errors.empty()) continue;
+    for (std::size_t k = 0; k < i; ++k) {
+      if (chosen[k] != 0) static_cast<void>(batch.restore(k, before[k]));
+    }
+    raise("StateError", fmt::format("world {}: {}", i, errors.front().message));
   }
 }
 

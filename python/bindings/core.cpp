@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "python/bindings/arguments.h"
 #include "python/bindings/errors.h"
 #include "scenes/control/scene_supervisor.h"
 
@@ -205,6 +206,8 @@ void Core::Stepper::run(std::int64_t count) {
 bool Core::step(std::int64_t count, py::handle self, py::handle before_step,
                 py::handle before_substep) {
   check_free();
+  check_callback(before_step, "before_step");
+  check_callback(before_substep, "before_substep");
   if (stepper_ != std::thread::id() && stepper_ != std::this_thread::get_id()) {
     raise("Error", "another thread steps this simulation now; wait until it is done");
   }

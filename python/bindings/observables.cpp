@@ -79,6 +79,11 @@ py::array_t<double> record(const py::object& self, const py::object& names, cons
   return result;
 }
 
+std::string unit_of(Core& core, const py::object& name) {
+  const int index = indices_of(core, {text(name, "name")}).front();
+  return std::string(core.session().quantities().set().unit(index));
+}
+
 ControlPoint control_called(Core& core, const py::object& name) {
   const Simulation& simulation = core.simulation();
   return value_of(
@@ -111,6 +116,10 @@ void bind_observables(SimulationClass& simulation) {
   simulation.def("observe", &observe, py::arg("names"),
                  "A quantity by its name, or an array of several. NaN is what is not known, as "
                  "forces before the first step.");
+  simulation.def(
+      "unit", &unit_of, py::arg("name"),
+      "The unit of a quantity: \"N\", \"rad/s\"; empty for a pure number. Of the error of "
+      "a joint's drive both that it may be: \"m, m/s\".");
   simulation.def("_record", &record, py::arg("names"), py::arg("steps"), py::arg("every"),
                  py::arg("before_step"), py::arg("before_substep"));
   simulation.def("set", &set_control, py::arg("name"), py::arg("value"),

@@ -1,14 +1,14 @@
-// Pictures of simulations.
+// Pictures and videos of simulations.
 
 #include "python/bindings/arguments.h"
 #include "python/bindings/bind.h"
 #include "python/bindings/errors.h"
 
 #if SHEAVE_HAS_RENDER
-#include "render/overlay.h"
 #include "render/png_writer.h"
 #include "render/renderer.h"
-#include "render/view_builder.h"
+#include "render/scene_view.h"
+#include "render/video_writer.h"
 #include "render/view_survey.h"
 #endif
 
@@ -17,63 +17,24 @@ namespace sheave::python {
 #if SHEAVE_HAS_RENDER
 namespace {
 
-/// The camera of the scene, or one that shows all of what is there now.
-render::Camera camera_of(const Scene& scene, std::span<const CableReport> cables,
-                         const render::DrawList& list, int width, int height) {
-  const Eigen::AlignedBox3d box = render::bounds(list);
-  const CameraDef def = scene.camera.value_or(CameraDef{});
-  if (!def.position && !def.direction) {
-    return render::automatic_camera(scene.model, cables, box, list, width, height);
-  }
-  const Vector3 direction = def.position ? Vector3(*def.target - *def.position) : *def.direction;
-  Vector3 up = def.up.value_or(render::up_direction(scene.model));
-  if (direction.normalized().cross(up).norm() < 1e-6) up = any_perpendicular(direction);
-  render::FrameOptions options;
-  options.aspect = static_cast<double>(width) / height;
-  options.margins = render::overlay_margins(list, width, height);
-  if (def.projection == Projection::orthographic) options.projection = render::Orthographic{};
-  if (def.projection == Projection::perspective && def.vertical_fov) {
-    options.projection = render::Perspective{*def.vertical_fov};
-  }
-  render::Camera camera = render::frame_box(box, direction, up, options);
-  if (!def.position) return camera;
-  camera.position = *def.position;
-  camera.target = *def.target;
-  if (def.height) camera.projection = render::Orthographic{*def.height};
-  return camera;
-}
-
-render::ViewOptions view_options(const Scene& scene) {
-  render::ViewOptions options;
-  options.title = scene.name;
-  if (scene.camera) {
-    options.cable_radius = scene.camera->cable_radius;
-    options.force_labels = scene.camera->labels;
-    options.joints = scene.camera->joints;
-  }
-  options.body_colors.resize(scene.model.bodies.size());
-  for (const PaintDef& paint : scene.paint) {
-    if (paint.body.is_world()) continue;
-    const Vector3& c = paint.color;
-    options.body_colors[static_cast<std::size_t>(paint.body.index)] = render::Color{
-        static_cast<float>(c.x()), static_cast<float>(c.y()), static_cast<float>(c.z())};
-  }
-  return options;
+int side(const py::object& value, const char* name) {
+  return static_cast<int>(
+      integer(value, name, render::Renderer::min_side, render::Renderer::max_side));
 }
 
 render::Image draw(Core& core, const py::object& width, const py::object& height,
                    const py::object& samples) {
-  const auto w = static_cast<int>(
-      integer(width, "width", render::Renderer::min_side, render::Renderer::max_side));
-  const auto h = static_cast<int>(
-      integer(height, "height", render::Renderer::min_side, render::Renderer::max_side));
+  const int w = side(width, "width");
+  const int h = side(height, "height");
   render::RendererOptions quality;
   quality.samples = static_cast<int>(integer(samples, "samples", 1, 4));
   const Simulation& simulation = core.simulation();
   const std::vector<CableReport> cables = simulation.cable_reports();
-  const render::ViewBuilder builder(simulation.world, cables, view_options(core.scene()));
+  const render::ViewBuilder builder(simulation.world, cables,
+                                    render::scene_view_options(core.scene()));
   const render::DrawList list = builder.build(simulation.world, cables);
-  const render::Camera camera = camera_of(core.scene(), cables, list, w, h);
+  const render::Camera camera =
+      render::scene_camera(core.scene(), cables, render::bounds(list), list, w, h);
   render::Renderer renderer = value_of(render::Renderer::create(w, h, quality));
   return value_of(renderer.draw(list, camera));
 }
@@ -92,6 +53,108 @@ py::bytes render_png(Core& core, const py::object& width, const py::object& heig
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+/// Looks at what a simulation will do and puts it back, so that one camera suits all of it and
+/// colours mean the same forces from the first frame to the last.
+render::ViewSurvey look_ahead(const py::object& self, double begin, double fps,
+                              std::int64_t frames) {
+  Core& core = self.cast<Core&>();
+  const live::KeptSnapshot start = core.session().keep();
+  const std::deque<Event> events = core.events;
+  const std::int64_t dropped = core.dropped_events;
+  const auto put_back = [&] {
+    live::SessionState& session = core.session();
+    check(session.world.restore(start.snapshot));
+    session.revision = start.revision;
+    session.refresh();
+    core.events = events;
+    core.dropped_events = dropped;
+  };
+  render::ViewSurvey survey;
+  try {
+    for (std::int64_t frame = 0; frame < frames; ++frame) {
+      core.step(core.steps_until(begin + static_cast<double>(frame) / fps), self, py::none(),
+                py::none());
+      survey.add(core.simulation().world, core.simulation().cable_reports());
+    }
+  } catch (...) {
+    put_back();
+    throw;
+  }
+  put_back();
+  return survey;
+}
+
+/// A video that is being made of one simulation.
+class Video {
+ public:
+  Video(const py::object& simulation, const py::object& path, const py::object& width,
+        const py::object& height, double fps, std::int64_t frames)
+      : core_(simulation.cast<std::shared_ptr<Core>>()),
+        // What cannot be is told before anything is looked at.
+        writer_(value_of(render::VideoWriter::create(text(path, "path"), side(width, "width"),
+                                                     side(height, "height"), options(fps)))),
+        renderer_(
+            value_of(render::Renderer::create(side(width, "width"), side(height, "height")))) {
+    const Core& core = *core_;
+    const render::ViewSurvey survey = look_ahead(simulation, core_->world().time(), fps, frames);
+    const Simulation& now = core_->simulation();
+    const std::vector<CableReport> cables = now.cable_reports();
+    render::ViewOptions view = render::scene_view_options(core.scene());
+    view.tension_max = survey.tension_max();
+    view.run_bounds = survey.bounds();
+    builder_.emplace(now.world, cables, view);
+    camera_ = render::scene_camera(core.scene(), cables, survey.bounds(),
+                                   builder_->build(now.world, cables), side(width, "width"),
+                                   side(height, "height"));
+  }
+
+  /// Appends what the simulation looks like now.
+  void add() {
+    const Simulation& now = core_->simulation();
+    const render::DrawList list = builder_->build(now.world, now.cable_reports());
+    const py::gil_scoped_release unlocked;
+    const Result<render::Image> image = renderer_.draw(list, camera_);
+    const Errors errors = image ? writer_.add(*image) : image.errors();
+    const py::gil_scoped_acquire locked;
+    check(errors);
+  }
+  void finish() {
+    Errors errors;
+    {
+      const py::gil_scoped_release unlocked;
+      errors = writer_.finish();
+    }
+    check(errors);
+  }
+
+ private:
+  static render::VideoOptions options(double fps) {
+    render::VideoOptions options;
+    options.frames_per_second = fps;
+    return options;
+  }
+
+  std::shared_ptr<Core> core_;
+  render::VideoWriter writer_;
+  render::Renderer renderer_;
+  std::optional<render::ViewBuilder> builder_;
+  render::Camera camera_;
+};
+
+void bind_video(py::module_& module) {
+  py::class_<Video>(module, "_Video", "A video that is being made; nothing appears before its end.")
+      .def(
+          py::init([](const py::object& simulation, const py::object& path, const py::object& width,
+                      const py::object& height, const py::object& fps, const py::object& frames) {
+            return std::make_unique<Video>(simulation, path, width, height, number(fps, "fps"),
+                                           integer(frames, "frames", 1, 10'000'000));
+          }),
+          py::arg("simulation"), py::arg("path"), py::arg("width"), py::arg("height"),
+          py::arg("fps"), py::arg("frames"))
+      .def("add", &Video::add, "Appends what the simulation looks like now.")
+      .def("finish", &Video::finish, "The file appears.");
+}
+
 }  // namespace
 
 void bind_pictures(py::module_& module, SimulationClass& simulation) {
@@ -101,6 +164,7 @@ void bind_pictures(py::module_& module, SimulationClass& simulation) {
                  "A picture: an array of bytes (height, width, 3), red, green, blue.");
   simulation.def("png", &render_png, py::arg("width") = 960, py::arg("height") = 540,
                  "The same as the bytes of a PNG file.");
+  bind_video(module);
 }
 
 #else

@@ -23,6 +23,8 @@ class Batch(_sheave.Batch):
     world that diverges is marked in `diverged` and steps no more; the others go on.
     """
 
+    __slots__ = ()
+
     def __init__(self, scene: SceneLike, n: int, vary: Optional[Mapping[str, Any]] = None,
                  set: Optional[Mapping[str, Any]] = None, threads: Optional[int] = None):
         varied = {}

@@ -37,6 +37,8 @@ class Model:
     >>> sim = model.simulation()
     """
 
+    __slots__ = (*PLAIN, *SINGLE, *LISTS)
+
     def __init__(self, gravity: Sequence[float] = (0.0, -9.81, 0.0), duration: float = 1.0,
                  name: Optional[str] = None, description: Optional[str] = None,
                  step: Optional[parts.Step] = None) -> None:
@@ -55,6 +57,13 @@ class Model:
         self.colliders: List[parts.Collider] = []
         self.paint: List[parts.Paint] = []
         self.checks: List[parts.Check] = []
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in LISTS and not isinstance(value, list):
+            if not isinstance(value, tuple):
+                raise ArgumentError(f"{name}: must be a list, was {value!r}"[:300])
+            value = list(value)
+        object.__setattr__(self, name, value)
 
     def add(self, part: A) -> A:
         """Appends a body, joint, cable, controller, trigger, collider, paint or check; gives it."""
@@ -85,7 +94,10 @@ class Model:
         return scene
 
     def to_json(self, indent: Optional[int] = None) -> str:
-        """The scene as a text."""
+        """The scene as a text, with so many spaces for each level, or in one line."""
+        if indent is not None and (isinstance(indent, bool) or not isinstance(indent, int)
+                                   or not 0 <= indent <= 100):
+            raise ArgumentError(f"indent: must be an integer from 0 to 100, or None, was {indent!r}"[:300])
         return json.dumps(json.loads(json_text(self)), indent=indent)
 
     def save(self, path: Union[str, "os.PathLike[str]"]) -> None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping as AbstractMapping
-from typing import TYPE_CHECKING, Any, Iterator, List
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Iterator, List, Mapping
 
 import numpy as np
 
@@ -18,9 +19,15 @@ if TYPE_CHECKING:
 class Recording(AbstractMapping):  # type: ignore[type-arg]
     """Arrays by the names of quantities, all as long as `time`."""
 
-    def __init__(self, names: List[str], rows: "Array"):
+    def __init__(self, names: List[str], rows: "Array", units: List[str]):
         self._names = names
         self._rows = rows
+        self._units = MappingProxyType(dict(zip(names, units)))
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        """By the same names: "N", "rad/s"; empty for a pure number."""
+        return self._units
 
     @property
     def time(self) -> "Array":
@@ -52,7 +59,11 @@ class Recording(AbstractMapping):  # type: ignore[type-arg]
         return pandas.DataFrame(self._rows[:, 1:].copy(), index=index, columns=self._names)
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
-        """Draws all of it over time with matplotlib; gives the axes."""
+        """Draws all of it over time with matplotlib: axes of their own for each unit.
+
+        Gives the axes; several as an array, in the order in which units come. `axes` are as many
+        to draw into. Other options go to matplotlib's plot().
+        """
         from ._plotting import plot_recording
 
         return plot_recording(self, axes, options)

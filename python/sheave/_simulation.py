@@ -61,6 +61,8 @@ class Simulation(_sheave.Simulation):
     refer to is no more. What is set is part of the state: hash, snapshot and restore hold.
     """
 
+    __slots__ = ()  # a name that is misspelt must not become an attribute
+
     def __init__(self, scene: SceneLike, set: Optional[Mapping[str, Any]] = None):
         super().__init__(*source_of(scene), overrides_of(set))
 
@@ -131,11 +133,11 @@ class Simulation(_sheave.Simulation):
         if isinstance(names, str):
             names = [names]
         rows = self._record(names, steps, every, before_step, before_substep)
-        return Recording(list(names), rows)
+        return Recording(list(names), rows, [self.unit(name) for name in names])
 
     def plot(self, *names: str, steps: Optional[int] = None, every: int = 1, axes: Any = None,
              **options: Any) -> Any:
-        """Records quantities and draws them over time with matplotlib; gives the axes."""
+        """Records quantities and draws them over time with matplotlib: Recording.plot()."""
         return self.record(list(names), steps, every).plot(axes=axes, **options)
 
     def save_state(self, path: Union[str, "os.PathLike[str]"]) -> None:

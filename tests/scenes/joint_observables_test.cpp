@@ -198,5 +198,28 @@ TEST(JointQuantities, AreSharedWithBodiesInTheAngleOnly) {
   for (const std::string_view name : of_joints) EXPECT_FALSE(of_cables.contains(name)) << name;
 }
 
+TEST_F(JointObservables, HaveTheUnitsOfTheirCoordinates) {
+  const auto unit = [&](std::string_view name) {
+    const Result<int> index = set.index_of(name);
+    EXPECT_TRUE(index) << name;
+    return index ? set.unit(*index) : std::string_view("none");
+  };
+  EXPECT_EQ(unit("t"), "s");
+  EXPECT_EQ(unit("hinge.angle"), "rad");
+  EXPECT_EQ(unit("hinge.angle_rate"), "rad/s");
+  EXPECT_EQ(unit("hinge.drive_force"), "N m");
+  EXPECT_EQ(unit("hinge.drive_power"), "W");
+  EXPECT_EQ(unit("hinge.drive_error"), "rad, rad/s");
+  EXPECT_EQ(unit("sleeve.travel"), "m");
+  EXPECT_EQ(unit("sleeve.travel_rate"), "m/s");
+  EXPECT_EQ(unit("sleeve.travel_drive_force"), "N");
+  EXPECT_EQ(unit("sleeve.travel_drive_error"), "m, m/s");
+  EXPECT_EQ(unit("sleeve.angle_drive_force"), "N m");
+  EXPECT_EQ(unit("rod.extension"), "m");
+  EXPECT_EQ(unit("rod.torque"), "N m");
+  EXPECT_EQ(unit("rod.broken"), "");
+  EXPECT_EQ(unit("momentum.angular_z"), "kg m2/s");
+}
+
 }  // namespace
 }  // namespace sheave::test
