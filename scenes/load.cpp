@@ -91,9 +91,17 @@ class SceneReader {
   void read_model(Scene& scene) {
     Model& model = scene.model;
     model.bodies.reserve(list("bodies").size());
-    for (const NodeId node : list("bodies")) model.bodies.push_back(parts_.read_body(node));
+    std::vector<std::optional<BodyId>> relative_to;
+    for (const NodeId node : list("bodies")) {
+      BodyPlacementDef placement;
+      model.bodies.push_back(parts_.read_body(node, &placement));
+      relative_to.push_back(placement.relative_to);
+    }
+    PlacementResolver(document_, reader_).place_bodies(list("bodies"), relative_to, model.bodies);
     for (const NodeId node : list("joints")) {
-      if (auto joint = parts_.read_joint(node)) model.joints.push_back(std::move(joint));
+      if (auto joint = parts_.read_joint(node, &model.bodies)) {
+        model.joints.push_back(std::move(joint));
+      }
     }
     for (const NodeId node : list("cables")) scene.cables.push_back(parts_.read_cable(node));
   }
