@@ -60,7 +60,7 @@ TEST(Placement, JointsHavePointsAndDirectionsOfABody) {
              R"({"type": "hinge", "name": "pin", "relative_to": "post", "body_a": "post",
                  "body_b": "door", "anchor": [0.5, 0, 0], "axis": [1, 0, 0]})");
   ASSERT_TRUE(scene) << to_string(scene.errors.front());
-  const auto* hinge = static_cast<const Hinge*>(scene->model.joints[0]->settings());
+  const auto* hinge = static_cast<const HingeJoint*>(scene->model.joints[0]->settings());
   EXPECT_LT((hinge->anchor - Vector3(1.0, 2.5, 0.0)).norm(), rounding);
   EXPECT_LT((hinge->axis - Vector3(0.0, 1.0, 0.0)).norm(), rounding);
 }
