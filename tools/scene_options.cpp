@@ -154,8 +154,12 @@ SceneResult load_file_or_stdin(const std::string& path, const std::vector<Overri
   return load_scene_text(standard_input(), "standard input", overrides, jsonnet);
 }
 
+JsonnetOptions jsonnet_options(const SceneOptions& options) {
+  return {parameters(options), options.import_folders};
+}
+
 Scene load(const SceneOptions& options) {
-  const JsonnetOptions jsonnet{parameters(options), options.import_folders};
+  const JsonnetOptions jsonnet = jsonnet_options(options);
   SceneResult result =
       options.text ? load_scene_text(*options.text, options.path, overrides(options), jsonnet)
                    : load_file_or_stdin(options.path, overrides(options), jsonnet);

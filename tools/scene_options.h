@@ -34,6 +34,9 @@ void add_scene_changes(CLI::App& app, SceneOptions& options);
 /// Parameters and imports of a scene in Jsonnet; add_scene_changes() has them too.
 void add_jsonnet_options(CLI::App& app, SceneOptions& options);
 
+/// What those options say; a Failure (2) if a parameter is no NAME=VALUE.
+[[nodiscard]] JsonnetOptions jsonnet_options(const SceneOptions& options);
+
 /// Loads and checks the scene. A Failure lists all its errors: 2 if they lie in the command line
 /// alone, 65 if in the scene, 66 if there is no such file, 74 if it cannot be read.
 [[nodiscard]] Scene load(const SceneOptions& options);
