@@ -50,6 +50,9 @@ const Extent built_in_extent{{0.0, -1.0, 0.1, 1.0, 10.0, 100.0, 1e6},
                              60.0,
                              0.0};
 
+const Extent quick_built_in_extent{
+    {0.0, -1.0, 100.0}, {1.0 / 60.0, 0.1}, {1e-6, 1e6}, {1.0, 6.0}, 2, 30.0, 0.0};
+
 /// Makes the cells of one scene.
 class SceneMaps {
  public:
@@ -185,7 +188,7 @@ std::vector<StressMap> built_in_stress_maps(const StressRange& range) {
     StressCell origin;
     origin.built_in = name;
     const SceneMaps maps(std::move(origin), *scene, scalable_settings(text),
-                         range.quick ? quick_extent : built_in_extent);
+                         range.quick ? quick_built_in_extent : built_in_extent);
     for (StressMap& map : maps.all()) {
       map.name = std::string(name) + "-" + map.name;
       map.meaning = scene->name + ". " + map.meaning;

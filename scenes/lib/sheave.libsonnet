@@ -227,7 +227,11 @@
     local part(i) = '%s phalanx %d' % [name, i + 1];
     local drum_radius = 0.01;
     local drum_at = sheave.add(base, [-0.06, drum_radius - offset, 0]);
+    local rho = std.sqrt(before * before + offset * offset);
+    local phi = 2 * std.atan(before / offset);
     {
+      assert force * rho < stiffness * phi :
+             'finger "%s": a force of %g N bends it until its holes meet; it must be below %g N' % [name, force, stiffness * phi / rho],
       assert count >= 1 : 'finger "%s": needs a phalanx' % name,
       assert std.length([l for l in lengths if l <= 2 * before]) == 0 :
              'finger "%s": each phalanx must be longer than %g m, or its holes meet' % [name, 2 * before],
@@ -285,8 +289,6 @@
       // How far every hinge bends: force rho cos((phi - theta) / 2) = stiffness theta, with the
       // holes rho from the axis and seen from it under phi when straight. By Newton's method.
       bend::
-        local rho = std.sqrt(before * before + offset * offset);
-        local phi = 2 * std.atan(before / offset);
         local next(theta) = theta - (force * rho * std.cos((phi - theta) / 2) - stiffness * theta)
                                     / (force * rho / 2 * std.sin((phi - theta) / 2) - stiffness);
         std.foldl(function(theta, i) next(theta), std.range(1, 20), 0),
