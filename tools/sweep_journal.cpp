@@ -236,11 +236,9 @@ void SweepJournal::write(const std::string& text) {
   }
 }
 
-void SweepJournal::keep(const std::vector<SweepRow>& rows) {
-  if (descriptor_ < 0 || rows.empty()) return;
-  std::string text;
-  for (const SweepRow& row : rows) text += row_line(row);
-  write(text);
+void SweepJournal::keep(const SweepRow& row) {
+  if (descriptor_ < 0) return;
+  write(row_line(row));
   if (seconds_now() - synced_at_ > 1.0) finish();
 }
 

@@ -27,8 +27,9 @@ class SweepJournal {
   SweepJournal(const SweepJournal&) = delete;
   SweepJournal& operator=(const SweepJournal&) = delete;
 
-  /// Appends rows and, at most once a second, waits until the disk has them. A Failure (74).
-  void keep(const std::vector<SweepRow>& rows);
+  /// Appends a row and, at most once a second, waits until the disk has what there is. A Failure
+  /// (74).
+  void keep(const SweepRow& row);
   /// Waits until the disk has everything.
   void finish();
 

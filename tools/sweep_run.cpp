@@ -4,7 +4,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <mutex>
 #include <utility>
@@ -208,23 +207,6 @@ std::vector<std::string> find_measures(SweepOptions& options,
   return scenes;
 }
 
-/// Rows that have ended wait here for the journal, which one thread writes.
-class EndedRows {
- public:
-  void add(SweepRow row) {
-    const std::lock_guard lock(mutex_);
-    rows_.push_back(std::move(row));
-  }
-  std::vector<SweepRow> take() {
-    const std::lock_guard lock(mutex_);
-    return std::exchange(rows_, {});
-  }
-
- private:
-  std::mutex mutex_;
-  std::vector<SweepRow> rows_;
-};
-
 std::string counted_text(const SweepTable& table, std::size_t wanted, const std::string& journal) {
   std::string text =
       fmt::format("interrupted; {} of {} runs have ended", table.rows.size(), wanted);
@@ -263,37 +245,24 @@ SweepTable run_sweep(SweepOptions options) {
 
   std::atomic<double> done = 0.0;
   std::atomic<std::size_t> ended = table.rows.size();
-  EndedRows fresh;
-  std::atomic<bool> stop = false;
-  const auto keep = [&] {
-    std::vector<SweepRow> rows = fresh.take();
-    try {
-      journal.keep(rows);
-    } catch (...) {
-      stop = true;  // runs that nobody keeps are of no use
-      throw;
-    }
-    std::move(rows.begin(), rows.end(), std::back_inserter(table.rows));
-  };
+  std::mutex mutex;  // of the journal and the rows
   {
     Progress progress("sweep", 0.0, static_cast<double>(runs.size()), options.quiet);
     run_parallel(
         runs.size(), options.threads > 0 ? options.threads : core_count(),
         [&](std::size_t i) {
-          if (interrupted() || stop) return;
+          if (interrupted()) return;
           SweepRow row;
           row.run = runs[i];
           row.values = points[runs[i]];
           if (!RowRun(options, done).run(row)) return;
-          fresh.add(std::move(row));
+          const std::lock_guard lock(mutex);
+          journal.keep(row);
+          table.rows.push_back(std::move(row));
           ++ended;
         },
-        [&] {
-          keep();
-          progress.update(done, fmt::format("{} of {} runs", ended.load(), wanted));
-        });
+        [&] { progress.update(done, fmt::format("{} of {} runs", ended.load(), wanted)); });
   }
-  keep();
   journal.finish();
   std::sort(table.rows.begin(), table.rows.end(),
             [](const SweepRow& a, const SweepRow& b) { return a.run < b.run; });

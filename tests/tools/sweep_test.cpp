@@ -218,7 +218,7 @@ TEST(Sweep, JournalIsReadStrictly) {
   refused("\"status\":0", "\"status\":9", "from 0 to 4");
   refused("\"measured\":[", "\"measured\":[1,", "must have 2 elements");
   refused("\"message\"", "\"massage\"", "did you mean \"message\"?");
-  refused("\"end\":1", "\"end\":\"1\"", "must be a number");
+  refused("\"end\":", "\"end\":\"1\",\"x\":", "must be a number");
   folder.write("atwood.sweep", good);
   const ProcessResult other = run_sheave(with(sweep, {"--measure", "heavy.y"}));
   EXPECT_EQ(other.exit_code, 2);
