@@ -7,7 +7,8 @@
 // random      every mass, force, stiffness and damping times a random factor of its own, up to so many decades either way;
 //             each row is another draw. Judged like gravity.
 //
-// The runs are short: what fails does so early, or grows.
+// The scene's own step is among those tried, for its whole duration if that is no more than 2000 steps. The other runs are short:
+// what fails does so early, or grows.
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@
 
 #include "measure/stress_map.h"
 #include "measure/stress_scenes.h"
+#include "scenes/jsonnet/evaluate.h"
 #include "scenes/scaling.h"
 
 namespace sheave::measure {
@@ -27,22 +29,29 @@ struct Extent {
   std::vector<double> gravities, steps, factors, decades;
   int draws = 0;
   double most_steps = 0.0;
+  double most_own_steps = 0.0;  // with the scene's own step; 0: that is none of `steps`
 };
 
-const Extent quick_extent{{0.0, -1.0, 100.0}, {1.0 / 60.0, 0.1}, {1e-6, 1e6}, {1.0, 6.0}, 2, 30.0};
+const Extent quick_extent{
+    {0.0, -1.0, 100.0}, {1.0 / 60.0, 0.1}, {1e-6, 1e6}, {1.0, 6.0}, 2, 30.0, 300.0};
 const Extent full_extent{{0.0, -1.0, 1e-3, 0.1, 1.0, 10.0, 100.0, 1e3, 1e6},
                          {1e-4, 1e-3, 1e-2, 1.0 / 60.0, 1.0 / 30.0, 0.1},
                          {1e-6, 1e-4, 1e-2, 1.0, 1e2, 1e4, 1e6},
                          {0.1, 0.5, 1.0, 2.0, 3.0, 6.0, 9.0},
                          10,
-                         200.0};
+                         200.0,
+                         2000.0};
 /// Of scenes that take milliseconds per step.
 const Extent built_in_extent{{0.0, -1.0, 0.1, 1.0, 10.0, 100.0, 1e6},
                              {1e-3, 1.0 / 60.0, 1.0 / 30.0},
                              {1e-6, 1e-3, 1e3, 1e6},
                              {0.1, 1.0, 3.0, 9.0},
                              3,
-                             60.0};
+                             60.0,
+                             0.0};
+
+const Extent quick_built_in_extent{
+    {0.0, -1.0, 100.0}, {1.0 / 60.0, 0.1}, {1e-6, 1e6}, {1.0, 6.0}, 2, 30.0, 0.0};
 
 /// Makes the cells of one scene.
 class SceneMaps {
@@ -53,6 +62,7 @@ class SceneMaps {
       : origin_(std::move(origin)),
         gravity_(scene.model.gravity),
         duration_(scene.duration),
+        dt_(scene.model.step.dt),
         settings_(std::move(settings)),
         extent_(extent) {}
 
@@ -87,7 +97,7 @@ class SceneMaps {
     return StressMap::over(
         "random", "Masses, forces, stiffnesses and damping times random factors.",
         std::move(decades), std::move(seeds), [&](double most, double seed) {
-          StressCell cell = shortened(1.0 / 60.0);
+          StressCell cell = shortened(extent_.most_own_steps > 0.0 ? dt_ : 1.0 / 60.0);
           std::mt19937_64 generator(static_cast<std::uint64_t>(seed));
           for (const ScalableSetting& setting : settings_) {
             if (setting.powers.mass == 0) continue;
@@ -103,12 +113,26 @@ class SceneMaps {
   }
 
  private:
-  [[nodiscard]] StressAxis steps() const { return {"step [s]", extent_.steps}; }
+  [[nodiscard]] bool is_own(double dt) const { return std::abs(dt - dt_) < 1e-9 * dt_; }
 
-  /// The scene with this step, for 10 to 200 steps, without its checks.
+  /// The scene's own step among them.
+  [[nodiscard]] StressAxis steps() const {
+    std::vector<double> all = extent_.steps;
+    const auto own = [&](double dt) { return is_own(dt); };
+    if (extent_.most_own_steps > 0.0 && std::none_of(all.begin(), all.end(), own)) {
+      all.push_back(dt_);
+    }
+    std::sort(all.begin(), all.end());
+    return {"step [s]", std::move(all)};
+  }
+
+  /// The scene with this step, for 10 to 200 steps, without its checks; with its own step for as
+  /// long as it says itself, if that is not much longer.
   [[nodiscard]] StressCell shortened(double dt) const {
     StressCell cell = origin_;
-    const double steps = std::clamp(std::round(duration_ / dt), 10.0, extent_.most_steps);
+    const bool whole = is_own(dt) && extent_.most_own_steps > 0.0;
+    const double most = whole ? extent_.most_own_steps : extent_.most_steps;
+    const double steps = std::clamp(std::round(duration_ / dt), 10.0, most);
     cell.replace("/step/dt", stress_number(dt));
     cell.replace("/duration", stress_number(steps * dt));
     cell.replace("/checks", "[]");
@@ -128,6 +152,7 @@ class SceneMaps {
   StressCell origin_;
   Vector3 gravity_;
   double duration_;
+  double dt_;
   std::vector<ScalableSetting> settings_;
   const Extent& extent_;
 };
@@ -143,8 +168,10 @@ Result<std::vector<StressMap>> scene_stress_maps(const std::string& path,
     return errors;
   }
   std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) return Error{path, "cannot be read"};
+  // Settings are changed in what a program makes, not in the program.
+  if (jsonnet::is_program(path)) text = write_scene(*scene);
   StressCell origin;
   origin.path = path;
   const SceneMaps maps(std::move(origin), *scene, scalable_settings(text),
@@ -161,7 +188,7 @@ std::vector<StressMap> built_in_stress_maps(const StressRange& range) {
     StressCell origin;
     origin.built_in = name;
     const SceneMaps maps(std::move(origin), *scene, scalable_settings(text),
-                         range.quick ? quick_extent : built_in_extent);
+                         range.quick ? quick_built_in_extent : built_in_extent);
     for (StressMap& map : maps.all()) {
       map.name = std::string(name) + "-" + map.name;
       map.meaning = scene->name + ". " + map.meaning;

@@ -8,6 +8,7 @@
 
 #include "engine/field_check.h"
 #include "scenes/format_tables.h"
+#include "scenes/placement.h"
 #include "scenes/scene.h"
 
 namespace sheave {
@@ -137,18 +138,26 @@ const ObjectFormat& body_format() {
       "body",
       "a rigid body",
       true,
-      {table_of<BodyDef>()},
+      {table_of<BodyDef>(), table_of<BodyPlacementDef>()},
       {},
-      {{"shape", "the body's form, if it is one shape; excludes shapes", false, &shape_format()},
+      {{"rotation", "the orientation as a turn in degrees; excludes orientation", false,
+        &rotation_format()},
+       {"shape", "the body's form, if it is one shape; excludes shapes", false, &shape_format()},
        {"shapes", "the body's form, if it is several shapes", true, &shape_format()}},
-      {{"shape", "shapes"}}};
+      {{"shape", "shapes"}, {"orientation", "rotation"}}};
   return format;
 }
 
 const ObjectFormat& shape_format() {
   static const ObjectFormat format{
-      "shape", "a solid form", false, {table_of<PlacedShape>()}, variants_of(shape_types()), {},
-      {}};
+      "shape",
+      "a solid form",
+      false,
+      {table_of<PlacedShape>()},
+      variants_of(shape_types()),
+      {{"rotation", "the orientation as a turn in degrees; excludes orientation", false,
+        &rotation_format()}},
+      {{"orientation", "rotation"}}};
   return format;
 }
 
@@ -156,7 +165,7 @@ const ObjectFormat& joint_format() {
   static const ObjectFormat format{"joint",
                                    "a joint between two bodies",
                                    true,
-                                   {common_table(joint_types())},
+                                   {common_table(joint_types()), table_of<JointPlacementDef>()},
                                    variants_of(joint_types()),
                                    {},
                                    {}};

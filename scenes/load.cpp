@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/jsonnet/evaluate.h"
 #include "scenes/part_reader.h"
 #include "scenes/scene.h"
 #include "scenes/validate.h"
@@ -90,9 +91,17 @@ class SceneReader {
   void read_model(Scene& scene) {
     Model& model = scene.model;
     model.bodies.reserve(list("bodies").size());
-    for (const NodeId node : list("bodies")) model.bodies.push_back(parts_.read_body(node));
+    std::vector<std::optional<BodyId>> relative_to;
+    for (const NodeId node : list("bodies")) {
+      BodyPlacementDef placement;
+      model.bodies.push_back(parts_.read_body(node, &placement));
+      relative_to.push_back(placement.relative_to);
+    }
+    PlacementResolver(document_, reader_).place_bodies(list("bodies"), relative_to, model.bodies);
     for (const NodeId node : list("joints")) {
-      if (auto joint = parts_.read_joint(node)) model.joints.push_back(std::move(joint));
+      if (auto joint = parts_.read_joint(node, &model.bodies)) {
+        model.joints.push_back(std::move(joint));
+      }
     }
     for (const NodeId node : list("cables")) scene.cables.push_back(parts_.read_cable(node));
   }
@@ -195,10 +204,8 @@ SceneResult file_error(const std::string& path, SceneStatus status, std::string 
   return {std::nullopt, {{path, 0, 0, "", std::move(message), {}, {}, code}}, status};
 }
 
-}  // namespace
-
-SceneResult load_scene_text(std::string_view text, const std::string& file_name,
-                            const std::vector<Override>& overrides) {
+SceneResult load_json(std::string_view text, const std::string& file_name,
+                      const std::vector<Override>& overrides) {
   const json::Limits limits;
   json::Faults faults(limits.faults);
   const auto parsed = [&] {
@@ -224,7 +231,36 @@ SceneResult load_scene_text(std::string_view text, const std::string& file_name,
   return failure(faults, &*document, file_name);
 }
 
-SceneResult load_scene(const std::string& path, const std::vector<Override>& overrides) {
+}  // namespace
+
+SceneResult load_scene_text(std::string_view text, const std::string& file_name,
+                            const std::vector<Override>& overrides, const JsonnetOptions& jsonnet) {
+  if (!jsonnet::is_program(file_name)) {
+    if (jsonnet.parameters.empty()) return load_json(text, file_name, overrides);
+    SceneResult result;
+    result.status = SceneStatus::invalid;
+    result.errors.push_back({file_name,
+                             0,
+                             0,
+                             "",
+                             "has no parameter \"" + jsonnet.parameters.front().name +
+                                 "\": only a scene in Jsonnet (.jsonnet) has any",
+                             {},
+                             {},
+                             FaultCode::meaning});
+    return result;
+  }
+  jsonnet::Outcome made = jsonnet::evaluate(text, file_name, jsonnet);
+  if (!made.errors.empty()) {
+    return {std::nullopt, std::move(made.errors), SceneStatus::invalid};
+  }
+  SceneResult result = load_json(made.json, file_name, overrides);
+  jsonnet::locate(result.errors, file_name, made);
+  return result;
+}
+
+SceneResult load_scene(const std::string& path, const std::vector<Override>& overrides,
+                       const JsonnetOptions& jsonnet) {
   std::error_code code;
   const std::filesystem::file_status status = std::filesystem::status(path, code);
   if (status.type() == std::filesystem::file_type::not_found) {
@@ -246,7 +282,7 @@ SceneResult load_scene(const std::string& path, const std::vector<Override>& ove
     text.append(block.data(), static_cast<std::size_t>(file.gcount()));
   }
   if (file.bad()) return file_error(path, SceneStatus::unreadable, "cannot be read");
-  return load_scene_text(text, path, overrides);
+  return load_scene_text(text, path, overrides, jsonnet);
 }
 
 }  // namespace sheave

@@ -10,6 +10,9 @@ using json::NodeId;
 void PartReader::read_shape(NodeId node, std::vector<PlacedShape>& shapes) {
   PlacedShape placed;
   placed.shape = read_typed(node, shape_format(), shape_types(), [&](Shape&) { return &placed; });
+  if (document_.kind(node) == json::Kind::object) {
+    if (const auto turn = read_rotation(document_, fields_, node)) placed.orientation = *turn;
+  }
   if (placed.shape) shapes.push_back(std::move(placed));
 }
 
@@ -22,15 +25,51 @@ bool PartReader::read_shapes(NodeId node, std::vector<PlacedShape>& shapes) {
   return single != no_node || document_.member(node, "shapes") != no_node;
 }
 
-BodyDef PartReader::read_body(NodeId node) {
+void PartReader::refuse_relative(NodeId node) {
+  const NodeId given = document_.member(node, "relative_to");
+  if (given == no_node) return;
+  fields_.fail(
+      given, FaultCode::meaning,
+      "places are relative to a body in scene files only; here they are those of the world",
+      "a place in the world's frame");
+}
+
+BodyDef PartReader::read_body(NodeId node, BodyPlacementDef* placement) {
   BodyDef body;
-  const std::array<void*, 1> objects{&body};
-  if (fields_.read_object(node, body_format(), objects)) read_shapes(node, body.shapes);
+  BodyPlacementDef own;
+  const std::array<void*, 2> objects{&body, &own};
+  if (!fields_.read_object(node, body_format(), objects)) return body;
+  read_shapes(node, body.shapes);
+  if (const auto turn = read_rotation(document_, fields_, node)) body.orientation = *turn;
+  if (placement != nullptr) {
+    *placement = own;
+  } else {
+    refuse_relative(node);
+  }
   return body;
 }
 
-std::shared_ptr<JointDef> PartReader::read_joint(NodeId node) {
-  return read_typed(node, joint_format(), joint_types(), [](JointDef& common) { return &common; });
+std::shared_ptr<JointDef> PartReader::read_joint(NodeId node, const std::vector<BodyDef>* bodies) {
+  const Variant* variant = fields_.read_type(node, joint_format());
+  if (variant == nullptr) return nullptr;
+  const std::span<const TypeEntry<JointDef>> types = joint_types();
+  const auto entry = std::find_if(types.begin(), types.end(), [&](const TypeEntry<JointDef>& type) {
+    return type.name == variant->name;
+  });
+  std::shared_ptr<JointDef> joint = entry->make();
+  JointPlacementDef placement;
+  const std::array<void*, 2> shared{joint.get(), &placement};
+  fields_.read_object(node, joint_format(), shared, variant, settings_of(*joint));
+  if (bodies == nullptr) {
+    refuse_relative(node);
+  } else if (placement.relative_to && !placement.relative_to->is_world()) {
+    const auto base = static_cast<std::size_t>(placement.relative_to->index);
+    if (base < bodies->size()) {
+      PlacementResolver::place_joint(document_, node, (*bodies)[base], variant->table.fields,
+                                     settings_of(*joint));
+    }
+  }
+  return joint;
 }
 
 CableDef PartReader::read_cable(NodeId node) {

@@ -12,6 +12,7 @@
 #include "engine/contacts/collider.h"
 #include "engine/joint.h"
 #include "scenes/field_reader.h"
+#include "scenes/placement.h"
 
 namespace sheave {
 
@@ -27,11 +28,15 @@ class PartReader {
   [[nodiscard]] const json::Document& document() const { return document_; }
   [[nodiscard]] FieldReader& fields() { return fields_; }
 
-  [[nodiscard]] BodyDef read_body(json::NodeId node);
+  /// Where `placement` is given, a body may be relative to another one, which is told there and
+  /// left to the caller (PlacementResolver); elsewhere that is a fault.
+  [[nodiscard]] BodyDef read_body(json::NodeId node, BodyPlacementDef* placement = nullptr);
   /// The shapes of an object that has them as a body has; false if it has neither key.
   bool read_shapes(json::NodeId node, std::vector<PlacedShape>& shapes);
-  /// Null if there is no such type.
-  [[nodiscard]] std::shared_ptr<JointDef> read_joint(json::NodeId node);
+  /// Null if there is no such type. Where `bodies` are given, in the order of their numbers, the
+  /// joint may be relative to one of them; elsewhere that is a fault.
+  [[nodiscard]] std::shared_ptr<JointDef> read_joint(json::NodeId node,
+                                                     const std::vector<BodyDef>* bodies = nullptr);
   [[nodiscard]] CableDef read_cable(json::NodeId node);
   /// Null if there is no such type.
   [[nodiscard]] std::shared_ptr<LinkDef> read_link(json::NodeId node);
@@ -48,14 +53,18 @@ class PartReader {
       return type.name == variant->name;
     });
     std::shared_ptr<Base> object = entry->make();
-    // The object is ours and not constant; settings() is only the way to its own type.
-    void* settings = const_cast<void*>(object->settings());  // NOLINT(*-const-cast)
     const std::array<void*, 1> shared{common(*object)};
-    fields_.read_object(node, format, shared, variant, settings);
+    fields_.read_object(node, format, shared, variant, settings_of(*object));
     return object;
   }
 
  private:
+  /// The object is ours and not constant; settings() is only the way to its own type.
+  template <class Base>
+  static void* settings_of(const Base& object) {
+    return const_cast<void*>(object.settings());  // NOLINT(*-const-cast)
+  }
+  void refuse_relative(json::NodeId node);
   void read_shape(json::NodeId node, std::vector<PlacedShape>& shapes);
 
   const json::Document& document_;

@@ -155,11 +155,26 @@ struct Override {
   std::string origin;  ///< what errors call the source; default "--set POINTER"
 };
 
-/// Reads and checks a scene. A scene that loads also builds: create_simulation() accepts it.
+/// A value for a parameter of a scene in Jsonnet, which is then a function.
+struct SceneParameter {
+  std::string name;
+  std::string value;  ///< JSON; anything else is a text
+};
+/// What an evaluation of Jsonnet may take from outside.
+struct JsonnetOptions {
+  std::vector<SceneParameter> parameters;
+  /// From where, besides the scene's own folder, files may be imported.
+  std::vector<std::string> import_folders;
+};
+
+/// Reads and checks a scene. A scene that loads also builds: create_simulation() accepts it. A file
+/// whose name ends in .jsonnet is evaluated first; overrides then change what it made.
 [[nodiscard]] SceneResult load_scene(const std::string& path,
-                                     const std::vector<Override>& overrides = {});
+                                     const std::vector<Override>& overrides = {},
+                                     const JsonnetOptions& jsonnet = {});
 [[nodiscard]] SceneResult load_scene_text(std::string_view text, const std::string& file_name,
-                                          const std::vector<Override>& overrides = {});
+                                          const std::vector<Override>& overrides = {},
+                                          const JsonnetOptions& jsonnet = {});
 
 /// Faults of a scene that was made in C++: camera, checks and all that Simulation::create checks.
 [[nodiscard]] Errors validate_scene(const Scene& scene);

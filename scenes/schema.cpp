@@ -124,8 +124,10 @@ Json object_schema(const ObjectFormat& format, const Variant* variant) {
               {"properties", std::move(properties)},
               {"additionalProperties", false}};
   if (!required.empty()) schema["required"] = std::move(required);
-  for (const auto& [one, other] : format.exclusive) {
-    schema["not"] = {{"required", {one, other}}};
+  if (!format.exclusive.empty()) {
+    Json both = Json::array();
+    for (const auto& [one, other] : format.exclusive) both.push_back({{"required", {one, other}}});
+    schema["not"] = both.size() == 1 ? both.front() : Json{{"anyOf", both}};
   }
   return schema;
 }

@@ -13,19 +13,22 @@
 namespace sheave::tools {
 
 std::span<const Command> commands() {
-  static constexpr std::array<Command, 11> table{{
+  static constexpr auto table = std::to_array<Command>({
       {"run", "Simulate a scene; write tables, print a summary", declare_run},
       {"live", "Hold a world for a program that talks to it in lines", declare_live},
       {"render", "Simulate a scene; write a video or pictures", declare_render},
       {"bench", "Measure the paper's scenes: time per frame, with the error", declare_bench},
       {"trade", "Measure speed against accuracy of a scene; choose a setting", declare_trade},
       {"stress", "Map where extreme numbers break machines, or a scene", declare_stress},
+      {"sweep", "Run a scene with many values of its settings; tables, charts", declare_sweep},
+      {"merge", "Put the shards of a sweep together", declare_merge},
+      {"plot", "Draw quantities of runs over time, or over one another", declare_plot},
       {"validate", "Check scenes without running them", declare_validate},
       {"generate", "Write a scene of a given kind and size", declare_generate},
       {"schema", "Print the JSON Schema of scenes", declare_schema},
       {"reference", "Print the reference of the scene format (Markdown)", declare_reference},
       {"completion", "Print the script by which a shell completes words", declare_completion},
-  }};
+  });
   return table;
 }
 

@@ -30,8 +30,8 @@ namespace {
 }  // namespace
 
 void check_chart_name(const std::string& path) {
-  if (path.ends_with(".png") || path.ends_with(".svg")) return;
-  throw Failure(ExitCode::usage, "--chart " + path + ": the name must end in .png or .svg");
+  if (path.ends_with(".png") || path.ends_with(".svg") || path.ends_with(".pdf")) return;
+  throw Failure(ExitCode::usage, path + ": the name of a chart must end in .png, .svg or .pdf");
 }
 
 std::string gnuplot_quoted(const std::string& text) {
@@ -41,24 +41,28 @@ std::string gnuplot_quoted(const std::string& text) {
 }
 
 std::string gnuplot_terminal(const std::string& output, int height) {
-  const char* const kind = output.ends_with(".svg")
-                               ? "svg size 1000,{} font 'DejaVu Sans,13' background 'white'"
-                               : "pngcairo size 1000,{} font 'DejaVu Sans,11'";
-  return "set terminal " + fmt::format(fmt::runtime(kind), height) + "\nset output " +
-         gnuplot_quoted(output) + "\n";
+  std::string kind = fmt::format("pngcairo size 1000,{} font 'DejaVu Sans,11'", height);
+  if (output.ends_with(".svg")) {
+    kind = fmt::format("svg size 1000,{} font 'DejaVu Sans,13' background 'white'", height);
+  } else if (output.ends_with(".pdf")) {
+    constexpr double pixels_per_inch = 100.0;
+    kind = fmt::format("pdfcairo size 10in,{:g}in font 'DejaVu Sans,11'", height / pixels_per_inch);
+  }
+  return "set terminal " + kind + "\nset output " + gnuplot_quoted(output) + "\n";
 }
 
 #if SHEAVE_HAS_RENDER
 
 namespace {
 
-/// Whether a .png or .svg file ends as such a file does: gnuplot ends with success on a full disk,
+/// Whether a .png, .svg or .pdf file ends as such a file does: gnuplot ends with success on a full disk,
 /// too.
 bool is_whole_picture(const std::string& path) {
   constexpr std::size_t longest = 16;
   const std::string text = tail_of_file(path, longest);
-  return path.ends_with(".png") ? text.find("IEND") != std::string::npos
-                                : text.find("</svg>") != std::string::npos;
+  const char* const mark =
+      path.ends_with(".png") ? "IEND" : (path.ends_with(".svg") ? "</svg>" : "%%EOF");
+  return text.find(mark) != std::string::npos;
 }
 
 }  // namespace

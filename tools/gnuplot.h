@@ -6,7 +6,7 @@
 
 namespace sheave::tools {
 
-/// A Failure (2) if the name of a chart ends in neither .png nor .svg.
+/// A Failure (2) if the name of a chart ends in none of .png, .svg, .pdf.
 void check_chart_name(const std::string& path);
 
 /// In single quotes, as gnuplot takes text literally.

@@ -163,8 +163,7 @@ JsonRule json_map(JsonRule value) {
 }
 
 void check_json(std::string_view text, const std::string& name, std::string_view format,
-                const JsonRule& rule) {
-  const json::Limits limits;
+                const JsonRule& rule, const json::Limits& limits) {
   json::Faults faults(limits.faults);
   const json::Document document = json::Document::parse(text, name, limits, faults);
   if (document.root() == no_node) fail_with(document, faults, name);

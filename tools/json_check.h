@@ -53,6 +53,6 @@ struct JsonKey {
 /// is what the key "format" must be; a text with another number at its end is of another version,
 /// and the Failure names both.
 void check_json(std::string_view text, const std::string& name, std::string_view format,
-                const JsonRule& rule);
+                const JsonRule& rule, const json::Limits& limits = {});
 
 }  // namespace sheave::tools

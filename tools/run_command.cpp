@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -16,12 +15,15 @@
 #include "measure/stress_judge.h"
 #include "tools/command.h"
 #include "tools/command_line.h"
+#include "tools/gnuplot.h"
 #include "tools/interrupt.h"
 #include "tools/output_paths.h"
 #include "tools/player.h"
+#include "tools/plot_data.h"
 #include "tools/run_files.h"
 #include "tools/run_summary.h"
 #include "tools/scene_options.h"
+#include "tools/share.h"
 #include "tools/state_file.h"
 #include "tools/terminal.h"
 
@@ -40,6 +42,8 @@ struct RunOptions {
   bool estimate_error = false;
   std::string trust;
   bool strict = false;
+  PlotChoice plot;
+  std::string plot_file = "plot.png";
 };
 
 std::vector<Warning> early_warnings(const RunOptions& options, const Scene& scene,
@@ -112,7 +116,8 @@ bool is_summarised(const RunOptions& options) {
 
 /// Whether a run is of use even if all its tables fail.
 bool has_other_output(const RunOptions& options) {
-  return options.json || options.check || is_summarised(options) || !options.save_state.empty();
+  return options.json || options.check || is_summarised(options) || !options.save_state.empty() ||
+         !options.plot.patterns.empty();
 }
 
 void report(const RunOptions& options, const RunSummary& summary) {
@@ -127,19 +132,6 @@ void report(const RunOptions& options, const RunSummary& summary) {
   }
   if (options.json) print(to_json(summary));
   if (summarised) print(printable(to_text(summary)));
-}
-
-/// "0.1%" or "1e-3".
-double trusted_share(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  const bool percent = std::string_view(end) == "%";
-  if (end == text.c_str() || !(percent || *end == '\0') || !(value > 0.0) ||
-      !std::isfinite(value)) {
-    throw Failure(ExitCode::usage,
-                  "--trust " + text + ": must be a positive share, e.g. 0.1% or 1e-3");
-  }
-  return percent ? 0.01 * value : value;
 }
 
 /// The runs with shorter substeps that this one is compared with.
@@ -176,13 +168,30 @@ void check_run_paths(const RunOptions& options) {
   std::vector<NamedPath> outputs;
   for (const std::string& path : options.record.paths) outputs.push_back({"--out", path});
   outputs.push_back({"--save-state", options.save_state});
+  if (!options.plot.patterns.empty()) {
+    check_chart_name(options.plot_file);
+    outputs.push_back({"--plot-file", options.plot_file});
+  }
   check_paths({{"the scene", options.scene.path}, {"--load-state", options.load_state}}, outputs,
               options.json || is_summarised(options));
 }
 
+/// What the chart is called.
+std::string scene_title(const RunSummary& summary) {
+  return summary.scene.name.empty() ? std::string(summary.scene_path) : summary.scene.name;
+}
+
+void draw(const RunOptions& options, const PlotRun& run) {
+  draw_with_gnuplot(options.plot_file, [&](const std::string& output) {
+    return plot_script({run}, run.label, output);
+  });
+  if (!options.quiet) print_note(options.plot_file + ": drawn");
+}
+
 ExitCode run(const RunOptions& options) {
   check_run_paths(options);
-  const double trust = options.trust.empty() ? default_trust : trusted_share(options.trust);
+  const double trust =
+      options.trust.empty() ? default_trust : positive_share("--trust", options.trust);
   const StopRequest time_is_over = limit_of(options);
   const Scene scene = load(options.scene);
   Simulation simulation = make_simulation(scene);
@@ -199,6 +208,8 @@ ExitCode run(const RunOptions& options) {
   RunMonitor monitor(last_step - simulation.world.state().steps);
   std::optional<CheckRecorder> checks;
   if (options.check) checks.emplace(scene, simulation);
+  std::optional<PlotRecorder> plot;
+  if (!options.plot.patterns.empty()) plot.emplace(simulation, options.plot);
 
   Progress progress("run", static_cast<double>(simulation.world.state().steps),
                     static_cast<double>(last_step), options.quiet);
@@ -207,6 +218,7 @@ ExitCode run(const RunOptions& options) {
     if (!monitor.is_finite()) return false;
     const bool wanted = files.observe(simulation, progress);
     if (checks) checks->record(simulation);
+    if (plot) plot->observe(simulation);
     const bool stepped = simulation.world.state().steps > first_step;
     const auto ends = [&] { return interrupted() || (time_is_over && time_is_over()); };
     if (estimator && stepped) estimator->observe(simulation, ends);
@@ -238,6 +250,9 @@ ExitCode run(const RunOptions& options) {
                            trust,
                            files.summary()};
   files.faults().attempt([&] { report(options, summary); });
+  if (plot) {
+    files.faults().attempt([&] { draw(options, plot->run(scene_title(summary), simulation)); });
+  }
   return files.faults().report(exit_code(summary, options.strict));
 }
 
@@ -257,6 +272,18 @@ void add_output_options(CLI::App& app, RunOptions& options) {
       ->expected(1)
       ->take_all()
       ->needs(out);
+  CLI::Option* const plot =
+      app.add_option("--plot", options.plot.patterns,
+                     "draw these quantities over time: names or patterns with * and ?; see sheave "
+                     "plot for more")
+          ->delimiter(',')
+          ->option_text("NAME,...")
+          ->expected(1)
+          ->take_all();
+  app.add_option("--plot-file", options.plot_file,
+                 "the picture: .png, .svg or .pdf; default: plot.png")
+      ->option_text("FILE")
+      ->needs(plot);
   app.add_flag("--json", options.json, "print the summary as one JSON object");
   app.add_flag("--check", options.check,
                "evaluate the checks that the scene states; exit code 1 if one fails")

@@ -90,12 +90,30 @@ std::vector<Override> overrides(const SceneOptions& options) {
   return list;
 }
 
+std::vector<SceneParameter> parameters(const SceneOptions& options) {
+  std::vector<SceneParameter> list;
+  for (const std::string& text : options.parameters) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw Failure(ExitCode::usage, fmt::format("--param {}: must be NAME=VALUE, for example "
+                                                 "--param load=200",
+                                                 text));
+    }
+    list.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return list;
+}
+
 }  // namespace
 
 void add_scene_options(CLI::App& app, SceneOptions& options) {
-  app.add_option("scene", options.path, "Scene file (JSON); - reads standard input")
+  app.add_option("scene", options.path, "Scene file (JSON, or .jsonnet); - reads standard input")
       ->required()
       ->option_text("SCENE");
+  add_scene_changes(app, options);
+}
+
+void add_scene_changes(CLI::App& app, SceneOptions& options) {
   for (const Shortcut& shortcut : shortcuts) {
     const char* group = "Instead of what the scene says";
     CLI::Option* option = app.add_option(shortcut.option, options.*shortcut.value,
@@ -111,15 +129,40 @@ void add_scene_options(CLI::App& app, SceneOptions& options) {
       ->option_text("/POINTER=VALUE")
       ->expected(1)
       ->take_all();
+  add_jsonnet_options(app, options);
 }
 
-SceneResult load_file_or_stdin(const std::string& path, const std::vector<Override>& overrides) {
-  if (path != "-") return load_scene(path, overrides);
-  return load_scene_text(standard_input(), "standard input", overrides);
+void add_jsonnet_options(CLI::App& app, SceneOptions& options) {
+  const char* const group = "Of a scene in Jsonnet";
+  app.add_option("--param", options.parameters,
+                 "a parameter of the scene: a number, a text or JSON; may be repeated")
+      ->group(group)
+      ->option_text("NAME=VALUE")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--import-from", options.import_folders,
+                 "another folder that it may import from; may be repeated")
+      ->group(group)
+      ->option_text("FOLDER")
+      ->expected(1)
+      ->take_all();
+}
+
+SceneResult load_file_or_stdin(const std::string& path, const std::vector<Override>& overrides,
+                               const JsonnetOptions& jsonnet) {
+  if (path != "-") return load_scene(path, overrides, jsonnet);
+  return load_scene_text(standard_input(), "standard input", overrides, jsonnet);
+}
+
+JsonnetOptions jsonnet_options(const SceneOptions& options) {
+  return {parameters(options), options.import_folders};
 }
 
 Scene load(const SceneOptions& options) {
-  SceneResult result = load_file_or_stdin(options.path, overrides(options));
+  const JsonnetOptions jsonnet = jsonnet_options(options);
+  SceneResult result =
+      options.text ? load_scene_text(*options.text, options.path, overrides(options), jsonnet)
+                   : load_file_or_stdin(options.path, overrides(options), jsonnet);
   if (result) return std::move(*result.scene);
   const ExitCode code = exit_code(result);
   // One fault speaks for itself; a list begins in a line of its own.

@@ -89,6 +89,37 @@ std::string map_table(const StressResult& result) {
   return text;
 }
 
+/// What the maps say, in words, and what they do not.
+std::string conclusion_text(const std::vector<StressResult>& results) {
+  std::size_t cells = 0;
+  int failed = 0;
+  int silent = 0;
+  int refused = 0;
+  std::string where;
+  for (const StressResult& result : results) {
+    cells += result.outcomes.size();
+    failed += result.failed();
+    silent += result.silent();
+    refused += result.count(StressKind::refused);
+    if (result.failed() == 0) continue;
+    where += fmt::format("{}{} with {} ({})", where.empty() ? "" : ", ", result.map.name,
+                         result.settings.name(), result.failed());
+  }
+  std::string text =
+      fmt::format("\nIn all: {} of {} runs are right", cells - failed - refused, cells);
+  if (refused > 0) text += fmt::format(", {} were refused as no valid scene", refused);
+  if (failed > 0) {
+    text +=
+        fmt::format(", {} failed, {} of them without a word from the run itself", failed, silent);
+  }
+  text += failed > 0 ? ": " + where + ".\n" : ".\n";
+  return text +
+         "Not tried: other durations, more or fewer substeps and iterations than the scene has, "
+         "settings changed one by one, other starts, damage, and whatever a scene's controllers "
+         "would meet in longer runs. Where there is no closed form, a run counts as right if "
+         "it neither diverges nor gains energy nor loses cable, and if similar runs agree.\n";
+}
+
 }  // namespace
 
 std::string stress_text(const std::vector<StressResult>& results) {
@@ -102,7 +133,8 @@ std::string stress_text(const std::vector<StressResult>& results) {
   for (const StressResult& result : results) silent += result.silent();
   const std::string count =
       fmt::format("\n{} silent: wrong, without a warning, and with a clean certificate\n", silent);
-  return table.text() + count + (worst.empty() ? "" : "\nThe worst cells:\n" + worst);
+  return table.text() + count + (worst.empty() ? "" : "\nThe worst cells:\n" + worst) +
+         conclusion_text(results);
 }
 
 std::string stress_markdown(const std::vector<StressResult>& results,

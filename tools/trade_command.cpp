@@ -71,6 +71,9 @@ TradeQuestion check_trade_arguments(const TradeArguments& arguments) {
   if (arguments.scene.path == "-") {
     throw Failure(ExitCode::usage, "--apply needs a scene file, not standard input");
   }
+  if (arguments.scene.path.ends_with(".jsonnet")) {
+    throw Failure(ExitCode::usage, "--apply needs a scene in JSON: a program stays as it is");
+  }
   return question;
 }
 
@@ -108,7 +111,7 @@ bool answer_question(const TradeArguments& arguments, const TradeTable& table,
   if (arguments.json) {
     print_note(line);
   } else {
-    print("\n" + line + "\n");
+    print(line + "\n\n");
   }
   if (arguments.apply) {
     apply_setting(arguments.scene.path, row.setting);
@@ -151,12 +154,13 @@ ExitCode trade(TradeArguments& arguments) {
   catch_interrupts();
   const TradeTable table = measure_trade(scene, arguments.trade);
   OutputFaults faults;
+  const bool asked = !arguments.budget.empty() || !arguments.error.empty();
+  bool answered = !asked;
+  // The answer first: the table behind it may be long.
+  if (asked) faults.attempt([&] { answered = answer_question(arguments, table, question); });
   faults.attempt([&] { print(arguments.json ? trade_json(table) : printable(trade_text(table))); });
   if (table.machine.assertions) print_warning("built with assertions: the times mean nothing");
   write_trade_files(arguments, table, faults);
-  if (arguments.budget.empty() && arguments.error.empty()) return faults.report(ExitCode::done);
-  bool answered = false;
-  faults.attempt([&] { answered = answer_question(arguments, table, question); });
   return faults.report(answered ? ExitCode::done : ExitCode::check_failed);
 }
 
@@ -170,6 +174,7 @@ void add_trade_scene(CLI::App& app, SceneOptions& scene) {
   app.add_option("--duration", scene.duration, "time to simulate [s] instead of the scene's")
       ->check(finite_number())
       ->option_text("X");
+  add_jsonnet_options(app, scene);
 }
 
 void add_trade_grid(CLI::App& app, TradeArguments& arguments) {

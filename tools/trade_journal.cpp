@@ -2,18 +2,16 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
 #include <memory>
 #include <utility>
 
-#include <sheave_version.h>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "tools/content_hash.h"
 #include "tools/failure.h"
 #include "tools/input_file.h"
 #include "tools/machine_info.h"
@@ -26,23 +24,7 @@ namespace {
 
 using JournalJson = nlohmann::json;
 
-/// FNV-1a, 64 bits.
-class Hash {
- public:
-  void add(std::string_view bytes) {
-    for (const char c : bytes) {
-      value_ = (value_ ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
-    }
-    // Two texts are not the same as one that is both.
-    value_ = (value_ ^ 0xffULL) * 0x100000001b3ULL;
-  }
-  [[nodiscard]] std::string text() const { return fmt::format("{:016x}", value_); }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325ULL;
-};
-
-/// Far more than any journal or program.
+/// Far more than any journal.
 constexpr std::size_t most_bytes = std::size_t{1} << 30U;
 
 double now_seconds() {
@@ -105,11 +87,9 @@ std::string ladder_key(const TradeSetting& setting) {
 }  // namespace
 
 std::string trade_key(const Scene& scene, const TradeOptions& options) {
-  Hash hash;
+  ContentHash hash;
   hash.add(trade_journal_format);
-  hash.add(version_string);
-  // Two builds of one version differ in their bytes.
-  hash.add(read_input("/proc/self/exe", most_bytes));
+  hash.add_program();
   hash.add(machine_info().cpu);
   hash.add(write_scene(scene));
   hash.add(fmt::format("{} {}", options.repetitions, options.reference_seconds));

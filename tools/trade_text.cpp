@@ -90,14 +90,20 @@ std::string choice_text(const TradeTable& table, std::size_t index) {
                      error_text(row.error.position, table.doubt.position));
 }
 
-/// What follows from the rows, one line each.
-std::vector<std::string> trade_remarks(const TradeTable& table) {
+/// What most people ask, one line each.
+std::vector<std::string> trade_answers(const TradeTable& table) {
   std::vector<std::string> lines;
   for (const double level : trade_levels) {
     const auto choice = answer(table, {.error = level});
     lines.push_back(fmt::format("cheapest setting for {}: {}", percent_text(level),
                                 choice ? choice_text(table, *choice) : "none of these"));
   }
+  return lines;
+}
+
+/// What else follows from the rows, one line each.
+std::vector<std::string> trade_remarks(const TradeTable& table) {
+  std::vector<std::string> lines;
   for (const TradeFamily& family : table.families) {
     lines.push_back(family.fit
                         ? fmt::format("order of {}: {:.2f} ({} steps)", family.name,
@@ -162,7 +168,9 @@ std::string trade_markdown_row(const std::vector<std::string>& cells) {
 }  // namespace
 
 std::string trade_text(const TradeTable& table) {
-  std::string result = head_line(table) + "\n" + reference_line(table) + "\n";
+  std::string result;
+  for (const std::string& line : trade_answers(table)) result += line + "\n";
+  result += "\n" + head_line(table) + "\n" + reference_line(table) + "\n";
   for (const std::string& line : span_lines(table)) result += line + "\n";
   TextTable text(trade_head, 2);
   for (const TradeRow& row : table.rows) text.add(trade_cells(row, table.doubt));
@@ -174,7 +182,8 @@ std::string trade_text(const TradeTable& table) {
 
 std::string trade_markdown(const TradeTable& table) {
   std::string result = fmt::format("# {}: speed against accuracy\n\n", table.scene);
-  result += "Made by `sheave trade --markdown`. " + head_line(table) + "; " +
+  for (const std::string& line : trade_answers(table)) result += "* " + line + "\n";
+  result += "\nMade by `sheave trade --markdown`. " + head_line(table) + "; " +
             reference_line(table) + ".\n\n";
   for (const std::string& line : span_lines(table)) result += "* " + line + "\n";
   result += fmt::format(

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenes/json/document.h"
+#include "scenes/jsonnet/evaluate.h"
 #include "tools/command.h"
 #include "tools/input_file.h"
 #include "tools/run_summary.h"
@@ -19,7 +20,9 @@ namespace {
 
 struct ValidateOptions {
   std::vector<std::string> paths;
+  SceneOptions jsonnet;  ///< parameters and imports of those in Jsonnet
   bool json = false;
+  bool made = false;
 };
 
 // Keeps the keys in the order in which people expect them.
@@ -95,11 +98,12 @@ ValidateJson scene_json(const std::string& path, const SceneResult& result) {
                               : ValidateJson(ValidateJson::array())}};
 }
 
-ExitCode validate_json(const std::vector<std::string>& paths) {
+ExitCode validate_json(const ValidateOptions& options) {
+  const JsonnetOptions jsonnet = jsonnet_options(options.jsonnet);
   ExitCode code = ExitCode::done;
   ValidateJson scenes = ValidateJson::array();
-  for (const std::string& path : paths) {
-    const SceneResult result = load_file_or_stdin(path);
+  for (const std::string& path : options.paths) {
+    const SceneResult result = load_file_or_stdin(path, {}, jsonnet);
     scenes.push_back(scene_json(path, result));
     if (!result && code != ExitCode::bad_scene) code = exit_code(result);
   }
@@ -109,10 +113,30 @@ ExitCode validate_json(const std::vector<std::string>& paths) {
   return code;
 }
 
-ExitCode validate(const std::vector<std::string>& paths) {
+/// Prints the JSON that the programs make, whether it is a valid scene or not.
+ExitCode print_made(const ValidateOptions& options) {
   ExitCode code = ExitCode::done;
-  for (const std::string& path : paths) {
-    const SceneResult result = load_file_or_stdin(path);
+  for (const std::string& path : options.paths) {
+    if (!jsonnet::is_program(path)) {
+      throw Failure(ExitCode::usage, path + ": --made is for scenes in Jsonnet (.jsonnet)");
+    }
+    const std::string text = read_input(path, json::Limits{}.bytes);
+    const jsonnet::Outcome made = jsonnet::evaluate(text, path, jsonnet_options(options.jsonnet));
+    if (made.errors.empty()) {
+      print(made.json);
+      continue;
+    }
+    print_error(to_text(SceneResult{{}, made.errors, SceneStatus::invalid}));
+    code = ExitCode::bad_scene;
+  }
+  return code;
+}
+
+ExitCode validate(const ValidateOptions& options) {
+  const JsonnetOptions jsonnet = jsonnet_options(options.jsonnet);
+  ExitCode code = ExitCode::done;
+  for (const std::string& path : options.paths) {
+    const SceneResult result = load_file_or_stdin(path, {}, jsonnet);
     if (result) {
       print(printable(path + ": ok\n"));
       for (const Warning& warning : scene_warnings(*result)) {
@@ -137,6 +161,8 @@ Action declare_validate(CLI::App& app) {
   app.add_flag("--json", options->json,
                "print one JSON object: of each scene all faults and warnings, with codes that "
                "never change their meaning (scenes/REFERENCE.md)");
+  add_jsonnet_options(app, options->jsonnet);
+  app.add_flag("--made", options->made, "only print the JSON that a scene in Jsonnet makes");
   app.footer(R"(Examples:
   sheave validate crane.json
   sheave validate scenes/*/*.json
@@ -145,7 +171,8 @@ Prints "ok" for each scene that can be run, with warnings on standard error, and
 column and JSON pointer. Exit codes: 0 all are right, 65 a scene is wrong, 66 no such file, 74 a
 file cannot be read.)");
   return [options] {
-    return options->json ? validate_json(options->paths) : validate(options->paths);
+    if (options->made) return print_made(*options);
+    return options->json ? validate_json(*options) : validate(*options);
   };
 }
 

@@ -44,6 +44,8 @@ const ObjectFormat& body_settings_format() {
     made.named = false;
     made.partial = true;
     made.tables = {{changeable_fields_of_body(), std::make_shared<const BodyDef>()}};
+    std::erase_if(made.members, [](const Member& member) { return member.name == "rotation"; });
+    std::erase_if(made.exclusive, [](const auto& pair) { return pair.second == "rotation"; });
     return made;
   }();
   return format;

@@ -11,6 +11,7 @@
 #include "python/bindings/overrides.h"
 #include "scenes/field_json.h"
 #include "scenes/format.h"
+#include "scenes/placement.h"
 
 namespace sheave::python {
 namespace {
@@ -98,7 +99,7 @@ py::dict formats() {
   for (const ObjectFormat* format :
        {&scene_format(), &step_format(), &body_format(), &shape_format(), &joint_format(),
         &collider_format(), &ground_format(), &cable_format(), &link_format(), &controller_format(),
-        &trigger_format(), &camera_format(), &paint_format(), &check_format(),
+        &trigger_format(), &camera_format(), &paint_format(), &check_format(), &rotation_format(),
         &live::change_format()}) {
     all[py::str(std::string(format->name))] = format_dict(*format);
   }

@@ -28,7 +28,8 @@ TYPES = {
 # What a class of a type is called behind its own name.
 SUFFIXES = {"joint": "Joint", "controller": "Controller", "shape": "", "link": "Link"}
 BASES = {"joint": "Joint", "controller": "Controller", "shape": "Shape", "link": "Link"}
-PLAIN = ["step", "body", "cable", "collider", "ground", "trigger", "camera", "paint", "check"]
+PLAIN = ["step", "body", "cable", "collider", "ground", "trigger", "camera", "paint", "check",
+         "rotation"]
 
 
 def camel(words: str) -> str:

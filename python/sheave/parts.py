@@ -27,6 +27,8 @@ class DistanceJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    relative_to: the body in whose frame at time 0 the points and directions below are told; in
+        scene files (the name of a body, or "world")
     length: default: the distance at time 0 (a number > 0 [m])
     limit: which distances are permitted: a rod, a string, a bumper, or any ("exactly", "at-most",
         "at-least", "none"; default: "exactly")
@@ -57,10 +59,10 @@ class DistanceJoint(Joint):
     _kind = "joint"
     _type = "distance"
     _keys = keys(
-        "name body_b anchor_a anchor_b body_a breaking_force breaking_torque length limit "
-        "compliance damping lower upper limit_compliance friction drive drive_times "
-        "drive_values drive_interpolation drive_amplitude drive_frequency drive_phase "
-        "drive_limit drive_compliance "
+        "name body_b anchor_a anchor_b body_a breaking_force breaking_torque relative_to "
+        "length limit compliance damping lower upper limit_compliance friction drive "
+        "drive_times drive_values drive_interpolation drive_amplitude drive_frequency "
+        "drive_phase drive_limit drive_compliance "
     )
 
     name: str
@@ -70,6 +72,7 @@ class DistanceJoint(Joint):
     body_a: Optional[BodyLike]
     breaking_force: Optional[float]
     breaking_torque: Optional[float]
+    relative_to: Optional[BodyLike]
     length: Optional[float]
     limit: Optional[Literal["exactly", "at-most", "at-least", "none"]]
     compliance: Optional[float]
@@ -98,6 +101,7 @@ class DistanceJoint(Joint):
         body_a: Optional[BodyLike] = None,
         breaking_force: Optional[float] = None,
         breaking_torque: Optional[float] = None,
+        relative_to: Optional[BodyLike] = None,
         length: Optional[float] = None,
         limit: Optional[Literal["exactly", "at-most", "at-least", "none"]] = None,
         compliance: Optional[float] = None,
@@ -128,6 +132,8 @@ class BallJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    relative_to: the body in whose frame at time 0 the points and directions below are told; in
+        scene files (the name of a body, or "world")
     axis: direction that swing and twist refer to, world frame at time 0 ([x, y, z], numbers)
     compliance: of each direction; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
     swing_limit: the most the axes of the bodies may differ (default: anything) (a number > 0 and <
@@ -169,12 +175,12 @@ class BallJoint(Joint):
     _kind = "joint"
     _type = "ball"
     _keys = keys(
-        "name body_b anchor body_a breaking_force breaking_torque axis compliance "
-        "swing_limit swing_limit_compliance damping friction twist_lower twist_upper "
-        "twist_limit_compliance twist_stiffness twist_rest twist_damping twist_friction "
-        "twist_drive twist_drive_times twist_drive_values twist_drive_interpolation "
-        "twist_drive_amplitude twist_drive_frequency twist_drive_phase twist_drive_limit "
-        "twist_drive_compliance "
+        "name body_b anchor body_a breaking_force breaking_torque relative_to axis "
+        "compliance swing_limit swing_limit_compliance damping friction twist_lower "
+        "twist_upper twist_limit_compliance twist_stiffness twist_rest twist_damping "
+        "twist_friction twist_drive twist_drive_times twist_drive_values "
+        "twist_drive_interpolation twist_drive_amplitude twist_drive_frequency "
+        "twist_drive_phase twist_drive_limit twist_drive_compliance "
     )
 
     name: str
@@ -183,6 +189,7 @@ class BallJoint(Joint):
     body_a: Optional[BodyLike]
     breaking_force: Optional[float]
     breaking_torque: Optional[float]
+    relative_to: Optional[BodyLike]
     axis: Optional[Sequence[float]]
     compliance: Optional[float]
     swing_limit: Optional[float]
@@ -215,6 +222,7 @@ class BallJoint(Joint):
         body_a: Optional[BodyLike] = None,
         breaking_force: Optional[float] = None,
         breaking_torque: Optional[float] = None,
+        relative_to: Optional[BodyLike] = None,
         axis: Optional[Sequence[float]] = None,
         compliance: Optional[float] = None,
         swing_limit: Optional[float] = None,
@@ -251,6 +259,8 @@ class HingeJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    relative_to: the body in whose frame at time 0 the points and directions below are told; in
+        scene files (the name of a body, or "world")
     compliance: of each direction of translation; 0 (default) is rigid (a number >= 0 [m/N];
         default: 0.0)
     angular_compliance: of tilting the axis; 0 (default) is rigid (a number >= 0 [rad/(N m)];
@@ -282,10 +292,10 @@ class HingeJoint(Joint):
     _kind = "joint"
     _type = "hinge"
     _keys = keys(
-        "name body_b anchor axis body_a breaking_force breaking_torque compliance "
-        "angular_compliance lower upper limit_compliance stiffness rest damping friction "
-        "drive drive_times drive_values drive_interpolation drive_amplitude "
-        "drive_frequency drive_phase drive_limit drive_compliance "
+        "name body_b anchor axis body_a breaking_force breaking_torque relative_to "
+        "compliance angular_compliance lower upper limit_compliance stiffness rest "
+        "damping friction drive drive_times drive_values drive_interpolation "
+        "drive_amplitude drive_frequency drive_phase drive_limit drive_compliance "
     )
 
     name: str
@@ -295,6 +305,7 @@ class HingeJoint(Joint):
     body_a: Optional[BodyLike]
     breaking_force: Optional[float]
     breaking_torque: Optional[float]
+    relative_to: Optional[BodyLike]
     compliance: Optional[float]
     angular_compliance: Optional[float]
     lower: Optional[float]
@@ -324,6 +335,7 @@ class HingeJoint(Joint):
         body_a: Optional[BodyLike] = None,
         breaking_force: Optional[float] = None,
         breaking_torque: Optional[float] = None,
+        relative_to: Optional[BodyLike] = None,
         compliance: Optional[float] = None,
         angular_compliance: Optional[float] = None,
         lower: Optional[float] = None,
@@ -357,6 +369,8 @@ class SliderJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    relative_to: the body in whose frame at time 0 the points and directions below are told; in
+        scene files (the name of a body, or "world")
     compliance: across the axis; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
     angular_compliance: of each rotation; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default:
         0.0)
@@ -386,10 +400,10 @@ class SliderJoint(Joint):
     _kind = "joint"
     _type = "slider"
     _keys = keys(
-        "name body_b anchor axis body_a breaking_force breaking_torque compliance "
-        "angular_compliance lower upper limit_compliance stiffness rest damping friction "
-        "drive drive_times drive_values drive_interpolation drive_amplitude "
-        "drive_frequency drive_phase drive_limit drive_compliance "
+        "name body_b anchor axis body_a breaking_force breaking_torque relative_to "
+        "compliance angular_compliance lower upper limit_compliance stiffness rest "
+        "damping friction drive drive_times drive_values drive_interpolation "
+        "drive_amplitude drive_frequency drive_phase drive_limit drive_compliance "
     )
 
     name: str
@@ -399,6 +413,7 @@ class SliderJoint(Joint):
     body_a: Optional[BodyLike]
     breaking_force: Optional[float]
     breaking_torque: Optional[float]
+    relative_to: Optional[BodyLike]
     compliance: Optional[float]
     angular_compliance: Optional[float]
     lower: Optional[float]
@@ -428,6 +443,7 @@ class SliderJoint(Joint):
         body_a: Optional[BodyLike] = None,
         breaking_force: Optional[float] = None,
         breaking_torque: Optional[float] = None,
+        relative_to: Optional[BodyLike] = None,
         compliance: Optional[float] = None,
         angular_compliance: Optional[float] = None,
         lower: Optional[float] = None,
@@ -461,6 +477,8 @@ class CylindricalJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    relative_to: the body in whose frame at time 0 the points and directions below are told; in
+        scene files (the name of a body, or "world")
     compliance: across the axis; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
     angular_compliance: of tilting the axis; 0 (default) is rigid (a number >= 0 [rad/(N m)];
         default: 0.0)
@@ -521,8 +539,8 @@ class CylindricalJoint(Joint):
     _kind = "joint"
     _type = "cylindrical"
     _keys = keys(
-        "name body_b anchor axis body_a breaking_force breaking_torque compliance "
-        "angular_compliance travel_lower travel_upper travel_limit_compliance "
+        "name body_b anchor axis body_a breaking_force breaking_torque relative_to "
+        "compliance angular_compliance travel_lower travel_upper travel_limit_compliance "
         "travel_stiffness travel_rest travel_damping travel_friction travel_drive "
         "travel_drive_times travel_drive_values travel_drive_interpolation "
         "travel_drive_amplitude travel_drive_frequency travel_drive_phase "
@@ -540,6 +558,7 @@ class CylindricalJoint(Joint):
     body_a: Optional[BodyLike]
     breaking_force: Optional[float]
     breaking_torque: Optional[float]
+    relative_to: Optional[BodyLike]
     compliance: Optional[float]
     angular_compliance: Optional[float]
     travel_lower: Optional[float]
@@ -585,6 +604,7 @@ class CylindricalJoint(Joint):
         body_a: Optional[BodyLike] = None,
         breaking_force: Optional[float] = None,
         breaking_torque: Optional[float] = None,
+        relative_to: Optional[BodyLike] = None,
         compliance: Optional[float] = None,
         angular_compliance: Optional[float] = None,
         travel_lower: Optional[float] = None,
@@ -634,6 +654,8 @@ class UniversalJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    relative_to: the body in whose frame at time 0 the points and directions below are told; in
+        scene files (the name of a body, or "world")
     compliance: of each direction of translation; 0 (default) is rigid (a number >= 0 [m/N];
         default: 0.0)
     angular_compliance: of the angle between the axes; 0 (default) is rigid (a number >= 0 [rad/(N
@@ -694,7 +716,7 @@ class UniversalJoint(Joint):
     _type = "universal"
     _keys = keys(
         "name body_b anchor axis_a axis_b body_a breaking_force breaking_torque "
-        "compliance angular_compliance angle_a_lower angle_a_upper "
+        "relative_to compliance angular_compliance angle_a_lower angle_a_upper "
         "angle_a_limit_compliance angle_a_stiffness angle_a_rest angle_a_damping "
         "angle_a_friction angle_a_drive angle_a_drive_times angle_a_drive_values "
         "angle_a_drive_interpolation angle_a_drive_amplitude angle_a_drive_frequency "
@@ -714,6 +736,7 @@ class UniversalJoint(Joint):
     body_a: Optional[BodyLike]
     breaking_force: Optional[float]
     breaking_torque: Optional[float]
+    relative_to: Optional[BodyLike]
     compliance: Optional[float]
     angular_compliance: Optional[float]
     angle_a_lower: Optional[float]
@@ -760,6 +783,7 @@ class UniversalJoint(Joint):
         body_a: Optional[BodyLike] = None,
         breaking_force: Optional[float] = None,
         breaking_torque: Optional[float] = None,
+        relative_to: Optional[BodyLike] = None,
         compliance: Optional[float] = None,
         angular_compliance: Optional[float] = None,
         angle_a_lower: Optional[float] = None,
@@ -808,6 +832,8 @@ class PlaneJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    relative_to: the body in whose frame at time 0 the points and directions below are told; in
+        scene files (the name of a body, or "world")
     compliance: of the distance from the plane; 0 (default) is rigid (a number >= 0 [m/N]; default:
         0.0)
     angular_compliance: of the tilt; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default: 0.0)
@@ -845,8 +871,8 @@ class PlaneJoint(Joint):
     _kind = "joint"
     _type = "plane"
     _keys = keys(
-        "name body_b anchor normal body_a breaking_force breaking_torque compliance "
-        "angular_compliance damping friction angle_lower angle_upper "
+        "name body_b anchor normal body_a breaking_force breaking_torque relative_to "
+        "compliance angular_compliance damping friction angle_lower angle_upper "
         "angle_limit_compliance angle_stiffness angle_rest angle_damping angle_friction "
         "angle_drive angle_drive_times angle_drive_values angle_drive_interpolation "
         "angle_drive_amplitude angle_drive_frequency angle_drive_phase angle_drive_limit "
@@ -860,6 +886,7 @@ class PlaneJoint(Joint):
     body_a: Optional[BodyLike]
     breaking_force: Optional[float]
     breaking_torque: Optional[float]
+    relative_to: Optional[BodyLike]
     compliance: Optional[float]
     angular_compliance: Optional[float]
     damping: Optional[float]
@@ -891,6 +918,7 @@ class PlaneJoint(Joint):
         body_a: Optional[BodyLike] = None,
         breaking_force: Optional[float] = None,
         breaking_torque: Optional[float] = None,
+        relative_to: Optional[BodyLike] = None,
         compliance: Optional[float] = None,
         angular_compliance: Optional[float] = None,
         damping: Optional[float] = None,
@@ -924,6 +952,8 @@ class FixedJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    relative_to: the body in whose frame at time 0 the points and directions below are told; in
+        scene files (the name of a body, or "world")
     compliance: of each direction of translation; 0 (default) is rigid (a number >= 0 [m/N];
         default: 0.0)
     angular_compliance: of each rotation; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default:
@@ -933,7 +963,7 @@ class FixedJoint(Joint):
     _kind = "joint"
     _type = "fixed"
     _keys = keys(
-        "name body_b anchor body_a breaking_force breaking_torque compliance "
+        "name body_b anchor body_a breaking_force breaking_torque relative_to compliance "
         "angular_compliance "
     )
 
@@ -943,6 +973,7 @@ class FixedJoint(Joint):
     body_a: Optional[BodyLike]
     breaking_force: Optional[float]
     breaking_torque: Optional[float]
+    relative_to: Optional[BodyLike]
     compliance: Optional[float]
     angular_compliance: Optional[float]
 
@@ -955,6 +986,7 @@ class FixedJoint(Joint):
         body_a: Optional[BodyLike] = None,
         breaking_force: Optional[float] = None,
         breaking_torque: Optional[float] = None,
+        relative_to: Optional[BodyLike] = None,
         compliance: Optional[float] = None,
         angular_compliance: Optional[float] = None,
     ) -> None:
@@ -971,6 +1003,8 @@ class GearJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    relative_to: the body in whose frame at time 0 the points and directions below are told; in
+        scene files (the name of a body, or "world")
     axis_a: of body_a's rotation, world frame at time 0 (default z) ([x, y, z], numbers; default:
         [0.0,0.0,1.0])
     axis_b: of body_b's rotation, world frame at time 0 (default z) ([x, y, z], numbers; default:
@@ -985,8 +1019,8 @@ class GearJoint(Joint):
     _kind = "joint"
     _type = "gear"
     _keys = keys(
-        "name body_b ratio body_a breaking_force breaking_torque axis_a axis_b carrier "
-        "compliance backlash "
+        "name body_b ratio body_a breaking_force breaking_torque relative_to axis_a "
+        "axis_b carrier compliance backlash "
     )
 
     name: str
@@ -995,6 +1029,7 @@ class GearJoint(Joint):
     body_a: Optional[BodyLike]
     breaking_force: Optional[float]
     breaking_torque: Optional[float]
+    relative_to: Optional[BodyLike]
     axis_a: Optional[Sequence[float]]
     axis_b: Optional[Sequence[float]]
     carrier: Optional[BodyLike]
@@ -1010,6 +1045,7 @@ class GearJoint(Joint):
         body_a: Optional[BodyLike] = None,
         breaking_force: Optional[float] = None,
         breaking_torque: Optional[float] = None,
+        relative_to: Optional[BodyLike] = None,
         axis_a: Optional[Sequence[float]] = None,
         axis_b: Optional[Sequence[float]] = None,
         carrier: Optional[BodyLike] = None,
@@ -1031,6 +1067,8 @@ class RackJoint(Joint):
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
+    relative_to: the body in whose frame at time 0 the points and directions below are told; in
+        scene files (the name of a body, or "world")
     carrier: the body that carries axle and guide (default: the world) (the name of a body, or
         "world"; default: "world")
     compliance: of the travel; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
@@ -1041,7 +1079,7 @@ class RackJoint(Joint):
     _type = "rack"
     _keys = keys(
         "name body_b axis direction anchor radius body_a breaking_force breaking_torque "
-        "carrier compliance backlash "
+        "relative_to carrier compliance backlash "
     )
 
     name: str
@@ -1053,6 +1091,7 @@ class RackJoint(Joint):
     body_a: Optional[BodyLike]
     breaking_force: Optional[float]
     breaking_torque: Optional[float]
+    relative_to: Optional[BodyLike]
     carrier: Optional[BodyLike]
     compliance: Optional[float]
     backlash: Optional[float]
@@ -1069,6 +1108,7 @@ class RackJoint(Joint):
         body_a: Optional[BodyLike] = None,
         breaking_force: Optional[float] = None,
         breaking_torque: Optional[float] = None,
+        relative_to: Optional[BodyLike] = None,
         carrier: Optional[BodyLike] = None,
         compliance: Optional[float] = None,
         backlash: Optional[float] = None,
@@ -1240,17 +1280,19 @@ class Box(Shape):
     position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
         y, z]; default: [1.0,0.0,0.0,0.0])
+    rotation: the orientation as a turn in degrees; excludes orientation
     """
 
     _kind = "shape"
     _type = "box"
     _keys = keys(
-        "size position orientation "
+        "size position orientation rotation "
     )
 
     size: Sequence[float]
     position: Optional[Sequence[float]]
     orientation: Optional[Sequence[float]]
+    rotation: Optional[Union[Rotation, Mapping[str, Any]]]
 
     def __init__(
         self,
@@ -1258,6 +1300,7 @@ class Box(Shape):
         *,
         position: Optional[Sequence[float]] = None,
         orientation: Optional[Sequence[float]] = None,
+        rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
     ) -> None:
         super().__init__(locals())
 
@@ -1269,17 +1312,19 @@ class Sphere(Shape):
     position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
         y, z]; default: [1.0,0.0,0.0,0.0])
+    rotation: the orientation as a turn in degrees; excludes orientation
     """
 
     _kind = "shape"
     _type = "sphere"
     _keys = keys(
-        "radius position orientation "
+        "radius position orientation rotation "
     )
 
     radius: float
     position: Optional[Sequence[float]]
     orientation: Optional[Sequence[float]]
+    rotation: Optional[Union[Rotation, Mapping[str, Any]]]
 
     def __init__(
         self,
@@ -1287,6 +1332,7 @@ class Sphere(Shape):
         *,
         position: Optional[Sequence[float]] = None,
         orientation: Optional[Sequence[float]] = None,
+        rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
     ) -> None:
         super().__init__(locals())
 
@@ -1299,18 +1345,20 @@ class Cylinder(Shape):
     position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
         y, z]; default: [1.0,0.0,0.0,0.0])
+    rotation: the orientation as a turn in degrees; excludes orientation
     """
 
     _kind = "shape"
     _type = "cylinder"
     _keys = keys(
-        "radius length position orientation "
+        "radius length position orientation rotation "
     )
 
     radius: float
     length: float
     position: Optional[Sequence[float]]
     orientation: Optional[Sequence[float]]
+    rotation: Optional[Union[Rotation, Mapping[str, Any]]]
 
     def __init__(
         self,
@@ -1319,6 +1367,7 @@ class Cylinder(Shape):
         *,
         position: Optional[Sequence[float]] = None,
         orientation: Optional[Sequence[float]] = None,
+        rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
     ) -> None:
         super().__init__(locals())
 
@@ -1331,18 +1380,20 @@ class Capsule(Shape):
     position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
         y, z]; default: [1.0,0.0,0.0,0.0])
+    rotation: the orientation as a turn in degrees; excludes orientation
     """
 
     _kind = "shape"
     _type = "capsule"
     _keys = keys(
-        "radius length position orientation "
+        "radius length position orientation rotation "
     )
 
     radius: float
     length: float
     position: Optional[Sequence[float]]
     orientation: Optional[Sequence[float]]
+    rotation: Optional[Union[Rotation, Mapping[str, Any]]]
 
     def __init__(
         self,
@@ -1351,6 +1402,7 @@ class Capsule(Shape):
         *,
         position: Optional[Sequence[float]] = None,
         orientation: Optional[Sequence[float]] = None,
+        rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
     ) -> None:
         super().__init__(locals())
 
@@ -1364,18 +1416,20 @@ class Prism(Shape):
     position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
         y, z]; default: [1.0,0.0,0.0,0.0])
+    rotation: the orientation as a turn in degrees; excludes orientation
     """
 
     _kind = "shape"
     _type = "prism"
     _keys = keys(
-        "outline length position orientation "
+        "outline length position orientation rotation "
     )
 
     outline: Sequence[Sequence[float]]
     length: float
     position: Optional[Sequence[float]]
     orientation: Optional[Sequence[float]]
+    rotation: Optional[Union[Rotation, Mapping[str, Any]]]
 
     def __init__(
         self,
@@ -1384,6 +1438,7 @@ class Prism(Shape):
         *,
         position: Optional[Sequence[float]] = None,
         orientation: Optional[Sequence[float]] = None,
+        rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
     ) -> None:
         super().__init__(locals())
 
@@ -1396,17 +1451,19 @@ class Polyhedron(Shape):
     position: origin of the shape in the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     orientation: unit quaternion [w, x, y, z], shape frame to body frame (a unit quaternion [w, x,
         y, z]; default: [1.0,0.0,0.0,0.0])
+    rotation: the orientation as a turn in degrees; excludes orientation
     """
 
     _kind = "shape"
     _type = "polyhedron"
     _keys = keys(
-        "points position orientation "
+        "points position orientation rotation "
     )
 
     points: Sequence[Sequence[float]]
     position: Optional[Sequence[float]]
     orientation: Optional[Sequence[float]]
+    rotation: Optional[Union[Rotation, Mapping[str, Any]]]
 
     def __init__(
         self,
@@ -1414,6 +1471,7 @@ class Polyhedron(Shape):
         *,
         position: Optional[Sequence[float]] = None,
         orientation: Optional[Sequence[float]] = None,
+        rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
     ) -> None:
         super().__init__(locals())
 
@@ -1427,17 +1485,19 @@ class HalfSpace(Shape):
         y, z]; default: [1.0,0.0,0.0,0.0])
     normal: away from the solid side, shape frame; any length but 0 ([x, y, z], numbers; default:
         [0.0,1.0,0.0])
+    rotation: the orientation as a turn in degrees; excludes orientation
     """
 
     _kind = "shape"
     _type = "half-space"
     _keys = keys(
-        "position orientation normal "
+        "position orientation normal rotation "
     )
 
     position: Optional[Sequence[float]]
     orientation: Optional[Sequence[float]]
     normal: Optional[Sequence[float]]
+    rotation: Optional[Union[Rotation, Mapping[str, Any]]]
 
     def __init__(
         self,
@@ -1445,6 +1505,7 @@ class HalfSpace(Shape):
         position: Optional[Sequence[float]] = None,
         orientation: Optional[Sequence[float]] = None,
         normal: Optional[Sequence[float]] = None,
+        rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
     ) -> None:
         super().__init__(locals())
 
@@ -1737,6 +1798,9 @@ class Body(Part):
         sin p) ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     oscillation_frequency: kinematic: frequency f of that motion (a number >= 0 [Hz]; default: 0.0)
     oscillation_phase: kinematic: phase p of that motion (a number [rad]; default: 0.0)
+    relative_to: the body in whose frame position, orientation (or rotation) and axis are told; in
+        scene files (the name of a body, or "world")
+    rotation: the orientation as a turn in degrees; excludes orientation
     shape: the body's form, if it is one shape; excludes shapes
     shapes: the body's form, if it is several shapes
     """
@@ -1746,7 +1810,7 @@ class Body(Part):
         "name mobility axis mount position orientation velocity angular_velocity mass "
         "density inertia spin_inertia drive drive_times drive_values drive_interpolation "
         "wrappable force torque damping angular_damping oscillation oscillation_frequency "
-        "oscillation_phase shape shapes "
+        "oscillation_phase relative_to rotation shape shapes "
     )
 
     name: str
@@ -1773,6 +1837,8 @@ class Body(Part):
     oscillation: Optional[Sequence[float]]
     oscillation_frequency: Optional[float]
     oscillation_phase: Optional[float]
+    relative_to: Optional[BodyLike]
+    rotation: Optional[Union[Rotation, Mapping[str, Any]]]
     shape: Optional[Union[Shape, Mapping[str, Any]]]
     shapes: Optional[Sequence[Union[Shape, Mapping[str, Any]]]]
 
@@ -1803,6 +1869,8 @@ class Body(Part):
         oscillation: Optional[Sequence[float]] = None,
         oscillation_frequency: Optional[float] = None,
         oscillation_phase: Optional[float] = None,
+        relative_to: Optional[BodyLike] = None,
+        rotation: Optional[Union[Rotation, Mapping[str, Any]]] = None,
         shape: Optional[Union[Shape, Mapping[str, Any]]] = None,
         shapes: Optional[Sequence[Union[Shape, Mapping[str, Any]]]] = None,
     ) -> None:
@@ -2118,6 +2186,30 @@ class Check(Part):
         super().__init__(locals())
 
 
+class Rotation(Part):
+    """A turn about an axis, in degrees.
+
+    degrees: by how much, counter-clockwise seen against the axis (a number; required)
+    axis: of the turn, of any length but 0 ([x, y, z], numbers; default: [0.0,0.0,1.0])
+    """
+
+    _kind = "rotation"
+    _keys = keys(
+        "degrees axis "
+    )
+
+    degrees: float
+    axis: Optional[Sequence[float]]
+
+    def __init__(
+        self,
+        degrees: float,
+        *,
+        axis: Optional[Sequence[float]] = None,
+    ) -> None:
+        super().__init__(locals())
+
+
 __all__ = [
     "AttachmentLink",
     "BallJoint",
@@ -2149,6 +2241,7 @@ __all__ = [
     "Prism",
     "RackJoint",
     "RollingLink",
+    "Rotation",
     "Shape",
     "SliderJoint",
     "Sphere",

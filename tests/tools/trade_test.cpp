@@ -182,7 +182,7 @@ TEST_F(TradeOfAFile, WrongUsage) {
   EXPECT_THAT(refused({"--substeps", "1,0"}), HasSubstr("0"));
   EXPECT_THAT(refused({"--minutes", "0"}), HasSubstr("--minutes"));
   EXPECT_THAT(refused({"--parallel", "0"}), HasSubstr("--parallel"));
-  EXPECT_THAT(refused({"--chart", "picture.gif"}), HasSubstr(".png or .svg"));
+  EXPECT_THAT(refused({"--chart", "picture.gif"}), HasSubstr(".png, .svg or .pdf"));
   EXPECT_THAT(refused({"--error", "1%", "--budget", "1ms/frame"}), HasSubstr("excludes"));
   EXPECT_EQ(trade(folder.path("none.json"), {}).exit_code, 66);
   EXPECT_EQ(run_sheave({"trade", "-", "--error", "1%", "--apply"}).exit_code, 2);

@@ -1,0 +1,221 @@
+#include "scenes/jsonnet/evaluate.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "scenes/jsonnet/virtual_machine.h"
+
+namespace sheave::jsonnet {
+
+#if SHEAVE_HAS_JSONNET
+
+namespace {
+
+/// What the child tells, in messages of a kind, a length and so many bytes.
+enum class Message : char { import_name = 'n', import_text = 't', json = 'j', fault = 'f' };
+
+void send(int pipe, Message kind, std::string_view text) {
+  std::string bytes(1, static_cast<char>(kind));
+  const std::uint64_t size = text.size();
+  bytes.append(reinterpret_cast<const char*>(&size), sizeof size);
+  bytes += text;
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t count = ::write(pipe, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) ::_exit(1);
+    done += static_cast<std::size_t>(count);
+  }
+}
+
+std::string read_all(int pipe, std::size_t most) {
+  std::string bytes;
+  std::array<char, 65536> block{};
+  while (bytes.size() <= most) {
+    const ssize_t count = ::read(pipe, block.data(), block.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    bytes.append(block.data(), static_cast<std::size_t>(count));
+  }
+  return bytes;
+}
+
+void limit_resources(const Limits& limits) {
+  rlimit cpu{limits.seconds, limits.seconds + 1};
+  ::setrlimit(RLIMIT_CPU, &cpu);
+  rlimit core{0, 0};
+  ::setrlimit(RLIMIT_CORE, &core);
+#if !defined(__SANITIZE_ADDRESS__)
+  // Beyond what this process, of which it is a copy, has already.
+  std::ifstream statm("/proc/self/statm");
+  std::uint64_t pages = 0;
+  if (!(statm >> pages)) return;
+  const std::uint64_t most =
+      pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)) + limits.memory;
+  rlimit memory{most, most};
+  ::setrlimit(RLIMIT_AS, &memory);
+#endif
+}
+
+[[noreturn]] void evaluate_in_child(int pipe, std::string_view text, const std::string& file_name,
+                                    const JsonnetOptions& options, const Limits& limits) {
+  // Whatever the command does on signals, the child simply ends.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXCPU, SIGABRT, SIGSEGV}) {
+    std::signal(signal, SIG_DFL);
+  }
+  // What the evaluator's library says before it dies is no message for people.
+  if (::close(STDERR_FILENO) != 0) ::_exit(1);
+  limit_resources(limits);
+  const Evaluation evaluation =
+      run_program(text, file_name, options, limits, [&](const Source& source) {
+        send(pipe, Message::import_name, source.name);
+        send(pipe, Message::import_text, source.text);
+      });
+  send(pipe, evaluation.good ? Message::json : Message::fault, evaluation.text);
+  ::_exit(0);
+}
+
+SceneError error_at(std::string file, std::string message, FaultCode code = FaultCode::meaning) {
+  return {std::move(file), 0, 0, "", std::move(message), {}, {}, code};
+}
+
+/// A place as Jsonnet writes it: "file:3:5-9" or "file:(3:5)-(4:2)".
+bool read_place(const std::string& text, std::size_t at, SceneError& error) {
+  const std::size_t start = at < text.size() && text[at] == '(' ? at + 1 : at;
+  char* end = nullptr;
+  const long line = std::strtol(text.c_str() + start, &end, 10);
+  if (line < 1 || *end != ':' || std::isdigit(static_cast<unsigned char>(end[1])) == 0) {
+    return false;
+  }
+  error.line = static_cast<int>(line);
+  error.column = static_cast<int>(std::strtol(end + 1, nullptr, 10));
+  return true;
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+/// The first place in one of the files; in the library only if there is no other.
+SceneError error_of(const std::string& told, const std::string& file_name,
+                    const std::vector<Source>& sources) {
+  SceneError error = error_at(file_name, first_line(told), FaultCode::syntax);
+  std::size_t best = std::string::npos;
+  for (const Source& source : sources) {
+    for (std::size_t at = told.find(source.name + ":"); at != std::string::npos;
+         at = told.find(source.name + ":", at + 1)) {
+      SceneError place = error;
+      if (!read_place(told, at + source.name.size() + 1, place)) continue;
+      const bool own = source.name != "sheave.libsonnet";
+      if (own ? at < best : best == std::string::npos && error.line == 0) {
+        if (own) best = at;
+        error.file = source.name;
+        error.line = place.line;
+        error.column = place.column;
+      }
+      break;
+    }
+  }
+  for (const char* const prefix : {"RUNTIME ERROR: ", "STATIC ERROR: "}) {
+    if (!error.message.starts_with(prefix)) continue;
+    error.message = error.message.substr(std::strlen(prefix));
+    error.code = prefix[0] == 'R' ? FaultCode::meaning : FaultCode::syntax;
+  }
+  // "file:1:5-6: what" says the place twice.
+  if (error.message.starts_with(error.file + ":")) {
+    const std::size_t colon = error.message.find(": ");
+    if (colon != std::string::npos) error.message = error.message.substr(colon + 2);
+  }
+  return error;
+}
+
+/// Why a child that said nothing has ended.
+std::string end_text(int status, const Limits& limits) {
+  if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)) {
+    return fmt::format("the program takes more than {} s to evaluate", limits.seconds);
+  }
+  return fmt::format(
+      "the program cannot be evaluated: it takes more than {} MB of memory, or is "
+      "nested too deeply",
+      limits.memory >> 20U);
+}
+
+}  // namespace
+
+bool is_available() { return true; }
+
+Outcome evaluate(std::string_view text, const std::string& file_name, const JsonnetOptions& options,
+                 const Limits& limits) {
+  Outcome outcome;
+  outcome.sources.push_back({file_name, std::string(text)});
+  std::array<int, 2> pipe{};
+  if (::pipe2(pipe.data(), O_CLOEXEC) != 0) {
+    outcome.errors.push_back(error_at(file_name, "no pipe for Jsonnet", FaultCode::unreadable));
+    return outcome;
+  }
+  const pid_t child = ::fork();
+  if (child == 0) evaluate_in_child(pipe[1], text, file_name, options, limits);
+  ::close(pipe[1]);
+  const std::size_t most = 64 * limits.text;
+  const std::string bytes = child > 0 ? read_all(pipe[0], most) : std::string();
+  ::close(pipe[0]);
+  int status = 0;
+  while (child > 0 && ::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  std::string fault;
+  bool ended = false;
+  for (std::size_t at = 0; at + 1 + sizeof(std::uint64_t) <= bytes.size();) {
+    const auto kind = static_cast<Message>(bytes[at]);
+    std::uint64_t size = 0;
+    std::memcpy(&size, bytes.data() + at + 1, sizeof size);
+    at += 1 + sizeof size;
+    if (size > bytes.size() - at) break;
+    std::string content = bytes.substr(at, size);
+    at += size;
+    if (kind == Message::import_name) outcome.sources.push_back({std::move(content), {}});
+    if (kind == Message::import_text) outcome.sources.back().text = std::move(content);
+    if (kind == Message::json) outcome.json = std::move(content);
+    if (kind == Message::fault) fault = std::move(content);
+    ended = kind == Message::json || kind == Message::fault;
+  }
+  if (!ended) {
+    outcome.errors.push_back(error_at(file_name, end_text(status, limits), FaultCode::too_large));
+  } else if (!fault.empty()) {
+    outcome.errors.push_back(error_of(fault, file_name, outcome.sources));
+  }
+  return outcome;
+}
+
+#else
+
+bool is_available() { return false; }
+
+Outcome evaluate(std::string_view, const std::string& file_name, const JsonnetOptions&,
+                 const Limits&) {
+  return {{},
+          {{file_name,
+            0,
+            0,
+            "",
+            "this build cannot read Jsonnet (libjsonnet was not found)",
+            {},
+            {},
+            FaultCode::unreadable}},
+          {}};
+}
+
+#endif
+
+}  // namespace sheave::jsonnet

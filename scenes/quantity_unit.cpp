@@ -1,0 +1,60 @@
+#include "scenes/quantity_unit.h"
+
+#include <array>
+
+#include "scenes/quantities.h"
+
+namespace sheave {
+namespace {
+
+/// Names that a joint's coordinates have, and whether they are angles (JointDef::coordinates()).
+struct CoordinateName {
+  std::string_view name;
+  bool angle;
+};
+constexpr std::array<CoordinateName, 7> coordinate_units{{
+    {"extension", false},
+    {"travel", false},
+    {"angle", true},
+    {"angle_a", true},
+    {"angle_b", true},
+    {"twist", true},
+    {"swing", true},
+}};
+
+std::optional<std::string> found_in(std::span<const QuantityGroup> groups, std::string_view last) {
+  for (const QuantityGroup& group : groups) {
+    for (const Quantity& quantity : group.quantities) {
+      if (quantity.name == last) return std::string(quantity.unit);
+    }
+  }
+  return {};
+}
+
+/// Of "<coordinate>", "<coordinate>_rate", "<coordinate>_drive_force" and alike.
+std::optional<std::string> of_coordinate(std::string_view last) {
+  for (const auto& [name, angle] : coordinate_units) {
+    if (!last.starts_with(name)) continue;
+    const std::string_view rest = last.substr(name.size());
+    if (rest.empty()) return angle ? "rad" : "m";
+    if (rest == "_rate") return angle ? "rad/s" : "m/s";
+    if (rest == "_drive_force") return angle ? "N m" : "N";
+    if (rest == "_drive_power") return "W";
+    if (rest == "_drive_error") return angle ? "rad, rad/s" : "m, m/s";
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<std::string> quantity_unit(std::string_view name) {
+  if (name == "t") return "s";
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string_view::npos || dot == 0) return {};
+  const std::string_view last = name.substr(dot + 1);
+  if (auto unit = found_in(quantity_groups(), last)) return unit;
+  if (auto unit = found_in(requested_quantity_groups(), last)) return unit;
+  return of_coordinate(last);
+}
+
+}  // namespace sheave

@@ -1,0 +1,39 @@
+#include "scenes/quantity_unit.h"
+
+#include <gtest/gtest.h>
+
+#include "scenes/observables.h"
+#include "scenes/scene.h"
+#include "tests/scenes/scene_files.h"
+
+namespace sheave {
+namespace {
+
+TEST(QuantityUnit, IsThatOfTheTables) {
+  EXPECT_EQ(quantity_unit("t"), "s");
+  EXPECT_EQ(quantity_unit("weight.vy"), "m/s");
+  EXPECT_EQ(quantity_unit("rope.12.tension"), "N");
+  EXPECT_EQ(quantity_unit("rope.link0.wrap_angle"), "rad");
+  EXPECT_EQ(quantity_unit("rope.length_error"), "");
+  EXPECT_EQ(quantity_unit("door.angle_rate"), "rad/s");
+  EXPECT_EQ(quantity_unit("ram.travel"), "m");
+  EXPECT_EQ(quantity_unit("ram.travel_drive_force"), "N");
+  EXPECT_EQ(quantity_unit("power.friction"), "W");
+  EXPECT_EQ(quantity_unit("winch.drive_force"), "N, N m");
+  EXPECT_EQ(quantity_unit("rope.0.tensoin"), std::nullopt);
+  EXPECT_EQ(quantity_unit("tension"), std::nullopt);
+  EXPECT_EQ(quantity_unit(".x"), std::nullopt);
+}
+
+TEST(QuantityUnit, IsKnownOfEveryQuantityOfEveryShippedScene) {
+  for (const auto& path : test::valid_scene_files()) {
+    const SceneResult scene = load_scene(path.string());
+    ASSERT_TRUE(scene) << path;
+    for (const std::string& name : ObservableSet(scene->model, scene->cables).names()) {
+      EXPECT_TRUE(quantity_unit(name).has_value()) << path << ": " << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sheave
