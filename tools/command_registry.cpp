@@ -13,13 +13,15 @@
 namespace sheave::tools {
 
 std::span<const Command> commands() {
-  static constexpr std::array<Command, 10> table{{
+  static constexpr std::array<Command, 12> table{{
       {"run", "Simulate a scene; write tables, print a summary", declare_run},
       {"live", "Hold a world for a program that talks to it in lines", declare_live},
       {"render", "Simulate a scene; write a video or pictures", declare_render},
       {"bench", "Measure the paper's scenes: time per frame, with the error", declare_bench},
       {"trade", "Measure speed against accuracy of a scene; choose a setting", declare_trade},
       {"stress", "Map where extreme numbers break machines, or a scene", declare_stress},
+      {"statics", "Find where a scene rests, with its forces and whether it is stable", declare_statics},
+      {"modes", "Natural frequencies, damping and mode shapes about a rest", declare_modes},
       {"validate", "Check scenes without running them", declare_validate},
       {"generate", "Write a scene of a given kind and size", declare_generate},
       {"schema", "Print the JSON Schema of scenes", declare_schema},
