@@ -237,8 +237,7 @@ VectorX Configuration::unknowns_of(const ConfigurationRows& rows, const RowForce
       const Row& row = rows_[at(i)];
       if (row.weight <= heaviest || at(row.index) >= forces[unknown.feature].size()) continue;
       heaviest = row.weight;
-      unknowns[static_cast<Eigen::Index>(g)] =
-          forces[unknown.feature][at(row.index)] / row.weight;
+      unknowns[static_cast<Eigen::Index>(g)] = forces[unknown.feature][at(row.index)] / row.weight;
     }
   }
   return unknowns;
@@ -269,8 +268,7 @@ bool Configuration::revise(const RowForces& forces) {
   return changed;
 }
 
-std::vector<Vector3> Configuration::forces_on_bodies(const RowForces& forces,
-                                                     std::size_t except) {
+std::vector<Vector3> Configuration::forces_on_bodies(const RowForces& forces, std::size_t except) {
   linearise();
   std::vector<Vector3> sums(at(substep_.bodies.count() + 1), Vector3::Zero());
   for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {

@@ -32,10 +32,10 @@ struct ForceUnknown {
   std::size_t feature = 0;
   int first_row = 0;  ///< in the list of rows
   int row_count = 0;
-  double value = 0.0;                          ///< C [m or rad]
-  double compliance = 0.0;                     ///< A [m/N or rad/(N m)]
-  double damping = 0.0;                        ///< force per rate of C [N s/m or N m s/rad]
-  double lower = 0.0;                          ///< bounds of the force [N or N m]
+  double value = 0.0;       ///< C [m or rad]
+  double compliance = 0.0;  ///< A [m/N or rad/(N m)]
+  double damping = 0.0;     ///< force per rate of C [N s/m or N m s/rad]
+  double lower = 0.0;       ///< bounds of the force [N or N m]
   double upper = 0.0;
   double friction = 0.0;  ///< bounds are +- this times the force of `pressed_by`
   int pressed_by = -1;    ///< another unknown
@@ -53,8 +53,8 @@ struct ForceUnknown {
 struct ConfigurationRows {
   VectorX loads;  ///< per degree of freedom [N or N m]
   std::vector<ForceUnknown> unknowns;
-  MatrixX gradients;  ///< J, dC/dq: unknowns x degrees of freedom
-  MatrixX actions;    ///< P: the same with weights
+  MatrixX gradients;      ///< J, dC/dq: unknowns x degrees of freedom
+  MatrixX actions;        ///< P: the same with weights
   bool weighted = false;  ///< J and P differ: cable slides with friction
 };
 

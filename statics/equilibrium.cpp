@@ -139,8 +139,8 @@ class EquilibriumSearch {
   [[nodiscard]] static double part(double value, double most) { return value / most; }
   [[nodiscard]] double excess(const Configuration& configuration, const VectorX& motion) const {
     const Configuration::Reach reach = configuration.reach(motion);
-    return std::max({part(reach.translation, longest_step * size_),
-                     part(reach.turn, largest_turn), part(reach.spin, largest_spin)});
+    return std::max({part(reach.translation, longest_step * size_), part(reach.turn, largest_turn),
+                     part(reach.spin, largest_spin)});
   }
 
   /// What makes a free body move by a hundredth of the scene [1/s2].
@@ -175,8 +175,8 @@ class EquilibriumSearch {
     double shift = 0.0;
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       const bool stiff = values[i] > tangent.rounding;
-      const bool idle = std::abs(values[i]) <= tangent.rounding &&
-                        std::abs(push[i]) <= acceptable * pushed;
+      const bool idle =
+          std::abs(values[i]) <= tangent.rounding && std::abs(push[i]) <= acceptable * pushed;
       if (stiff || idle) continue;
       shift = std::max({shift, -2.0 * values[i], least_shift(rows)});
     }

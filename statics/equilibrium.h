@@ -16,9 +16,10 @@
 namespace sheave {
 
 struct EquilibriumSettings {
-  int load_steps = 1;      ///< loads grow from 0 in so many steps, 1 ... 10000
-  int iterations = 400;    ///< of Newton's method, for each of them, at least 1
-  double tolerance = 1e-11;  ///< of forces, as a share of the largest; of lengths, of the scene's size
+  int load_steps = 1;    ///< loads grow from 0 in so many steps, 1 ... 10000
+  int iterations = 400;  ///< of Newton's method, for each of them, at least 1
+  double tolerance =
+      1e-11;  ///< of forces, as a share of the largest; of lengths, of the scene's size
 };
 
 enum class Stability {
@@ -30,7 +31,7 @@ enum class Stability {
 /// A span that bears nothing.
 struct SlackSpan {
   int cable = 0;
-  int span = 0;  ///< as in CableReport::spans, and wraps behind them
+  int span = 0;        ///< as in CableReport::spans, and wraps behind them
   double slack = 0.0;  ///< rest length less length [m]
 };
 
@@ -46,7 +47,7 @@ struct Equilibrium {
   int neutral_motions = 0;
   /// Squares of angular frequencies of all of them [1/s2], ascending; negative: unstable.
   std::vector<double> eigenvalues;
-  int freedoms = 0;   ///< of the bodies
+  int freedoms = 0;     ///< of the bodies
   int constraints = 0;  ///< rigid rows that act
   /// Of these so many more than needed: their forces are one choice of many, that with the smallest
   /// norm.

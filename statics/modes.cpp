@@ -108,9 +108,8 @@ void find_poles(Modes& modes) {
   if (k == 0) return;
   const Eigen::EigenSolver<MatrixX> solver(modes.state_matrix.topLeftCorner(2 * k, 2 * k), false);
   for (const std::complex<double>& pole : solver.eigenvalues()) modes.poles.push_back(pole);
-  std::stable_sort(modes.poles.begin(), modes.poles.end(), [](const auto& a, const auto& b) {
-    return std::abs(a) < std::abs(b);
-  });
+  std::stable_sort(modes.poles.begin(), modes.poles.end(),
+                   [](const auto& a, const auto& b) { return std::abs(a) < std::abs(b); });
 }
 
 /// M-orthogonal displacement that rigid rows make of a unit of a drive's angle.
@@ -137,8 +136,7 @@ void fill_state_space(Configuration& configuration, const Tangent& tangent, cons
   Eigen::Index drives = 0;
   for (const ModeInput& input : inputs) drives += input.kind == ModeInput::Kind::drive ? 1 : 0;
   modes.state_matrix = MatrixX::Zero(2 * k + drives, 2 * k + drives);
-  modes.input_matrix =
-      MatrixX::Zero(2 * k + drives, static_cast<Eigen::Index>(inputs.size()));
+  modes.input_matrix = MatrixX::Zero(2 * k + drives, static_cast<Eigen::Index>(inputs.size()));
   modes.state_matrix.block(0, k, k, k).setIdentity();
   modes.state_matrix.block(k, 0, k, k) = -modes.stiffness;
   modes.state_matrix.block(k, k, k, k) = -modes.damping;
@@ -176,8 +174,7 @@ void fill_state_space(Configuration& configuration, const Tangent& tangent, cons
 }
 
 /// Moves a displaced configuration to where its rigid rows are met.
-void meet_rows(Configuration& configuration, const std::vector<char>& acts,
-               VectorX& displacement) {
+void meet_rows(Configuration& configuration, const std::vector<char>& acts, VectorX& displacement) {
   constexpr int rounds = 12;
   for (int round = 0; round < rounds; ++round) {
     configuration.place(displacement);
@@ -197,8 +194,7 @@ void meet_rows(Configuration& configuration, const std::vector<char>& acts,
       gradients.row(r) = rows.gradients.row(rigid[static_cast<std::size_t>(r)]);
       values[r] = rows.unknowns[static_cast<std::size_t>(rigid[static_cast<std::size_t>(r)])].value;
     }
-    const VectorX back =
-        Eigen::CompleteOrthogonalDecomposition<MatrixX>(gradients).solve(values);
+    const VectorX back = Eigen::CompleteOrthogonalDecomposition<MatrixX>(gradients).solve(values);
     displacement -= back;
     if (back.norm() < 1e-13) break;
   }
@@ -219,9 +215,8 @@ Modes find_modes(Simulation& simulation, const std::vector<ModeInput>& inputs) {
   modes.friction_slides = acting.slides;
   modes.forces = configuration.forces_of(acting.rows, acting.unknowns);
   const VectorX loads = tangent.motions.transpose() * acting.rows.loads;
-  const VectorX left =
-      tangent.motions.transpose() *
-      (acting.rows.loads + acting.rows.actions.transpose() * acting.unknowns);
+  const VectorX left = tangent.motions.transpose() *
+                       (acting.rows.loads + acting.rows.actions.transpose() * acting.unknowns);
   // Beside all that acts, not beside what of it is along the motions.
   VectorX whole = acting.rows.loads.cwiseAbs() +
                   acting.rows.actions.cwiseAbs().transpose() * acting.unknowns.cwiseAbs();
@@ -277,8 +272,7 @@ std::vector<std::string> freedom_names(const Simulation& simulation) {
         case Freedom::space:
           break;
       }
-      constexpr std::array<const char*, 6> parts{".x",      ".y",      ".z",
-                                                 ".turn_x", ".turn_y", ".turn_z"};
+      constexpr std::array<const char*, 6> parts{".x", ".y", ".z", ".turn_x", ".turn_y", ".turn_z"};
       return parts[at(k)];
     };
     for (int k = 0; k < size_of(freedom.kind); ++k) {
@@ -319,8 +313,7 @@ State perturbed_state(Simulation& simulation, const Modes& modes,
     const ForceUnknown& unknown = acting.rows.unknowns[g];
     if (acting.acts[g] == 0 || unknown.damper) continue;
     if (unknown.compliance > 0.0) {
-      const VectorX gradient =
-          (acting.rows.gradients.row(i) + turn.yields.row(i)).transpose();
+      const VectorX gradient = (acting.rows.gradients.row(i) + turn.yields.row(i)).transpose();
       unknowns[i] -= gradient.dot(q) / unknown.compliance +
                      unknown.damping * acting.rows.gradients.row(i).dot(rate);
     } else {
@@ -332,8 +325,7 @@ State perturbed_state(Simulation& simulation, const Modes& modes,
     for (Eigen::Index r = 0; r < columns.cols(); ++r) {
       columns.col(r) = acting.rows.actions.row(rigid[static_cast<std::size_t>(r)]).transpose();
     }
-    const VectorX more =
-        Eigen::CompleteOrthogonalDecomposition<MatrixX>(columns).solve(missing);
+    const VectorX more = Eigen::CompleteOrthogonalDecomposition<MatrixX>(columns).solve(missing);
     for (Eigen::Index r = 0; r < more.size(); ++r) {
       unknowns[rigid[static_cast<std::size_t>(r)]] += more[r];
     }

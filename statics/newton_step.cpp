@@ -132,8 +132,8 @@ class StepProblem {
     constexpr int rounds = 12;
     for (int i = 0; i < rounds; ++i) {
       for (Eigen::Index k = 0; k < n; ++k) {
-        const double largest = std::max(matrix.row(k).cwiseAbs().maxCoeff(),
-                                        matrix.col(k).cwiseAbs().maxCoeff());
+        const double largest =
+            std::max(matrix.row(k).cwiseAbs().maxCoeff(), matrix.col(k).cwiseAbs().maxCoeff());
         if (!(largest > 0.0)) continue;
         const double factor = 1.0 / std::sqrt(largest);
         matrix.row(k) *= factor;
@@ -165,9 +165,8 @@ class StepProblem {
     Side wanted = Side::free;
     bool changed = false;
     double largest_force = unknowns_.size() > 0 ? unknowns_.cwiseAbs().maxCoeff() : 0.0;
-    largest_force = std::max(largest_force, rows_.loads.size() > 0
-                                                ? rows_.loads.cwiseAbs().maxCoeff()
-                                                : 0.0);
+    largest_force =
+        std::max(largest_force, rows_.loads.size() > 0 ? rows_.loads.cwiseAbs().maxCoeff() : 0.0);
     for (std::size_t g = 0; g < sides_.size(); ++g) {
       if (sides_[g] == Side::off || rows_.unknowns[g].given()) continue;
       const auto [side, excess] = wrong_side(g, largest_force);
@@ -198,8 +197,7 @@ class StepProblem {
     const ForceUnknown& unknown = rows_.unknowns[g];
     const double value =
         unknown.value + gradients_.row(i).dot(motion_) + unknown.compliance * force;
-    const bool violated =
-        sides_[g] == Side::lower ? value < -rounding() : value > rounding();
+    const bool violated = sides_[g] == Side::lower ? value < -rounding() : value > rounding();
     if (violated) return {Side::free, std::abs(value) / size_};
     return {sides_[g], 0.0};
   }

@@ -13,10 +13,10 @@
 namespace sheave {
 
 struct NewtonStep {
-  VectorX motion;        ///< dq
-  VectorX unknowns;      ///< l [N or N m]
+  VectorX motion;          ///< dq
+  VectorX unknowns;        ///< l [N or N m]
   std::vector<char> acts;  ///< per unknown
-  bool slips = false;    ///< some friction is at its bound
+  bool slips = false;      ///< some friction is at its bound
   bool finite = false;
 };
 

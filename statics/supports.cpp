@@ -1,9 +1,8 @@
 #include "statics/supports.h"
 
-#include <limits>
-
 #include "engine/body_set.h"
 #include "engine/index.h"
+#include "engine/shape.h"
 #include "statics/configuration.h"
 
 namespace sheave {
@@ -21,6 +20,12 @@ void add_cable(const BodySet& bodies, const CableReport& report, std::vector<Vec
     sums[at(bodies.index(whole.links[k].body))] += pull;
     sums[at(bodies.index(whole.links[next].body))] -= pull;
   }
+}
+
+/// [kg]
+double mass_of(const BodyDef& body) {
+  if (body.mass) return *body.mass;
+  return body.density && !body.shapes.empty() ? combine(body.shapes, *body.density).mass : 0.0;
 }
 
 }  // namespace
@@ -47,7 +52,8 @@ std::vector<SupportReaction> support_reactions(Simulation& simulation,
       const BodyDef& body = bodies.definition(i);
       if (mobility != Mobility::fixed && mobility != Mobility::kinematic) {
         force += body.force;
-        if (bodies[i].mount < 0) force += body.mass * gravity;
+        // A mounted rotor's weight is its carrier's.
+        if (bodies[i].mount < 0) force += mass_of(body) * gravity;
       }
     }
     if (force.isZero(0.0)) continue;

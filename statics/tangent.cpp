@@ -40,8 +40,7 @@ ForceTurn turn_of_forces(Configuration& configuration, const VectorX& unknowns) 
     const VectorX near = (sums[0] - sums[1]) / (2.0 * step);
     const VectorX far = (sums[2] - sums[3]) / (4.0 * step);
     turn.forces.col(k) = (4.0 * near - far) / 3.0;
-    turn.yields.col(k) =
-        (8.0 * (yields[0] - yields[1]) - (yields[2] - yields[3])) / (12.0 * step);
+    turn.yields.col(k) = (8.0 * (yields[0] - yields[1]) - (yields[2] - yields[3])) / (12.0 * step);
     largest = std::max(largest, turn.forces.col(k).cwiseAbs().maxCoeff());
     off = std::max(off, (far - near).cwiseAbs().maxCoeff() / 3.0);
   }
@@ -70,8 +69,7 @@ Tangent make_tangent(const Configuration& configuration, const ConfigurationRows
     const ForceUnknown& unknown = rows.unknowns[g];
     const auto i = static_cast<Eigen::Index>(g);
     if (unknown.damper) {
-      tangent.damping +=
-          unknown.damping * rows.actions.row(i).transpose() * rows.gradients.row(i);
+      tangent.damping += unknown.damping * rows.actions.row(i).transpose() * rows.gradients.row(i);
       continue;
     }
     if (acts[g] == 0) continue;
@@ -97,8 +95,7 @@ Tangent make_tangent(const Configuration& configuration, const ConfigurationRows
   if (scaled.rows() > 0 && n > 0) {
     const Eigen::BDCSVD<MatrixX> svd(scaled, Eigen::ComputeFullV);
     const VectorX values = svd.singularValues();
-    while (tangent.rank < values.size() &&
-           values[tangent.rank] > rank_rounding * values[0]) {
+    while (tangent.rank < values.size() && values[tangent.rank] > rank_rounding * values[0]) {
       ++tangent.rank;
     }
     null = svd.matrixV().rightCols(n - tangent.rank);

@@ -18,8 +18,8 @@ namespace sheave {
 
 /// How forces of fixed unknowns change with the displacement.
 struct ForceTurn {
-  MatrixX forces;  ///< d(loads + P^T l)/dq
-  MatrixX yields;  ///< d(A l)/dq, unknowns x degrees of freedom
+  MatrixX forces;      ///< d(loads + P^T l)/dq
+  MatrixX yields;      ///< d(A l)/dq, unknowns x degrees of freedom
   double error = 0.0;  ///< as above, as a share of the largest entry of `forces`
 };
 /// Leaves the bodies at the configuration's pose.
@@ -27,12 +27,12 @@ struct ForceTurn {
 
 /// Matrices along degrees of freedom.
 struct Tangent {
-  MatrixX mass;       ///< M [kg, kg m2]
-  MatrixX damping;    ///< D [N s/m, N m s]
-  MatrixX stiffness;  ///< K [N/m, N m]
-  MatrixX constraints;  ///< J of rigid rows that act
-  MatrixX motions;      ///< Z, with Z^T M Z = 1
-  int rank = 0;         ///< of `constraints`
+  MatrixX mass;                   ///< M [kg, kg m2]
+  MatrixX damping;                ///< D [N s/m, N m s]
+  MatrixX stiffness;              ///< K [N/m, N m]
+  MatrixX constraints;            ///< J of rigid rows that act
+  MatrixX motions;                ///< Z, with Z^T M Z = 1
+  int rank = 0;                   ///< of `constraints`
   double difference_error = 0.0;  ///< of K, as a share of its largest entry from turning forces
   /// What rounding and differences leave of an eigenvalue of reduced_stiffness() that is 0 [1/s2].
   double rounding = 0.0;

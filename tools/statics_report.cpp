@@ -96,8 +96,8 @@ std::string verdict(const StaticsResult& result) {
   std::string text = "at rest, " + stability_text(rest) + "\n";
   text += fmt::format("{} iterations; left of forces {:.1e}, of lengths {:.1e}\n", rest.iterations,
                       rest.force_error, rest.length_error);
-  text += fmt::format("{} degrees of freedom, {} rigid constraints", rest.freedoms,
-                      rest.constraints);
+  text +=
+      fmt::format("{} degrees of freedom, {} rigid constraints", rest.freedoms, rest.constraints);
   if (rest.redundant > 0) {
     text += fmt::format(
         ", of which {} redundant: their forces are not unique, the smallest ones are told",

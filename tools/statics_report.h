@@ -29,7 +29,7 @@ struct StaticsResult {
   std::vector<JointReport> joints;
   std::vector<SupportReaction> supports;
   std::vector<std::string> quantities;
-  std::vector<double> values;  ///< of these; NaN where statics does not tell
+  std::vector<double> values;   ///< of these; NaN where statics does not tell
   bool cable_friction = false;  ///< a cable has links with friction
 };
 
