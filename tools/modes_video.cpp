@@ -44,6 +44,29 @@ double scale_of(const Simulation& simulation, const Mode& mode, double amplitude
   return farthest > 0.0 ? amplitude / farthest : 0.0;
 }
 
+/// How the film looks: as the scene's, without the time.
+render::ViewOptions view_of(const Scene& scene, const Mode& mode, int number,
+                            const render::ViewSurvey& survey) {
+  render::ViewOptions view;
+  view.tension_max = survey.tension_max();
+  view.run_bounds = survey.bounds();
+  view.time = false;
+  view.title = mode.frequency > 0.0
+                   ? fmt::format("{}: mode {}, {:.4g} Hz", scene.name, number, mode.frequency)
+                   : fmt::format("{}: mode {}", scene.name, number);
+  if (scene.camera) {
+    view.joints = scene.camera->joints;
+    view.cable_radius = scene.camera->cable_radius;
+  }
+  view.body_colors.resize(scene.model.bodies.size());
+  for (const PaintDef& paint : scene.paint) {
+    view.body_colors[static_cast<std::size_t>(paint.body.index)] =
+        render::Color{static_cast<float>(paint.color.x()), static_cast<float>(paint.color.y()),
+                      static_cast<float>(paint.color.z())};
+  }
+  return view;
+}
+
 }  // namespace
 
 void animate_mode(const Scene& scene, Simulation& simulation, const Modes& modes,
@@ -68,23 +91,7 @@ void animate_mode(const Scene& scene, Simulation& simulation, const Modes& modes
     survey.add(simulation.world, simulation.cable_reports());
     leave();
   }
-  render::ViewOptions view;
-  view.tension_max = survey.tension_max();
-  view.run_bounds = survey.bounds();
-  view.time = false;
-  view.title = mode.frequency > 0.0
-                   ? fmt::format("{}: mode {}, {:.4g} Hz", scene.name, video.mode, mode.frequency)
-                   : fmt::format("{}: mode {}", scene.name, video.mode);
-  if (scene.camera) {
-    view.joints = scene.camera->joints;
-    view.cable_radius = scene.camera->cable_radius;
-  }
-  view.body_colors.resize(scene.model.bodies.size());
-  for (const PaintDef& paint : scene.paint) {
-    view.body_colors[static_cast<std::size_t>(paint.body.index)] =
-        render::Color{static_cast<float>(paint.color.x()), static_cast<float>(paint.color.y()),
-                      static_cast<float>(paint.color.z())};
-  }
+  const render::ViewOptions view = view_of(scene, mode, video.mode, survey);
   PictureOptions options;
   options.video = video.path;
   options.still = video.still;

@@ -19,6 +19,7 @@
 #include "tools/interrupt.h"
 #include "tools/output_paths.h"
 #include "tools/player.h"
+#include "tools/rope_history_file.h"
 #include "tools/run_files.h"
 #include "tools/run_summary.h"
 #include "tools/scene_options.h"
@@ -40,6 +41,7 @@ struct RunOptions {
   bool estimate_error = false;
   std::string trust;
   bool strict = false;
+  RopeHistoryOptions ropes;
 };
 
 std::vector<Warning> early_warnings(const RunOptions& options, const Scene& scene,
@@ -176,6 +178,7 @@ void check_run_paths(const RunOptions& options) {
   std::vector<NamedPath> outputs;
   for (const std::string& path : options.record.paths) outputs.push_back({"--out", path});
   outputs.push_back({"--save-state", options.save_state});
+  outputs.push_back({"--rope-history", options.ropes.path});
   check_paths({{"the scene", options.scene.path}, {"--load-state", options.load_state}}, outputs,
               options.json || is_summarised(options));
 }
@@ -197,6 +200,8 @@ ExitCode run(const RunOptions& options) {
   catch_interrupts();
   RunFiles files(options.record, options.save_state, has_other_output(options), simulation);
   RunMonitor monitor(last_step - simulation.world.state().steps);
+  std::optional<measure::RopeHistory> ropes;
+  if (!options.ropes.path.empty()) ropes.emplace(options.ropes.sections);
   std::optional<CheckRecorder> checks;
   if (options.check) checks.emplace(scene, simulation);
 
@@ -207,6 +212,7 @@ ExitCode run(const RunOptions& options) {
     if (!monitor.is_finite()) return false;
     const bool wanted = files.observe(simulation, progress);
     if (checks) checks->record(simulation);
+    if (ropes) ropes->observe(simulation);
     const bool stepped = simulation.world.state().steps > first_step;
     const auto ends = [&] { return interrupted() || (time_is_over && time_is_over()); };
     if (estimator && stepped) estimator->observe(simulation, ends);
@@ -219,6 +225,7 @@ ExitCode run(const RunOptions& options) {
   monitor.finish(simulation, measure::is_conservative(scene));
 
   files.finish(simulation.world.state(), outcome.status);
+  if (ropes) files.faults().attempt([&] { write_rope_history(options.ropes, *ropes); });
   for (Warning& warning : collect_warnings(scene, simulation, outcome.statistics, monitor)) {
     warnings.push_back(std::move(warning));
   }
@@ -273,6 +280,24 @@ void add_output_options(CLI::App& app, RunOptions& options) {
                "print nothing but data asked for, warnings and errors");
 }
 
+void add_rope_options(CLI::App& app, RunOptions& options) {
+  CLI::Option* file =
+      app.add_option("--rope-history", options.ropes.path,
+                     "write what the run does to its ropes as JSON: bends over each sheave and "
+                     "cycles of tension per section, slack, travel on drums");
+  file->option_text("FILE");
+  app.add_option("--rope-sections", options.ropes.sections,
+                 "into how many sections it divides each cable; default 100")
+      ->check(CLI::Range(1, 10000))
+      ->option_text("N")
+      ->needs(file);
+  app.add_option("--rope-diameter", options.ropes.diameter,
+                 "of the ropes [m], for the ratio D/d of sheave and rope")
+      ->check(number_between(1e-9, 1e3))
+      ->option_text("D")
+      ->needs(file);
+}
+
 void add_state_options(CLI::App& app, RunOptions& options) {
   app.add_option("--steps", options.steps, "stop after so many steps instead of at the duration")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53))
@@ -296,6 +321,7 @@ Action declare_run(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
   add_scene_options(app, options->scene);
   add_output_options(app, *options);
+  add_rope_options(app, *options);
   add_state_options(app, *options);
   app.footer(R"(Examples:
   sheave run scenes/paper/simple.json
