@@ -2,6 +2,7 @@
 
 #include "statics/equilibrium.h"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -140,10 +141,43 @@ TEST(Equilibrium, UprightPendulumIsUnstable) {
   EXPECT_EQ(below.stability, Stability::stable);
 }
 
-/// DAVE's worked example: a grommet of EA 3000 kN and 40 m (on the circles' middle line) round two
-/// fixed and two hung circles of 1 m radius, doubled, with 100 kN below. By its definition friction f
-/// at a circle makes the tensions T (1 + f/2 ...) of the two sides; the four parts carry the load.
-TEST(Equilibrium, FourPartsOfAGrommetCarryALoad) {
+/// The worked example of DAVE's manual: a grommet of EA = 3000 kN, doubled, carries 100 kN in four
+/// parts. Its friction of 0.1 at a circle means tensions in the ratio r = 1.1 / 0.9 of both sides; with
+/// the directions -, +, + (and what is left at the fourth, -) they are r x, x, r x, r^2 x with the sum
+/// (1 + r)^2 x = 100 kN: the largest is 100 kN (r / (1 + r))^2 = 30.25 kN.
+///
+/// Which way cable has slid before is not in the pose, so statics leaves these directions open: they
+/// are given by how much of the cable is in which part.
+TEST(Equilibrium, FourPartsOfAGrommetWithFriction) {
+  constexpr double stiffness = 3e6;
+  constexpr double height = 10.0;
+  const double ratio = 1.1 / 0.9;
+  const double least = 1e5 / ((1.0 + ratio) * (1.0 + ratio));
+  const std::array pulls{ratio * least, least, ratio * least, ratio * ratio * least};
+  std::string lengths;
+  for (const double pull : pulls) {
+    lengths += fmt::format("{}{}", lengths.empty() ? "" : ", ", height / (1.0 + pull / stiffness));
+  }
+  // Each turns the cable by pi. A bound that rounding does not pass.
+  const double friction = 1.000001 * std::log(ratio) / pi;
+  const std::string text = fmt::format(
+      R"("bodies": [{{"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 10000, "position": [0, -0.005, 0]}}],
+    "cables": [{{"name": "grommet", "closed": true, "axial_stiffness": 3e6, "rest_lengths": [{1}], "links": [
+      {{"type": "pinhole", "body": "world", "point": [0, 10, 0], "friction": {0}}}, {{"type": "pinhole", "body": "load", "friction": {0}}},
+      {{"type": "pinhole", "body": "world", "point": [0, 10, 0], "friction": {0}}}, {{"type": "pinhole", "body": "load", "friction": {0}}}]}}])",
+      friction, lengths);
+  Simulation simulation = simulation_of(text);
+  const Equilibrium rest = find_equilibrium(simulation);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  EXPECT_NEAR(simulation.world.state().bodies[0].position.y(), 0.0, exact);
+  for (std::size_t i = 0; i < pulls.size(); ++i) {
+    EXPECT_NEAR(tension(simulation, 0, i), pulls[i], 1e5 * exact) << i;
+  }
+  EXPECT_NEAR(tension(simulation, 0, 3), 30250.0, 1e5 * exact);
+}
+
+/// Without friction all four parts have the same tension.
+TEST(Equilibrium, FourPartsOfAGrommet) {
   Simulation simulation = simulation_of(R"("bodies": [
     {"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 10000, "position": [0, 0, 0]}],
     "cables": [{"name": "grommet", "closed": true, "axial_stiffness": 3e6, "links": [
@@ -157,6 +191,40 @@ TEST(Equilibrium, FourPartsOfAGrommetCarryALoad) {
     EXPECT_NEAR(span.tension, tension(simulation, 0, 0), 1e5 * exact);
   }
   EXPECT_NEAR(sum, 1e5, 1e5 * exact);
+}
+
+/// The four-bar linkage of the IFToMM library of benchmarks, as a parallelogram of rods of 1 m whose
+/// spring along the diagonal is relaxed at sqrt 2 m: rods of m = 1 kg, k = 100 N/m. With the angle a of
+/// the cranks from the horizontal the energy is 2 m g sin a (two cranks, and the coupler on top) and
+/// k (l - sqrt 2)^2 / 2 with l^2 = 2 + 2 cos a; the derivative's zero is found by bisection.
+TEST(Equilibrium, FourBarLinkageWithADiagonalSpring) {
+  Simulation simulation = simulation_of(R"("bodies": [
+    {"name": "left", "mobility": "planar", "axis": [0, 0, 1], "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": [0, 0.5, 0]},
+    {"name": "coupler", "mobility": "planar", "axis": [0, 0, 1], "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": [0.5, 1, 0]},
+    {"name": "right", "mobility": "planar", "axis": [0, 0, 1], "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": [1, 0.5, 0]}],
+    "joints": [
+    {"type": "hinge", "name": "a", "body_b": "left", "anchor": [0, 0, 0], "axis": [0, 0, 1]},
+    {"type": "hinge", "name": "b", "body_a": "left", "body_b": "coupler", "anchor": [0, 1, 0], "axis": [0, 0, 1]},
+    {"type": "hinge", "name": "c", "body_a": "coupler", "body_b": "right", "anchor": [1, 1, 0], "axis": [0, 0, 1]},
+    {"type": "hinge", "name": "d", "body_b": "right", "anchor": [1, 0, 0], "axis": [0, 0, 1]},
+    {"type": "distance", "name": "spring", "body_b": "right", "anchor_a": [0, 0, 0], "anchor_b": [1, 1, 0], "compliance": 0.01}])");
+  const Equilibrium rest = find_equilibrium(simulation);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  const Vector3 middle = simulation.world.state().bodies[2].position;
+  const double found = std::atan2(middle.y(), middle.x() - 1.0);
+  const auto slope = [](double a) {
+    const double l = std::sqrt(2.0 + 2.0 * std::cos(a));
+    return 20.0 * std::cos(a) - 100.0 * (l - std::sqrt(2.0)) * std::sin(a) / l;
+  };
+  // From upright to where it lies on the side that stretches the spring.
+  double low = found - 1e-3;
+  double high = found + 1e-3;
+  ASSERT_LT(slope(low) * slope(high), 0.0);
+  for (int i = 0; i < 60; ++i) {
+    const double half = 0.5 * (low + high);
+    (slope(low) * slope(half) <= 0.0 ? high : low) = half;
+  }
+  EXPECT_NEAR(found, low, 1e-10);
 }
 
 TEST(Equilibrium, AgreesWithMotionThatDampingHasSettled) {
