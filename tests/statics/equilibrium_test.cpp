@@ -194,9 +194,9 @@ TEST(Equilibrium, FourPartsOfAGrommet) {
 }
 
 /// The four-bar linkage of the IFToMM library of benchmarks, as a parallelogram of rods of 1 m whose
-/// spring along the diagonal is relaxed at sqrt 2 m: rods of m = 1 kg, k = 100 N/m. With the angle a of
+/// spring along the diagonal is relaxed at 1.2 m: rods of m = 1 kg, k = 100 N/m. With the angle a of
 /// the cranks from the horizontal the energy is 2 m g sin a (two cranks, and the coupler on top) and
-/// k (l - sqrt 2)^2 / 2 with l^2 = 2 + 2 cos a; the derivative's zero is found by bisection.
+/// k (l - 1.2 m)^2 / 2 with l^2 = 2 + 2 cos a; the derivative's zero is found by bisection.
 TEST(Equilibrium, FourBarLinkageWithADiagonalSpring) {
   Simulation simulation = simulation_of(R"("bodies": [
     {"name": "left", "mobility": "planar", "axis": [0, 0, 1], "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": [0, 0.5, 0]},
@@ -207,16 +207,15 @@ TEST(Equilibrium, FourBarLinkageWithADiagonalSpring) {
     {"type": "hinge", "name": "b", "body_a": "left", "body_b": "coupler", "anchor": [0, 1, 0], "axis": [0, 0, 1]},
     {"type": "hinge", "name": "c", "body_a": "coupler", "body_b": "right", "anchor": [1, 1, 0], "axis": [0, 0, 1]},
     {"type": "hinge", "name": "d", "body_b": "right", "anchor": [1, 0, 0], "axis": [0, 0, 1]},
-    {"type": "distance", "name": "spring", "body_b": "right", "anchor_a": [0, 0, 0], "anchor_b": [1, 1, 0], "compliance": 0.01}])");
+    {"type": "distance", "name": "spring", "body_b": "right", "anchor_a": [0, 0, 0], "anchor_b": [1, 1, 0], "length": 1.2, "compliance": 0.01}])");
   const Equilibrium rest = find_equilibrium(simulation);
   ASSERT_TRUE(rest.converged) << rest.message;
   const Vector3 middle = simulation.world.state().bodies[2].position;
   const double found = std::atan2(middle.y(), middle.x() - 1.0);
   const auto slope = [](double a) {
     const double l = std::sqrt(2.0 + 2.0 * std::cos(a));
-    return 20.0 * std::cos(a) - 100.0 * (l - std::sqrt(2.0)) * std::sin(a) / l;
+    return 20.0 * std::cos(a) - 100.0 * (l - 1.2) * std::sin(a) / l;
   };
-  // From upright to where it lies on the side that stretches the spring.
   double low = found - 1e-3;
   double high = found + 1e-3;
   ASSERT_LT(slope(low) * slope(high), 0.0);
