@@ -142,6 +142,11 @@ ConfigurationRows Configuration::rows() {
   ConfigurationRows result;
   result.loads = loads();
   std::vector<int> unknown_of(rows_.size(), -1);
+  const auto features = simulation_.world.features();
+  unknown_at_.resize(features.size());
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    unknown_at_[f].assign(features[f]->multipliers().size(), -1);
+  }
   const double per_force = substep_.h * substep_.h;
   for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
     for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
@@ -149,7 +154,6 @@ ConfigurationRows Configuration::rows() {
       if (!row.tied) {
         ForceUnknown unknown;
         unknown.feature = f;
-        unknown.first_row = i;
         unknown.lower = row.lower / per_force;
         unknown.upper = row.upper / per_force;
         unknown.friction = row.friction;
@@ -162,7 +166,8 @@ ConfigurationRows Configuration::rows() {
       }
       unknown_of[at(i)] = static_cast<int>(result.unknowns.size()) - 1;
       ForceUnknown& unknown = result.unknowns.back();
-      ++unknown.row_count;
+      unknown.parts.push_back({row.index, row.weight});
+      unknown_at_[f][at(row.index)] = unknown_of[at(i)];
       unknown.value += row.value;
       unknown.compliance += row.weight * row.compliance;
       // As in RowSystem::damping_share(), over the compliance.
@@ -201,12 +206,12 @@ void Configuration::forces_at(const VectorX& unknowns, VectorX& sum, VectorX& yi
   sum = loads();
   yields = VectorX::Zero(unknowns.size());
   std::array<double, 6> parts{};
-  Eigen::Index unknown = -1;
   for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
     for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
       const Row& row = rows_[at(i)];
-      if (!row.tied) ++unknown;
-      if (unknown >= unknowns.size() || unknowns[unknown] == 0.0) continue;
+      // Rows that were none at the pose of rows() have no force.
+      const Eigen::Index unknown = unknown_at_[f][at(row.index)];
+      if (unknown < 0 || unknowns[unknown] == 0.0) continue;
       const double force = row.weight * unknowns[unknown];
       if (!is_damper(f, row)) yields[unknown] += row.compliance * force;
       for (const RowTerm& term : row.active_terms()) {
@@ -228,16 +233,16 @@ RowForces Configuration::no_forces() const {
   return forces;
 }
 
-VectorX Configuration::unknowns_of(const ConfigurationRows& rows, const RowForces& forces) const {
+VectorX Configuration::unknowns_of(const ConfigurationRows& rows, const RowForces& forces) {
   VectorX unknowns = VectorX::Zero(static_cast<Eigen::Index>(rows.unknowns.size()));
   for (std::size_t g = 0; g < rows.unknowns.size(); ++g) {
     const ForceUnknown& unknown = rows.unknowns[g];
     double heaviest = 0.0;
-    for (int i = unknown.first_row; i < unknown.first_row + unknown.row_count; ++i) {
-      const Row& row = rows_[at(i)];
-      if (row.weight <= heaviest || at(row.index) >= forces[unknown.feature].size()) continue;
-      heaviest = row.weight;
-      unknowns[static_cast<Eigen::Index>(g)] = forces[unknown.feature][at(row.index)] / row.weight;
+    for (const ForceUnknown::Part& part : unknown.parts) {
+      if (part.weight <= heaviest || at(part.index) >= forces[unknown.feature].size()) continue;
+      heaviest = part.weight;
+      unknowns[static_cast<Eigen::Index>(g)] =
+          forces[unknown.feature][at(part.index)] / part.weight;
     }
   }
   return unknowns;
@@ -247,9 +252,9 @@ RowForces Configuration::forces_of(const ConfigurationRows& rows, const VectorX&
   RowForces forces = no_forces();
   for (std::size_t g = 0; g < rows.unknowns.size(); ++g) {
     const ForceUnknown& unknown = rows.unknowns[g];
-    for (int i = unknown.first_row; i < unknown.first_row + unknown.row_count; ++i) {
-      forces[unknown.feature][at(rows_[at(i)].index)] =
-          rows_[at(i)].weight * unknowns[static_cast<Eigen::Index>(g)];
+    for (const ForceUnknown::Part& part : unknown.parts) {
+      forces[unknown.feature][at(part.index)] =
+          part.weight * unknowns[static_cast<Eigen::Index>(g)];
     }
   }
   return forces;

@@ -29,9 +29,13 @@ using RowForces = std::vector<std::vector<double>>;
 
 /// One unknown: a row, or several that share a tension.
 struct ForceUnknown {
+  /// One of the rows that share it.
+  struct Part {
+    int index = 0;        ///< of its multiplier among those of the feature
+    double weight = 1.0;  ///< its force is this times the unknown
+  };
   std::size_t feature = 0;
-  int first_row = 0;  ///< in the list of rows
-  int row_count = 0;
+  std::vector<Part> parts;
   double value = 0.0;       ///< C [m or rad]
   double compliance = 0.0;  ///< A [m/N or rad/(N m)]
   double damping = 0.0;     ///< force per rate of C [N s/m or N m s/rad]
@@ -73,7 +77,7 @@ class Configuration {
   /// `yields`.
   void forces_at(const VectorX& unknowns, VectorX& sum, VectorX& yields);
   /// The unknowns that row forces stand for, and back.
-  [[nodiscard]] VectorX unknowns_of(const ConfigurationRows& rows, const RowForces& forces) const;
+  [[nodiscard]] static VectorX unknowns_of(const ConfigurationRows& rows, const RowForces& forces);
   [[nodiscard]] RowForces forces_of(const ConfigurationRows& rows, const VectorX& unknowns) const;
   /// No forces.
   [[nodiscard]] RowForces no_forces() const;
@@ -115,6 +119,7 @@ class Configuration {
   Substep substep_;
   RowList rows_;
   std::vector<int> feature_rows_;
+  std::vector<std::vector<int>> unknown_at_;  ///< of rows(): per feature and multiplier; -1: none
   std::vector<std::vector<double>> doubled_;  ///< compliances in a substep twice as long
 };
 

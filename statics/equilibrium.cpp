@@ -92,21 +92,20 @@ class EquilibriumSearch {
     mass_ = configuration.mass();
     NewtonStep step;
     for (int i = 0; i < most_revisions; ++i) {
-      const VectorX before = configuration.unknowns_of(rows, forces_);
+      const VectorX before = Configuration::unknowns_of(rows, forces_);
       const ForceTurn turn = turn_of_forces(configuration, before);
       step = limited_step(configuration, rows, turn, before);
       if (!step.finite) return false;
       line_search(configuration, rows, turn, before, step);
       configuration.place(step.motion);
-      if (!configuration.revise(configuration.forces_of(rows, step.unknowns))) break;
+      const bool changed = configuration.revise(configuration.forces_of(rows, step.unknowns));
+      if (!changed || i + 1 == most_revisions) break;
       configuration.place(VectorX::Zero(configuration.freedoms()));
       rows = configuration.rows();
     }
     const Configuration::Reach reach = configuration.reach(step.motion);
     step_ = std::max({reach.translation / size_, reach.turn, reach.spin});
     forces_ = configuration.forces_of(rows, step.unknowns);
-    residual_ = residual_of(rows, step.unknowns, step.acts);
-    // Rows of where it has come to: for the next step these are found anew.
     configuration.place(step.motion);
     const ConfigurationRows there = configuration.rows();
     residual_ = residual_of(there, step.unknowns, step.acts);
@@ -264,7 +263,7 @@ class EquilibriumSearch {
     Configuration configuration(simulation_, state_, load_);
     const ConfigurationRows rows = configuration.rows();
     if (forces_.empty()) forces_ = configuration.no_forces();
-    const VectorX unknowns = configuration.unknowns_of(rows, forces_);
+    const VectorX unknowns = Configuration::unknowns_of(rows, forces_);
     std::vector<char> acts(rows.unknowns.size(), 0);
     for (std::size_t g = 0; g < acts.size(); ++g) {
       const ForceUnknown& unknown = rows.unknowns[g];

@@ -106,7 +106,8 @@ std::string verdict(const StaticsResult& result) {
   text += "\n";
   if (rest.friction_holds || result.cable_friction) {
     text +=
-        "friction acts: what it bears is open within its bounds; this is what the way from the "
+        "dry friction, or a drive with a limit, acts: what it bears is open within its bounds; "
+        "this is what the way from the "
         "scene's pose has left\n";
   }
   if (!rest.slack_spans.empty()) {
