@@ -1,10 +1,11 @@
 #pragma once
 // What a run does to its ropes: bends over sheaves, cycles of tension, slack, travel on drums.
 //
-// A cable is divided into sections of equal unstretched lengths, which move along it as it runs: the
-// place of a section's middle follows from what is stored on links and what lies between them,
+// A cable is divided into sections of equal unstretched lengths, which move along it as it runs:
+// the place of a section's middle follows from what is stored on links and what lies between them,
 // counted from the cable's first end. One that comes onto a wheel, or passes over it between two
-// steps, is bent there once. It says what has happened and claims no life of a rope by any standard.
+// steps, is bent there once. It says what has happened and claims no life of a rope by any
+// standard.
 
 #include <string>
 #include <vector>

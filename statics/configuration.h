@@ -83,7 +83,8 @@ class Configuration {
   [[nodiscard]] RowForces no_forces() const;
   /// Lets features choose what rows do not tell, with these forces; whether anything has changed.
   bool revise(const RowForces& forces);
-  /// What the rows of all features but `except` do to bodies, and to the world, which comes last [N].
+  /// What the rows of all features but `except` do to bodies, and to the world, which comes last
+  /// [N].
   [[nodiscard]] std::vector<Vector3> forces_on_bodies(const RowForces& forces, std::size_t except);
   /// The state of this pose with these forces, at rest.
   [[nodiscard]] State finish(const RowForces& forces);

@@ -60,8 +60,8 @@ struct Equilibrium {
   std::vector<std::vector<double>> forces;
 };
 
-/// Moves the simulation to an equilibrium near the pose that it has, with its drives held where they
-/// are and its time as it is. Where it is not found the simulation is where the search ended.
+/// Moves the simulation to an equilibrium near the pose that it has, with its drives held where
+/// they are and its time as it is. Where it is not found the simulation is where the search ended.
 [[nodiscard]] Equilibrium find_equilibrium(Simulation& simulation,
                                            const EquilibriumSettings& settings = {});
 

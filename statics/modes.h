@@ -31,8 +31,8 @@ struct Mode {
   double body_share = 0.0;  ///< that part, 0 ... 1
 };
 
-/// A force along a world axis through a body's centre of mass, a torque about one, or the speed of a
-/// driven rotor.
+/// A force along a world axis through a body's centre of mass, a torque about one, or the speed of
+/// a driven rotor.
 struct ModeInput {
   enum class Kind { force, torque, drive };
   Kind kind = Kind::force;
@@ -73,8 +73,8 @@ struct Modes {
 [[nodiscard]] State displaced_state(Simulation& simulation, const Modes& modes,
                                     const Eigen::VectorXd& shape, double amplitude);
 
-/// What linear outputs are made of: the state with displacements q = Z z, velocities Z z', and forces
-/// as they are then.
+/// What linear outputs are made of: the state with displacements q = Z z, velocities Z z', and
+/// forces as they are then.
 [[nodiscard]] State perturbed_state(Simulation& simulation, const Modes& modes,
                                     const Eigen::VectorXd& displacement,
                                     const Eigen::VectorXd& velocity);

@@ -15,7 +15,7 @@ constexpr double rank_rounding = 1e-10;
 
 /// The shortest step that rounding leaves exact enough, as a share of the scene's size and in
 /// radians.
-constexpr double step = 1e-4;
+constexpr double difference_step = 1e-4;
 
 }  // namespace
 
@@ -25,7 +25,8 @@ ForceTurn turn_of_forces(Configuration& configuration, const VectorX& unknowns) 
   turn.forces = MatrixX::Zero(n, n);
   turn.yields = MatrixX::Zero(unknowns.size(), n);
   VectorX displacement = VectorX::Zero(n);
-  constexpr std::array steps{step, -step, 2.0 * step, -2.0 * step};
+  constexpr std::array steps{difference_step, -difference_step, 2.0 * difference_step,
+                             -2.0 * difference_step};
   std::array<VectorX, 4> sums;
   std::array<VectorX, 4> yields;
   double largest = 0.0;
@@ -37,10 +38,11 @@ ForceTurn turn_of_forces(Configuration& configuration, const VectorX& unknowns) 
       configuration.forces_at(unknowns, sums[i], yields[i]);
     }
     displacement[k] = 0.0;
-    const VectorX near = (sums[0] - sums[1]) / (2.0 * step);
-    const VectorX far = (sums[2] - sums[3]) / (4.0 * step);
+    const VectorX near = (sums[0] - sums[1]) / (2.0 * difference_step);
+    const VectorX far = (sums[2] - sums[3]) / (4.0 * difference_step);
     turn.forces.col(k) = (4.0 * near - far) / 3.0;
-    turn.yields.col(k) = (8.0 * (yields[0] - yields[1]) - (yields[2] - yields[3])) / (12.0 * step);
+    turn.yields.col(k) =
+        (8.0 * (yields[0] - yields[1]) - (yields[2] - yields[3])) / (12.0 * difference_step);
     largest = std::max(largest, turn.forces.col(k).cwiseAbs().maxCoeff());
     off = std::max(off, (far - near).cwiseAbs().maxCoeff() / 3.0);
   }

@@ -1,7 +1,8 @@
 #pragma once
 // A configuration linearised: M q'' + D q' + K q = 0 on the motions that rigid rows leave.
 //
-// With the unknowns l of a configuration at rest (statics/configuration.h), of small displacements q
+// With the unknowns l of a configuration at rest (statics/configuration.h), of small displacements
+// q
 //
 //   K = -d(loads + P^T l)/dq  (l fixed: how forces turn, "geometric stiffness")
 //       + P^T A^-1 d(C + A l)/dq  over elastic rows that act
@@ -9,8 +10,8 @@
 // and rigid rows that act allow q = Z z with J Z = 0; there l does what it must, and drops out of
 // Z^T (...) Z. The first part is a central difference of forces with two steps, e and 2 e, whose
 // errors of the second order cancel: d = (8 (f(e) - f(-e)) - (f(2e) - f(-2e))) / 12 e. What one and
-// the other alone say differs by the error of the worse one, which is a bound of that of both and is
-// kept (`difference_error`). The other part has the rows' own gradients.
+// the other alone say differs by the error of the worse one, which is a bound of that of both and
+// is kept (`difference_error`). The other part has the rows' own gradients.
 
 #include "statics/configuration.h"
 

@@ -18,9 +18,9 @@
 namespace sheave::tools {
 namespace {
 
-constexpr int frames = 120;
-constexpr double rate = 30.0;  // [1/s]
-constexpr int periods = 2;
+constexpr int film_frames = 120;
+constexpr double film_rate = 30.0;  // [1/s]
+constexpr int film_periods = 2;
 
 /// What the shape is multiplied by so that nothing moves farther than `amplitude` of the scene.
 double scale_of(const Simulation& simulation, const Mode& mode, double amplitude) {
@@ -95,7 +95,7 @@ void animate_mode(const Scene& scene, Simulation& simulation, const Modes& modes
   PictureOptions options;
   options.video = video.path;
   options.still = video.still;
-  options.fps = rate;
+  options.fps = film_rate;
   const std::vector<CableReport> cables = simulation.cable_reports();
   render::ViewBuilder builder(simulation.world, cables, view);
   const render::DrawList typical = builder.build(simulation.world, cables);
@@ -113,7 +113,8 @@ void animate_mode(const Scene& scene, Simulation& simulation, const Modes& modes
     leave();
   };
   if (!video.path.empty()) {
-    for (int i = 0; i < frames; ++i) draw(std::sin(2.0 * pi * periods * i / frames), false);
+    for (int i = 0; i < film_frames; ++i)
+      draw(std::sin(2.0 * pi * film_periods * i / film_frames), false);
   }
   if (!video.still.empty()) draw(1.0, true);
   outputs.finish();

@@ -15,6 +15,13 @@ struct RopeHistoryOptions {
   std::optional<double> diameter;  ///< of the ropes, for D/d [m]
 };
 
+/// What is to watch the run; nothing if no history is kept.
+[[nodiscard]] inline std::optional<measure::RopeHistory> watch_ropes(
+    const RopeHistoryOptions& options) {
+  if (options.path.empty()) return {};
+  return measure::RopeHistory(options.sections);
+}
+
 /// Writes the file in one piece; a Failure (74) if it cannot be written.
 void write_rope_history(const RopeHistoryOptions& options, const measure::RopeHistory& history);
 

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -200,8 +201,7 @@ ExitCode run(const RunOptions& options) {
   catch_interrupts();
   RunFiles files(options.record, options.save_state, has_other_output(options), simulation);
   RunMonitor monitor(last_step - simulation.world.state().steps);
-  std::optional<measure::RopeHistory> ropes;
-  if (!options.ropes.path.empty()) ropes.emplace(options.ropes.sections);
+  std::optional<measure::RopeHistory> ropes = watch_ropes(options.ropes);
   std::optional<CheckRecorder> checks;
   if (options.check) checks.emplace(scene, simulation);
 
@@ -226,9 +226,8 @@ ExitCode run(const RunOptions& options) {
 
   files.finish(simulation.world.state(), outcome.status);
   if (ropes) files.faults().attempt([&] { write_rope_history(options.ropes, *ropes); });
-  for (Warning& warning : collect_warnings(scene, simulation, outcome.statistics, monitor)) {
-    warnings.push_back(std::move(warning));
-  }
+  std::ranges::move(collect_warnings(scene, simulation, outcome.statistics, monitor),
+                    std::back_inserter(warnings));
   std::vector<JointReport> joints = joint_reports(simulation.world);
   std::vector<RunEvent> events = collect_events(simulation, joints);
   const RunSummary summary{options.scene.path,

@@ -16,7 +16,7 @@
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/scene.h"
 
-namespace sheave {
+namespace sheave::efficiency {
 namespace {
 
 constexpr double gravity = 9.81;
@@ -132,4 +132,4 @@ TEST(Efficiency, NeedsAWheelWithoutInertia) {
 }
 
 }  // namespace
-}  // namespace sheave
+}  // namespace sheave::efficiency

@@ -15,7 +15,7 @@ namespace {
 using testing::simulation_of;
 
 /// Differences of forces with two steps leave some 1e-10 of turning forces, and nothing of springs.
-constexpr double exact = 1e-6;
+constexpr double near = 1e-6;
 
 std::vector<double> squares(const Modes& modes) {
   std::vector<double> result;
@@ -33,10 +33,10 @@ TEST(Modes, PhysicalPendulum) {
   ASSERT_EQ(modes.modes.size(), 1U);
   const double inertia = 1.0016 / 12.0 + 0.25;
   const double square = 10.0 * 0.5 / inertia;
-  EXPECT_NEAR(modes.modes[0].eigenvalue, square, exact * square);
-  EXPECT_NEAR(modes.modes[0].damping_ratio, 0.2 / inertia / (2.0 * std::sqrt(square)), exact);
+  EXPECT_NEAR(modes.modes[0].eigenvalue, square, near * square);
+  EXPECT_NEAR(modes.modes[0].damping_ratio, 0.2 / inertia / (2.0 * std::sqrt(square)), near);
   ASSERT_EQ(modes.poles.size(), 2U);
-  EXPECT_NEAR(modes.poles[0].real(), -0.1 / inertia, exact);
+  EXPECT_NEAR(modes.poles[0].real(), -0.1 / inertia, near);
   EXPECT_LT(modes.imbalance, 1e-12);
 }
 
@@ -52,8 +52,8 @@ TEST(Modes, DoublePendulum) {
   ASSERT_TRUE(rest.converged) << rest.message;
   const std::vector<double> found = squares(find_modes(simulation));
   ASSERT_EQ(found.size(), 4U);
-  EXPECT_NEAR(found[2], 10.0 * (2.0 - std::sqrt(2.0)), 10.0 * exact);
-  EXPECT_NEAR(found[3], 10.0 * (2.0 + std::sqrt(2.0)), 40.0 * exact);
+  EXPECT_NEAR(found[2], 10.0 * (2.0 - std::sqrt(2.0)), 10.0 * near);
+  EXPECT_NEAR(found[3], 10.0 * (2.0 + std::sqrt(2.0)), 40.0 * near);
 }
 
 TEST(Modes, BeadsOnAString) {
@@ -88,7 +88,7 @@ TEST(Modes, BeadsOnAString) {
   for (int j = 1; j <= n; ++j) {
     const double sine = std::sin(j * pi / (2.0 * (n + 1)));
     const double square = 4.0 * pull / (0.5 * 1.0) * sine * sine;
-    EXPECT_NEAR(found[static_cast<std::size_t>(j - 1)], square, exact * square) << j;
+    EXPECT_NEAR(found[static_cast<std::size_t>(j - 1)], square, near * square) << j;
   }
 }
 
@@ -106,10 +106,10 @@ TEST(Modes, ElasticAtwood) {
   ASSERT_TRUE(rest.converged) << rest.message;
   const std::vector<double> found = squares(find_modes(simulation));
   ASSERT_EQ(found.size(), 3U);
-  EXPECT_NEAR(found[0], 0.0, 1000.0 * exact);
-  EXPECT_NEAR(found[1], 1000.0 / 2.0, 500.0 * exact);
+  EXPECT_NEAR(found[0], 0.0, 1000.0 * near);
+  EXPECT_NEAR(found[1], 1000.0 / 2.0, 500.0 * near);
   const double square = 1000.0 * (1.0 / 2.0 + 2.0 * 0.25 / 0.2);
-  EXPECT_NEAR(found[2], square, square * exact);
+  EXPECT_NEAR(found[2], square, square * near);
 }
 
 TEST(Modes, Bifilar) {
@@ -126,11 +126,11 @@ TEST(Modes, Bifilar) {
   ASSERT_TRUE(rest.converged) << rest.message;
   const std::vector<double> found = squares(find_modes(simulation));
   ASSERT_EQ(found.size(), 4U);  // and about its own axis nothing holds it
-  EXPECT_NEAR(found[0], 0.0, 10.0 * exact);
-  EXPECT_NEAR(found[1], 5.0, 5.0 * exact);
-  EXPECT_NEAR(found[2], 5.0, 5.0 * exact);
+  EXPECT_NEAR(found[0], 0.0, 10.0 * near);
+  EXPECT_NEAR(found[1], 5.0, 5.0 * near);
+  EXPECT_NEAR(found[2], 5.0, 5.0 * near);
   const double square = 10.0 * 0.25 / (2.0 * (1.44 + 0.01) / 12.0);
-  EXPECT_NEAR(found[3], square, square * exact);
+  EXPECT_NEAR(found[3], square, square * near);
 }
 
 TEST(Modes, TackleWithAStretchingRope) {
@@ -147,7 +147,7 @@ TEST(Modes, TackleWithAStretchingRope) {
   const std::vector<double> found = squares(find_modes(simulation));
   ASSERT_EQ(found.size(), 1U);
   const double square = 16.0 / 0.002 / 8.0;
-  EXPECT_NEAR(found[0], square, square * exact);
+  EXPECT_NEAR(found[0], square, square * near);
 }
 
 TEST(Modes, InputsMoveWhatTheyPushAndDrivesWhatTheyWind) {
@@ -168,10 +168,10 @@ TEST(Modes, InputsMoveWhatTheyPushAndDrivesWhatTheyWind) {
   ASSERT_EQ(modes.modes.size(), 1U);
   ASSERT_EQ(modes.state_matrix.rows(), 3);
   const double per_unit = modes.motions(0, 0);  // of q per z, 1 / sqrt(m)
-  EXPECT_NEAR(per_unit * modes.input_matrix(1, 0), 0.5, exact);
-  EXPECT_NEAR(std::abs(per_unit * modes.state_matrix(1, 2)), 500.0 * 0.2 / 2.0, 50.0 * exact);
+  EXPECT_NEAR(per_unit * modes.input_matrix(1, 0), 0.5, near);
+  EXPECT_NEAR(std::abs(per_unit * modes.state_matrix(1, 2)), 500.0 * 0.2 / 2.0, 50.0 * near);
   EXPECT_EQ(modes.input_matrix(2, 1), 1.0);
-  EXPECT_NEAR(modes.state_matrix(1, 0), -250.0, 250.0 * exact);
+  EXPECT_NEAR(modes.state_matrix(1, 0), -250.0, 250.0 * near);
 }
 
 }  // namespace
