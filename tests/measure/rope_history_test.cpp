@@ -56,7 +56,9 @@ TEST(RopeHistory, CountsWhatPassesOverAWheel) {
       {"type": "rolling", "body": "wheel", "winding": "clockwise"}, {"type": "attachment", "body": "load"}]}]})";
   const SceneResult scene = load_scene_text(text, "test");
   ASSERT_TRUE(scene) << to_string(scene.errors[0]);
-  Simulation simulation = std::move(*create_simulation(*scene));
+  Result<Simulation> made = create_simulation(*scene);
+  ASSERT_TRUE(made);
+  Simulation& simulation = *made;
   RopeHistory history(200);
   history.observe(simulation);
   const CableReport before = simulation.cable_reports()[0];

@@ -53,7 +53,8 @@ Simulation tackle(int parts, double efficiency, double load, double effort) {
       bodies, links);
   const SceneResult scene = load_scene_text(text, "test");
   for (const SceneError& error : scene.errors) ADD_FAILURE() << to_string(error);
-  return std::move(*create_simulation(*scene));
+  Result<Simulation> made = create_simulation(*scene);
+  return std::move(made).value();
 }
 
 double acceleration(Simulation& simulation) {
