@@ -80,6 +80,13 @@ void CableCompiler::check_massless(const LinkGeometry& link, bool end, const std
     fail(field + "/body", "nothing can be fixed to \"" + bodies_.name(link.body) +
                               "\", which has no spin inertia: it would turn without resistance");
   }
+  if (link.loss_exponent > 0.0 && (end || !link.massless)) {
+    fail(field + "/efficiency",
+         end ? "at the end of a cable nothing passes; leave efficiency out"
+             : "\"" + bodies_.name(link.body) +
+                   "\" has spin inertia; only a rotor whose \"spin_inertia\" is 0 has an "
+                   "efficiency (one that has inertia may have joint friction, or \"friction\")");
+  }
   if (!link.massless) return;
   const std::string& wheel = bodies_.name(link.body);
   if (end) fail(field, "a cable cannot end on \"" + wheel + "\", which has no spin inertia");

@@ -79,6 +79,7 @@ double CableSystem::friction_exponent(const Substep& substep, int link,
                                       const SpanGeometry& incoming,
                                       const SpanGeometry& outgoing) const {
   const LinkGeometry& geometry = links_[at(link)];
+  if (geometry.loss_exponent > 0.0) return geometry.loss_exponent;
   return geometry.friction *
          wrap_angle(substep, geometry, incoming, outgoing, stored_arcs_[at(link)]);
 }

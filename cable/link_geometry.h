@@ -40,6 +40,9 @@ struct LinkGeometry {
   bool slides = false;
   /// Capstan coefficient of a link over which the cable can slide; NaN: it cannot.
   double friction = std::numeric_limits<double>::quiet_NaN();
+  /// Of a massless wheel that takes a part of the tension whichever way it turns: -ln of its
+  /// efficiency, the exponent of its capstan whatever the wrap angle; 0: it takes none.
+  double loss_exponent = 0.0;
   /// The link's rotor has no inertia, so the tension is the same on both sides and the cable's
   /// motion turns it.
   bool massless = false;
@@ -68,7 +71,9 @@ struct LinkGeometry {
   /// Whether cable can pass from the span before the link to the one after it other than by
   /// rolling.
   [[nodiscard]] bool passes() const { return massless || !std::isnan(friction); }
-  [[nodiscard]] bool frictionless() const { return massless || friction == 0.0; }
+  [[nodiscard]] bool frictionless() const {
+    return loss_exponent == 0.0 && (massless || friction == 0.0);
+  }
   /// Length of cable once round the link [m]; 0 for a point.
   [[nodiscard]] double perimeter() const {
     return outline ? outline->curve.perimeter() : 2.0 * pi * std::abs(signed_radius);

@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sheave")
 set(installed)
-foreach(folder IN ITEMS engine cable scenes live measure)
+foreach(folder IN ITEMS engine cable scenes live measure statics)
   if(TARGET sheave_${folder})
     list(APPEND installed sheave_${folder})
   endif()
@@ -18,6 +18,8 @@ set(SHEAVE_PUBLIC_HEADERS
     scenes/validate.h
     live/session.h
     measure/error_estimate.h
+    statics/equilibrium.h
+    statics/modes.h
     measure/reference_run.h
     measure/run_error.h
     measure/timing.h)

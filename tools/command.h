@@ -41,6 +41,8 @@ struct CommandLine {
 Action declare_run(CLI::App& app);
 Action declare_live(CLI::App& app);
 Action declare_render(CLI::App& app);
+Action declare_statics(CLI::App& app);
+Action declare_modes(CLI::App& app);
 Action declare_validate(CLI::App& app);
 Action declare_schema(CLI::App& app);
 Action declare_reference(CLI::App& app);

@@ -23,6 +23,8 @@ std::span<const Command> commands() {
       {"sweep", "Run a scene with many values of its settings; tables, charts", declare_sweep},
       {"merge", "Put the shards of a sweep together", declare_merge},
       {"plot", "Draw quantities of runs over time, or over one another", declare_plot},
+      {"statics", "Find where a scene rests, with its forces and whether it is stable", declare_statics},
+      {"modes", "Natural frequencies, damping and mode shapes about a rest", declare_modes},
       {"validate", "Check scenes without running them", declare_validate},
       {"generate", "Write a scene of a given kind and size", declare_generate},
       {"schema", "Print the JSON Schema of scenes", declare_schema},

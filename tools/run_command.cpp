@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -20,6 +22,7 @@
 #include "tools/output_paths.h"
 #include "tools/player.h"
 #include "tools/plot_data.h"
+#include "tools/rope_history_file.h"
 #include "tools/run_files.h"
 #include "tools/run_summary.h"
 #include "tools/scene_options.h"
@@ -44,6 +47,7 @@ struct RunOptions {
   bool strict = false;
   PlotChoice plot;
   std::string plot_file = "plot.png";
+  RopeHistoryOptions ropes;
 };
 
 std::vector<Warning> early_warnings(const RunOptions& options, const Scene& scene,
@@ -172,6 +176,7 @@ void check_run_paths(const RunOptions& options) {
     check_chart_name(options.plot_file);
     outputs.push_back({"--plot-file", options.plot_file});
   }
+  outputs.push_back({"--rope-history", options.ropes.path});
   check_paths({{"the scene", options.scene.path}, {"--load-state", options.load_state}}, outputs,
               options.json || is_summarised(options));
 }
@@ -206,6 +211,7 @@ ExitCode run(const RunOptions& options) {
   catch_interrupts();
   RunFiles files(options.record, options.save_state, has_other_output(options), simulation);
   RunMonitor monitor(last_step - simulation.world.state().steps);
+  std::optional<measure::RopeHistory> ropes = watch_ropes(options.ropes);
   std::optional<CheckRecorder> checks;
   if (options.check) checks.emplace(scene, simulation);
   std::optional<PlotRecorder> plot;
@@ -219,6 +225,7 @@ ExitCode run(const RunOptions& options) {
     const bool wanted = files.observe(simulation, progress);
     if (checks) checks->record(simulation);
     if (plot) plot->observe(simulation);
+    if (ropes) ropes->observe(simulation);
     const bool stepped = simulation.world.state().steps > first_step;
     const auto ends = [&] { return interrupted() || (time_is_over && time_is_over()); };
     if (estimator && stepped) estimator->observe(simulation, ends);
@@ -231,9 +238,9 @@ ExitCode run(const RunOptions& options) {
   monitor.finish(simulation, measure::is_conservative(scene));
 
   files.finish(simulation.world.state(), outcome.status);
-  for (Warning& warning : collect_warnings(scene, simulation, outcome.statistics, monitor)) {
-    warnings.push_back(std::move(warning));
-  }
+  if (ropes) files.faults().attempt([&] { write_rope_history(options.ropes, *ropes); });
+  std::ranges::move(collect_warnings(scene, simulation, outcome.statistics, monitor),
+                    std::back_inserter(warnings));
   std::vector<JointReport> joints = joint_reports(simulation.world);
   std::vector<RunEvent> events = collect_events(simulation, joints);
   const RunSummary summary{options.scene.path,
@@ -300,6 +307,24 @@ void add_output_options(CLI::App& app, RunOptions& options) {
                "print nothing but data asked for, warnings and errors");
 }
 
+void add_rope_options(CLI::App& app, RunOptions& options) {
+  CLI::Option* file =
+      app.add_option("--rope-history", options.ropes.path,
+                     "write what the run does to its ropes as JSON: bends over each sheave and "
+                     "cycles of tension per section, slack, travel on drums");
+  file->option_text("FILE");
+  app.add_option("--rope-sections", options.ropes.sections,
+                 "into how many sections it divides each cable; default 100")
+      ->check(CLI::Range(1, 10000))
+      ->option_text("N")
+      ->needs(file);
+  app.add_option("--rope-diameter", options.ropes.diameter,
+                 "of the ropes [m], for the ratio D/d of sheave and rope")
+      ->check(number_between(1e-9, 1e3))
+      ->option_text("D")
+      ->needs(file);
+}
+
 void add_state_options(CLI::App& app, RunOptions& options) {
   app.add_option("--steps", options.steps, "stop after so many steps instead of at the duration")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 53))
@@ -323,6 +348,7 @@ Action declare_run(CLI::App& app) {
   auto options = std::make_shared<RunOptions>();
   add_scene_options(app, options->scene);
   add_output_options(app, *options);
+  add_rope_options(app, *options);
   add_state_options(app, *options);
   app.footer(R"(Examples:
   sheave run scenes/paper/simple.json

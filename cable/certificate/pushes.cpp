@@ -120,6 +120,13 @@ double angle_at(const SpanEvidence& in, const SpanEvidence& out, const LinkRepor
   return std::max(0.0, angle + 2.0 * pi * std::round((link.wrap_angle - angle) / (2.0 * pi)));
 }
 
+/// Of a listed wheel; 1 of all else.
+double efficiency_of(const CableEvidence& cable, int link) {
+  if (link < 0) return 1.0;
+  const auto* rolling = dynamic_cast<const RollingLink*>(cable.definition->links[at(link)].get());
+  return rolling != nullptr ? rolling->efficiency.value_or(1.0) : 1.0;
+}
+
 }  // namespace
 
 void describe_pass(const Evidence& evidence, const CableEvidence& cable, const LinkReport& first,
@@ -147,6 +154,12 @@ void describe_pass(const Evidence& evidence, const CableEvidence& cable, const L
       pass.link < 0 ? nullptr : evidence.start.controls.links.find(cable.first_link + pass.link);
   if (set != nullptr && !std::isnan(set->friction)) pass.friction = set->friction;
   if (pass.massless) pass.friction = 0.0;
+  const double efficiency = pass.massless ? efficiency_of(cable, pass.link) : 1.0;
+  if (efficiency < 1.0) {
+    pass.friction = -std::log(efficiency);
+    pass.wrap_angle = {1.0, 1.0};
+    return;
+  }
   const SpanEvidence& in = cable.spans[at(pass.before)];
   const SpanEvidence& out = cable.spans[at(pass.after)];
   pass.wrap_angle = {angle_at(in, out, first, first_end), angle_at(in, out, second, last_end)};

@@ -1,5 +1,7 @@
 #include "cable/links/rolling.h"
 
+#include <cmath>
+
 #include "cable/link_geometry.h"
 #include "engine/body_set.h"
 
@@ -17,6 +19,11 @@ std::span<const Field> RollingLink::field_table() {
               "friction", "", at_least(0.0), optional,
               "capstan coefficient: the cable slips when the ratio of the "
               "tensions passes e^(friction x wrap angle); default: no slip"),
+          field<&RollingLink::efficiency>(
+              "efficiency", "", {.minimum = 0.0, .maximum = 1.0, .minimum_allowed = false},
+              optional,
+              "of a wheel without spin inertia: tension out over tension in, in the direction "
+              "in which the cable moves; default: 1"),
           field<&RollingLink::lifted>(
               "lifted", "", {}, optional,
               "whether the cable passes the wheel by at time 0; it is wound on "
@@ -37,6 +44,7 @@ Result<LinkGeometry> RollingLink::compile(const BodySet& bodies, const std::stri
   link->extra_turns = turns;
   link->starts_lifted = lifted;
   link->friction = friction.value_or(std::numeric_limits<double>::quiet_NaN());
+  if (efficiency) link->loss_exponent = -std::log(*efficiency);
   return link;
 }
 

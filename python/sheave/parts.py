@@ -1562,6 +1562,8 @@ class RollingLink(Link):
         elsewhere it follows from the tangents (a number >= 0 [m])
     friction: capstan coefficient: the cable slips when the ratio of the tensions passes e^(friction
         x wrap angle); default: no slip (a number >= 0)
+    efficiency: of a wheel without spin inertia: tension out over tension in, in the direction in
+        which the cable moves; default: 1 (a number > 0 and <= 1)
     lifted: whether the cable passes the wheel by at time 0; it is wound on when it comes to touch
         it (true or false; default: false)
     turns: whole turns in addition to the arc between the tangents (an integer 0 ... 1000; default:
@@ -1571,7 +1573,7 @@ class RollingLink(Link):
     _kind = "link"
     _type = "rolling"
     _keys = keys(
-        "body winding center normal radius stored_length friction lifted turns "
+        "body winding center normal radius stored_length friction efficiency lifted turns "
     )
 
     body: BodyLike
@@ -1581,6 +1583,7 @@ class RollingLink(Link):
     radius: Optional[float]
     stored_length: Optional[float]
     friction: Optional[float]
+    efficiency: Optional[float]
     lifted: Optional[bool]
     turns: Optional[int]
 
@@ -1594,6 +1597,7 @@ class RollingLink(Link):
         radius: Optional[float] = None,
         stored_length: Optional[float] = None,
         friction: Optional[float] = None,
+        efficiency: Optional[float] = None,
         lifted: Optional[bool] = None,
         turns: Optional[int] = None,
     ) -> None:

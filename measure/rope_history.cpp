@@ -1,0 +1,175 @@
+#include "measure/rope_history.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/vector.h"
+
+namespace sheave::measure {
+namespace {
+
+/// The cable's way as places in order: links that it touches, and spans, each with where it ends.
+struct Place {
+  int number = 0;    ///< 2 x link, or that + 1 of the span behind it
+  double end = 0.0;  ///< [m]
+  double tension = 0.0;
+  double diameter = 0.0;
+};
+
+std::vector<Place> places_of(const CableReport& report) {
+  std::vector<Place> places;
+  double length = -report.links.front().fed;
+  double before = 0.0;
+  for (std::size_t k = 0; k < report.links.size(); ++k) {
+    const LinkReport& link = report.links[k];
+    const bool has_span = k < report.spans.size();
+    const double after = has_span ? report.spans[k].tension : before;
+    if (!link.touched) continue;
+    const auto number = static_cast<int>(2 * k);
+    length += link.stored_length;
+    places.push_back({number, length,
+                      k == 0     ? after
+                      : has_span ? 0.5 * (before + after)
+                                 : before,
+                      link.winding != 0 ? 2.0 * link.radius : 0.0});
+    if (has_span) {
+      length += report.spans[k].rest_length;
+      places.push_back({number + 1, length, after, 0.0});
+      before = after;
+    }
+  }
+  return places;
+}
+
+void count_bend(std::vector<SectionBends>& bends, int link, double diameter, double tension) {
+  auto found = std::find_if(bends.begin(), bends.end(),
+                            [&](const SectionBends& one) { return one.link == link; });
+  if (found == bends.end()) {
+    bends.push_back({link, 0, 0.0, 0.0, 0.0});
+    found = bends.end() - 1;
+  }
+  ++found->bends;
+  found->diameter = diameter;
+  found->most_tension = std::max(found->most_tension, tension);
+  found->mean_tension += (tension - found->mean_tension) / found->bends;
+}
+
+}  // namespace
+
+void RopeHistory::begin(const std::vector<CableReport>& reports) {
+  for (const CableReport& report : reports) {
+    Cable& cable = cables_.emplace_back();
+    cable.told.cable = std::string(report.name);
+    cable.told.followed = !report.closed && !report.cut;
+    cable.slack_since.assign(report.spans.size(), -1.0);
+    for (const LinkReport& link : report.links) cable.stored.push_back(link.stored_length);
+    if (!cable.told.followed) continue;
+    cable.section_length = report.total_length / sections_;
+    for (int i = 0; i < sections_; ++i) {
+      Section section;
+      section.middle = (i + 0.5) * cable.section_length;
+      cable.sections.push_back(std::move(section));
+    }
+  }
+}
+
+void RopeHistory::observe(const Simulation& simulation) {
+  const std::vector<CableReport> reports = simulation.cable_reports();
+  if (cables_.empty()) begin(reports);
+  const State& state = simulation.world.state();
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    Cable& cable = cables_[i];
+    if (reports[i].cut) cable.told.followed = false;
+    if (cable.told.followed) follow(reports[i], state.steps > 0, cable);
+    if (state.steps > 0) watch_slack(reports[i], state.time, cable);
+    watch_drums(reports[i], cable);
+  }
+}
+
+void RopeHistory::follow(const CableReport& report, bool tensions_known, Cable& cable) {
+  const std::vector<Place> places = places_of(report);
+  for (Section& section : cable.sections) {
+    const auto here = std::find_if(places.begin(), places.end(),
+                                   [&](const Place& p) { return section.middle <= p.end; });
+    const Place& place = here == places.end() ? places.back() : *here;
+    if (section.place >= 0 && place.number != section.place) {
+      const int low = std::min(section.place, place.number);
+      const int high = std::max(section.place, place.number);
+      for (const Place& passed : places) {
+        // What it was on it has left; what lies between it has passed over.
+        const bool between = passed.number > low && passed.number < high;
+        const bool wheel = passed.number % 2 == 0 && passed.diameter > 0.0;
+        if (!wheel || !(between || passed.number == place.number)) continue;
+        count_bend(section.bends, passed.number / 2, passed.diameter, passed.tension);
+      }
+    }
+    section.place = place.number;
+    if (!tensions_known) continue;
+    section.most_tension = std::max(section.most_tension, place.tension);
+    section.tension.add(place.tension);
+  }
+}
+
+void RopeHistory::watch_slack(const CableReport& report, double time, Cable& cable) {
+  for (std::size_t k = 0; k < report.spans.size(); ++k) {
+    const SpanReport& span = report.spans[k];
+    const bool slack = span.tension <= 0.0 && span.length > 0.0;
+    double& since = cable.slack_since[k];
+    if (!slack) {
+      since = -1.0;
+      continue;
+    }
+    if (since < 0.0) since = time;
+    auto& told = cable.told.slack;
+    auto found = std::find_if(told.begin(), told.end(), [&](const SpanSlack& one) {
+      return one.span == static_cast<int>(k);
+    });
+    if (found == told.end()) {
+      told.push_back({static_cast<int>(k), 0.0, 0.0});
+      found = told.end() - 1;
+    }
+    found->longest = std::max(found->longest, time - since);
+    found->deepest = std::max(found->deepest, span.rest_length - span.length);
+  }
+}
+
+void RopeHistory::watch_drums(const CableReport& report, Cable& cable) {
+  for (std::size_t k = 0; k < report.links.size(); ++k) {
+    const LinkReport& link = report.links[k];
+    const double change = std::abs(link.stored_length - cable.stored[k]);
+    cable.stored[k] = link.stored_length;
+    const bool end = k == 0 || k + 1 == report.links.size();
+    if (report.closed || !end || link.winding == 0 || change == 0.0) continue;
+    const auto turns = static_cast<int>(link.wrap_angle / (2.0 * pi));
+    auto& layers = cable.told.layers;
+    auto found = std::find_if(layers.begin(), layers.end(), [&](const LayerTravel& one) {
+      return one.link == static_cast<int>(k) && one.turns == turns;
+    });
+    if (found == layers.end()) {
+      layers.push_back({static_cast<int>(k), turns, 0.0});
+      found = layers.end() - 1;
+    }
+    found->travel += change;
+  }
+}
+
+std::vector<CableHistory> RopeHistory::history() const {
+  std::vector<CableHistory> result;
+  for (const Cable& cable : cables_) {
+    CableHistory told = cable.told;
+    for (std::size_t i = 0; told.followed && i < cable.sections.size(); ++i) {
+      const Section& section = cable.sections[i];
+      SectionHistory history;
+      history.from = static_cast<double>(i) * cable.section_length;
+      history.to = static_cast<double>(i + 1) * cable.section_length;
+      history.bends = section.bends;
+      history.most_tension = section.most_tension;
+      history.cycles = section.tension.cycles();
+      told.sections.push_back(std::move(history));
+    }
+    result.push_back(std::move(told));
+  }
+  return result;
+}
+
+}  // namespace sheave::measure

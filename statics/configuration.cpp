@@ -1,0 +1,377 @@
+#include "statics/configuration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/body_drive.h"
+#include "engine/index.h"
+#include "engine/integrators/loads.h"
+#include "engine/stages.h"
+
+namespace sheave {
+namespace {
+
+/// So short that what drives and feeds do meanwhile is nothing, and long enough for multipliers,
+/// force x h^2, to be numbers.
+constexpr double no_time = 1e-9;
+
+}  // namespace
+
+Configuration::Configuration(Simulation& simulation, const State& state, double load)
+    : simulation_(simulation),
+      state_(state),
+      load_(load),
+      freedoms_(simulation.world.bodies().coordinates().count() - 1),
+      substep_(simulation.world.bodies(), state, no_time, 1) {
+  find_dampers();
+  begin();
+}
+
+void Configuration::begin() {
+  substep_.h = no_time;
+  substep_.next = state_;
+  substep_.next.time = state_.time + no_time;
+  substep_.restart();
+  const auto features = simulation_.world.features();
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    features[f]->begin(substep_, state_.features[f]);
+  }
+  substep_.time = substep_.next.time;
+}
+
+void Configuration::find_dampers() {
+  // A row that resists speed has a compliance in proportion to the length of the substep, and
+  // nothing else has.
+  begin();
+  substep_.h = 2.0 * no_time;
+  linearise();
+  const auto features = simulation_.world.features();
+  doubled_.resize(features.size());
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    doubled_[f].assign(features[f]->multipliers().size(), 0.0);
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      doubled_[f][at(rows_[at(i)].index)] = rows_[at(i)].compliance;
+    }
+  }
+}
+
+bool Configuration::is_damper(std::size_t feature, const Row& row) const {
+  constexpr double nearly_twice = 1.9;
+  return row.compliance > 0.0 && at(row.index) < doubled_[feature].size() &&
+         doubled_[feature][at(row.index)] > nearly_twice * row.compliance;
+}
+
+void Configuration::linearise() {
+  rows_.clear();
+  feature_rows_.clear();
+  for (const auto& feature : simulation_.world.features()) {
+    feature_rows_.push_back(static_cast<int>(rows_.size()));
+    feature->linearise(substep_, rows_);
+  }
+  feature_rows_.push_back(static_cast<int>(rows_.size()));
+}
+
+void Configuration::place(const VectorX& displacement) {
+  for (const BodyFreedom& freedom : substep_.bodies.coordinates().movable()) {
+    MovingBody& body = substep_.moving[at(freedom.body)];
+    const double* motion = displacement.data() + freedom.first - 1;
+    body.position = body.start_position + linear_motion(freedom, motion);
+    if (body.rotates) body.rotate(angular_motion(freedom, body, motion) - body.turn);
+  }
+}
+
+VectorX Configuration::loads() {
+  VectorX sum = VectorX::Zero(freedoms_);
+  std::vector<BodyState> poses = state_.bodies;
+  for (int i = 0; i < substep_.bodies.count(); ++i) {
+    poses[at(i)].position = substep_.position(i);
+    poses[at(i)].orientation = substep_.orientation(i);
+  }
+  for (const BodyFreedom& freedom : substep_.bodies.coordinates().movable()) {
+    const int i = freedom.body;
+    const BodyProperties& body = substep_.bodies[i];
+    const MovingBody& moving = substep_.moving[at(i)];
+    const Vector3 force = body.mass * substep_.gravity + force_on(substep_, i, poses);
+    Vector3 torque = torque_on(substep_, i, poses);
+    if (body.drive == DriveKind::torque) {
+      torque += moving.axis * BodyDrive(body, state_.controls, i).at(state_.time);
+    }
+    project(freedom, moving, force, torque, &sum[freedom.first - 1]);
+  }
+  return load_ * sum;
+}
+
+VectorX Configuration::by_drive(int body) {
+  const BodyProperties& rotor = substep_.bodies[body];
+  MovingBody& moving = substep_.moving[at(body)];
+  constexpr double angle = 1e-3;
+  const auto values = [&](double turn) {
+    moving.turn = turn * rotor.axis;
+    const ConfigurationRows there = rows();
+    VectorX result(static_cast<Eigen::Index>(there.unknowns.size()));
+    for (std::size_t g = 0; g < there.unknowns.size(); ++g) {
+      result[static_cast<Eigen::Index>(g)] = there.unknowns[g].value;
+    }
+    return result;
+  };
+  const VectorX change = (values(angle) - values(-angle)) / (2.0 * angle);
+  moving.turn.setZero();
+  return change;
+}
+
+void Configuration::set_velocities(const VectorX& rates, State& state) const {
+  for (const BodyFreedom& freedom : substep_.bodies.coordinates().movable()) {
+    const double* motion = rates.data() + freedom.first - 1;
+    BodyState& body = state.bodies[at(freedom.body)];
+    body.velocity = linear_motion(freedom, motion);
+    body.angular_velocity = angular_motion(freedom, substep_.moving[at(freedom.body)], motion);
+  }
+}
+
+VectorX Configuration::along(int body, const Vector3& force, const Vector3& torque) const {
+  VectorX parts = VectorX::Zero(freedoms_);
+  const BodyFreedom& freedom = substep_.bodies.coordinates()[body];
+  if (size_of(freedom.kind) > 0) {
+    project(freedom, substep_.moving[at(body)], force, torque, &parts[freedom.first - 1]);
+  }
+  return parts;
+}
+
+ConfigurationRows Configuration::rows() {
+  linearise();
+  ConfigurationRows result;
+  result.loads = loads();
+  std::vector<int> unknown_of(rows_.size(), -1);
+  const auto features = simulation_.world.features();
+  unknown_at_.resize(features.size());
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    unknown_at_[f].assign(features[f]->multipliers().size(), -1);
+  }
+  const double per_force = substep_.h * substep_.h;
+  for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      const Row& row = rows_[at(i)];
+      if (!row.tied) {
+        ForceUnknown unknown;
+        unknown.feature = f;
+        unknown.lower = row.lower / per_force;
+        unknown.upper = row.upper / per_force;
+        unknown.friction = row.friction;
+        if (row.friction > 0.0 && row.pressed_by > 0) {
+          unknown.pressed_by = unknown_of[at(i - row.pressed_by)];
+        }
+        unknown.shares = row.shares;
+        unknown.damper = is_damper(f, row);
+        result.unknowns.push_back(unknown);
+      }
+      unknown_of[at(i)] = static_cast<int>(result.unknowns.size()) - 1;
+      ForceUnknown& unknown = result.unknowns.back();
+      unknown.parts.push_back({row.index, row.weight});
+      unknown_at_[f][at(row.index)] = unknown_of[at(i)];
+      unknown.value += row.value;
+      unknown.compliance += row.weight * row.compliance;
+      // As in RowSystem::damping_share(), over the compliance.
+      unknown.damping += row.weight * row.compliance * row.compliance * row.damping;
+      result.weighted = result.weighted || row.weight != 1.0;
+    }
+  }
+  const auto count = static_cast<Eigen::Index>(result.unknowns.size());
+  result.gradients = MatrixX::Zero(count, freedoms_);
+  result.actions = MatrixX::Zero(count, freedoms_);
+  std::array<double, 6> parts{};
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    for (const RowTerm& term : rows_[i].active_terms()) {
+      const BodyFreedom& freedom = substep_.bodies.coordinates()[term.body];
+      project(freedom, substep_.moving[at(term.body)], term.linear, term.angular, parts.data());
+      for (int k = 0; k < size_of(freedom.kind); ++k) {
+        result.gradients(unknown_of[i], freedom.first - 1 + k) += parts[at(k)];
+        result.actions(unknown_of[i], freedom.first - 1 + k) += rows_[i].weight * parts[at(k)];
+      }
+    }
+  }
+  for (ForceUnknown& unknown : result.unknowns) {
+    if (unknown.damper) {
+      unknown.damping = substep_.h / unknown.compliance;
+      unknown.compliance = 0.0;
+      continue;
+    }
+    const double square = unknown.compliance * unknown.compliance;
+    unknown.damping = square > 0.0 ? unknown.damping / square : 0.0;
+  }
+  return result;
+}
+
+void Configuration::forces_at(const VectorX& unknowns, VectorX& sum, VectorX& yields) {
+  linearise();
+  sum = loads();
+  yields = VectorX::Zero(unknowns.size());
+  std::array<double, 6> parts{};
+  for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      const Row& row = rows_[at(i)];
+      // Rows that were none at the pose of rows() have no force.
+      const Eigen::Index unknown = unknown_at_[f][at(row.index)];
+      if (unknown < 0 || unknowns[unknown] == 0.0) continue;
+      const double force = row.weight * unknowns[unknown];
+      if (!is_damper(f, row)) yields[unknown] += row.compliance * force;
+      for (const RowTerm& term : row.active_terms()) {
+        const BodyFreedom& freedom = substep_.bodies.coordinates()[term.body];
+        project(freedom, substep_.moving[at(term.body)], term.linear, term.angular, parts.data());
+        for (int k = 0; k < size_of(freedom.kind); ++k) {
+          sum[freedom.first - 1 + k] += force * parts[at(k)];
+        }
+      }
+    }
+  }
+}
+
+RowForces Configuration::no_forces() const {
+  RowForces forces;
+  for (const auto& feature : simulation_.world.features()) {
+    forces.emplace_back(feature->multipliers().size(), 0.0);
+  }
+  return forces;
+}
+
+VectorX Configuration::unknowns_of(const ConfigurationRows& rows, const RowForces& forces) {
+  VectorX unknowns = VectorX::Zero(static_cast<Eigen::Index>(rows.unknowns.size()));
+  for (std::size_t g = 0; g < rows.unknowns.size(); ++g) {
+    const ForceUnknown& unknown = rows.unknowns[g];
+    double heaviest = 0.0;
+    for (const ForceUnknown::Part& part : unknown.parts) {
+      if (part.weight <= heaviest || at(part.index) >= forces[unknown.feature].size()) continue;
+      heaviest = part.weight;
+      unknowns[static_cast<Eigen::Index>(g)] =
+          forces[unknown.feature][at(part.index)] / part.weight;
+    }
+  }
+  return unknowns;
+}
+
+RowForces Configuration::forces_of(const ConfigurationRows& rows, const VectorX& unknowns) const {
+  RowForces forces = no_forces();
+  for (std::size_t g = 0; g < rows.unknowns.size(); ++g) {
+    const ForceUnknown& unknown = rows.unknowns[g];
+    for (const ForceUnknown::Part& part : unknown.parts) {
+      forces[unknown.feature][at(part.index)] =
+          part.weight * unknowns[static_cast<Eigen::Index>(g)];
+    }
+  }
+  return forces;
+}
+
+bool Configuration::revise(const RowForces& forces) {
+  bool changed = false;
+  const auto features = simulation_.world.features();
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    const std::span<double> multipliers = features[f]->multipliers();
+    for (std::size_t i = 0; i < multipliers.size(); ++i) {
+      multipliers[i] = forces[f][i] * substep_.h * substep_.h;
+    }
+    changed = features[f]->revise(substep_) || changed;
+  }
+  return changed;
+}
+
+std::vector<Vector3> Configuration::forces_on_bodies(const RowForces& forces, std::size_t except) {
+  linearise();
+  std::vector<Vector3> sums(at(substep_.bodies.count() + 1), Vector3::Zero());
+  for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
+    if (f == except || f >= forces.size()) continue;
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      const Row& row = rows_[at(i)];
+      if (at(row.index) >= forces[f].size()) continue;
+      for (const RowTerm& term : row.active_terms()) {
+        sums[at(term.body)] += forces[f][at(row.index)] * term.linear;
+      }
+    }
+  }
+  return sums;
+}
+
+State Configuration::finish(const RowForces& forces) {
+  const auto features = simulation_.world.features();
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    const std::span<double> multipliers = features[f]->multipliers();
+    for (std::size_t i = 0; i < multipliers.size(); ++i) {
+      multipliers[i] = forces[f][i] * substep_.h * substep_.h;
+    }
+  }
+  derive_velocities(substep_);
+  place_mounted_rotors(substep_);
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    features[f]->finish(substep_, substep_.next.features[f]);
+  }
+  State next = substep_.next;
+  next.time = state_.time;
+  for (std::size_t i = 0; i < next.bodies.size(); ++i) {
+    const Mobility mobility = substep_.bodies[static_cast<int>(i)].mobility;
+    if (mobility == Mobility::kinematic || mobility == Mobility::fixed ||
+        substep_.bodies[static_cast<int>(i)].prescribed()) {
+      next.bodies[i] = state_.bodies[i];
+    }
+    next.bodies[i].velocity.setZero();
+    next.bodies[i].angular_velocity.setZero();
+  }
+  return next;
+}
+
+MatrixX Configuration::mass() const {
+  MatrixX mass = MatrixX::Zero(freedoms_, freedoms_);
+  for (const BodyFreedom& freedom : substep_.bodies.coordinates().movable()) {
+    const BodyProperties& body = substep_.bodies[freedom.body];
+    const int first = freedom.first - 1;
+    switch (freedom.kind) {
+      case Freedom::none:
+        break;
+      case Freedom::line:
+        mass(first, first) = body.mass;
+        break;
+      case Freedom::angle:
+        mass(first, first) = body.axis_inertia;
+        break;
+      case Freedom::plane:
+        mass(first, first) = mass(first + 1, first + 1) = body.mass;
+        mass(first + 2, first + 2) = body.axis_inertia;
+        break;
+      case Freedom::space:
+        mass.block<3, 3>(first, first) = body.mass * Matrix3::Identity();
+        mass.block<3, 3>(first + 3, first + 3) =
+            world_inertia(body, substep_.moving[at(freedom.body)].orientation, false);
+        break;
+      case Freedom::turn:
+        break;
+    }
+  }
+  return mass;
+}
+
+MatrixX Configuration::body_drag() const {
+  MatrixX drag = MatrixX::Zero(freedoms_, freedoms_);
+  for (const BodyFreedom& freedom : substep_.bodies.coordinates().movable()) {
+    const BodyDef& body = substep_.bodies.definition(freedom.body);
+    const int first = freedom.first - 1;
+    const int linear = freedom.kind == Freedom::line    ? 1
+                       : freedom.kind == Freedom::plane ? 2
+                       : freedom.kind == Freedom::space ? 3
+                                                        : 0;
+    for (int k = 0; k < size_of(freedom.kind); ++k) {
+      drag(first + k, first + k) = k < linear ? body.damping : body.angular_damping;
+    }
+  }
+  return drag;
+}
+
+Configuration::Reach Configuration::reach(const VectorX& displacement) const {
+  Reach reach;
+  for (const BodyFreedom& freedom : substep_.bodies.coordinates().movable()) {
+    const double* motion = displacement.data() + freedom.first - 1;
+    const double turn = angular_motion(freedom, substep_.moving[at(freedom.body)], motion).norm();
+    reach.translation = std::max(reach.translation, linear_motion(freedom, motion).norm());
+    double& largest = freedom.kind == Freedom::angle ? reach.spin : reach.turn;
+    largest = std::max(largest, turn);
+  }
+  return reach;
+}
+
+}  // namespace sheave

@@ -1,0 +1,347 @@
+#include "statics/equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "engine/body_set.h"
+#include "engine/field_check.h"
+#include "statics/newton_step.h"
+
+namespace sheave {
+namespace {
+
+/// The farthest that one step moves anything, as a share of the scene's size, turns it and spins a
+/// rotor [rad]: beyond that gradients say little.
+constexpr double longest_step = 0.1;
+constexpr double largest_turn = 0.2;
+constexpr double largest_spin = 3.0;
+/// Rounding may leave this much more than was asked for.
+constexpr double acceptable = 1e-8;
+constexpr int patience = 6;
+constexpr int most_revisions = 20;
+
+struct Residual {
+  double force = 0.0;
+  double length = 0.0;
+  [[nodiscard]] double worst() const { return std::max(force, length); }
+};
+
+class EquilibriumSearch {
+ public:
+  EquilibriumSearch(Simulation& simulation, const EquilibriumSettings& settings)
+      : simulation_(simulation),
+        settings_(settings),
+        size_(simulation.world.bodies().scale()),
+        state_(simulation.world.state()) {
+    for (BodyState& body : state_.bodies) {
+      body.velocity.setZero();
+      body.angular_velocity.setZero();
+    }
+  }
+
+  Equilibrium find() {
+    Equilibrium result;
+    for (int i = 1; i <= settings_.load_steps; ++i) {
+      load_ = static_cast<double>(i) / settings_.load_steps;
+      if (!settle(result)) break;
+    }
+    describe(result);
+    return result;
+  }
+
+ private:
+  /// Newton's method with the loads of now.
+  bool settle(Equilibrium& result) {
+    double best = std::numeric_limits<double>::infinity();
+    int since_best = 0;
+    shift_ = 0.0;
+    for (int i = 0; i < settings_.iterations; ++i) {
+      ++result.iterations;
+      if (!advance()) {
+        result.message = "the forces are not finite";
+        return false;
+      }
+      result.force_error = residual_.force;
+      result.length_error = residual_.length;
+      const bool rests = step_ <= settings_.tolerance;
+      if (rests && residual_.worst() <= settings_.tolerance) return result.converged = true;
+      ++since_best;
+      if (residual_.worst() + step_ < 0.5 * best) {
+        best = residual_.worst() + step_;
+        since_best = 0;
+      }
+      // Rounding is all that is left.
+      if (since_best >= patience && residual_.worst() <= acceptable && step_ <= acceptable) {
+        return result.converged = true;
+      }
+    }
+    result.converged = false;
+    result.message = unbalanced();
+    return false;
+  }
+
+  /// One step; false if it has no numbers.
+  bool advance() {
+    Configuration configuration(simulation_, state_, load_);
+    ConfigurationRows rows = configuration.rows();
+    if (forces_.empty()) forces_ = configuration.no_forces();
+    mass_ = configuration.mass();
+    NewtonStep step;
+    for (int i = 0; i < most_revisions; ++i) {
+      const VectorX before = Configuration::unknowns_of(rows, forces_);
+      const ForceTurn turn = turn_of_forces(configuration, before);
+      step = limited_step(configuration, rows, turn, before);
+      if (!step.finite) return false;
+      line_search(configuration, rows, turn, before, step);
+      configuration.place(step.motion);
+      const bool changed = configuration.revise(configuration.forces_of(rows, step.unknowns));
+      if (!changed || i + 1 == most_revisions) break;
+      configuration.place(VectorX::Zero(configuration.freedoms()));
+      rows = configuration.rows();
+    }
+    const Configuration::Reach reach = configuration.reach(step.motion);
+    step_ = std::max({reach.translation / size_, reach.turn, reach.spin});
+    forces_ = configuration.forces_of(rows, step.unknowns);
+    configuration.place(step.motion);
+    const ConfigurationRows there = configuration.rows();
+    residual_ = residual_of(there, step.unknowns, step.acts);
+    remember_unbalanced(there, step.unknowns);
+    state_ = configuration.finish(forces_);
+    return true;
+  }
+
+  /// A step that is not too long, with what shift that takes.
+  NewtonStep limited_step(Configuration& configuration, const ConfigurationRows& rows,
+                          const ForceTurn& turn, const VectorX& before) {
+    double shift = std::max(wanted_shift(configuration, rows, turn, before), shift_ / 8.0);
+    const double least = least_shift(rows);
+    if (shift < 1e-3 * least) shift = 0.0;
+    NewtonStep step;
+    constexpr int tries = 40;
+    for (int i = 0; i < tries; ++i) {
+      step = solve_step(rows, turn, mass_, before, shift, size_);
+      if (step.finite && excess(configuration, step.motion) <= 1.0) break;
+      shift = std::max(4.0 * shift, least);
+    }
+    shift_ = shift;
+    if (!step.finite) return step;
+    // What rows ask for no shift shortens.
+    const double over = excess(configuration, step.motion);
+    if (over > 1.0) step.motion /= over;
+    return step;
+  }
+
+  [[nodiscard]] static double part(double value, double most) { return value / most; }
+  [[nodiscard]] double excess(const Configuration& configuration, const VectorX& motion) const {
+    const Configuration::Reach reach = configuration.reach(motion);
+    return std::max({part(reach.translation, longest_step * size_), part(reach.turn, largest_turn),
+                     part(reach.spin, largest_spin)});
+  }
+
+  /// What makes a free body move by a hundredth of the scene [1/s2].
+  [[nodiscard]] double least_shift(const ConfigurationRows& rows) const {
+    constexpr double share = 0.01;
+    double fastest = 0.0;
+    for (Eigen::Index i = 0; i < rows.loads.size(); ++i) {
+      fastest = std::max(fastest, std::abs(rows.loads[i]) / mass_(i, i));
+    }
+    return fastest > 0.0 ? share * fastest / size_ : share;
+  }
+
+  /// So much that no motion that rows leave runs away: what gives energy, and what has a force and
+  /// no stiffness.
+  double wanted_shift(const Configuration& configuration, const ConfigurationRows& rows,
+                      const ForceTurn& turn, const VectorX& before) const {
+    std::vector<char> acts(rows.unknowns.size(), 0);
+    for (std::size_t g = 0; g < acts.size(); ++g) {
+      const ForceUnknown& unknown = rows.unknowns[g];
+      const double force = before[static_cast<Eigen::Index>(g)];
+      const bool closed = (unknown.lower == 0.0 && unknown.value <= 0.0) ||
+                          (unknown.upper == 0.0 && unknown.value >= 0.0);
+      acts[g] = unknown.bilateral() || force != 0.0 || closed ? 1 : 0;
+    }
+    const Tangent tangent = make_tangent(configuration, rows, turn, acts);
+    if (tangent.motions.cols() == 0) return 0.0;
+    const Eigen::SelfAdjointEigenSolver<MatrixX> solver(tangent.reduced_stiffness());
+    const VectorX values = solver.eigenvalues();
+    const VectorX push =
+        solver.eigenvectors().transpose() * (tangent.motions.transpose() * rows.loads);
+    const double pushed = push.norm();
+    double shift = 0.0;
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      const bool stiff = values[i] > tangent.rounding;
+      const bool idle =
+          std::abs(values[i]) <= tangent.rounding && std::abs(push[i]) <= acceptable * pushed;
+      if (stiff || idle) continue;
+      shift = std::max({shift, -2.0 * values[i], least_shift(rows)});
+    }
+    return shift;
+  }
+
+  /// Shortens a step of Newton's own after which there would be more left than before.
+  void line_search(Configuration& configuration, const ConfigurationRows& rows,
+                   const ForceTurn& turn, const VectorX& before, NewtonStep& step) {
+    if (shift_ > 0.0 || (before.size() > 0 && before.isZero(0.0))) return;
+    (void)turn;
+    const double start = residual_of(rows, before, step.acts).worst();
+    constexpr int halvings = 5;
+    double share = 1.0;
+    for (int i = 0; i < halvings; ++i, share *= 0.5) {
+      configuration.place(share * step.motion);
+      const VectorX unknowns = before + share * (step.unknowns - before);
+      const Residual there = residual_of(configuration.rows(), unknowns, step.acts);
+      if (there.worst() <= (1.0 - 1e-4 * share) * start || there.worst() <= acceptable) {
+        step.motion *= share;
+        step.unknowns = unknowns;
+        return;
+      }
+    }
+    // No way down along it: by a step of implicit Euler the next time.
+    step.motion *= share;
+    step.unknowns = before + share * (step.unknowns - before);
+    shift_ = 8.0 * least_shift(rows);
+  }
+
+  [[nodiscard]] Residual residual_of(const ConfigurationRows& rows, const VectorX& unknowns,
+                                     const std::vector<char>& acts) const {
+    Residual residual;
+    if (unknowns.size() != static_cast<Eigen::Index>(rows.unknowns.size())) return {1.0, 1.0};
+    const VectorX sum = rows.loads + rows.actions.transpose() * unknowns;
+    // A force is large or small beside those on the same degree of freedom, or those of the scene.
+    VectorX parts = rows.loads.cwiseAbs();
+    parts += rows.actions.cwiseAbs().transpose() * unknowns.cwiseAbs();
+    double largest = 0.0;
+    for (Eigen::Index i = 0; i < parts.size(); ++i) {
+      largest = std::max(largest, parts[i] / std::sqrt(mass_(i, i)));
+    }
+    for (Eigen::Index i = 0; i < sum.size(); ++i) {
+      const double share = std::abs(sum[i]) / std::sqrt(mass_(i, i));
+      if (share > 0.0) residual.force = std::max(residual.force, share / largest);
+    }
+    for (std::size_t g = 0; g < rows.unknowns.size(); ++g) {
+      const ForceUnknown& unknown = rows.unknowns[g];
+      if (unknown.damper || unknown.given() || unknown.dry_friction()) continue;
+      const double value =
+          unknown.value + unknown.compliance * unknowns[static_cast<Eigen::Index>(g)];
+      double off = std::abs(value);
+      if (acts[g] == 0) off = unknown.lower == 0.0 ? std::max(-value, 0.0) : std::max(value, 0.0);
+      residual.length = std::max(residual.length, off / size_);
+    }
+    return residual;
+  }
+
+  void remember_unbalanced(const ConfigurationRows& rows, const VectorX& unknowns) {
+    const VectorX sum = rows.loads + rows.actions.transpose() * unknowns;
+    double worst = -1.0;
+    for (const BodyFreedom& freedom : simulation_.world.bodies().coordinates().movable()) {
+      for (int k = 0; k < size_of(freedom.kind); ++k) {
+        const int i = freedom.first - 1 + k;
+        const double share = std::abs(sum[i]) / std::sqrt(mass_(i, i));
+        if (share <= worst) continue;
+        worst = share;
+        worst_body_ = freedom.body;
+        worst_force_ = std::abs(sum[i]);
+      }
+    }
+  }
+
+  [[nodiscard]] std::string unbalanced() const {
+    if (worst_body_ < 0) return "nothing was found";
+    return "no equilibrium was found: on \"" + simulation_.world.bodies().name(worst_body_) +
+           "\" " + number_text(worst_force_) +
+           " N or N m are left that nothing balances; either nothing holds it, or it is to begin "
+           "nearer to where it rests, or with more load steps";
+  }
+
+  /// What can be told of the place where the search has ended.
+  void describe(Equilibrium& result) {
+    load_ = 1.0;
+    Configuration configuration(simulation_, state_, load_);
+    const ConfigurationRows rows = configuration.rows();
+    if (forces_.empty()) forces_ = configuration.no_forces();
+    const VectorX unknowns = Configuration::unknowns_of(rows, forces_);
+    std::vector<char> acts(rows.unknowns.size(), 0);
+    for (std::size_t g = 0; g < acts.size(); ++g) {
+      const ForceUnknown& unknown = rows.unknowns[g];
+      const double force = unknowns[static_cast<Eigen::Index>(g)];
+      const bool closed = unknown.lower == 0.0 && std::abs(unknown.value) <= acceptable * size_;
+      acts[g] = unknown.bilateral() || force != 0.0 || (closed && unknown.compliance == 0.0);
+      if (unknown.given()) acts[g] = 0;
+      if (unknown.dry_friction() && force != 0.0) {
+        result.friction_holds = true;
+        const double bound = unknown.pressed_by < 0
+                                 ? unknown.upper
+                                 : unknown.friction * std::abs(unknowns[unknown.pressed_by]);
+        // What slips resists no more than it does.
+        acts[g] = std::abs(force) < (1.0 - acceptable) * bound ? 1 : 0;
+      }
+    }
+    const ForceTurn turn = turn_of_forces(configuration, unknowns);
+    const Tangent tangent = make_tangent(configuration, rows, turn, acts);
+    result.freedoms = configuration.freedoms();
+    result.constraints = static_cast<int>(tangent.constraints.rows());
+    result.redundant = tangent.redundant();
+    if (tangent.motions.cols() > 0) {
+      const Eigen::SelfAdjointEigenSolver<MatrixX> solver(tangent.reduced_stiffness(),
+                                                          Eigen::EigenvaluesOnly);
+      const VectorX& values = solver.eigenvalues();
+      for (const double value : values) {
+        result.eigenvalues.push_back(value);
+        if (std::abs(value) <= tangent.rounding) ++result.neutral_motions;
+        if (value < -tangent.rounding) ++result.unstable_motions;
+      }
+    }
+    result.stability = result.unstable_motions > 0  ? Stability::unstable
+                       : result.neutral_motions > 0 ? Stability::neutral
+                                                    : Stability::stable;
+    state_.steps = simulation_.world.state().steps;
+    if (const Errors errors = simulation_.world.restore(state_); !errors.empty()) {
+      result.converged = false;
+      result.message = errors.front().message;
+      return;
+    }
+    result.forces = forces_;
+    find_slack(result);
+  }
+
+  void find_slack(Equilibrium& result) const {
+    const std::vector<CableReport> reports = simulation_.cable_reports();
+    for (std::size_t c = 0; c < reports.size(); ++c) {
+      int index = 0;
+      const auto look = [&](const SpanReport& span) {
+        if (span.tension <= 0.0 && span.length > 0.0) {
+          result.slack_spans.push_back(
+              {static_cast<int>(c), index, span.rest_length - span.length});
+        }
+        ++index;
+      };
+      for (const SpanReport& span : reports[c].spans) look(span);
+      for (const WrapReport& wrap : reports[c].wraps) look(wrap.span);
+    }
+  }
+
+  Simulation& simulation_;
+  EquilibriumSettings settings_;
+  double size_;
+  State state_;
+  double load_ = 1.0;
+  double shift_ = 0.0;
+  double step_ = 0.0;
+  RowForces forces_;
+  Residual residual_;
+  MatrixX mass_;
+  int worst_body_ = -1;
+  double worst_force_ = 0.0;
+};
+
+}  // namespace
+
+Equilibrium find_equilibrium(Simulation& simulation, const EquilibriumSettings& settings) {
+  return EquilibriumSearch(simulation, settings).find();
+}
+
+}  // namespace sheave

@@ -1,0 +1,224 @@
+#include "statics/newton_step.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+namespace sheave {
+namespace {
+
+/// Rows whose bounds are moved at once, in this many tries; then one by one.
+constexpr int tries_at_once = 8;
+constexpr int most_tries = 200;
+/// Below this the matrix has not its full rank.
+constexpr double least_condition = 1e-13;
+constexpr double rank_threshold = 1e-11;
+
+/// Which rows are solved for.
+enum class Side : char { off, free, lower, upper };
+
+class StepProblem {
+ public:
+  StepProblem(const ConfigurationRows& rows, const ForceTurn& turn, const MatrixX& mass,
+              const VectorX& before, double shift, double size)
+      : rows_(rows), gradients_(rows.gradients + turn.yields), before_(before), size_(size) {
+    stiffness_ = shift * mass - turn.forces;
+    sides_.assign(rows.unknowns.size(), Side::off);
+    for (std::size_t g = 0; g < sides_.size(); ++g) sides_[g] = first_side(g);
+    bounds_.resize(sides_.size());
+    unknowns_ = before;
+    motion_ = VectorX::Zero(rows.loads.size());
+  }
+
+  NewtonStep solve() {
+    for (int i = 0; i < most_tries; ++i) {
+      follow_pressure();
+      solve_linear();
+      if (!finite_ || !change_sides(i < tries_at_once)) break;
+    }
+    NewtonStep step{motion_, unknowns_, std::vector<char>(sides_.size(), 0), false, finite_};
+    for (std::size_t g = 0; g < sides_.size(); ++g) {
+      const bool bound = sides_[g] == Side::lower || sides_[g] == Side::upper;
+      step.acts[g] = sides_[g] == Side::free ? 1 : 0;
+      step.slips = step.slips || (bound && rows_.unknowns[g].dry_friction());
+    }
+    return step;
+  }
+
+ private:
+  [[nodiscard]] Side first_side(std::size_t g) const {
+    const ForceUnknown& unknown = rows_.unknowns[g];
+    const double force = before_[static_cast<Eigen::Index>(g)];
+    if (unknown.damper) return Side::off;
+    if (unknown.given()) return Side::lower;
+    if (unknown.lower == 0.0) {
+      return force > 0.0 || unknown.value <= rounding() ? Side::free : Side::lower;
+    }
+    if (unknown.upper == 0.0) {
+      return force < 0.0 || unknown.value >= -rounding() ? Side::free : Side::upper;
+    }
+    return Side::free;
+  }
+  [[nodiscard]] double rounding() const { return 1e-14 * size_; }
+
+  /// Bounds of friction from what presses.
+  void follow_pressure() {
+    for (std::size_t g = 0; g < sides_.size(); ++g) {
+      const ForceUnknown& unknown = rows_.unknowns[g];
+      bounds_[g] = {unknown.lower, unknown.upper};
+      if (unknown.pressed_by < 0) continue;
+      const double bound = unknown.friction * std::abs(unknowns_[unknown.pressed_by]);
+      bounds_[g] = {-bound, bound};
+    }
+    // Friction in several directions is bounded as a vector.
+    for (std::size_t g = 0; g < sides_.size(); ++g) {
+      const int count = rows_.unknowns[g].shares;
+      if (count < 2) continue;
+      const auto first = static_cast<Eigen::Index>(g);
+      const VectorX force = unknowns_.segment(first, count);
+      const double norm = force.norm();
+      const double bound = bounds_[g][1];
+      for (int k = 0; k < count; ++k) {
+        const double part = norm > bound && norm > 0.0 ? std::abs(force[k]) / norm : 1.0;
+        bounds_[g + static_cast<std::size_t>(k)] = {-bound * part, bound * part};
+      }
+    }
+  }
+
+  void solve_linear() {
+    const Eigen::Index n = stiffness_.rows();
+    std::vector<Eigen::Index> free;
+    VectorX loads = rows_.loads;
+    for (std::size_t g = 0; g < sides_.size(); ++g) {
+      const auto i = static_cast<Eigen::Index>(g);
+      if (sides_[g] == Side::free) {
+        free.push_back(i);
+        continue;
+      }
+      unknowns_[i] = sides_[g] == Side::off     ? 0.0
+                     : sides_[g] == Side::lower ? bounds_[g][0]
+                                                : bounds_[g][1];
+      loads += unknowns_[i] * rows_.actions.row(i).transpose();
+    }
+    const auto m = static_cast<Eigen::Index>(free.size());
+    MatrixX matrix = MatrixX::Zero(n + m, n + m);
+    VectorX right = VectorX::Zero(n + m);
+    matrix.topLeftCorner(n, n) = stiffness_;
+    right.head(n) = loads;
+    for (Eigen::Index r = 0; r < m; ++r) {
+      const Eigen::Index g = free[static_cast<std::size_t>(r)];
+      const ForceUnknown& unknown = rows_.unknowns[static_cast<std::size_t>(g)];
+      matrix.block(0, n + r, n, 1) = -rows_.actions.row(g).transpose();
+      matrix.block(n + r, 0, 1, n) = gradients_.row(g);
+      matrix(n + r, n + r) = unknown.compliance;
+      right[n + r] = -unknown.value;
+    }
+    const VectorX solution = solve_scaled(matrix, right);
+    finite_ = solution.allFinite();
+    motion_ = solution.head(n);
+    for (Eigen::Index r = 0; r < m; ++r) {
+      unknowns_[free[static_cast<std::size_t>(r)]] = solution[n + r];
+    }
+  }
+
+  /// With rows and columns of the largest entry 1: units drop out.
+  static VectorX solve_scaled(MatrixX& matrix, VectorX& right) {
+    const Eigen::Index n = matrix.rows();
+    if (n == 0) return right;
+    VectorX rows = VectorX::Ones(n);
+    VectorX columns = VectorX::Ones(n);
+    constexpr int rounds = 12;
+    for (int i = 0; i < rounds; ++i) {
+      for (Eigen::Index k = 0; k < n; ++k) {
+        const double largest =
+            std::max(matrix.row(k).cwiseAbs().maxCoeff(), matrix.col(k).cwiseAbs().maxCoeff());
+        if (!(largest > 0.0)) continue;
+        const double factor = 1.0 / std::sqrt(largest);
+        matrix.row(k) *= factor;
+        matrix.col(k) *= factor;
+        rows[k] *= factor;
+        columns[k] *= factor;
+      }
+    }
+    const VectorX scaled = rows.cwiseProduct(right);
+    VectorX solution;
+    const Eigen::PartialPivLU<MatrixX> lu(matrix);
+    if (lu.rcond() > least_condition) {
+      solution = lu.solve(scaled);
+      solution += lu.solve(scaled - matrix * solution);
+    } else {
+      Eigen::CompleteOrthogonalDecomposition<MatrixX> decomposition;
+      decomposition.setThreshold(rank_threshold);
+      decomposition.compute(matrix);
+      solution = decomposition.solve(scaled);
+      solution += decomposition.solve(scaled - matrix * solution);
+    }
+    return columns.cwiseProduct(solution);
+  }
+
+  /// Whether other rows have to act. `all`: changes all that are wrong, else the worst.
+  bool change_sides(bool all) {
+    double worst = 0.0;
+    std::size_t found = sides_.size();
+    Side wanted = Side::free;
+    bool changed = false;
+    double largest_force = unknowns_.size() > 0 ? unknowns_.cwiseAbs().maxCoeff() : 0.0;
+    largest_force =
+        std::max(largest_force, rows_.loads.size() > 0 ? rows_.loads.cwiseAbs().maxCoeff() : 0.0);
+    for (std::size_t g = 0; g < sides_.size(); ++g) {
+      if (sides_[g] == Side::off || rows_.unknowns[g].given()) continue;
+      const auto [side, excess] = wrong_side(g, largest_force);
+      if (side == sides_[g]) continue;
+      if (all) sides_[g] = side;
+      changed = true;
+      if (excess < worst) continue;
+      worst = excess;
+      found = g;
+      wanted = side;
+    }
+    if (changed && !all) sides_[found] = wanted;
+    return changed;
+  }
+
+  /// The side that it should have, and by how much it is wrong, as a share.
+  [[nodiscard]] std::pair<Side, double> wrong_side(std::size_t g, double largest_force) const {
+    const auto i = static_cast<Eigen::Index>(g);
+    const double force = unknowns_[i];
+    const auto [lower, upper] = bounds_[g];
+    constexpr double force_rounding = 1e-12;
+    if (sides_[g] == Side::free) {
+      const double slop = force_rounding * largest_force;
+      if (force < lower - slop) return {Side::lower, (lower - force) / largest_force};
+      if (force > upper + slop) return {Side::upper, (force - upper) / largest_force};
+      return {Side::free, 0.0};
+    }
+    const ForceUnknown& unknown = rows_.unknowns[g];
+    const double value =
+        unknown.value + gradients_.row(i).dot(motion_) + unknown.compliance * force;
+    const bool violated = sides_[g] == Side::lower ? value < -rounding() : value > rounding();
+    if (violated) return {Side::free, std::abs(value) / size_};
+    return {sides_[g], 0.0};
+  }
+
+  const ConfigurationRows& rows_;
+  MatrixX gradients_;
+  const VectorX& before_;
+  double size_;
+  MatrixX stiffness_;
+  std::vector<Side> sides_;
+  std::vector<std::array<double, 2>> bounds_;
+  VectorX unknowns_;
+  VectorX motion_;
+  bool finite_ = false;
+};
+
+}  // namespace
+
+NewtonStep solve_step(const ConfigurationRows& rows, const ForceTurn& turn, const MatrixX& mass,
+                      const VectorX& before, double shift, double size) {
+  return StepProblem(rows, turn, mass, before, shift, size).solve();
+}
+
+}  // namespace sheave

@@ -1,0 +1,65 @@
+#include "statics/supports.h"
+
+#include "engine/body_set.h"
+#include "engine/index.h"
+#include "engine/shape.h"
+#include "statics/configuration.h"
+
+namespace sheave {
+namespace {
+
+void add_cable(const BodySet& bodies, const CableReport& report, std::vector<Vector3>& sums) {
+  const CableReport whole = report.with_wraps_in_place();
+  const std::size_t links = whole.links.size();
+  for (std::size_t k = 0; k < whole.spans.size(); ++k) {
+    const SpanReport& span = whole.spans[k];
+    if (!(span.tension > 0.0)) continue;
+    std::size_t next = (k + 1) % links;
+    while (next != k && !whole.links[next].touched) next = (next + 1) % links;
+    const Vector3 pull = span.tension * (span.end - span.start).normalized();
+    sums[at(bodies.index(whole.links[k].body))] += pull;
+    sums[at(bodies.index(whole.links[next].body))] -= pull;
+  }
+}
+
+/// [kg]
+double mass_of(const BodyDef& body) {
+  if (body.mass) return *body.mass;
+  return body.density && !body.shapes.empty() ? combine(body.shapes, *body.density).mass : 0.0;
+}
+
+}  // namespace
+
+std::vector<SupportReaction> support_reactions(Simulation& simulation,
+                                               const std::vector<std::vector<double>>& forces) {
+  const BodySet& bodies = simulation.world.bodies();
+  const State state = simulation.world.state();
+  Configuration configuration(simulation, state, 1.0);
+  // Cables tell their forces themselves: their rows leave out what moves nothing.
+  const std::size_t features = simulation.world.features().size();
+  const std::size_t cables = simulation.cables != nullptr ? features - 1 : features;
+  std::vector<Vector3> sums = configuration.forces_on_bodies(forces, cables);
+  for (const CableReport& report : simulation.cable_reports()) add_cable(bodies, report, sums);
+  const Vector3 gravity =
+      state.controls.has_gravity ? state.controls.gravity : simulation.world.model().gravity;
+  std::vector<SupportReaction> reactions;
+  for (int i = 0; i <= bodies.count(); ++i) {
+    Vector3 force = sums[at(i)];
+    const bool world = i == bodies.count();
+    if (!world) {
+      const Mobility mobility = bodies[i].mobility;
+      if (mobility == Mobility::free) continue;
+      const BodyDef& body = bodies.definition(i);
+      if (mobility != Mobility::fixed && mobility != Mobility::kinematic) {
+        force += body.force;
+        // A mounted rotor's weight is its carrier's.
+        if (bodies[i].mount < 0) force += mass_of(body) * gravity;
+      }
+    }
+    if (force.isZero(0.0)) continue;
+    reactions.push_back({world ? BodyId::world() : BodyId{i}, -force});
+  }
+  return reactions;
+}
+
+}  // namespace sheave

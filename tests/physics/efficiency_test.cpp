@@ -1,0 +1,136 @@
+// Wheels that take a part of the tension, whichever way they turn: out = in x efficiency.
+//
+// Tackle of n parts with the load M and the effort m, whose sheaves have the efficiency e. Where the
+// effort hauls, part k from it has e^k of its tension, so the parts carry A T with A = e + ... + e^n;
+// where the load lowers it, T / e^k. With the effort n times as fast, either way
+//
+//   A m (g - n a) = M (g + a)   =>   a = (A m - M) g / (M + n A m)
+//
+// and in between, A m < M < A' m, nothing moves.
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "scenes/control/scene_supervisor.h"
+#include "scenes/scene.h"
+
+namespace sheave::efficiency {
+namespace {
+
+constexpr double gravity = 9.81;
+
+/// What n parts carry of the effort's tension.
+double advantage(int parts, double efficiency) {
+  double sum = 0.0;
+  for (int k = 1; k <= parts; ++k) sum += std::pow(efficiency, k);
+  return sum;
+}
+
+/// A tackle of `parts` between a beam and a block of `load` kg; sheaves without inertia.
+Simulation tackle(int parts, double efficiency, double load, double effort) {
+  std::string bodies = fmt::format(
+      R"({{"name": "block", "mobility": "slider", "axis": [0, 1, 0], "position": [0, -3, 0], "mass": {}}},
+{{"name": "effort", "mobility": "slider", "axis": [0, 1, 0], "position": [{}, -2, 0], "mass": {}}})",
+      load, 0.4 * parts, effort);
+  std::string links = R"({"type": "attachment", "body": "world", "point": [0, 0, 0]})";
+  for (int k = 0; k < parts; ++k) {
+    const bool below = k % 2 == 0;
+    // A sheave of 0.2 m between the parts at 0.4 k and 0.4 (k + 1).
+    bodies += fmt::format(
+        R"(, {{"name": "s{}", "mobility": "rotor", {}"position": [{}, {}, 0], "mass": 0.001, "spin_inertia": 0,
+"shape": {{"type": "cylinder", "radius": 0.2, "length": 0.1}}}})",
+        k, below ? R"("mount": "block", )" : "", 0.4 * k + 0.2, below ? -3 : 0);
+    links +=
+        fmt::format(R"(, {{"type": "rolling", "body": "s{}", "winding": "{}", "efficiency": {}}})",
+                    k, below ? "counter-clockwise" : "clockwise", efficiency);
+  }
+  links += R"(, {"type": "attachment", "body": "effort"})";
+  const std::string text = fmt::format(
+      R"({{"format": "sheave-scene/1", "duration": 0.25, "gravity": [0, -9.81, 0], "bodies": [{}],
+"cables": [{{"name": "rope", "links": [{}]}}]}})",
+      bodies, links);
+  const SceneResult scene = load_scene_text(text, "test");
+  for (const SceneError& error : scene.errors) ADD_FAILURE() << to_string(error);
+  Result<Simulation> made = create_simulation(*scene);
+  return std::move(made).value();
+}
+
+double acceleration(Simulation& simulation) {
+  for (int i = 0; i < 15; ++i) EXPECT_TRUE(simulation.step().ok());
+  const State& state = simulation.world.state();
+  return state.bodies[0].velocity.y() / state.time;
+}
+
+TEST(Efficiency, FourPartsAt917) {
+  // Catalogues round 3.236 to 3.25.
+  const double up = advantage(4, 0.917);
+  EXPECT_NEAR(up, 3.25, 0.02);
+  const double load = 12.0 + 2.0 * 0.001;  // with the sheaves that the block carries
+  Simulation simulation = tackle(4, 0.917, 12.0, 4.0);
+  const double expected = (up * 4.0 - load) * gravity / (load + 4.0 * up * 4.0);
+  EXPECT_GT(expected, 0.0);
+  // Of second order in the step, and the sheaves' steps are exact: rounding.
+  EXPECT_NEAR(acceleration(simulation), expected, 1e-6 * gravity);
+  const CableReport report = simulation.cable_reports()[0];
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(report.spans[k].tension, 0.917 * report.spans[k + 1].tension, 1e-5) << k;
+  }
+}
+
+TEST(Efficiency, FourPartsTheOtherWay) {
+  double down = 0.0;
+  for (int k = 1; k <= 4; ++k) down += std::pow(0.917, -k);
+  const double load = 12.0 + 2.0 * 0.001;
+  Simulation simulation = tackle(4, 0.917, 12.0, 2.0);
+  const double expected = (down * 2.0 - load) * gravity / (load + 4.0 * down * 2.0);
+  EXPECT_LT(expected, 0.0);
+  EXPECT_NEAR(acceleration(simulation), expected, 1e-6 * gravity);
+  const CableReport report = simulation.cable_reports()[0];
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(report.spans[k + 1].tension, 0.917 * report.spans[k].tension, 1e-5) << k;
+  }
+}
+
+TEST(Efficiency, LossesHoldALoadBetween) {
+  // 3 kg hauls 9.7 kg and is hauled by 15 kg.
+  Simulation simulation = tackle(4, 0.917, 12.0, 3.0);
+  EXPECT_NEAR(acceleration(simulation), 0.0, 1e-9);
+}
+
+TEST(Efficiency, EightPartsAt98) {
+  const double up = advantage(8, 0.98);
+  EXPECT_NEAR(up, 7.312, 0.001);
+  const double load = 12.0 + 4.0 * 0.001;
+  Simulation simulation = tackle(8, 0.98, 12.0, 2.0);
+  const double expected = (up * 2.0 - load) * gravity / (load + 8.0 * up * 2.0);
+  EXPECT_NEAR(acceleration(simulation), expected, 1e-6 * gravity);
+  const std::optional<Certificate> certificate = simulation.certificate();
+  ASSERT_TRUE(certificate.has_value());
+}
+
+TEST(Efficiency, WheelsTurnWithTheRope) {
+  Simulation simulation = tackle(4, 0.917, 12.0, 4.0);
+  acceleration(simulation);
+  const State& state = simulation.world.state();
+  // The last sheave, on the beam, turns with all that the effort moves: clockwise, by y / r.
+  const double way = state.bodies[1].position.y() + 2.0;
+  EXPECT_NEAR(state.bodies[5].angle, way / 0.2, 1e-9);
+}
+
+TEST(Efficiency, NeedsAWheelWithoutInertia) {
+  const char* text =
+      R"({"format": "sheave-scene/1", "duration": 1, "gravity": [0, -10, 0], "bodies": [
+    {"name": "wheel", "mobility": "rotor", "mass": 1, "shape": {"type": "cylinder", "radius": 0.5, "length": 0.1}},
+    {"name": "l", "mobility": "slider", "axis": [0, 1, 0], "mass": 1, "position": [-0.5, -2, 0]},
+    {"name": "r", "mobility": "slider", "axis": [0, 1, 0], "mass": 1, "position": [0.5, -2, 0]}],
+    "cables": [{"name": "rope", "links": [{"type": "attachment", "body": "l"},
+      {"type": "rolling", "body": "wheel", "winding": "clockwise", "efficiency": 0.9}, {"type": "attachment", "body": "r"}]}]})";
+  const SceneResult scene = load_scene_text(text, "test");
+  ASSERT_FALSE(scene);
+  EXPECT_NE(scene.errors[0].message.find("spin_inertia"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace sheave::efficiency

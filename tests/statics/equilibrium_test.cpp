@@ -1,0 +1,283 @@
+// Equilibria against closed forms, and against motion that damping has settled.
+
+#include "statics/equilibrium.h"
+
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "engine/body_set.h"
+#include "statics/supports.h"
+#include "tests/statics/scene_at_rest.h"
+
+namespace sheave {
+namespace {
+
+using testing::simulation_of;
+using testing::tension;
+
+/// Newton's method ends where rounding is left: 1e-11 of forces and of the scene's size.
+constexpr double exact = 1e-9;
+
+TEST(Equilibrium, WeightFallsIntoTwoRopes) {
+  // Ropes of 1 m from points 1.2 m apart, in the shape 3-4-5: 2 T 0.8 = 20 N. It begins beside and
+  // above, with slack ropes.
+  Simulation simulation = simulation_of(R"("bodies": [
+    {"name": "load", "mass": 2, "inertia": [1, 1, 1], "position": [0.1, -0.3, 0]}],
+    "cables": [
+    {"name": "a", "rest_lengths": [1], "links": [{"type": "attachment", "body": "world", "point": [-0.6, 0, 0]},
+      {"type": "attachment", "body": "load"}]},
+    {"name": "b", "rest_lengths": [1], "links": [{"type": "attachment", "body": "world", "point": [0.6, 0, 0]},
+      {"type": "attachment", "body": "load"}]}])");
+  const Equilibrium rest = find_equilibrium(simulation);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  const Vector3 place = simulation.world.state().bodies[0].position;
+  EXPECT_NEAR(place.x(), 0.0, exact);
+  EXPECT_NEAR(place.y(), -0.8, exact);
+  EXPECT_NEAR(tension(simulation, 0, 0), 12.5, 12.5 * exact);
+  EXPECT_NEAR(tension(simulation, 1, 0), 12.5, 12.5 * exact);
+  // It can turn about its centre as it likes, and swings in one direction.
+  EXPECT_EQ(rest.stability, Stability::neutral);
+  EXPECT_EQ(rest.neutral_motions, 3);
+}
+
+TEST(Equilibrium, SlackRopeIsFound) {
+  Simulation simulation = simulation_of(R"("bodies": [
+    {"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 2, "position": [0, -1, 0]}],
+    "cables": [
+    {"name": "tight", "links": [{"type": "attachment", "body": "world"}, {"type": "attachment", "body": "load"}]},
+    {"name": "loose", "rest_lengths": [1.25], "links": [{"type": "attachment", "body": "world"},
+      {"type": "attachment", "body": "load"}]}])");
+  const Equilibrium rest = find_equilibrium(simulation);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  EXPECT_NEAR(tension(simulation, 0, 0), 20.0, exact);
+  ASSERT_EQ(rest.slack_spans.size(), 1U);
+  EXPECT_EQ(rest.slack_spans[0].cable, 1);
+  EXPECT_NEAR(rest.slack_spans[0].slack, 0.25, exact);
+}
+
+TEST(Equilibrium, ParallelRopesShareByStiffness) {
+  // Springs of EA / L: 1000 / 1 and 3000 / 1 N/m share 20 N as 1 to 3, stretched by 5 mm.
+  Simulation simulation = simulation_of(R"("bodies": [
+    {"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 2, "position": [0, -1, 0]}],
+    "cables": [
+    {"name": "a", "axial_stiffness": 1000, "links": [{"type": "attachment", "body": "world"}, {"type": "attachment", "body": "load"}]},
+    {"name": "b", "axial_stiffness": 3000, "links": [{"type": "attachment", "body": "world"}, {"type": "attachment", "body": "load"}]}])");
+  const Equilibrium rest = find_equilibrium(simulation);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  EXPECT_NEAR(simulation.world.state().bodies[0].position.y(), -1.005, exact);
+  EXPECT_NEAR(tension(simulation, 0, 0), 5.0, 20.0 * exact);
+  EXPECT_NEAR(tension(simulation, 1, 0), 15.0, 20.0 * exact);
+  EXPECT_EQ(rest.redundant, 0);
+}
+
+TEST(Equilibrium, RedundantRigidRopesAreTold) {
+  Simulation simulation = simulation_of(R"("bodies": [
+    {"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 2, "position": [0, -1, 0]}],
+    "cables": [
+    {"name": "a", "links": [{"type": "attachment", "body": "world"}, {"type": "attachment", "body": "load"}]},
+    {"name": "b", "links": [{"type": "attachment", "body": "world"}, {"type": "attachment", "body": "load"}]}])");
+  const Equilibrium rest = find_equilibrium(simulation);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  EXPECT_EQ(rest.redundant, 1);
+  EXPECT_NEAR(tension(simulation, 0, 0) + tension(simulation, 1, 0), 20.0, exact);
+}
+
+TEST(Equilibrium, NetHangsInTheFunicularPolygon) {
+  // Knots of 1 kg on a rope in five spans of equal weights: the horizontal force H is the same in
+  // all, and the vertical one grows by 10 N from knot to knot. Nothing else is needed to check.
+  std::string bodies;
+  std::string cables;
+  for (int i = 0; i < 4; ++i) {
+    bodies += fmt::format(
+        R"({}{{"name": "k{}", "mobility": "planar", "axis": [0, 0, 1], "mass": 1, "inertia": [1, 1, 1], "position": [{}, -1.5, 0]}})",
+        i == 0 ? "" : ", ", i, 0.8 * (i + 1));
+  }
+  for (int i = 0; i < 5; ++i) {
+    const std::string from = i == 0 ? R"("body": "world")" : fmt::format(R"("body": "k{}")", i - 1);
+    const std::string to =
+        i == 4 ? R"("body": "world", "point": [4, 0.5, 0])" : fmt::format(R"("body": "k{}")", i);
+    cables += fmt::format(
+        R"({}{{"name": "c{}", "rest_lengths": [1.2], "links": [{{"type": "attachment", {}}}, {{"type": "attachment", {}}}]}})",
+        i == 0 ? "" : ", ", i, from, to);
+  }
+  Simulation simulation =
+      simulation_of("\"bodies\": [" + bodies + "], \"cables\": [" + cables + "]");
+  const Equilibrium rest = find_equilibrium(simulation);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  double across = 0.0;
+  double before = 0.0;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const SpanReport span = simulation.cable_reports()[i].spans[0];
+    EXPECT_NEAR(span.length, 1.2, exact);
+    const Vector3 force = span.tension * (span.end - span.start).normalized();
+    if (i == 0) across = force.x();
+    EXPECT_NEAR(force.x(), across, 40.0 * exact);
+    if (i > 0) EXPECT_NEAR(force.y() - before, 10.0, 40.0 * exact);
+    before = force.y();
+  }
+  EXPECT_EQ(rest.unstable_motions, 0);
+}
+
+TEST(Equilibrium, UprightPendulumIsUnstable) {
+  const char* parts =
+      R"("bodies": [{"name": "rod", "mobility": "planar", "axis": [0, 0, 1], "mass": 1,
+      "position": [0, %, 0], "shape": {"type": "box", "size": [0.04, 1, 0.04]}}],
+      "joints": [{"type": "hinge", "name": "pin", "body_b": "rod", "anchor": [0, 0, 0], "axis": [0, 0, 1]}])";
+  const auto at = [&](const std::string& height) {
+    std::string text = parts;
+    text.replace(text.find('%'), 1, height);
+    return simulation_of(text);
+  };
+  Simulation upright = at("0.5");
+  const Equilibrium above = find_equilibrium(upright);
+  ASSERT_TRUE(above.converged) << above.message;
+  EXPECT_EQ(above.stability, Stability::unstable);
+  EXPECT_EQ(above.unstable_motions, 1);
+  Simulation hanging = at("-0.5");
+  const Equilibrium below = find_equilibrium(hanging);
+  ASSERT_TRUE(below.converged) << below.message;
+  EXPECT_EQ(below.stability, Stability::stable);
+}
+
+/// The worked example of DAVE's manual: a grommet of EA = 3000 kN, doubled, carries 100 kN in four
+/// parts. Its friction of 0.1 at a circle means tensions in the ratio r = 1.1 / 0.9 of both sides; with
+/// the directions -, +, + (and what is left at the fourth, -) they are r x, x, r x, r^2 x with the sum
+/// (1 + r)^2 x = 100 kN: the largest is 100 kN (r / (1 + r))^2 = 30.25 kN.
+///
+/// Which way cable has slid before is not in the pose, so statics leaves these directions open: they
+/// are given by how much of the cable is in which part.
+TEST(Equilibrium, FourPartsOfAGrommetWithFriction) {
+  constexpr double stiffness = 3e6;
+  constexpr double height = 10.0;
+  const double ratio = 1.1 / 0.9;
+  const double least = 1e5 / ((1.0 + ratio) * (1.0 + ratio));
+  const std::array pulls{ratio * least, least, ratio * least, ratio * ratio * least};
+  std::string lengths;
+  for (const double pull : pulls) {
+    lengths += fmt::format("{}{}", lengths.empty() ? "" : ", ", height / (1.0 + pull / stiffness));
+  }
+  // Each turns the cable by pi. A bound that rounding does not pass.
+  const double friction = 1.000001 * std::log(ratio) / pi;
+  const std::string text = fmt::format(
+      R"("bodies": [{{"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 10000, "position": [0, -0.005, 0]}}],
+    "cables": [{{"name": "grommet", "closed": true, "axial_stiffness": 3e6, "rest_lengths": [{1}], "links": [
+      {{"type": "pinhole", "body": "world", "point": [0, 10, 0], "friction": {0}}}, {{"type": "pinhole", "body": "load", "friction": {0}}},
+      {{"type": "pinhole", "body": "world", "point": [0, 10, 0], "friction": {0}}}, {{"type": "pinhole", "body": "load", "friction": {0}}}]}}])",
+      friction, lengths);
+  Simulation simulation = simulation_of(text);
+  const Equilibrium rest = find_equilibrium(simulation);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  EXPECT_NEAR(simulation.world.state().bodies[0].position.y(), 0.0, exact);
+  for (std::size_t i = 0; i < pulls.size(); ++i) {
+    EXPECT_NEAR(tension(simulation, 0, i), pulls[i], 1e5 * exact) << i;
+  }
+  EXPECT_NEAR(tension(simulation, 0, 3), 30250.0, 1e5 * exact);
+}
+
+/// Without friction all four parts have the same tension.
+TEST(Equilibrium, FourPartsOfAGrommet) {
+  Simulation simulation = simulation_of(R"("bodies": [
+    {"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 10000, "position": [0, 0, 0]}],
+    "cables": [{"name": "grommet", "closed": true, "axial_stiffness": 3e6, "links": [
+      {"type": "pinhole", "body": "world", "point": [-1, 9, 0]}, {"type": "pinhole", "body": "load", "point": [-1, 0, 0]},
+      {"type": "pinhole", "body": "world", "point": [1, 9, 0]}, {"type": "pinhole", "body": "load", "point": [1, 0, 0]}]}])");
+  const Equilibrium rest = find_equilibrium(simulation);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  double sum = 0.0;
+  for (const SpanReport& span : simulation.cable_reports()[0].spans) {
+    sum += span.tension * std::abs((span.end - span.start).normalized().y());
+    EXPECT_NEAR(span.tension, tension(simulation, 0, 0), 1e5 * exact);
+  }
+  EXPECT_NEAR(sum, 1e5, 1e5 * exact);
+}
+
+/// The four-bar linkage of the IFToMM library of benchmarks, as a parallelogram of rods of 1 m whose
+/// spring along the diagonal is relaxed at 1.2 m: rods of m = 1 kg, k = 100 N/m. With the angle a of
+/// the cranks from the horizontal the energy is 2 m g sin a (two cranks, and the coupler on top) and
+/// k (l - 1.2 m)^2 / 2 with l^2 = 2 + 2 cos a; the derivative's zero is found by bisection.
+TEST(Equilibrium, FourBarLinkageWithADiagonalSpring) {
+  Simulation simulation = simulation_of(R"("bodies": [
+    {"name": "left", "mobility": "planar", "axis": [0, 0, 1], "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": [0, 0.5, 0]},
+    {"name": "coupler", "mobility": "planar", "axis": [0, 0, 1], "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": [0.5, 1, 0]},
+    {"name": "right", "mobility": "planar", "axis": [0, 0, 1], "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": [1, 0.5, 0]}],
+    "joints": [
+    {"type": "hinge", "name": "a", "body_b": "left", "anchor": [0, 0, 0], "axis": [0, 0, 1]},
+    {"type": "hinge", "name": "b", "body_a": "left", "body_b": "coupler", "anchor": [0, 1, 0], "axis": [0, 0, 1]},
+    {"type": "hinge", "name": "c", "body_a": "coupler", "body_b": "right", "anchor": [1, 1, 0], "axis": [0, 0, 1]},
+    {"type": "hinge", "name": "d", "body_b": "right", "anchor": [1, 0, 0], "axis": [0, 0, 1]},
+    {"type": "distance", "name": "spring", "body_b": "right", "anchor_a": [0, 0, 0], "anchor_b": [1, 1, 0], "length": 1.2, "compliance": 0.01}])");
+  const Equilibrium rest = find_equilibrium(simulation);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  const Vector3 middle = simulation.world.state().bodies[2].position;
+  const double found = std::atan2(middle.y(), middle.x() - 1.0);
+  const auto slope = [](double a) {
+    const double l = std::sqrt(2.0 + 2.0 * std::cos(a));
+    return 20.0 * std::cos(a) - 100.0 * (l - 1.2) * std::sin(a) / l;
+  };
+  double low = found - 1e-3;
+  double high = found + 1e-3;
+  ASSERT_LT(slope(low) * slope(high), 0.0);
+  for (int i = 0; i < 60; ++i) {
+    const double half = 0.5 * (low + high);
+    (slope(low) * slope(half) <= 0.0 ? high : low) = half;
+  }
+  EXPECT_NEAR(found, low, 1e-10);
+}
+
+TEST(Equilibrium, AgreesWithMotionThatDampingHasSettled) {
+  const std::string parts = R"("bodies": [
+    {"name": "a", "mobility": "planar", "axis": [0, 0, 1], "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": [0.5, -0.6, 0],
+     "damping": 6, "angular_damping": 2},
+    {"name": "b", "mobility": "planar", "axis": [0, 0, 1], "mass": 3, "inertia": [0.1, 0.1, 0.1], "position": [1.3, -0.7, 0],
+     "damping": 8, "angular_damping": 2}],
+    "cables": [
+    {"name": "l", "axial_stiffness": 800, "links": [{"type": "attachment", "body": "world"}, {"type": "attachment", "body": "a"}]},
+    {"name": "m", "axial_stiffness": 800, "links": [{"type": "attachment", "body": "a"}, {"type": "attachment", "body": "b"}]},
+    {"name": "r", "links": [{"type": "attachment", "body": "b"}, {"type": "attachment", "body": "world", "point": [2, 0, 0]}]}])";
+  Simulation still = simulation_of(parts);
+  const Equilibrium rest = find_equilibrium(still);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  Simulation moving = simulation_of(parts);
+  // The slowest motion fades with some 1.3 /s: 30 s leave e^-40.
+  for (int i = 0; i < 60 * 30; ++i) ASSERT_TRUE(moving.step().ok());
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vector3 off =
+        still.world.state().bodies[i].position - moving.world.state().bodies[i].position;
+    EXPECT_LT(off.norm(), 1e-8);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(tension(still, i, 0), tension(moving, i, 0), 1e-8 * 40.0);
+  }
+}
+
+TEST(Equilibrium, BearingBearsBothPartsOfARope) {
+  // Two weights of 1 kg over a wheel of 0.5 kg: 10 + 10 + 5 N. The wheel may stand as it likes.
+  Simulation simulation = simulation_of(R"("bodies": [
+    {"name": "wheel", "mobility": "rotor", "mass": 0.5, "shape": {"type": "cylinder", "radius": 0.5, "length": 0.1}},
+    {"name": "l", "mobility": "slider", "axis": [0, 1, 0], "mass": 1, "position": [-0.5, -2, 0]},
+    {"name": "r", "mobility": "slider", "axis": [0, 1, 0], "mass": 1, "position": [0.5, -2, 0]}],
+    "cables": [{"name": "rope", "links": [{"type": "attachment", "body": "l"},
+      {"type": "rolling", "body": "wheel", "winding": "clockwise"}, {"type": "attachment", "body": "r"}]}])");
+  const Equilibrium rest = find_equilibrium(simulation);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  EXPECT_EQ(rest.neutral_motions, 1);
+  const std::vector<SupportReaction> supports = support_reactions(simulation, rest.forces);
+  ASSERT_FALSE(supports.empty());
+  EXPECT_EQ(supports[0].body.index, 0);
+  EXPECT_NEAR(supports[0].force.y(), 25.0, 25.0 * exact);
+}
+
+TEST(Equilibrium, NothingHoldsAFreeBody) {
+  Simulation simulation =
+      simulation_of(R"("bodies": [{"name": "stone", "mass": 2, "inertia": [1, 1, 1]}])");
+  EquilibriumSettings settings;
+  settings.iterations = 30;
+  const Equilibrium rest = find_equilibrium(simulation, settings);
+  EXPECT_FALSE(rest.converged);
+  EXPECT_NE(rest.message.find("stone"), std::string::npos) << rest.message;
+}
+
+}  // namespace
+}  // namespace sheave

@@ -1,0 +1,31 @@
+#pragma once
+// Scenes in a few lines for statics and modes.
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "cable/simulation.h"
+#include "scenes/control/scene_supervisor.h"
+#include "scenes/scene.h"
+
+namespace sheave::testing {
+
+/// The simulation of a scene whose bodies, joints and cables are these; with `gravity` 10 m/s2
+/// downwards.
+inline Simulation simulation_of(const std::string& parts,
+                                const std::string& gravity = "[0,-10,0]") {
+  const std::string text =
+      R"({"format": "sheave-scene/1", "duration": 1, "gravity": )" + gravity + ", " + parts + "}";
+  const SceneResult scene = load_scene_text(text, "test");
+  for (const SceneError& error : scene.errors) ADD_FAILURE() << to_string(error);
+  Result<Simulation> simulation = create_simulation(*scene);
+  if (!simulation) ADD_FAILURE() << simulation.errors().front().message;
+  return std::move(*simulation);
+}
+
+inline double tension(const Simulation& simulation, std::size_t cable, std::size_t span) {
+  return simulation.cable_reports()[cable].spans[span].tension;
+}
+
+}  // namespace sheave::testing

@@ -1,0 +1,92 @@
+// `sheave statics`, `sheave modes` and `sheave run --rope-history` as people and programs call them.
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/tools/process.h"
+
+namespace sheave::test {
+namespace {
+
+using nlohmann::json;
+
+/// A weight of 2 kg that hangs from a rope of 1 m and 500 N/m on a rail.
+const std::string hanging_scene = R"json({
+  "format": "sheave-scene/1", "name": "Hanging", "gravity": [0, -10, 0], "duration": 0.1,
+  "bodies": [{"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 2, "position": [0, -1, 0]}],
+  "cables": [{"name": "rope", "compliance": 0.002, "links": [
+    {"type": "attachment", "body": "world"}, {"type": "attachment", "body": "load"}]}]
+})json";
+
+TEST(StaticsCommand, TellsARest) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("hanging.json", hanging_scene);
+  const ProcessResult result = run_sheave({"statics", scene, "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json one = json::parse(result.out)["cases"][0];
+  EXPECT_TRUE(one["converged"]);
+  EXPECT_EQ(one["stability"], "stable");
+  EXPECT_NEAR(one["cables"][0]["spans"][0]["tension"].get<double>(), 20.0, 1e-8);
+  EXPECT_NEAR(one["bodies"][0]["center_of_mass"][1].get<double>(), -1.04, 1e-10);
+  const ProcessResult text = run_sheave({"statics", scene});
+  EXPECT_EQ(text.exit_code, 0);
+  EXPECT_NE(text.out.find("at rest, stable"), std::string::npos) << text.out;
+}
+
+TEST(StaticsCommand, MakesATableOfLoadCases) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("hanging.json", hanging_scene);
+  const ProcessResult result =
+      run_sheave({"statics", scene, "--case", "one:/bodies/load/mass=1", "--case",
+                  "three:/bodies/load/mass=3", "--quantity", "load.y", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json cases = json::parse(result.out)["cases"];
+  ASSERT_EQ(cases.size(), 2U);
+  EXPECT_NEAR(cases[0]["quantities"]["load.y"].get<double>(), -1.02, 1e-10);
+  EXPECT_NEAR(cases[1]["quantities"]["load.y"].get<double>(), -1.06, 1e-10);
+}
+
+TEST(StaticsCommand, SaysWhatIsWrong) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("hanging.json", hanging_scene);
+  EXPECT_EQ(run_sheave({"statics", scene, "--case", "nonsense"}).exit_code, 2);
+  EXPECT_EQ(run_sheave({"statics", scene, "--quantity", "load.q"}).exit_code, 2);
+  EXPECT_EQ(run_sheave({"statics", folder.path("none.json")}).exit_code, 66);
+}
+
+TEST(ModesCommand, TellsFrequenciesAndWritesMatrices) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("hanging.json", hanging_scene);
+  const ProcessResult result = run_sheave({"modes", scene, "--json", "--input", "force:load.y",
+                                           "--output", "load.y", "--matrices", folder.path("m")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json found = json::parse(result.out);
+  const double square = 500.0 / 2.0;
+  EXPECT_NEAR(found["modes"][0]["eigenvalue"].get<double>(), square, 1e-6 * square);
+  // From a force to the height: C B = 0, C A B = 1 / m.
+  const double c = found["C"][0][0].get<double>();
+  const double b = found["B"][1][0].get<double>();
+  EXPECT_NEAR(c * b, 0.5, 1e-6);
+  EXPECT_EQ(read_file(folder.path("m.A.npy")).substr(1, 5), "NUMPY");
+  EXPECT_EQ(read_file(folder.path("m.K.npy")).size() % 8, 0U);
+  EXPECT_EQ(run_sheave({"modes", scene, "--input", "drive:load"}).exit_code, 2);
+}
+
+TEST(RunCommand, WritesWhatRopesSuffer) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("hanging.json", hanging_scene);
+  const std::string file = folder.path("ropes.json");
+  const ProcessResult result = run_sheave({"run", scene, "-q", "--rope-history", file,
+                                           "--rope-sections", "4", "--rope-diameter", "0.01"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json cable = json::parse(read_file(file))["cables"][0];
+  EXPECT_EQ(cable["name"], "rope");
+  ASSERT_EQ(cable["sections"].size(), 4U);
+  EXPECT_TRUE(cable["sections"][0]["bends"].empty());
+  EXPECT_GT(cable["sections"][3]["most_tension"].get<double>(), 0.0);
+}
+
+}  // namespace
+}  // namespace sheave::test

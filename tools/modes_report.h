@@ -1,0 +1,31 @@
+#pragma once
+// What `sheave modes` finds, as text, JSON and NPY.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "statics/equilibrium.h"
+#include "statics/modes.h"
+
+namespace sheave::tools {
+
+struct ModesFound {
+  std::string scene;
+  std::optional<Equilibrium> rest;  ///< none: linearised about the pose as it was
+  Modes modes;
+  std::vector<std::string> freedoms;
+  std::vector<std::string> bodies;
+  std::vector<std::string> inputs;
+  std::vector<std::string> outputs;
+  Eigen::MatrixXd output_matrix;  ///< C of y = C x, outputs x states
+};
+
+/// Linear outputs by differences of what states tell. A Failure (2) if one does not exist.
+void take_outputs(Simulation& simulation, const std::vector<std::string>& names, ModesFound& found);
+/// NAME.M.npy, .D.npy, .K.npy, .Z.npy, .A.npy, .B.npy, .C.npy
+void write_matrices(const std::string& name, const ModesFound& found);
+[[nodiscard]] std::string modes_text(const ModesFound& found, std::size_t count);
+[[nodiscard]] std::string modes_json(const std::string& path, const ModesFound& found);
+
+}  // namespace sheave::tools

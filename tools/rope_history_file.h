@@ -1,0 +1,28 @@
+#pragma once
+// What a run does to its ropes, as a JSON file (docs/ropes.md).
+
+#include <optional>
+#include <string>
+
+#include "measure/rope_history.h"
+
+namespace sheave::tools {
+
+/// Options of `sheave run` as the user wrote them.
+struct RopeHistoryOptions {
+  std::string path;  ///< empty: no history is kept
+  int sections = 100;
+  std::optional<double> diameter;  ///< of the ropes, for D/d [m]
+};
+
+/// What is to watch the run; nothing if no history is kept.
+[[nodiscard]] inline std::optional<measure::RopeHistory> watch_ropes(
+    const RopeHistoryOptions& options) {
+  if (options.path.empty()) return {};
+  return measure::RopeHistory(options.sections);
+}
+
+/// Writes the file in one piece; a Failure (74) if it cannot be written.
+void write_rope_history(const RopeHistoryOptions& options, const measure::RopeHistory& history);
+
+}  // namespace sheave::tools
