@@ -15,6 +15,11 @@ if(SHEAVE_UNITY)
   set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
 endif()
 
+# emscripten brings its own linker.
+if(SHEAVE_WEB)
+  return()
+endif()
+
 include(CheckLinkerFlag)
 find_program(SHEAVE_MOLD mold)
 find_program(SHEAVE_LLD ld.lld)

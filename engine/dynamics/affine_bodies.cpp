@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/divergence.h"
-#include "engine/dynamics/sine_cosine.h"
+#include "engine/math/sine_cosine.h"
 #include "engine/index.h"
 #include "engine/integrators/loads.h"
 
