@@ -1,6 +1,7 @@
 // Reads what view/recording_pack.cpp writes: the frames of a run, packed.
 //
-// The stream, inflated: the times of all frames as doubles (little-endian), then channel by channel
+// Inflated: the length of a head (4 bytes, little-endian), the head in JSON, the stream. In the
+// stream: the times of all frames as doubles (little-endian), then channel by channel
 // what its packing says. "constant" has nothing in the stream. "exact" has doubles. "steps" has whole
 // numbers of quanta: of their differences of the given order (the first `order` ones are differences
 // to nothing, 0), each as a zigzag varint. The first `missing` values are not known (NaN) and are not
@@ -54,7 +55,14 @@ class Reader {
   }
 }
 
-export function unpack(head: RecordingHead, bytes: Uint8Array): Frames {
+/** All of a recording, inflated. */
+export function unpack(bytes: Uint8Array): Frames {
+  const length = new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true);
+  const text = new TextDecoder().decode(bytes.subarray(4, 4 + length));
+  return unpackStream(JSON.parse(text) as RecordingHead, bytes.subarray(4 + length));
+}
+
+export function unpackStream(head: RecordingHead, bytes: Uint8Array): Frames {
   const frames = new Frames(
     head.machine,
     head.channels.map(({ name, unit, hidden }) => ({ name, unit, hidden })),

@@ -2,7 +2,6 @@
 
 import { button, element } from './dom';
 import { buildPage } from './page';
-import type { RecordingHead } from './recording';
 import { fromBase64, inflate, unpack } from './recording';
 
 function textOf(id: string): string {
@@ -14,10 +13,9 @@ function textOf(id: string): string {
 async function start(): Promise<void> {
   const host = document.getElementById('page')!;
   try {
-    const head = JSON.parse(textOf('recording-head')) as RecordingHead;
-    const frames = unpack(head, await inflate(fromBase64(textOf('recording-frames'))));
+    const frames = unpack(await inflate(fromBase64(textOf('recording'))));
     const page = buildPage(host, frames);
-    document.title = `${head.machine.name} – Sheave`;
+    document.title = `${frames.machine.name} – Sheave`;
     const last = page.frames.events.at(-1);
     if (last?.kind === 'diverged') showFault(host, last.text);
     Object.assign(window, { sheave: page });
