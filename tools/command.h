@@ -41,6 +41,7 @@ struct CommandLine {
 Action declare_run(CLI::App& app);
 Action declare_live(CLI::App& app);
 Action declare_render(CLI::App& app);
+Action declare_view(CLI::App& app);
 Action declare_validate(CLI::App& app);
 Action declare_schema(CLI::App& app);
 Action declare_reference(CLI::App& app);

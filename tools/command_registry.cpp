@@ -13,10 +13,11 @@
 namespace sheave::tools {
 
 std::span<const Command> commands() {
-  static constexpr std::array<Command, 10> table{{
+  static constexpr std::array<Command, 11> table{{
       {"run", "Simulate a scene; write tables, print a summary", declare_run},
       {"live", "Hold a world for a program that talks to it in lines", declare_live},
       {"render", "Simulate a scene; write a video or pictures", declare_render},
+      {"view", "Simulate a scene; write a page that shows it in a browser", declare_view},
       {"bench", "Measure the paper's scenes: time per frame, with the error", declare_bench},
       {"trade", "Measure speed against accuracy of a scene; choose a setting", declare_trade},
       {"stress", "Map where extreme numbers break machines, or a scene", declare_stress},

@@ -21,6 +21,7 @@
 #include "tools/output_paths.h"
 #include "tools/player.h"
 #include "tools/render_outputs.h"
+#include "tools/scene_look.h"
 #include "tools/scene_options.h"
 #include "tools/state_file.h"
 #include "tools/terminal.h"
@@ -117,21 +118,8 @@ Look survey(const Scene& scene, const RenderOptions& settings, std::span<const d
   }
   const Simulation start = make_simulation(scene);
   const std::vector<CableReport> cables = start.cable_reports();
-  render::ViewOptions view;
-  view.tension_max = survey.tension_max();
-  view.run_bounds = survey.bounds();
+  render::ViewOptions view = view_options(scene, survey);
   view.force_labels = options.labels || (scene.camera && scene.camera->labels);
-  view.title = scene.name;
-  if (scene.camera) {
-    view.joints = scene.camera->joints;
-    view.cable_radius = scene.camera->cable_radius;
-  }
-  view.body_colors.resize(scene.model.bodies.size());
-  for (const PaintDef& paint : scene.paint) {
-    view.body_colors[static_cast<std::size_t>(paint.body.index)] =
-        render::Color{static_cast<float>(paint.color.x()), static_cast<float>(paint.color.y()),
-                      static_cast<float>(paint.color.z())};
-  }
   render::ViewBuilder builder(start.world, cables, view);
   const render::DrawList typical = builder.build(start.world, cables);
   const render::Camera camera =

@@ -1,0 +1,86 @@
+// Builds the page of `sheave view` (dist/view.html), or the tests (--tests, into dist/tests).
+//
+// The page is one file: esbuild puts three.js, uPlot and our own code into it. The licences of what
+// it contains stand at its end.
+
+import { mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+import { build } from 'esbuild';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const source = join(here, 'src');
+const target = join(here, 'dist');
+
+/** The packages that end up in the page, with their licences. */
+const contained = ['three', 'uplot'];
+
+export function licences() {
+  return contained
+    .map((name) => {
+      const folder = join(here, 'node_modules', name);
+      const { version } = JSON.parse(readFileSync(join(folder, 'package.json'), 'utf8'));
+      return `${name} ${version}\n\n${readFileSync(join(folder, 'LICENSE'), 'utf8')}`;
+    })
+    .join('\n----\n\n');
+}
+
+export async function bundle(entry) {
+  const result = await build({
+    entryPoints: [join(source, entry)],
+    bundle: true,
+    minify: true,
+    format: 'iife',
+    target: 'es2022',
+    legalComments: 'none',
+    write: false,
+  });
+  return result.outputFiles[0].text;
+}
+
+/** What stands in a script must not end it. */
+export const inScript = (text) => text.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
+
+export async function style() {
+  const ours = readFileSync(join(source, 'style.css'), 'utf8');
+  const plots = readFileSync(join(here, 'node_modules/uplot/dist/uPlot.min.css'), 'utf8');
+  const result = await build({
+    stdin: { contents: plots + ours, loader: 'css' },
+    minify: true,
+    write: false,
+  });
+  return result.outputFiles[0].text;
+}
+
+/** Fills a template; as functions, because replacements have signs of their own. */
+export async function page(template, entry) {
+  const script = inScript(await bundle(entry));
+  const css = await style();
+  const html = readFileSync(join(source, template), 'utf8')
+    .replace('/*STYLE*/', () => css)
+    .replace('/*SCRIPT*/', () => script);
+  return `${html}<!--\nThis page contains:\n\n${licences().replaceAll('--', '—')}\n-->\n`;
+}
+
+async function buildView() {
+  mkdirSync(target, { recursive: true });
+  writeFileSync(join(target, 'view.html'), await page('view.html', 'view.ts'));
+}
+
+async function buildTests() {
+  const tests = readdirSync(join(here, 'tests')).filter((name) => name.endsWith('.test.ts'));
+  await build({
+    entryPoints: tests.map((name) => join(here, 'tests', name)),
+    bundle: true,
+    platform: 'node',
+    format: 'esm',
+    outExtension: { '.js': '.mjs' },
+    outdir: join(target, 'tests'),
+    external: ['puppeteer-core', 'gltf-validator'],
+  });
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  await (process.argv.includes('--tests') ? buildTests() : buildView());
+}
