@@ -293,7 +293,9 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
   for (std::size_t i = start; i < rows.size(); ++i) {
     run_work_.weights.push_back(rows[i].start_weight);
   }
-  strain_rows(cable, run_work_.stretched, run_work_.weights, std::span<Row>(rows).subspan(start));
+  if (rows.size() == start) return;
+  Row* const first = &*rows.begin() + start;
+  strain_rows(cable, run_work_.stretched, run_work_.weights, {first, rows.size() - start});
 }
 
 bool CableSystem::shorten_run(const Substep& substep, const CompiledCable& cable, Run run) {

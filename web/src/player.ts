@@ -7,6 +7,8 @@ export class Player {
   playing = false;
   speed = 1;
   loop = false;
+  /** Whether there is more behind the end, as where an engine runs: playing then waits for it. */
+  endless = false;
   private begin = 0;
   private end = 0;
   private last = 0;
@@ -34,7 +36,7 @@ export class Player {
   }
   /** Plays; from the beginning if all has been played. */
   play(): void {
-    if (this.time >= this.end) this.time = this.begin;
+    if (this.time >= this.end && !this.endless) this.time = this.begin;
     this.playing = true;
     this.changed();
   }
@@ -70,11 +72,11 @@ export class Player {
     const next = this.time + passed * this.speed;
     if (next < this.end) {
       this.time = next;
-    } else if (this.loop && this.end > this.begin) {
+    } else if (this.loop && !this.endless && this.end > this.begin) {
       this.time = this.begin + ((next - this.begin) % (this.end - this.begin));
     } else {
       this.time = this.end;
-      this.playing = false;
+      this.playing = this.endless;
     }
     this.changed();
   }
