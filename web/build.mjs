@@ -1,4 +1,4 @@
-// Builds the page of `sheave view` (dist/view.html), or the tests (--tests, into dist/tests).
+// Builds the page of `sheave view` (dist/view.html), or the tests of the folders that are named.
 //
 // The page is one file: esbuild puts three.js, uPlot and our own code into it. The licences of what
 // it contains stand at its end.
@@ -68,19 +68,22 @@ async function buildView() {
   writeFileSync(join(target, 'view.html'), await page('view.html', 'view.ts'));
 }
 
-async function buildTests() {
-  const tests = readdirSync(join(here, 'tests')).filter((name) => name.endsWith('.test.ts'));
+/** Tests of one folder, each bundled with what it includes. */
+async function buildTests(folder) {
+  const tests = readdirSync(join(here, folder)).filter((name) => name.endsWith('.test.ts'));
   await build({
-    entryPoints: tests.map((name) => join(here, 'tests', name)),
+    entryPoints: tests.map((name) => join(here, folder, name)),
     bundle: true,
     platform: 'node',
     format: 'esm',
     outExtension: { '.js': '.mjs' },
-    outdir: join(target, 'tests'),
+    outdir: join(target, folder),
     external: ['puppeteer-core', 'gltf-validator'],
   });
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
-  await (process.argv.includes('--tests') ? buildTests() : buildView());
+  const folders = process.argv.slice(2);
+  if (folders.length === 0) await buildView();
+  for (const folder of folders) await buildTests(folder);
 }
