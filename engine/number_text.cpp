@@ -14,7 +14,7 @@ namespace {
 
 template <class... Format>
 std::string written(double value, Format... format) {
-  std::array<char, 32> text{};
+  std::array<char, 352> text{};  // the longest finite double in fixed notation
   const auto [end, code] =
       std::to_chars(text.data(), text.data() + text.size(), value, format...);
   return code == std::errc() ? std::string(text.data(), end) : std::string("?");
@@ -23,6 +23,10 @@ std::string written(double value, Format... format) {
 std::string shortest(double value) { return written(value); }
 std::string general(double value, int digits) {
   return written(value, std::chars_format::general, digits);
+}
+
+std::string fixed(double value, int decimals) {
+  return written(value, std::chars_format::fixed, decimals);
 }
 
 #else
@@ -40,15 +44,19 @@ std::string streamed(double value, int digits, std::ios_base::fmtflags notation)
 
 std::string general(double value, int digits) { return streamed(value, digits, {}); }
 
+std::string fixed(double value, int decimals) {
+  return streamed(value, decimals, std::ios_base::fixed);
+}
+
 std::string shortest(double value) {
   constexpr int most = std::numeric_limits<double>::max_digits10;
   int digits = 1;
   while (digits < most && std::strtod(general(value, digits).c_str(), nullptr) != value) ++digits;
   const std::string scientific = streamed(value, digits - 1, std::ios_base::scientific);
   for (int decimals = 0; decimals <= most + 3; ++decimals) {
-    const std::string fixed = streamed(value, decimals, std::ios_base::fixed);
-    if (fixed.size() > scientific.size()) break;
-    if (std::strtod(fixed.c_str(), nullptr) == value) return fixed;
+    const std::string plain = fixed(value, decimals);
+    if (plain.size() > scientific.size()) break;
+    if (std::strtod(plain.c_str(), nullptr) == value) return plain;
   }
   return scientific;
 }
@@ -59,5 +67,6 @@ std::string shortest(double value) {
 
 std::string number_text(double value) { return shortest(value); }
 std::string number_text(double value, int digits) { return general(value, digits); }
+std::string fixed_number_text(double value, int decimals) { return fixed(value, decimals); }
 
 }  // namespace sheave

@@ -64,6 +64,9 @@ Json json(const render::JointLine& line) {
           {"length", line.length}};
 }
 
+// A template finds only what has been declared before it.
+Json json(const render::JointView::Piece& piece);
+
 template <class T>
 Json list(const std::vector<T>& items) {
   Json made = Json::array();

@@ -1,22 +1,11 @@
-// Builds the page of `sheave view` (dist/view.html), or the tests (--tests, into dist/tests), or the
-// playground (--playground ENGINE: the folder with sheave_engine.cjs, into dist/playground) and the
-// page of `sheave view --live` (dist/live.html).
+// Builds the page of `sheave view` (dist/view.html), or the tests of the folders that are named.
 //
 // The page is one file: esbuild puts three.js, uPlot and our own code into it. The licences of what
 // it contains stand at its end.
 
-import {
-  copyFileSync,
-  existsSync,
-  mkdirSync,
-  readFileSync,
-  readdirSync,
-  rmSync,
-  writeFileSync,
-} from 'node:fs';
-import { dirname, join, resolve } from 'node:path';
+import { mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { deflateSync } from 'node:zlib';
 
 import { build } from 'esbuild';
 
@@ -37,7 +26,8 @@ export function licences() {
     .join('\n----\n\n');
 }
 
-export async function bundle(entry, engine) {
+/** `more`: what esbuild is to know besides. */
+export async function bundle(entry, more = {}) {
   const result = await build({
     entryPoints: [join(source, entry)],
     bundle: true,
@@ -46,9 +36,7 @@ export async function bundle(entry, engine) {
     target: 'es2022',
     legalComments: 'none',
     write: false,
-    // What emscripten's code asks Node for, and never in a browser.
-    external: ['fs', 'path', 'crypto', 'url'],
-    alias: engine ? { 'sheave-engine': join(engine, 'sheave_engine.cjs') } : {},
+    ...more,
   });
   return result.outputFiles[0].text;
 }
@@ -68,13 +56,12 @@ export async function style() {
 }
 
 /** Fills a template; as functions, because replacements have signs of their own. */
-export async function page(template, entry, engine) {
-  const script = inScript(await bundle(entry, engine));
+export async function page(template, entry, more) {
+  const script = inScript(await bundle(entry, more));
   const css = await style();
   const html = readFileSync(join(source, template), 'utf8')
     .replace('/*STYLE*/', () => css)
-    .replace('/*SCRIPT*/', () => script)
-    .replace('/*ENGINE*/', () => packedEngine(engine));
+    .replace('/*SCRIPT*/', () => script);
   return `${html}<!--\nThis page contains:\n\n${licences().replaceAll('--', '—')}\n-->\n`;
 }
 
@@ -83,69 +70,22 @@ async function buildView() {
   writeFileSync(join(target, 'view.html'), await page('view.html', 'view.ts'));
 }
 
-/** The engine's code, deflated, as text. */
-function packedEngine(engine) {
-  const bytes = readFileSync(join(engine, 'sheave_engine.wasm'));
-  return deflateSync(bytes, { level: 9 }).toString('base64');
-}
-
-/** The first sentences of a scene, without loading it: a scene is JSON with comments. */
-function told(text, key) {
-  const found = new RegExp(`^  "${key}": ("(?:[^"\\\\]|\\\\.)*")`, 'm').exec(text);
-  return found ? JSON.parse(found[1]) : '';
-}
-
-const escaped = (text) => text.replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('"', '&quot;');
-
-async function buildPlayground(engine) {
-  const site = join(target, 'playground');
-  const repository = join(here, '..');
-  rmSync(site, { recursive: true, force: true });
-  mkdirSync(join(site, 'pictures'), { recursive: true });
-  const live = await page('play.html', 'play.ts', engine);
-  writeFileSync(join(site, 'play.html'), live);
-  writeFileSync(join(target, 'live.html'), live);
-  let cards = '';
-  for (const folder of ['paper', 'machines', 'analytic', 'stress']) {
-    cards += `<h2>${folder}</h2><ul class="scenes">`;
-    mkdirSync(join(site, 'scenes', folder), { recursive: true });
-    for (const file of readdirSync(join(repository, 'scenes', folder)).sort()) {
-      if (!file.endsWith('.json')) continue;
-      const text = readFileSync(join(repository, 'scenes', folder, file), 'utf8');
-      writeFileSync(join(site, 'scenes', folder, file), text);
-      const name = file.replace(/\.json$/, '');
-      const picture = `${folder}-${name.replaceAll('_', '-')}.webp`;
-      const drawn = join(repository, 'scenes/pictures', picture);
-      if (existsSync(drawn)) copyFileSync(drawn, join(site, 'pictures', picture));
-      const image = existsSync(drawn) ? `<img loading="lazy" src="pictures/${picture}" alt="" />` : '';
-      const title = escaped(told(text, 'name') || name);
-      cards +=
-        `<li><a href="play.html#scene=${folder}/${name}">${image}<strong>${title}</strong></a>` +
-        `<p>${escaped(told(text, 'description'))}</p></li>`;
-    }
-    cards += '</ul>';
-  }
-  const html = readFileSync(join(source, 'start.html'), 'utf8')
-    .replace('/*STYLE*/', () => readFileSync(join(source, 'start.css'), 'utf8'))
-    .replace('<!--SCENES-->', () => cards);
-  writeFileSync(join(site, 'index.html'), html);
-}
-
-async function buildTests() {
-  const tests = readdirSync(join(here, 'tests')).filter((name) => name.endsWith('.test.ts'));
+/** Tests of one folder, each bundled with what it includes. */
+async function buildTests(folder) {
+  const tests = readdirSync(join(here, folder)).filter((name) => name.endsWith('.test.ts'));
   await build({
-    entryPoints: tests.map((name) => join(here, 'tests', name)),
+    entryPoints: tests.map((name) => join(here, folder, name)),
     bundle: true,
     platform: 'node',
     format: 'esm',
     outExtension: { '.js': '.mjs' },
-    outdir: join(target, 'tests'),
+    outdir: join(target, folder),
     external: ['puppeteer-core', 'gltf-validator'],
   });
 }
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
-  const engine = process.argv.indexOf('--playground');
-  if (engine > 0) await buildPlayground(resolve(process.argv[engine + 1]));
-  else await (process.argv.includes('--tests') ? buildTests() : buildView());
+  const folders = process.argv.slice(2);
+  if (folders.length === 0) await buildView();
+  for (const folder of folders) await buildTests(folder);
 }

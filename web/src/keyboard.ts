@@ -17,6 +17,8 @@ function isTyping(target: EventTarget | null): boolean {
 export function listenToKeys(actions: readonly KeyAction[]): void {
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || isTyping(event.target)) return;
+    // A dialog has keys of its own.
+    if (document.querySelector('dialog[open]')) return;
     // A button that has the focus is pressed by the space bar as everywhere.
     const focused = event.target instanceof HTMLButtonElement || event.target instanceof HTMLInputElement;
     if (focused && (event.key === ' ' || event.key === 'Enter')) return;

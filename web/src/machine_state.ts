@@ -139,6 +139,7 @@ export class MachineState {
       this.blend(share);
       this.time = time;
     }
+    this.fillStart(next);
     for (let i = 0; i < this.bodyPlaces.length; ++i) this.poses[i] = this.readPose(i);
   }
 
@@ -192,6 +193,15 @@ export class MachineState {
       }
     });
     return state;
+  }
+
+  /** Forces are not known before the first step; a picture of the start shows those of that step. */
+  private fillStart(next: number): void {
+    if (next !== 1 || this.frames.count < 2) return;
+    this.frames.read(1, this.later);
+    for (let i = 0; i < this.values.length; ++i) {
+      if (Number.isNaN(this.values[i])) this.values[i] = this.later[i];
+    }
   }
 
   private blend(share: number): void {
