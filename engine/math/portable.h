@@ -22,7 +22,7 @@ namespace sheave::portable {
 [[nodiscard]] double expm1(double x);
 /// Within 3e-16.
 [[nodiscard]] double log(double x);
-/// The length of (x, y), within 4e-16.
+/// The length of (x, y), within 5e-16.
 [[nodiscard]] double hypot(double x, double y);
 
 }  // namespace sheave::portable
