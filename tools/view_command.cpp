@@ -13,7 +13,9 @@
 #include <fmt/format.h>
 
 #include "engine/field_check.h"
+#include "scenes/json/document.h"
 #include "tools/command_line.h"
+#include "tools/input_file.h"
 #include "tools/interrupt.h"
 #include "tools/output_file.h"
 #include "tools/output_paths.h"
@@ -33,6 +35,7 @@ struct ViewOptions {
   std::optional<std::int64_t> every;
   double size = 5.0;  // [MB]
   bool open = false;
+  bool live = false;  // the engine instead of a recording
   bool quiet = false;
 };
 
@@ -63,7 +66,28 @@ std::string packed(const view::Json& machine, RecordedRun& run, double most) {
   return text;
 }
 
+/// The scene as its file has it, with its comments; with other settings, as it then is.
+std::string text_of(const Scene& scene, const SceneOptions& options) {
+  const bool as_it_is = options.path != "-" && options.dt.empty() && options.substeps.empty() &&
+                        options.iterations.empty() && options.solver.empty() &&
+                        options.integrator.empty() && options.duration.empty() &&
+                        options.settings.empty();
+  return as_it_is ? read_input(options.path, json::Limits{}.bytes) : write_scene(scene);
+}
+
+ExitCode view_live(const ViewOptions& options) {
+  const std::string out = options.out.empty() ? default_out(options.scene.path) : options.out;
+  check_paths({{"the scene", options.scene.path}}, {{"--out", out}}, false);
+  const std::string page = read_live_page();
+  const Scene scene = load(options.scene);
+  write_file(out, filled_live_page(page, text_of(scene, options.scene)));
+  if (!options.quiet) print(printable(fmt::format("{}: the scene and the engine\n", out)));
+  if (options.open) open_in_browser(out);
+  return ExitCode::done;
+}
+
 ExitCode view_scene(const ViewOptions& options) {
+  if (options.live) return view_live(options);
   const std::string out = options.out.empty() ? default_out(options.scene.path) : options.out;
   check_paths({{"the scene", options.scene.path}, {"--load-state", options.load_state}},
               {{"--out", out}}, false);
@@ -95,6 +119,10 @@ Action declare_view(CLI::App& app) {
                  "the page to write; default: the scene's name with .html, here")
       ->option_text("FILE");
   app.add_flag("--open", options->open, "open it in the browser");
+  CLI::Option* live =
+      app.add_flag("--live", options->live,
+                   "with the engine inside instead of a recording: the machine runs in the "
+                   "browser, to be pulled at and changed");
   app.add_option("--every", options->every,
                  "steps per frame; default 1, more for runs of more than 12000 steps")
       ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}))
@@ -105,11 +133,13 @@ Action declare_view(CLI::App& app) {
       ->check(number_between(1.0, 1000.0))
       ->option_text("X");
   app.add_option("--load-state", options->load_state, "start from a saved state (sheave run)")
-      ->option_text("FILE");
+      ->option_text("FILE")
+      ->excludes(live);
   app.add_flag("-q,--quiet", options->quiet, "print nothing but warnings and errors");
   app.footer(R"(Examples:
   sheave view crane.json --open
   sheave view crane.json --out crane.html --dt 0.001 --every 5
+  sheave view crane.json --live --open
 
 The page is one file that needs no network: the machine in three dimensions, a time line with its
 events, the numbers of what is tapped, curves of all quantities of sheave run --out. What it holds is

@@ -19,6 +19,11 @@ export async function loadEngine(folder) {
     text: () => call('text', 'string', []),
     time: (machine) => call('time', 'number', ['number'], machine),
     hash: (machine) => call('hash', 'string', ['number'], machine),
+    /** One value per channel, copied. */
+    sample(machine, count) {
+      const place = call('sample', 'number', ['number'], machine) / 8;
+      return module.HEAPF64.slice(place, place + count);
+    },
     describe: (machine) => JSON.parse(call('describe', 'string', ['number'], machine)),
     close: (machine) => call('close', null, ['number'], machine),
   };
