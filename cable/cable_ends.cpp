@@ -50,7 +50,8 @@ void attach_at(LinkGeometry& link, double radius, double angle) {
   link.still = link.still && link.carrier == link.body;
   link.carrier = link.body;
   link.normal = link.rim_normal;
-  link.center = link.rim_center + radius * (portable::cos(angle) * axes.x + portable::sin(angle) * axes.y);
+  link.center =
+      link.rim_center + radius * (portable::cos(angle) * axes.x + portable::sin(angle) * axes.y);
   link.centered = link.center.isZero(0.0);
 }
 

@@ -17,7 +17,7 @@ double normal_angle(const Substep& substep, const LinkGeometry& link, const Vect
   const Vector3 along = substep.orientation(link.carrier).conjugate() * direction;
   // Outward is -side times left of the direction, and left of x is y.
   return portable::atan2(-link.side * link.outline->x.dot(along),
-                    link.side * link.outline->y.dot(along));
+                         link.side * link.outline->y.dot(along));
 }
 
 namespace {
@@ -102,7 +102,7 @@ double wrap_angle(const Substep& substep, const LinkGeometry& link, const SpanGe
                   const SpanGeometry& outgoing, double stored_length) {
   if (!link.wraps()) {
     return portable::atan2(cross(incoming.direction, outgoing.direction).norm(),
-                      dot(incoming.direction, outgoing.direction));
+                           dot(incoming.direction, outgoing.direction));
   }
   return std::max(signed_wrap_angle(substep, link, incoming, outgoing, stored_length), 0.0);
 }

@@ -68,7 +68,6 @@ class NumberCheck {
 
 }  // namespace
 
-
 std::string describe(const Range& range) {
   const bool has_minimum = std::isfinite(range.minimum);
   const bool has_maximum = std::isfinite(range.maximum);

@@ -15,8 +15,7 @@ namespace {
 template <class... Format>
 std::string written(double value, Format... format) {
   std::array<char, 352> text{};  // the longest finite double in fixed notation
-  const auto [end, code] =
-      std::to_chars(text.data(), text.data() + text.size(), value, format...);
+  const auto [end, code] = std::to_chars(text.data(), text.data() + text.size(), value, format...);
   return code == std::errc() ? std::string(text.data(), end) : std::string("?");
 }
 

@@ -18,9 +18,7 @@ ObjectFormat plain_format(std::string_view name, std::string_view meaning) {
   return {name, meaning, false, {table_of<Type>()}, {}, {}, {}};
 }
 
-bool same_bits(double a, double b) {
-  return bits_of(a) == bits_of(b);
-}
+bool same_bits(double a, double b) { return bits_of(a) == bits_of(b); }
 template <class Derived>
 bool same_bits(const Eigen::MatrixBase<Derived>& a, const Eigen::MatrixBase<Derived>& b) {
   for (Eigen::Index i = 0; i < a.size(); ++i) {

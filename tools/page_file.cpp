@@ -41,7 +41,8 @@ std::string read_page_file(const std::string& name, const std::string& remedy) {
 std::string replaced(const std::string& page, std::string_view mark, const std::string& content) {
   const std::size_t at = page.find(mark);
   if (at == std::string::npos) {
-    throw Failure(ExitCode::internal, "the page has no place for what it is to show; build it anew");
+    throw Failure(ExitCode::internal,
+                  "the page has no place for what it is to show; build it anew");
   }
   std::string filled;
   filled.reserve(page.size() + content.size());
@@ -75,7 +76,8 @@ std::string filled_page(const std::string& page, const std::string& recording) {
 
 std::string filled_live_page(const std::string& page, const std::string& scene) {
   // As JSON, in which no "<" ends the script that holds it.
-  std::string text = nlohmann::json(scene).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  std::string text =
+      nlohmann::json(scene).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
     text.replace(at, 1, "\\u003c");
   }

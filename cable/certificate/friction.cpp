@@ -16,8 +16,8 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
                 double largest, Findings& findings) {
   const double before = cable.spans[at(pass.before)].tension();
   const double after = cable.spans[at(pass.after)].tension();
-  const double bound =
-      portable::exp(pass.friction * std::max(pass.wrap_angle[first_end], pass.wrap_angle[last_end]));
+  const double bound = portable::exp(
+      pass.friction * std::max(pass.wrap_angle[first_end], pass.wrap_angle[last_end]));
   // Out of a span of constant compliance that has no rest length left nothing can slide.
   const SpanEvidence& giving = cable.spans[at(before < after ? pass.before : pass.after)];
   const bool drained = cable.definition->compliance.value_or(0.0) > 0.0 &&

@@ -228,7 +228,8 @@ bool RowSystem::turn_to_slip(double bound, SharedFriction& friction) {
     if (portable::hypot((*along)[1], (*along)[2]) <= settled_share) return false;
     mixture = directions_along(*along, friction.count);
     softness = giving(along->dot(slip), yield, bound);
-  } else if (friction.softness * portable::hypot(force[1], force[2]) <= settled_share * yield * bound) {
+  } else if (friction.softness * portable::hypot(force[1], force[2]) <=
+             settled_share * yield * bound) {
     return false;
   }
   start = times(mixture, start);

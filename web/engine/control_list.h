@@ -10,10 +10,10 @@
 namespace sheave::web {
 
 struct SliderControl {
-  std::string name;     ///< as triggers and controllers call it, e.g. "drum.drive"
+  std::string name;  ///< as triggers and controllers call it, e.g. "drum.drive"
   std::string unit;
-  double value = 0.0;   ///< that the scene begins with
-  double minimum = 0.0; ///< of a slider; the control itself may allow more
+  double value = 0.0;    ///< that the scene begins with
+  double minimum = 0.0;  ///< of a slider; the control itself may allow more
   double maximum = 1.0;
   ControlPoint point;
 };

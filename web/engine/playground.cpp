@@ -36,11 +36,12 @@ Json faults_json(const std::vector<SceneError>& errors) {
 Json faults_json(const Errors& errors) {
   Json list = Json::array();
   for (const Error& error : errors) {
-    list.push_back({{"line", 0},
-                    {"column", 0},
-                    {"pointer", error.path},
-                    {"message", error.message},
-                    {"text", error.path.empty() ? error.message : error.path + ": " + error.message}});
+    list.push_back(
+        {{"line", 0},
+         {"column", 0},
+         {"pointer", error.path},
+         {"message", error.message},
+         {"text", error.path.empty() ? error.message : error.path + ": " + error.message}});
   }
   return {{"errors", list}};
 }

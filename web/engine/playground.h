@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 /// What can be changed while a machine runs.
 struct Settings {
-  StepSettings step;       ///< its dt does not change
+  StepSettings step;               ///< its dt does not change
   std::optional<Vector3> gravity;  ///< default: the scene's [m/s2]
 };
 

@@ -28,8 +28,7 @@ Errors PointerSpring::grab(const LiveWorld& world, int body, const Vector3& poin
     return {{"", "there is no body " + std::to_string(body)}};
   }
   const BodyDef& definition = model.bodies[static_cast<std::size_t>(body)];
-  const bool driven =
-      definition.drive == DriveKind::speed || definition.drive == DriveKind::angle;
+  const bool driven = definition.drive == DriveKind::speed || definition.drive == DriveKind::angle;
   if (definition.mobility == Mobility::fixed || driven) {
     return {{"", definition.name + (driven ? " is turned by its drive, which yields to nothing"
                                            : " is static: nothing moves it")}};
@@ -92,8 +91,8 @@ void PointerSpring::drag_kinematic(LiveWorld& world, double h) const {
   const BodyState& state = world.state().bodies[static_cast<std::size_t>(body_)];
   const Vector3 missing = target_ - state.position - state.orientation * local_;
   const double share = -std::expm1(-kinematic_rate * h);
-  static_cast<void>(world.set_motion(
-      world.body_at(body_), {.position = state.position + share * missing, .over = h}));
+  static_cast<void>(world.set_motion(world.body_at(body_),
+                                     {.position = state.position + share * missing, .over = h}));
 }
 
 }  // namespace sheave::web

@@ -95,7 +95,8 @@ TEST(Portable, LengthsAreExactToRoundingWhateverTheirSize) {
     for (int i = 0; i < 20000; ++i) {
       const double x = size * random.between(-1.0, 1.0);
       const double y = size * random.between(-1.0, 1.0);
-      const long double right = std::hypot(static_cast<long double>(x), static_cast<long double>(y));
+      const long double right =
+          std::hypot(static_cast<long double>(x), static_cast<long double>(y));
       ASSERT_LT(relative_error(portable::hypot(x, y), right), 5e-16) << x << ' ' << y;
     }
   }
