@@ -22,6 +22,7 @@
 
 #include "cable/cable_system.h"
 #include "engine/index.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
@@ -49,7 +50,8 @@ void attach_at(LinkGeometry& link, double radius, double angle) {
   link.still = link.still && link.carrier == link.body;
   link.carrier = link.body;
   link.normal = link.rim_normal;
-  link.center = link.rim_center + radius * (std::cos(angle) * axes.x + std::sin(angle) * axes.y);
+  link.center =
+      link.rim_center + radius * (portable::cos(angle) * axes.x + portable::sin(angle) * axes.y);
   link.centered = link.center.isZero(0.0);
 }
 
@@ -141,7 +143,7 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
     const double wanted = geometry.length + missing;
     const Vector3 leaves = first ? geometry.start : geometry.end;
     const Vector3 own = orientation.conjugate() * (leaves - center);
-    double angle = std::atan2(axes.y.dot(own), axes.x.dot(own)) - sense * missing / radius;
+    double angle = portable::atan2(axes.y.dot(own), axes.x.dot(own)) - sense * missing / radius;
     // The free cable gets shorter by r per radian, but for a share of a^2 / 2, by which each round
     // leaves less.
     constexpr int rounds = 6;

@@ -38,6 +38,7 @@
 #include "cable/cable_system.h"
 #include "cable/link_contact.h"
 #include "engine/index.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
@@ -130,8 +131,8 @@ void CableSystem::collect_pieces(const Substep& substep, const CompiledCable& ca
     const int link = spans_[at(piece.last)].second;
     const bool ends = !cable.closed && link == cable.last_listed_link();
     if (!ends && links_[at(link)].passes()) piece.link = link;
-    piece.first_pull = std::log(multipliers_[at(run.first)]);
-    piece.last_pull = std::log(multipliers_[at(piece.last)]);
+    piece.first_pull = portable::log(multipliers_[at(run.first)]);
+    piece.last_pull = portable::log(multipliers_[at(piece.last)]);
     if (is_open(substep, cable, run)) {
       double spare = 0.0;
       Row row;
@@ -431,7 +432,7 @@ void CableSystem::hold_between(const Substep& substep, const CompiledCable& cabl
       known = true;
       continue;
     }
-    const double had = std::log(square * start.reals[tension_index(piece.run.first)]);
+    const double had = portable::log(square * start.reals[tension_index(piece.run.first)]);
     double value = std::clamp(had, piece.low, piece.high);
     if (known) value = std::clamp(value, pull - held, pull + held);
     apply_held(substep, cable, piece, value);
@@ -452,7 +453,7 @@ void CableSystem::apply_held(const Substep& substep, const CompiledCable& cable,
       }
       before = span;
     }
-    multipliers_[at(k)] = std::exp(pull);
+    multipliers_[at(k)] = portable::exp(pull);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "cable/cable_system.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
@@ -22,7 +23,7 @@ Vector3 shorter_turn(const Quaternion& from, const Quaternion& to) {
   if (change.w() < 0.0) change.coeffs() = -change.coeffs();
   const double sine = change.vec().norm();
   if (!(sine > 0.0)) return Vector3::Zero();
-  return change.vec() * (2.0 * std::atan2(sine, change.w()) / sine);
+  return change.vec() * (2.0 * portable::atan2(sine, change.w()) / sine);
 }
 
 /// Puts the bodies of a substep where `end` has them.

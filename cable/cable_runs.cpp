@@ -34,6 +34,7 @@
 
 #include "cable/cable_system.h"
 #include "engine/index.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
@@ -171,10 +172,10 @@ double CableSystem::weigh_run(const CompiledCable& cable, std::size_t count, dou
   double deflection = 0.0;
   double damped = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    run_work_.weights[i] = std::exp(run_work_.weights[i] - heaviest);
+    run_work_.weights[i] = portable::exp(run_work_.weights[i] - heaviest);
   }
   if (strains_runs(cable)) {
-    const std::span rows = std::span(run_work_.rows).first(count);
+    const std::span<Row> rows = std::span<Row>(run_work_.rows).first(count);
     strain_rows(cable, run_work_.stretched, run_work_.weights, rows);
     value.error = 0.0;
     for (const Row& row : rows) value.error += row.value;
@@ -281,7 +282,7 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     if (cable.has_friction) last = start_spans_[at(k)] = span;
   }
   const auto relative = [](double weight, double most) {
-    return most == 0.0 && weight == 0.0 ? 1.0 : std::exp(weight - most);
+    return most == 0.0 && weight == 0.0 ? 1.0 : portable::exp(weight - most);
   };
   for (std::size_t i = start; i < rows.size(); ++i) {
     rows[i].weight = relative(rows[i].weight, heaviest.now);
@@ -292,7 +293,9 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
   for (std::size_t i = start; i < rows.size(); ++i) {
     run_work_.weights.push_back(rows[i].start_weight);
   }
-  strain_rows(cable, run_work_.stretched, run_work_.weights, std::span(rows).subspan(start));
+  if (rows.size() == start) return;
+  Row* const first = &*rows.begin() + start;
+  strain_rows(cable, run_work_.stretched, run_work_.weights, {first, rows.size() - start});
 }
 
 bool CableSystem::shorten_run(const Substep& substep, const CompiledCable& cable, Run run) {

@@ -1,7 +1,6 @@
 #include "cable/certificate.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "cable/certificate/checks.h"
@@ -10,6 +9,7 @@
 #include "engine/constraint_batch.h"
 #include "engine/joint_feature.h"
 #include "engine/joint_report.h"
+#include "engine/number_text.h"
 
 namespace sheave {
 namespace {
@@ -49,12 +49,7 @@ std::string advice_for(const CertificateItem& item, const StepSettings& step) {
   return {};
 }
 
-std::string number(double value, int digits = 3) {
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
-                                 std::chars_format::general, digits);
-  return {text.data(), end.ptr};
-}
+std::string number(double value, int digits = 3) { return number_text(value, digits); }
 
 std::string_view what_is_off(Kind kind) {
   switch (kind) {

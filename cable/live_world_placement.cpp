@@ -9,6 +9,7 @@
 #include "engine/body_set.h"
 #include "engine/field_check.h"
 #include "engine/index.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 /// The angle of a planar body with this orientation that is nearest to the one it has.
 double angle_of(const BodyProperties& body, const Quaternion& orientation, double now) {
   const Quaternion turn = orientation * body.start_orientation.conjugate();
-  const double angle = 2.0 * std::atan2(body.axis.dot(turn.vec()), turn.w());
+  const double angle = 2.0 * portable::atan2(body.axis.dot(turn.vec()), turn.w());
   return angle + 2.0 * pi * std::round((now - angle) / (2.0 * pi));
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/index.h"
+#include "engine/math/portable.h"
 #include "engine/shapes/convex_hull.h"
 
 namespace sheave {
@@ -10,7 +11,7 @@ namespace {
 
 /// Angle of the outward normal of the edge from `a` to `b`, counter-clockwise about z.
 double edge_normal_angle(const Vector3& a, const Vector3& b) {
-  return std::atan2(a.x() - b.x(), b.y() - a.y());
+  return portable::atan2(a.x() - b.x(), b.y() - a.y());
 }
 
 /// `angle` plus the multiple of 2 pi that brings it into [from, from + 2 pi).

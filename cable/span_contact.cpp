@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cable/link_contact.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 
@@ -15,8 +16,8 @@ LinkCircle circle_of(const Substep& substep, const LinkGeometry& link, int corne
 double normal_angle(const Substep& substep, const LinkGeometry& link, const Vector3& direction) {
   const Vector3 along = substep.orientation(link.carrier).conjugate() * direction;
   // Outward is -side times left of the direction, and left of x is y.
-  return std::atan2(-link.side * link.outline->x.dot(along),
-                    link.side * link.outline->y.dot(along));
+  return portable::atan2(-link.side * link.outline->x.dot(along),
+                         link.side * link.outline->y.dot(along));
 }
 
 namespace {
@@ -100,8 +101,8 @@ double contact_shift(const Substep& substep, const LinkGeometry& link, const Spa
 double wrap_angle(const Substep& substep, const LinkGeometry& link, const SpanGeometry& incoming,
                   const SpanGeometry& outgoing, double stored_length) {
   if (!link.wraps()) {
-    return std::atan2(cross(incoming.direction, outgoing.direction).norm(),
-                      dot(incoming.direction, outgoing.direction));
+    return portable::atan2(cross(incoming.direction, outgoing.direction).norm(),
+                           dot(incoming.direction, outgoing.direction));
   }
   return std::max(signed_wrap_angle(substep, link, incoming, outgoing, stored_length), 0.0);
 }

@@ -16,6 +16,7 @@
 // from anywhere, Newton's method on both from there, or from where the span was a moment ago, to
 // rounding in a few rounds.
 
+#include "engine/math/portable.h"
 #include "engine/vector.h"
 
 namespace sheave {
@@ -99,7 +100,7 @@ struct SpanGuess {
     return sine *
            (1.0 + s * (1.0 / 6.0 + s * (3.0 / 40.0 + s * (15.0 / 336.0 + s * (105.0 / 3456.0)))));
   }
-  return std::atan2(sine, cosine);
+  return portable::atan2(sine, cosine);
 }
 
 /// The angle from unit vector `from` to unit vector `to`, both perpendicular to the unit vector

@@ -6,6 +6,7 @@
 #include "cable/span_planar.h"
 #include "cable/span_skew.h"
 #include "engine/index.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
@@ -59,7 +60,7 @@ double expected_turn(const Substep& substep, const LinkGeometry& first, const Li
   Vector3 from = line(0);
   for (int i = 1; i <= steps; ++i) {
     const Vector3 to = line(i);
-    sum += std::atan2(dot(normal, cross(from, to)), dot(from, to));
+    sum += portable::atan2(dot(normal, cross(from, to)), dot(from, to));
     from = to;
   }
   return sum;
@@ -86,7 +87,7 @@ double tilt_loss(const LinkGeometry& link, int from, int to, double along, const
     const double z = dot(link.normal, a);
     const double edge = (a - b).norm();
     const double d = std::min((a - z * link.normal).norm(), (b - z * link.normal).norm());
-    loss += edge - (std::hypot(d + edge, z) - std::hypot(d, z));
+    loss += edge - (portable::hypot(d + edge, z) - portable::hypot(d, z));
     corner = next;
   }
   return along > 0.0 ? loss : -loss;

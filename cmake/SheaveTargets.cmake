@@ -41,6 +41,12 @@ set(SHEAVE_PCH_HEADERS
     <variant>
     <vector>)
 
+# Static libraries may end in a module of Python; WebAssembly has none, and pays for it.
+set(SHEAVE_PIC ON)
+if(SHEAVE_WEB)
+  set(SHEAVE_PIC OFF)
+endif()
+
 function(sheave_target_flags target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:${SHEAVE_WARNINGS}>)
@@ -71,7 +77,7 @@ function(sheave_library folder)
   set(target sheave_${folder})
   add_library(${target} STATIC ${sources} ${arg_GENERATED})
   add_library(sheave::${folder} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder} POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder} POSITION_INDEPENDENT_CODE ${SHEAVE_PIC})
   sheave_target_flags(${target})
   if(SHEAVE_FUZZ)
     # Tells the fuzzer which branches an input takes and what is compared; its own main program comes with the link.

@@ -17,6 +17,11 @@ if(SHEAVE_UNITY)
   endif()
 endif()
 
+# emscripten brings its own linker.
+if(SHEAVE_WEB)
+  return()
+endif()
+
 include(CheckLinkerFlag)
 find_program(SHEAVE_MOLD mold)
 find_program(SHEAVE_LLD ld.lld)

@@ -13,6 +13,7 @@
 
 #include "engine/body_check.h"
 #include "engine/index.h"
+#include "engine/math/portable.h"
 #include "engine/model.h"
 
 namespace sheave {
@@ -267,8 +268,8 @@ BodyState BodySet::kinematic_state(int index, double time) const {
   const double phase = rate * time + def.oscillation_phase;
   BodyState state;
   state.position = def.position + time * def.velocity +
-                   (std::sin(phase) - std::sin(def.oscillation_phase)) * def.oscillation;
-  state.velocity = def.velocity + rate * std::cos(phase) * def.oscillation;
+                   (portable::sin(phase) - portable::sin(def.oscillation_phase)) * def.oscillation;
+  state.velocity = def.velocity + rate * portable::cos(phase) * def.oscillation;
   state.angular_velocity = def.angular_velocity;
   state.orientation = rotation_by(time * def.angular_velocity) * def.orientation.normalized();
   return state;

@@ -6,6 +6,7 @@
 #include "engine/controls.h"
 
 #include "engine/body_set.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
@@ -15,9 +16,9 @@ Vector3 angular_velocity(const Vector3& turn, const Vector3& rate) {
   const double angle = std::sqrt(square);
   // At small angles the series, whose next terms are a^4 / 720 and a^4 / 5040.
   const bool small = angle < 1e-3;
-  const double first = small ? 0.5 - square / 24.0 : (1.0 - std::cos(angle)) / square;
+  const double first = small ? 0.5 - square / 24.0 : (1.0 - portable::cos(angle)) / square;
   const double second =
-      small ? 1.0 / 6.0 - square / 120.0 : (angle - std::sin(angle)) / (square * angle);
+      small ? 1.0 / 6.0 - square / 120.0 : (angle - portable::sin(angle)) / (square * angle);
   const Vector3 across = cross(turn, rate);
   return rate + first * across + second * cross(turn, across);
 }

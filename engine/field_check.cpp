@@ -1,7 +1,5 @@
 #include "engine/field_check.h"
 
-#include <charconv>
-
 namespace sheave {
 namespace {
 
@@ -69,12 +67,6 @@ class NumberCheck {
 };
 
 }  // namespace
-
-std::string number_text(double value) {
-  char buffer[32];
-  const auto [end, code] = std::to_chars(buffer, buffer + sizeof buffer, value);
-  return code == std::errc() ? std::string(buffer, end) : std::string("?");
-}
 
 std::string describe(const Range& range) {
   const bool has_minimum = std::isfinite(range.minimum);

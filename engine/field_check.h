@@ -3,6 +3,7 @@
 #include <string>
 
 #include "engine/field.h"
+#include "engine/number_text.h"
 #include "engine/result.h"
 
 namespace sheave {
@@ -14,8 +15,5 @@ void check_fields(std::span<const Field> fields, const void* object, const std::
 
 /// "> 0", "between 1 and 100000", ...
 [[nodiscard]] std::string describe(const Range& range);
-
-/// A number as people write it: shortest text that reads back as the same double.
-[[nodiscard]] std::string number_text(double value);
 
 }  // namespace sheave

@@ -1,10 +1,10 @@
 #include "engine/state.h"
 
-#include <bit>
 #include <cstring>
 #include <utility>
 
 #include "engine/control_members.h"
+#include "engine/math/bits.h"
 
 namespace sheave {
 namespace {
@@ -27,7 +27,7 @@ template <class Visit>
 struct MemberWords {
   const Visit& visit;
   void operator()(bool b) const { visit(static_cast<std::uint64_t>(b)); }
-  void operator()(double x) const { visit(std::bit_cast<std::uint64_t>(x)); }
+  void operator()(double x) const { visit(bits_of(x)); }
   void operator()(ForceFrame frame) const { visit(static_cast<std::uint64_t>(frame)); }
   void operator()(const Vector3& v) const {
     for (const double x : v) (*this)(x);
@@ -83,8 +83,8 @@ void for_each_word(const Controls& controls, const Visit& visit) {
 /// and to_bytes, so that neither can forget a member.
 template <class Visit>
 void for_each_word(const State& state, const Visit& visit) {
-  const auto real = [&](double x) { visit(std::bit_cast<std::uint64_t>(x)); };
-  const auto integer = [&](std::int64_t i) { visit(std::bit_cast<std::uint64_t>(i)); };
+  const auto real = [&](double x) { visit(bits_of(x)); };
+  const auto integer = [&](std::int64_t i) { visit(static_cast<std::uint64_t>(i)); };
   const auto count = [&](std::size_t n) { visit(static_cast<std::uint64_t>(n)); };
   const auto vector = [&](const Vector3& v) {
     for (const double x : v) real(x);
@@ -122,8 +122,8 @@ class Reader {
     position_ += sizeof result;
     return little_endian(result);
   }
-  double real() { return std::bit_cast<double>(word()); }
-  std::int64_t integer() { return std::bit_cast<std::int64_t>(word()); }
+  double real() { return double_of(word()); }
+  std::int64_t integer() { return static_cast<std::int64_t>(word()); }
   /// A list's length; each element takes at least `words` words, so a longer list is a fault.
   std::size_t count(std::size_t words) {
     const std::uint64_t n = word();
@@ -179,7 +179,7 @@ std::uint64_t hash(const State& state) {
   };
   for_each_word(state, add);
   for_each_word_set(state.controls, add);
-  for (const double x : state.memory) add(std::bit_cast<std::uint64_t>(x));
+  for (const double x : state.memory) add(bits_of(x));
   return result;
 }
 
@@ -195,7 +195,7 @@ std::string to_bytes(const State& state) {
   for_each_word(state, append);
   for_each_word(state.controls, append);
   append(static_cast<std::uint64_t>(state.memory.size()));
-  for (const double x : state.memory) append(std::bit_cast<std::uint64_t>(x));
+  for (const double x : state.memory) append(bits_of(x));
   return bytes;
 }
 

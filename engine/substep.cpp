@@ -12,6 +12,7 @@
 
 #include "engine/body_drive.h"
 #include "engine/index.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 /// of a constant force.
 double left_by_drag(double rate, double time) {
   const double x = rate * time;
-  return x > 0.0 ? -std::expm1(-x) / x : 1.0;
+  return x > 0.0 ? -portable::expm1(-x) / x : 1.0;
 }
 
 /// Inverse mass and inverse inertia in the world frame of a body with this orientation, without

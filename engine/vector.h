@@ -13,6 +13,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "engine/math/portable.h"
+
 namespace sheave {
 
 using Vector3 = Eigen::Vector3d;
@@ -99,8 +101,8 @@ constexpr double pi = 3.14159265358979323846;
                                         (1.0 - t * (1.0 / 72.0) * (1.0 - t * (1.0 / 110.0)))));
   } else {
     const double half_angle = std::sqrt(half_squared);
-    half_cosine = std::cos(half_angle);
-    half_sinc = std::sin(half_angle) / half_angle;
+    half_cosine = portable::cos(half_angle);
+    half_sinc = portable::sin(half_angle) / half_angle;
   }
   const double scale = 0.5 * half_sinc;
   return {half_cosine, scale * turn.x(), scale * turn.y(), scale * turn.z()};

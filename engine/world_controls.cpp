@@ -7,6 +7,7 @@
 #include "engine/index.h"
 #include "engine/joints/joint_effect.h"
 #include "engine/joints/joint_hold.h"
+#include "engine/math/portable.h"
 #include "engine/world_content.h"
 
 namespace sheave {
@@ -35,7 +36,7 @@ Turn turn_to(const Quaternion& from, const Quaternion& to) {
   const double sine = change.vec().norm();
   Turn turn;
   if (!(sine > 0.0)) return turn;
-  const double half = std::atan2(sine, change.w());
+  const double half = portable::atan2(sine, change.w());
   turn.vector = change.vec() * (2.0 * half / sine);
   const double square = 4.0 * half * half;
   // Below this, what follows in the series is less than rounding.

@@ -1,18 +1,14 @@
 #include "render/number_text.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
+
+#include "engine/number_text.h"
 
 namespace sheave::render {
 
 std::string fixed_text(double value, int decimals) {
-  // Large enough for the longest finite double in fixed notation.
-  std::array<char, 352> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                    std::chars_format::fixed, std::clamp(decimals, 0, 15));
-  std::string text(buffer.data(), result.ptr);
+  std::string text = fixed_number_text(value, std::clamp(decimals, 0, 15));
   if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) text.erase(0, 1);
   return text;
 }

@@ -55,6 +55,10 @@ class ViewBuilder {
   [[nodiscard]] DrawList build(const World& world, std::span<const CableReport> cables) const;
 
   [[nodiscard]] double cable_radius() const { return cable_radius_; }
+  // What was decided, for others that draw.
+  [[nodiscard]] const BodyView& bodies() const { return bodies_; }
+  [[nodiscard]] const JointView& joints() const { return joints_; }
+  [[nodiscard]] const std::optional<Plane>& floor() const { return floor_; }
 
  private:
   void paint_bodies();

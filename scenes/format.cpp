@@ -1,12 +1,12 @@
 #include "scenes/format.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "engine/field_check.h"
+#include "engine/math/bits.h"
 #include "scenes/format_tables.h"
 #include "scenes/placement.h"
 #include "scenes/scene.h"
@@ -19,9 +19,7 @@ ObjectFormat plain_format(std::string_view name, std::string_view meaning) {
   return {name, meaning, false, {table_of<Type>()}, {}, {}, {}};
 }
 
-bool same_bits(double a, double b) {
-  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
-}
+bool same_bits(double a, double b) { return bits_of(a) == bits_of(b); }
 template <class Derived>
 bool same_bits(const Eigen::MatrixBase<Derived>& a, const Eigen::MatrixBase<Derived>& b) {
   for (Eigen::Index i = 0; i < a.size(); ++i) {

@@ -275,7 +275,7 @@ SceneResult load_scene(const std::string& path, const std::vector<Override>& ove
   const std::size_t most = json::Limits{}.bytes + 1;
   std::string text;
   const std::uintmax_t size = std::filesystem::file_size(path, code);  // of no pipe
-  if (!code) text.reserve(std::min<std::uintmax_t>(size, most));
+  if (!code) text.reserve(static_cast<std::size_t>(std::min<std::uintmax_t>(size, most)));
   std::vector<char> block(std::size_t{1} << 16U);
   while (file && text.size() < most) {
     file.read(block.data(), static_cast<std::streamsize>(block.size()));

@@ -43,6 +43,7 @@ Action declare_live(CLI::App& app);
 Action declare_render(CLI::App& app);
 Action declare_statics(CLI::App& app);
 Action declare_modes(CLI::App& app);
+Action declare_view(CLI::App& app);
 Action declare_validate(CLI::App& app);
 Action declare_schema(CLI::App& app);
 Action declare_reference(CLI::App& app);

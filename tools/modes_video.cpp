@@ -9,9 +9,9 @@
 #if SHEAVE_HAS_RENDER
 
 #include "engine/body_set.h"
+#include "render/scene_view.h"
 #include "render/view_builder.h"
 #include "render/view_survey.h"
-#include "tools/camera_choice.h"
 #include "tools/player.h"
 #include "tools/render_outputs.h"
 
@@ -100,7 +100,7 @@ void animate_mode(const Scene& scene, Simulation& simulation, const Modes& modes
   render::ViewBuilder builder(simulation.world, cables, view);
   const render::DrawList typical = builder.build(simulation.world, cables);
   const render::Camera camera =
-      choose_camera(scene, cables, survey.bounds(), typical, options.width, options.height);
+      render::scene_camera(scene, cables, survey.bounds(), typical, options.width, options.height);
   PictureOutputs outputs(options);
   const auto draw = [&](double share, bool still) {
     place(share);

@@ -9,6 +9,7 @@
 #include "engine/constraint_batch.h"
 #include "engine/dynamics/mounted_drive.h"
 #include "engine/joint_feature.h"
+#include "engine/math/portable.h"
 #include "engine/substep.h"
 
 namespace sheave::certify {
@@ -126,7 +127,7 @@ Vector3 Evidence::turn_of(int body) const {
   if (change.w() < 0.0) change.coeffs() = -change.coeffs();
   const double sine = change.vec().norm();
   if (!(sine > 0.0)) return Vector3::Zero();
-  return 2.0 * std::atan2(sine, change.w()) / sine * change.vec();
+  return 2.0 * portable::atan2(sine, change.w()) / sine * change.vec();
 }
 
 Vector3 Evidence::displacement(int body, const Vector3& point, End at_end) const {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cable/certificate/checks.h"
+#include "engine/math/portable.h"
 
 namespace sheave::certify {
 namespace {
@@ -15,8 +16,8 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
                 double largest, Findings& findings) {
   const double before = cable.spans[at(pass.before)].tension();
   const double after = cable.spans[at(pass.after)].tension();
-  const double bound =
-      std::exp(pass.friction * std::max(pass.wrap_angle[first_end], pass.wrap_angle[last_end]));
+  const double bound = portable::exp(
+      pass.friction * std::max(pass.wrap_angle[first_end], pass.wrap_angle[last_end]));
   // Out of a span of constant compliance that has no rest length left nothing can slide.
   const SpanEvidence& giving = cable.spans[at(before < after ? pass.before : pass.after)];
   const bool drained = cable.definition->compliance.value_or(0.0) > 0.0 &&
@@ -40,7 +41,7 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
   // Each part of the forces with the angle of its time.
   double asked = 0.0;
   for (const End when : {first_end, last_end}) {
-    asked += std::exp(pass.friction * pass.wrap_angle[at(when)]) * held.force[at(when)];
+    asked += portable::exp(pass.friction * pass.wrap_angle[at(when)]) * held.force[at(when)];
   }
   const double creep = 1e-7 * std::min(cable.free_length, evidence.bodies.scale());
   const double weight = std::abs(pass.slip) / (std::abs(pass.slip) + creep);

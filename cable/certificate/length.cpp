@@ -6,6 +6,7 @@
 
 #include "cable/certificate/checks.h"
 #include "cable/links/attachment.h"
+#include "engine/math/portable.h"
 
 namespace sheave::certify {
 namespace {
@@ -55,7 +56,7 @@ void check_arcs(const Evidence& evidence, const CableEvidence& cable, Findings& 
     if (!link.touched || link.winding == 0 || !(link.radius > 0.0) || !link.path.empty()) return;
     const Vector3 entry = link.entry - link.center;
     const Vector3 exit = link.exit - link.center;
-    const double angle = std::atan2(link.normal.dot(entry.cross(exit)), entry.dot(exit));
+    const double angle = portable::atan2(link.normal.dot(entry.cross(exit)), entry.dot(exit));
     const double lies = link.stored_length + link.stored_stretch;
     const double perimeter = 2.0 * pi * link.radius;
     const double off = std::remainder(lies - link.winding * link.radius * angle, perimeter);
@@ -132,7 +133,7 @@ double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, 
   const Vector3 from = own(start, side.point[first_end] - side.center[first_end]);
   const Vector3 to = own(end, side.point[last_end] - side.center[last_end]);
   const Vector3 normal = own(start, side.normal[first_end]);
-  const double angle = std::atan2(normal.dot(from.cross(to)), from.dot(to));
+  const double angle = portable::atan2(normal.dot(from.cross(to)), from.dot(to));
   const double factor = sense * side.winding * side.radius;
   const double turns = std::round((reported / factor - angle) / (2.0 * pi));
   return factor * (angle + 2.0 * pi * turns);

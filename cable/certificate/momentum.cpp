@@ -15,6 +15,7 @@
 #include "cable/certificate/checks.h"
 #include "cable/links/rolling.h"
 #include "engine/body_drive.h"
+#include "engine/math/portable.h"
 
 namespace sheave::certify {
 namespace {
@@ -26,8 +27,8 @@ struct Drag {
   Drag(double rate, double time) {
     const double x = rate * time;
     if (!(x > 0.0)) return;
-    keep = std::exp(-x);
-    share = -std::expm1(-x) / x;
+    keep = portable::exp(-x);
+    share = -portable::expm1(-x) / x;
   }
 };
 

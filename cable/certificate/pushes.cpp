@@ -5,6 +5,7 @@
 #include "cable/certificate/joint_frames.h"
 #include "cable/links/pinhole.h"
 #include "cable/links/rolling.h"
+#include "engine/math/portable.h"
 
 namespace sheave::certify {
 
@@ -106,7 +107,7 @@ namespace {
 double angle_at(const SpanEvidence& in, const SpanEvidence& out, const LinkReport& link, End when) {
   const Vector3& u = in.direction[at(when)];
   const Vector3& v = out.direction[at(when)];
-  if (link.winding == 0) return std::atan2(u.cross(v).norm(), u.dot(v));
+  if (link.winding == 0) return portable::atan2(u.cross(v).norm(), u.dot(v));
   Vector3 from = u;
   Vector3 to = v;
   if (link.radius > 0.0) {
@@ -115,7 +116,7 @@ double angle_at(const SpanEvidence& in, const SpanEvidence& out, const LinkRepor
   }
   const Vector3 normal = link.winding * link.normal;
   const double angle =
-      std::atan2(normal.dot(from.cross(to)), from.dot(to) - normal.dot(from) * normal.dot(to));
+      portable::atan2(normal.dot(from.cross(to)), from.dot(to) - normal.dot(from) * normal.dot(to));
   // Whole turns from how much cable there is.
   return std::max(0.0, angle + 2.0 * pi * std::round((link.wrap_angle - angle) / (2.0 * pi)));
 }

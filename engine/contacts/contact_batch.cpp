@@ -15,6 +15,7 @@
 #include "engine/contacts/planar_contact.h"
 #include "engine/contacts/rebound.h"
 #include "engine/friction_rows.h"
+#include "engine/math/portable.h"
 #include "engine/model.h"
 
 namespace sheave {
@@ -131,7 +132,7 @@ class ContactBatch final : public ConstraintBatch {
       const double now = multipliers_[3 * i] / substep.load_share;
       // Where friction does not use what it has, having more or less changes nothing.
       const double needed =
-          std::hypot(multipliers_[3 * i + 1], multipliers_[3 * i + 2]) / substep.load_share;
+          portable::hypot(multipliers_[3 * i + 1], multipliers_[3 * i + 2]) / substep.load_share;
       const bool matters = contact.slips || needed > contact.friction * now;
       const double change = std::abs(now - contact.pressed);
       if (matters && change > settled_share * std::max(now, contact.pressed)) changed = true;
@@ -300,7 +301,7 @@ class ContactBatch final : public ConstraintBatch {
     Contact& contact = contacts_[i];
     // Positions of `rattle` carry half of the force.
     const double limit = (1.0 - 1e-9) * substep.load_share * contact.friction * contact.pressed;
-    contact.slips = std::hypot(multipliers_[3 * i + 1], multipliers_[3 * i + 2]) >= limit;
+    contact.slips = portable::hypot(multipliers_[3 * i + 1], multipliers_[3 * i + 2]) >= limit;
   }
 
   /// Makes what acted in the second half of the substep four numbers per contact: along the normal,

@@ -18,6 +18,7 @@
 #include <limits>
 
 #include "engine/contacts/contact_axis.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
@@ -147,7 +148,7 @@ class Search {
     const Vector3 y = cross(axis_, x);
     for (std::size_t i = 0; i < tangents_.size(); ++i) {
       const double angle = pi / static_cast<double>(tangents_.size()) * static_cast<double>(i);
-      tangents_[i] = std::cos(angle) * x + std::sin(angle) * y;
+      tangents_[i] = portable::cos(angle) * x + portable::sin(angle) * y;
     }
     knows_tangents_ = true;
   }

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "engine/contacts/contact_axis.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
@@ -59,8 +60,8 @@ Side end_side(const PlacedSolid& cylinder, const Vector3& center, const Vector3&
   const Vector3 y = cross(outward, x);
   for (int i = 0; i < 8; ++i) {
     const double angle = 0.25 * pi * i;
-    side.points.emplace_back(center +
-                             cylinder.solid->radius * (std::cos(angle) * x + std::sin(angle) * y));
+    side.points.emplace_back(center + cylinder.solid->radius *
+                                          (portable::cos(angle) * x + portable::sin(angle) * y));
   }
   return side;
 }

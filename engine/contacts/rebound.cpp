@@ -20,6 +20,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/math/portable.h"
 #include "engine/stages.h"
 
 namespace sheave {
@@ -128,7 +129,7 @@ double Rebound::rub(Substep& substep, const Impact& impact, double limit, double
   for (std::size_t k = 1; k < impact.rows.size(); ++k) {
     wanted[k - 1] = multipliers[k - 1] - substep.h * velocity_along(substep, impact.rows[k]) / w;
   }
-  const double size = std::hypot(wanted[0], wanted[1]);
+  const double size = portable::hypot(wanted[0], wanted[1]);
   const double share = size > limit ? limit / size : 1.0;
   double change = 0.0;
   for (std::size_t k = 1; k < impact.rows.size(); ++k) {

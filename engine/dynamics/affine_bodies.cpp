@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "engine/divergence.h"
-#include "engine/dynamics/sine_cosine.h"
 #include "engine/index.h"
 #include "engine/integrators/loads.h"
+#include "engine/math/sine_cosine.h"
 
 namespace sheave {
 

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include "engine/index.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 
@@ -110,7 +111,7 @@ Vector3 allowed_velocity(const BodyProperties& body, const Vector3& velocity) {
 
 Decay decay(double rate, double time) {
   if (rate == 0.0) return {1.0, time};
-  return {std::exp(-rate * time), -std::expm1(-rate * time) / rate};
+  return {portable::exp(-rate * time), -portable::expm1(-rate * time) / rate};
 }
 
 Vector3 damped_rotation(const Substep& substep, int i, const Quaternion& orientation,

@@ -7,6 +7,7 @@
 
 #include "engine/joints/joint_batch.h"
 #include "engine/joints/lock_rows.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
@@ -44,7 +45,7 @@ struct BallKernel : AnchorPair {
     const Vector3 other = b.orientation(terms.substep()) * Vector3::UnitZ();
     const Vector3 across = own.cross(other);
     const double sine = across.norm();
-    terms.set_value(std::atan2(sine, own.dot(other)));
+    terms.set_value(portable::atan2(sine, own.dot(other)));
     // Parallel axes swing apart in any direction.
     const Vector3 normal = sine > 0.0 ? Vector3(across / sine) : any_perpendicular(own);
     terms.add_torque(a.body, -normal);

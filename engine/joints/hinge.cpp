@@ -7,6 +7,7 @@
 
 #include "engine/joints/joint_batch.h"
 #include "engine/joints/lock_rows.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
@@ -75,7 +76,7 @@ struct HingeKernel : AnchorPair {  // z of the frame is the axis
   void measure_apart() {
     const Quaternion relative =
         (turns.starts[0] * a.frame).conjugate() * (turns.starts[1] * b.frame);
-    turns.apart = 2.0 * std::atan2(relative.z(), relative.w());
+    turns.apart = 2.0 * portable::atan2(relative.z(), relative.w());
   }
   void count_angles(const BodySet& bodies, const Vector3& axis) {
     turns.axis = axis;

@@ -92,7 +92,8 @@ class JointBatch final : public JointFeature {
   void begin(const Substep& /*substep*/, const FeatureState& state) override {
     std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
     for (std::size_t i = 0; i < multipliers_.size(); ++i) acted_[i] = state.reals[i] != 0.0 ? 1 : 0;
-    std::ranges::copy(layout_.coordinates_of(state), starts_.begin());
+    const auto coordinates = layout_.coordinates_of(state);
+    std::copy(coordinates.begin(), coordinates.end(), starts_.begin());
     for (std::size_t j = 0; j < joints_.size(); ++j) intact_[j] = layout_.broken_at(state, j) < 0.0;
     if (!held_ && !layout_.has_holds(state)) return;
     held_ = layout_.has_holds(state);

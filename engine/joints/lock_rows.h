@@ -7,6 +7,7 @@
 
 #include "engine/joints/anchor.h"
 #include "engine/joints/joint_terms.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 
@@ -70,7 +71,7 @@ inline void angle_about(const Anchor& a, const Anchor& b, JointTerms& terms) {
   const Quaternion relative = frame.conjugate() * b.orientation(terms.substep());
   const double w = relative.w();
   const Vector3 v = relative.vec();
-  terms.set_value(2.0 * std::atan2(v.z(), w));
+  terms.set_value(2.0 * portable::atan2(v.z(), w));
   const double size = w * w + v.z() * v.z();
   if (!(size > 1e-12)) return;
   const Vector3 z = Vector3::UnitZ();

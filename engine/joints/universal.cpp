@@ -8,6 +8,7 @@
 
 #include "engine/joints/joint_batch.h"
 #include "engine/joints/lock_rows.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
@@ -23,7 +24,7 @@ void turn_of_axis(const Anchor& own, int about, const Anchor& other, int pointer
   const Vector3 now = other.orientation(terms.substep()) * Vector3::Unit(pointer);
   const double x = now.dot(start);
   const double y = now.dot(ahead);
-  terms.set_value(sense * std::atan2(y, x));
+  terms.set_value(sense * portable::atan2(y, x));
   const double size = x * x + y * y;
   if (!(size > 1e-12)) return;
   const Vector3 gradient = sense * now.cross(x * ahead - y * start) / size;

@@ -177,8 +177,10 @@ class GrowingHull {
         const int beyond = face_at_edge_.at(edge_key(to, from));
         if (!faces_[beyond].alive) continue;  // visible too: not on the horizon
         std::vector<int> candidates;
-        std::ranges::set_union(faces_[id].above, faces_[beyond].above,
-                               std::back_inserter(candidates));
+        const std::vector<int>& one = faces_[id].above;
+        const std::vector<int>& other = faces_[beyond].above;
+        std::set_union(one.begin(), one.end(), other.begin(), other.end(),
+                       std::back_inserter(candidates));
         add_face({from, to, point}, candidates);
       }
     }

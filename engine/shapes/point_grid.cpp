@@ -28,7 +28,7 @@ Result<PointGrid> PointGrid::make(std::span<const Vector3> points, int dimension
   }
   std::vector<int> order(points.size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, [&](int index) { return all[index]; });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return all[a] < all[b]; });
   for (const int index : order) {
     if (!grid.points.empty() && grid.points.back() == all[index]) continue;
     grid.points.push_back(all[index]);

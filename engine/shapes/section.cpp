@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/math/portable.h"
+
 namespace sheave {
 namespace {
 
@@ -47,7 +49,7 @@ void append_ball_section(const Vector3& center, double radius, const SectionPlan
   const Vector3 y = plane.normal.cross(x);
   for (int i = 0; i < curved_section_corners; ++i) {
     const double angle = 2.0 * pi * i / curved_section_corners;
-    points.emplace_back(middle + std::cos(angle) * x + std::sin(angle) * y);
+    points.emplace_back(middle + portable::cos(angle) * x + portable::sin(angle) * y);
   }
 }
 
@@ -59,11 +61,11 @@ void append_cylinder_section(double radius, double length, const SectionPlane& p
   const Vector3& n = plane.normal;
   for (int i = 0; i < curved_section_corners; ++i) {
     const double angle = 2.0 * pi * i / curved_section_corners;
-    const Vector3 rim(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+    const Vector3 rim(radius * portable::cos(angle), radius * portable::sin(angle), 0.0);
     const std::array<Vector3, 2> line{rim - half, rim + half};
     append_hull_section(line, plane, points);
   }
-  const double slope = std::hypot(n.x(), n.y());
+  const double slope = portable::hypot(n.x(), n.y());
   if (!(slope > 1e-12)) return;
   const Vector3 steepest(n.x() / slope, n.y() / slope, 0.0);
   const Vector3 level(-steepest.y(), steepest.x(), 0.0);

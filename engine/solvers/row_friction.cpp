@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "engine/index.h"
+#include "engine/math/portable.h"
 #include "engine/solvers/row_system.h"
 
 namespace sheave {
@@ -225,10 +226,11 @@ bool RowSystem::turn_to_slip(double bound, SharedFriction& friction) {
   Matrix3 mixture = Matrix3::Identity();
   double softness = 0.0;
   if (along) {
-    if (std::hypot((*along)[1], (*along)[2]) <= settled_share) return false;
+    if (portable::hypot((*along)[1], (*along)[2]) <= settled_share) return false;
     mixture = directions_along(*along, friction.count);
     softness = giving(along->dot(slip), yield, bound);
-  } else if (friction.softness * std::hypot(force[1], force[2]) <= settled_share * yield * bound) {
+  } else if (friction.softness * portable::hypot(force[1], force[2]) <=
+             settled_share * yield * bound) {
     return false;
   }
   start = times(mixture, start);

@@ -1,6 +1,6 @@
 // Against the library's functions in long double, which know all digits of a double's angle.
 
-#include "engine/dynamics/sine_cosine.h"
+#include "engine/math/sine_cosine.h"
 
 #include <cmath>
 #include <limits>

@@ -1,0 +1,195 @@
+// The engine in WebAssembly, with types: web/engine/binding.cpp.
+
+import type { Channel, Machine, MachineEvent } from './machine';
+import type { Vector3 } from './vector';
+
+interface Module {
+  HEAPF64: Float64Array;
+  ccall(name: string, result: string | null, types: string[], values: unknown[]): unknown;
+}
+export type ModuleFactory = (options: { wasmBinary?: Uint8Array }) => Promise<Module>;
+
+/** A fault of a scene, where it is in the text (from 1; 0 if it has no place). */
+export interface Fault {
+  line: number;
+  column: number;
+  pointer: string;
+  message: string;
+  value?: string;
+  allowed?: string;
+  text: string;
+}
+
+export interface Settings {
+  solver: 'gauss-seidel' | 'direct';
+  integrator: 'xpbd' | 'rattle';
+  substeps: number;
+  iterations: number;
+  /** [m/s2] */
+  gravity: Vector3;
+}
+
+/** Something of the scene that can be set while it runs. */
+export interface Control {
+  name: string;
+  unit: string;
+  value: number;
+  minimum: number;
+  maximum: number;
+}
+
+export interface Description {
+  machine: Machine;
+  channels: Channel[];
+  controls: Control[];
+  settings: Settings;
+}
+
+export interface Certificate {
+  clean: boolean;
+  substeps: number;
+  /** The worst figure, relative to its scale. */
+  relative: number;
+  sentence: string;
+}
+
+export interface Step {
+  ending: 'none' | 'diverged' | 'stopped';
+  /** Why it goes no further. */
+  reason: string;
+  events: MachineEvent[];
+}
+
+export class FaultyScene extends Error {
+  constructor(readonly faults: Fault[]) {
+    super(faults[0]?.text ?? 'the scene has faults');
+  }
+}
+
+export class Engine {
+  private constructor(readonly module: Module) {}
+
+  static async load(factory: ModuleFactory, wasmBinary: Uint8Array): Promise<Engine> {
+    return new Engine(await factory({ wasmBinary }));
+  }
+
+  /** The machine of a scene; `overrides` are JSON texts by JSON pointers. Throws FaultyScene. */
+  open(text: string, overrides: Record<string, string> = {}): LiveMachine {
+    const handle = this.module.ccall('sheave_open', 'number', ['string', 'string'], [
+      text,
+      JSON.stringify(overrides),
+    ]) as number;
+    if (handle === 0) {
+      const answer = this.module.ccall('sheave_text', 'string', [], []) as string;
+      throw new FaultyScene((JSON.parse(answer) as { errors: Fault[] }).errors);
+    }
+    return new LiveMachine(this.module, handle);
+  }
+}
+
+export class LiveMachine {
+  constructor(
+    private readonly module: Module,
+    private handle: number,
+  ) {}
+
+  describe(): Description {
+    return JSON.parse(this.text('sheave_describe')) as Description;
+  }
+
+  step(): Step {
+    const code = this.number('sheave_step');
+    const text = this.module.ccall('sheave_text', 'string', [], []) as string;
+    const ending = (['none', 'diverged', 'stopped'] as const)[code];
+    if (ending === 'diverged') return { ending, reason: text, events: [] };
+    const events = text
+      .split('\n')
+      .filter((line) => line !== '')
+      .map((line) => {
+        const [kind, time, what] = line.split('\t');
+        return { kind, time: Number(time), text: what };
+      });
+    return { ending, reason: ending === 'stopped' ? 'a trigger has stopped the run' : '', events };
+  }
+
+  /** [s] */
+  get time(): number {
+    return this.number('sheave_time');
+  }
+  /** One value per channel: a view that holds until the next call. */
+  sample(count: number): Float64Array {
+    const place = this.number('sheave_sample') / 8;
+    return this.module.HEAPF64.subarray(place, place + count);
+  }
+  get hasNewChannels(): boolean {
+    return this.number('sheave_has_new_channels') !== 0;
+  }
+
+  keep(): void {
+    this.number('sheave_keep');
+  }
+  goBack(seconds: number): boolean {
+    return this.call('sheave_go_back', 'number', ['number'], [seconds]) !== 0;
+  }
+
+  set(control: string, value: number): Fault[] {
+    return this.faults('sheave_set', ['string', 'number'], [control, value]);
+  }
+  change(settings: Partial<Settings>): Fault[] {
+    return this.faults('sheave_change', ['string'], [JSON.stringify(settings)]);
+  }
+
+  grab(body: number, point: Vector3): Fault[] {
+    return this.faults('sheave_grab', ['number', 'number', 'number', 'number'], [body, ...point]);
+  }
+  drag(target: Vector3): void {
+    this.call('sheave_drag', null, ['number', 'number', 'number'], [...target]);
+  }
+  release(): void {
+    this.call('sheave_release', null, [], []);
+  }
+  /** The size of the pointer's force [N]. */
+  get pull(): number {
+    return this.number('sheave_pull');
+  }
+
+  /** A finer world beside this one from now on; none for 0. */
+  reference(refinement: number): Fault[] {
+    return this.faults('sheave_reference', ['number'], [refinement]);
+  }
+  stepReference(): boolean {
+    return this.number('sheave_step_reference') !== 0;
+  }
+  /** Relative to the size of the scene; NaN without a reference. */
+  get error(): number {
+    return this.number('sheave_error');
+  }
+
+  certificate(reset: boolean): Certificate {
+    const text = this.call('sheave_certificate', 'string', ['number'], [reset ? 1 : 0]) as string;
+    return JSON.parse(text) as Certificate;
+  }
+  hash(): string {
+    return this.text('sheave_hash');
+  }
+
+  dispose(): void {
+    if (this.handle !== 0) this.call('sheave_close', null, [], []);
+    this.handle = 0;
+  }
+
+  private call(name: string, result: string | null, types: string[], values: unknown[]): unknown {
+    if (this.handle === 0) throw new Error('this machine has been closed');
+    return this.module.ccall(name, result, ['number', ...types], [this.handle, ...values]);
+  }
+  private number(name: string): number {
+    return this.call(name, 'number', [], []) as number;
+  }
+  private text(name: string): string {
+    return this.call(name, 'string', [], []) as string;
+  }
+  private faults(name: string, types: string[], values: unknown[]): Fault[] {
+    const answer = JSON.parse(this.call(name, 'string', types, values) as string) as { errors?: Fault[] };
+    return answer.errors ?? [];
+  }
+}

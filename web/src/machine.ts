@@ -1,0 +1,121 @@
+// What a page knows of a machine, whatever it does: the JSON that view/machine_json.cpp writes.
+// Lengths [m], in the world frame or, where it says so, in the frame of a body.
+
+import type { Quaternion, Vector3 } from './vector';
+
+/** Index of a body; -1 is the world, which does not move. */
+export type BodyIndex = number;
+
+export type Shape =
+  | { type: 'box'; size: Vector3 }
+  | { type: 'sphere'; radius: number }
+  /** Cylinders, capsules and sheaves stand about their z axis. */
+  | { type: 'cylinder'; radius: number; length: number }
+  | { type: 'capsule'; radius: number; length: number }
+  | {
+      type: 'sheave';
+      radius: number;
+      length: number;
+      cable_radius: number;
+      groove_width: number;
+      spokes: number;
+    }
+  | { type: 'mesh'; vertices: Vector3[]; triangles: [number, number, number][] };
+
+/** Something fixed to a body; place and turn in its frame. Colours are "#rrggbb". */
+export interface Part {
+  body: BodyIndex;
+  shape: Shape;
+  position: Vector3;
+  orientation: Quaternion;
+  color: string;
+}
+
+/** A round bar fixed to a body; ends in its frame. */
+export interface Bar {
+  body: BodyIndex;
+  start: Vector3;
+  end: Vector3;
+  radius: number;
+  color: string;
+}
+
+/** A line between a point of one body and one of another. */
+export interface JointLine {
+  kind: 'rod' | 'string' | 'spring' | 'telescope' | 'bumper';
+  body_a: BodyIndex;
+  body_b: BodyIndex;
+  start: Vector3;
+  end: Vector3;
+  side: Vector3;
+  length: number;
+}
+
+/** How one joint looks, until it breaks. */
+export interface JointPiece {
+  joint: number;
+  parts: Part[];
+  bars: Bar[];
+  lines: JointLine[];
+}
+
+export interface Camera {
+  position: Vector3;
+  target: Vector3;
+  up: Vector3;
+  /** Full vertical angle of a perspective camera [rad]. */
+  vertical_fov?: number;
+  /** Height of the picture of an orthographic camera [m]. */
+  height?: number;
+}
+
+export interface MachineEvent {
+  /** [s] */
+  time: number;
+  /** "leave", "touch", "cut", "joint broken", "trigger", ... */
+  kind: string;
+  text: string;
+}
+
+export interface Cable {
+  name: string;
+  closed: boolean;
+  links: { type: string; body: BodyIndex; winding_room: number }[];
+  spans: number;
+  /** Capacity for wraps on bodies that are no link of the list. */
+  wraps: number;
+}
+
+export interface Machine {
+  format: 'sheave-view/1';
+  name: string;
+  description: string;
+  gravity: Vector3;
+  /** Of a step [s]. */
+  dt: number;
+  /** Of the run [s]. */
+  duration: number;
+  bodies: { name: string; mobility: string }[];
+  joints: { name: string; type: string; bodies: [BodyIndex, BodyIndex] }[];
+  cables: Cable[];
+  parts: Part[];
+  bars: Bar[];
+  joint_pieces: JointPiece[];
+  /** The radius of rods [m]. */
+  joint_unit: number;
+  cable_radius: number;
+  /** The top of the colour scale [N], for the whole run. */
+  tension_max: number;
+  floor: { point: Vector3; normal: Vector3; grid_spacing: number; color: string } | null;
+  camera: Camera;
+  bounds: { min: Vector3; max: Vector3 };
+}
+
+/** A number that changes in the course of a run. */
+export interface Channel {
+  /** As the columns of `sheave run --out`, and some more for the picture. */
+  name: string;
+  unit: string;
+  /** Not a column of a table: only the picture needs it. */
+  hidden: boolean;
+}

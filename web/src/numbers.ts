@@ -1,0 +1,20 @@
+// Numbers for people.
+
+/** About `digits` significant digits, without noise at the end. */
+export function numberText(value: number, digits = 5): string {
+  if (!Number.isFinite(value)) return '–';
+  if (value === 0 || Math.abs(value) < 1e-12) return '0';
+  const size = Math.abs(value);
+  if (size >= 1e6 || size < 1e-3) return value.toExponential(digits - 1).replace(/\.?0+e/, 'e');
+  return String(Number(value.toPrecision(digits)));
+}
+
+export function quantityText(value: number, unit: string, digits = 5): string {
+  return Number.isFinite(value) && unit ? `${numberText(value, digits)} ${unit}` : numberText(value, digits);
+}
+
+/** [s], with as many decimals as tell two steps of `dt` apart. */
+export function timeText(time: number, dt: number): string {
+  const decimals = Math.min(Math.max(Math.ceil(-Math.log10(dt)), 2), 6);
+  return time.toFixed(decimals);
+}

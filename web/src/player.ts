@@ -1,0 +1,87 @@
+// Which moment is shown, and how it moves on.
+
+export const speeds = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
+
+export class Player {
+  time = 0;
+  playing = false;
+  speed = 1;
+  loop = false;
+  /** Whether there is more behind the end, as where an engine runs: playing then waits for it. */
+  endless = false;
+  private begin = 0;
+  private end = 0;
+  private last = 0;
+  private readonly listeners: (() => void)[] = [];
+
+  /** Calls `listener` after every change. */
+  onChange(listener: () => void): void {
+    this.listeners.push(listener);
+  }
+
+  get range(): [number, number] {
+    return [this.begin, this.end];
+  }
+  /** The times that there are [s]; grows while an engine runs. */
+  setRange(begin: number, end: number): void {
+    this.begin = begin;
+    this.end = end;
+    this.time = Math.min(Math.max(this.time, begin), end);
+    this.changed();
+  }
+
+  seek(time: number): void {
+    this.time = Math.min(Math.max(time, this.begin), this.end);
+    this.changed();
+  }
+  /** Plays; from the beginning if all has been played. */
+  play(): void {
+    if (this.time >= this.end && !this.endless) this.time = this.begin;
+    this.playing = true;
+    this.changed();
+  }
+  pause(): void {
+    this.playing = false;
+    this.changed();
+  }
+  toggle(): void {
+    if (this.playing) this.pause();
+    else this.play();
+  }
+  setLoop(loop: boolean): void {
+    this.loop = loop;
+    this.changed();
+  }
+  setSpeed(speed: number): void {
+    this.speed = speed;
+    this.changed();
+  }
+  /** To the next faster (1) or slower (-1) of `speeds`. */
+  changeSpeed(by: 1 | -1): void {
+    const faster = speeds.filter((s) => (by > 0 ? s > this.speed : s < this.speed));
+    const next = by > 0 ? faster[0] : faster[faster.length - 1];
+    if (next !== undefined) this.setSpeed(next);
+  }
+
+  /** To be called with every picture of the browser; `now` in milliseconds. */
+  tick(now: number): void {
+    // A page that was hidden does not make up for it.
+    const passed = Math.min((now - this.last) / 1000, 0.1);
+    this.last = now;
+    if (!this.playing) return;
+    const next = this.time + passed * this.speed;
+    if (next < this.end) {
+      this.time = next;
+    } else if (this.loop && !this.endless && this.end > this.begin) {
+      this.time = this.begin + ((next - this.begin) % (this.end - this.begin));
+    } else {
+      this.time = this.end;
+      this.playing = this.endless;
+    }
+    this.changed();
+  }
+
+  private changed(): void {
+    for (const listener of this.listeners) listener();
+  }
+}

@@ -1,0 +1,153 @@
+// Curves of chosen quantities, one chart per unit, in sync with the time line.
+
+import uPlot from 'uplot';
+
+import { element } from './dom';
+import type { Frames } from './frames';
+import { numberText } from './numbers';
+import type { Player } from './player';
+
+/** Okabe and Ito's colours, which all eyes tell apart, and dashes beside them. */
+const strokes = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#7a7a7a'];
+const dashes: number[][] = [[], [8, 4], [2, 3], [10, 3, 2, 3]];
+const chartHeight = 170;
+
+export class Plots {
+  readonly element = element('div', { class: 'plots' });
+  private chosen: string[] = [];
+  private charts: uPlot[] = [];
+  private drawnCount = -1;
+  private readonly resizing: ResizeObserver;
+  private readonly listeners: (() => void)[] = [];
+
+  constructor(
+    private readonly frames: Frames,
+    private readonly player: Player,
+  ) {
+    player.onChange(() => this.update());
+    this.resizing = new ResizeObserver(() => this.resize());
+    this.resizing.observe(this.element);
+  }
+
+  onChange(listener: () => void): void {
+    this.listeners.push(listener);
+  }
+  /** Names of the channels that are shown. */
+  get names(): readonly string[] {
+    return this.chosen;
+  }
+  has(name: string): boolean {
+    return this.chosen.includes(name);
+  }
+  choose(names: readonly string[]): void {
+    this.chosen = names.filter((name) => this.frames.channel(name) >= 0);
+    this.build();
+    for (const listener of this.listeners) listener();
+  }
+  toggle(name: string): void {
+    this.choose(this.has(name) ? this.chosen.filter((n) => n !== name) : [...this.chosen, name]);
+  }
+  /** New colours of axes, as the page's style now says. */
+  restyle(): void {
+    this.build();
+  }
+
+  private build(): void {
+    for (const chart of this.charts) chart.destroy();
+    this.element.replaceChildren();
+    const units = new Map<string, string[]>();
+    for (const name of this.chosen) {
+      const unit = this.frames.channels[this.frames.channel(name)].unit;
+      units.set(unit, [...(units.get(unit) ?? []), name]);
+    }
+    this.charts = [...units].map(([unit, names]) => this.chart(unit, names));
+    this.drawnCount = this.frames.count;
+    if (this.chosen.length === 0) {
+      this.element.append(element('p', { class: 'hint' }, 'Choose quantities to see their course.'));
+    }
+  }
+
+  private chart(unit: string, names: string[]): uPlot {
+    const style = getComputedStyle(document.documentElement);
+    const ink = style.getPropertyValue('--ink').trim() || '#222';
+    const grid = { stroke: style.getPropertyValue('--line').trim() || '#ddd', width: 1 };
+    const axis = { stroke: ink, grid, ticks: grid, font: '11px system-ui, sans-serif' };
+    const value = (_: uPlot, v: number | null): string => (v === null ? '–' : numberText(v));
+    const options: uPlot.Options = {
+      width: this.width(),
+      height: chartHeight,
+      cursor: { sync: { key: 'sheave' }, drag: { x: false, y: false } },
+      scales: { x: { time: false } },
+      axes: [
+        axis,
+        { ...axis, size: 62, label: unit || '1', labelSize: 16, labelFont: '11px system-ui, sans-serif',
+          values: (_, ticks) => ticks.map((t) => numberText(t, 4)) },
+      ],
+      series: [
+        { label: 't [s]', value },
+        ...names.map((name, k) => ({
+          label: name,
+          stroke: strokes[k % strokes.length],
+          dash: dashes[Math.floor(k / strokes.length) % dashes.length],
+          width: 1.5,
+          points: { show: false },
+          value,
+        })),
+      ],
+      hooks: { draw: [(chart) => this.drawNow(chart, ink)] },
+    };
+    const chart = new uPlot(options, this.data(names), this.element);
+    chart.over.addEventListener('pointerdown', (event) => this.seek(chart, event));
+    chart.over.addEventListener('pointermove', (event) => {
+      if (event.buttons & 1) this.seek(chart, event);
+    });
+    return chart;
+  }
+
+  private data(names: string[]): uPlot.AlignedData {
+    // What is not known, as forces before the first step, is a gap.
+    const known = (v: number): number | null => (Number.isFinite(v) ? v : null);
+    return [
+      this.frames.allTimes(),
+      ...names.map((name) => Array.from(this.frames.series(this.frames.channel(name)), known)),
+    ] as uPlot.AlignedData;
+  }
+
+  /** A line where the player is. */
+  private drawNow(chart: uPlot, ink: string): void {
+    const x = chart.valToPos(this.player.time, 'x', true);
+    const { left, top, width, height } = chart.bbox;
+    if (!(x >= left && x <= left + width)) return;
+    const context = chart.ctx;
+    context.save();
+    context.strokeStyle = ink;
+    context.lineWidth = window.devicePixelRatio;
+    context.beginPath();
+    context.moveTo(x, top);
+    context.lineTo(x, top + height);
+    context.stroke();
+    context.restore();
+  }
+
+  private seek(chart: uPlot, event: PointerEvent): void {
+    const bounds = chart.over.getBoundingClientRect();
+    this.player.pause();
+    this.player.seek(chart.posToVal(event.clientX - bounds.left, 'x'));
+  }
+  private update(): void {
+    if (this.frames.count !== this.drawnCount) {
+      this.drawnCount = this.frames.count;
+      for (const chart of this.charts) {
+        chart.setData(this.data(chart.series.slice(1).map((s) => String(s.label))));
+      }
+      return;
+    }
+    for (const chart of this.charts) chart.redraw(false, false);
+  }
+  private width(): number {
+    return Math.max(this.element.clientWidth, 200);
+  }
+  private resize(): void {
+    for (const chart of this.charts) chart.setSize({ width: this.width(), height: chartHeight });
+  }
+}

@@ -1,0 +1,113 @@
+// Reads what view/recording_pack.cpp writes: the frames of a run, packed.
+//
+// Inflated: the length of a head (4 bytes, little-endian), the head in JSON, the stream. In the
+// stream: the times of all frames as doubles (little-endian), then channel by channel
+// what its packing says. "constant" has nothing in the stream. "exact" has doubles. "steps" has whole
+// numbers of quanta: of their differences of the given order (the first `order` ones are differences
+// to nothing, 0), each as a zigzag varint. The first `missing` values are not known (NaN) and are not
+// in the stream.
+
+import { Frames } from './frames';
+import type { Channel, Machine, MachineEvent } from './machine';
+
+export interface PackedChannel extends Channel {
+  packing: 'constant' | 'exact' | 'steps';
+  missing?: number;
+  value?: number;
+  quantum?: number;
+  order?: number;
+}
+
+export interface RecordingHead {
+  machine: Machine;
+  events: MachineEvent[];
+  frames: number;
+  channels: PackedChannel[];
+}
+
+/** Takes bytes apart. */
+class Reader {
+  private place = 0;
+  private readonly view: DataView;
+  constructor(private readonly bytes: Uint8Array) {
+    this.view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  }
+  double(): number {
+    const value = this.view.getFloat64(this.place, true);
+    this.place += 8;
+    return value;
+  }
+  /** A whole number below 2^53 in size. */
+  integer(): number {
+    let value = 0;
+    let scale = 1;
+    for (;;) {
+      if (this.place >= this.bytes.length) throw new Error('the recording ends too early');
+      const byte = this.bytes[this.place++];
+      value += (byte & 127) * scale;
+      if (byte < 128) break;
+      scale *= 128;
+    }
+    return value % 2 === 0 ? value / 2 : -(value + 1) / 2;
+  }
+  get atEnd(): boolean {
+    return this.place === this.bytes.length;
+  }
+}
+
+/** All of a recording, inflated. */
+export function unpack(bytes: Uint8Array): Frames {
+  const length = new DataView(bytes.buffer, bytes.byteOffset).getUint32(0, true);
+  const text = new TextDecoder().decode(bytes.subarray(4, 4 + length));
+  return unpackStream(JSON.parse(text) as RecordingHead, bytes.subarray(4 + length));
+}
+
+export function unpackStream(head: RecordingHead, bytes: Uint8Array): Frames {
+  const frames = new Frames(
+    head.machine,
+    head.channels.map(({ name, unit, hidden }) => ({ name, unit, hidden })),
+  );
+  const reader = new Reader(bytes);
+  const times = new Float64Array(head.frames);
+  for (let k = 0; k < times.length; ++k) times[k] = reader.double();
+  const columns = head.channels.map((channel) => column(channel, head.frames, reader));
+  if (!reader.atEnd) throw new Error('the recording is longer than its channels');
+  frames.adopt(times, columns);
+  frames.events.push(...head.events);
+  return frames;
+}
+
+function column(channel: PackedChannel, count: number, reader: Reader): Float64Array {
+  const values = new Float64Array(count);
+  const missing = channel.missing ?? 0;
+  values.fill(NaN, 0, missing);
+  if (channel.packing === 'constant') {
+    values.fill(channel.value ?? NaN, missing);
+  } else if (channel.packing === 'exact') {
+    for (let k = missing; k < count; ++k) values[k] = reader.double();
+  } else {
+    const quantum = channel.quantum ?? 1;
+    // The running differences of order 0 ... `order` of the last value.
+    const sums = new Array<number>((channel.order ?? 0) + 1).fill(0);
+    for (let k = missing; k < count; ++k) {
+      sums[sums.length - 1] = reader.integer();
+      for (let i = sums.length - 2; i >= 0; --i) sums[i] += sums[i + 1];
+      values[k] = sums[0] * quantum;
+    }
+  }
+  return values;
+}
+
+export function fromBase64(text: string): Uint8Array {
+  const binary = atob(text.trim());
+  const bytes = new Uint8Array(binary.length);
+  for (let k = 0; k < binary.length; ++k) bytes[k] = binary.charCodeAt(k);
+  return bytes;
+}
+
+export async function inflate(bytes: Uint8Array): Promise<Uint8Array> {
+  const stream = new Blob([bytes as Uint8Array<ArrayBuffer>])
+    .stream()
+    .pipeThrough(new DecompressionStream('deflate'));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}

@@ -1,0 +1,388 @@
+// The machine in three dimensions.
+
+import * as THREE from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+
+import type { CableStyle } from './cable_path';
+import { cableTubes } from './cable_path';
+import { Floor } from './floor';
+import { jointLines } from './joint_lines';
+import type { Bar, BodyIndex, Part } from './machine';
+import type { MachineState } from './machine_state';
+import type { Tag } from './segments';
+import { Segments } from './segments';
+import { geometryOf } from './shapes';
+import type { Vector3 } from './vector';
+
+/** Something of the machine that the pointer is at. */
+export type Picked =
+  | { kind: 'body'; index: number; point: Vector3 }
+  | { kind: 'span'; index: number; span: number; point: Vector3 }
+  | { kind: 'joint'; index: number; point: Vector3 };
+
+const highlightColor = 0xffc107;
+/** Edges sharper than this are drawn as lines [degrees]. */
+const sharpest = 28;
+
+export class Scene3D {
+  readonly canvas: HTMLCanvasElement;
+  readonly camera: THREE.PerspectiveCamera | THREE.OrthographicCamera;
+  readonly controls: OrbitControls;
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly scene = new THREE.Scene();
+  private readonly bodies: THREE.Group[];
+  private readonly world = new THREE.Group();
+  private readonly jointObjects = new Map<number, THREE.Object3D[]>();
+  private readonly segments: Segments;
+  private readonly floor: Floor | null;
+  private readonly ambient = new THREE.HemisphereLight(0xffffff, 0x8a8580, 2.0);
+  private readonly key = new THREE.DirectionalLight(0xfff8ee, 2.1);
+  private readonly resizing: ResizeObserver;
+  private readonly disposables: { dispose(): void }[] = [];
+  private highlighted: THREE.Object3D | null = null;
+  private highlightedTag: Picked | null = null;
+  private dark = false;
+  private scheduled = 0;
+
+  /** Whether this browser draws in three dimensions at all. */
+  static isSupported(): boolean {
+    try {
+      const canvas = document.createElement('canvas');
+      return canvas.getContext('webgl2') !== null;
+    } catch {
+      return false;
+    }
+  }
+
+  /** Shows the moment that `state` looks at, in `host`, which it fills. */
+  constructor(
+    private readonly host: HTMLElement,
+    private readonly state: MachineState,
+  ) {
+    const machine = state.machine;
+    // The last picture stays readable, for its export.
+    this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = THREE.PCFShadowMap;
+    this.canvas = this.renderer.domElement;
+    this.canvas.tabIndex = -1;
+    host.append(this.canvas);
+
+    this.bodies = machine.bodies.map((_, index) => {
+      const group = new THREE.Group();
+      group.userData = { kind: 'body', index };
+      this.scene.add(group);
+      return group;
+    });
+    this.scene.add(this.world, this.ambient, this.key, this.key.target);
+    for (const part of machine.parts) this.addPart(part, { kind: 'body', index: part.body });
+    for (const bar of machine.bars) this.addBar(bar, { kind: 'body', index: bar.body });
+    for (const piece of machine.joint_pieces) {
+      const owner = { kind: 'joint' as const, index: piece.joint };
+      const made = [
+        ...piece.parts.map((part) => this.addPart(part, owner)),
+        ...piece.bars.map((bar) => this.addBar(bar, owner)),
+      ];
+      this.jointObjects.set(piece.joint, made);
+    }
+    this.segments = new Segments(this.scene);
+    this.floor = machine.floor ? new Floor(machine.floor, machine.bounds) : null;
+    if (this.floor) this.scene.add(this.floor.object);
+
+    const size = this.diagonal();
+    this.camera =
+      machine.camera.height === undefined
+        ? new THREE.PerspectiveCamera(
+            THREE.MathUtils.radToDeg(machine.camera.vertical_fov ?? 0.45),
+            1,
+            0.01 * size,
+            100 * size,
+          )
+        : new THREE.OrthographicCamera(-1, 1, 1, -1, -50 * size, 100 * size);
+    this.camera.up.set(...machine.camera.up);
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.addEventListener('change', () => this.redraw());
+    this.placeLight();
+    this.resizing = new ResizeObserver(() => this.resize());
+    this.resizing.observe(host);
+    this.setDark(false);
+    this.resize();
+    this.fit();
+  }
+
+  setDark(dark: boolean): void {
+    this.dark = dark;
+    this.scene.background = new THREE.Color(dark ? 0x1a1f27 : 0xf2f4f7);
+    this.ambient.intensity = dark ? 1.7 : 2.0;
+    this.floor?.setDark(dark);
+    this.show();
+  }
+
+  /** Draws the moment that the state looks at, with the next picture of the browser. */
+  show(): void {
+    const machine = this.state.machine;
+    this.bodies.forEach((group, index) => {
+      const { position, orientation } = this.state.pose(index);
+      group.position.set(...position);
+      group.quaternion.set(orientation[1], orientation[2], orientation[3], orientation[0]);
+    });
+    for (const [joint, objects] of this.jointObjects) {
+      const visible = !this.state.isBroken(joint);
+      for (const object of objects) object.visible = visible;
+    }
+    const style: CableStyle = {
+      radius: machine.cable_radius,
+      tensionMax: machine.tension_max,
+      gravity: machine.gravity,
+      floor: machine.floor,
+      dark: this.dark,
+    };
+    this.segments.begin();
+    machine.cables.forEach((_, index) => this.addCable(index, style));
+    for (const piece of machine.joint_pieces) {
+      if (this.state.isBroken(piece.joint)) continue;
+      const tag: Tag = { kind: 'joint', index: piece.joint, span: -1 };
+      for (const line of piece.lines) {
+        for (const { points, radius, color } of jointLines(line, this.state)) {
+          for (let k = 1; k < points.length; ++k) {
+            this.segments.add(points[k - 1], points[k], radius, color, tag);
+          }
+        }
+      }
+    }
+    this.segments.end();
+    this.redraw();
+  }
+
+  /** Places the camera so that the whole run is in the picture. */
+  fit(): void {
+    const { camera: wanted, bounds } = this.state.machine;
+    const box = new THREE.Box3(new THREE.Vector3(...bounds.min), new THREE.Vector3(...bounds.max));
+    const target = box.getCenter(new THREE.Vector3());
+    const back = new THREE.Vector3(...wanted.position)
+      .sub(new THREE.Vector3(...wanted.target))
+      .normalize();
+    this.camera.position.copy(target).add(back);
+    this.camera.lookAt(target);
+    this.camera.updateMatrixWorld();
+    const [right, up] = [0, 1].map((column) =>
+      new THREE.Vector3().setFromMatrixColumn(this.camera.matrixWorld, column),
+    );
+    const margin = 1.12;
+    let distance = 0;
+    let half = 0;
+    const aspect = this.aspect();
+    const fov = this.camera instanceof THREE.PerspectiveCamera ? this.camera.fov : 0;
+    const slope = Math.tan(THREE.MathUtils.degToRad(0.5 * fov));
+    for (let i = 0; i < 8; ++i) {
+      const corner = new THREE.Vector3(
+        i & 1 ? box.max.x : box.min.x,
+        i & 2 ? box.max.y : box.min.y,
+        i & 4 ? box.max.z : box.min.z,
+      ).sub(target);
+      const reach = margin * Math.max(Math.abs(corner.dot(right)) / aspect, Math.abs(corner.dot(up)));
+      half = Math.max(half, reach);
+      if (slope > 0) distance = Math.max(distance, corner.dot(back) + reach / slope);
+    }
+    if (this.camera instanceof THREE.OrthographicCamera) {
+      this.camera.zoom = 1 / Math.max(half, 1e-9);
+      distance = 2 * this.diagonal();
+    }
+    this.camera.position.copy(target).addScaledVector(back, Math.max(distance, 1e-6));
+    this.controls.target.copy(target);
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.redraw();
+  }
+
+  /** What is at a place of the window, within `reach` pixels for thin things. */
+  pick(clientX: number, clientY: number, reach: number): Picked | null {
+    const bounds = this.canvas.getBoundingClientRect();
+    const x = clientX - bounds.left;
+    const y = clientY - bounds.top;
+    this.camera.updateMatrixWorld();
+    const matrix = new THREE.Matrix4().multiplyMatrices(
+      this.camera.projectionMatrix,
+      this.camera.matrixWorldInverse,
+    );
+    const line = this.segments.nearest(x, y, reach, matrix, bounds.width, bounds.height);
+    if (line && line.tag.kind === 'span') {
+      return { kind: 'span', index: line.tag.index, span: line.tag.span, point: line.point };
+    }
+    const ray = this.ray(clientX, clientY);
+    for (const hit of ray.intersectObjects([...this.bodies, this.world], true)) {
+      if (!(hit.object instanceof THREE.Mesh) || !hit.object.visible) continue;
+      const { kind, index } = hit.object.userData as { kind: 'body' | 'joint'; index: number };
+      if (index < 0) continue;
+      return { kind, index, point: hit.point.toArray() };
+    }
+    if (line && line.tag.kind === 'joint') {
+      return { kind: 'joint', index: line.tag.index, point: line.point };
+    }
+    return null;
+  }
+
+  /** From the eye through a place of the window. */
+  ray(clientX: number, clientY: number): THREE.Raycaster {
+    const bounds = this.canvas.getBoundingClientRect();
+    const place = new THREE.Vector2(
+      (2 * (clientX - bounds.left)) / bounds.width - 1,
+      1 - (2 * (clientY - bounds.top)) / bounds.height,
+    );
+    const ray = new THREE.Raycaster();
+    ray.setFromCamera(place, this.camera);
+    return ray;
+  }
+
+  highlight(picked: Picked | null): void {
+    const same = JSON.stringify(strip(picked)) === JSON.stringify(strip(this.highlightedTag));
+    if (same) return;
+    this.highlightedTag = picked;
+    this.setGlow(this.highlighted, 0);
+    this.highlighted = null;
+    if (picked && picked.kind === 'body') this.highlighted = this.bodies[picked.index];
+    this.setGlow(this.highlighted, 0.35);
+    this.show();
+  }
+
+  /** The picture as it is, as a PNG. */
+  picture(): Promise<Blob> {
+    this.draw();
+    return new Promise((resolve, reject) => {
+      this.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('no picture'))), 'image/png');
+    });
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.scheduled);
+    this.resizing.disconnect();
+    this.controls.dispose();
+    this.segments.dispose();
+    for (const item of this.disposables) item.dispose();
+    this.renderer.dispose();
+    this.canvas.remove();
+  }
+
+  private addCable(index: number, style: CableStyle): void {
+    const glow = this.highlightedTag?.kind === 'span' && this.highlightedTag.index === index;
+    const chosen = glow && this.highlightedTag?.kind === 'span' ? this.highlightedTag.span : -2;
+    for (const tube of cableTubes(this.state.cable(index), style)) {
+      const count = tube.points.length;
+      for (let k = 0; k < (tube.closed ? count : count - 1); ++k) {
+        const span = tube.spans[k];
+        const tag: Tag = span >= 0 ? { kind: 'span', index, span } : { kind: 'cable', index, span };
+        const radius = span === chosen ? 1.8 * style.radius : style.radius;
+        this.segments.add(tube.points[k], tube.points[(k + 1) % count], radius, tube.colors[k], tag);
+      }
+    }
+  }
+
+  private holder(body: BodyIndex): THREE.Object3D {
+    return body < 0 ? this.world : this.bodies[body];
+  }
+
+  private addPart(part: Part, owner: { kind: string; index: number }): THREE.Object3D {
+    const geometry = geometryOf(part.shape);
+    const color = new THREE.Color(part.color);
+    const material = new THREE.MeshLambertMaterial({ color, vertexColors: true });
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.position.set(...part.position);
+    const q = part.orientation;
+    mesh.quaternion.set(q[1], q[2], q[3], q[0]);
+    mesh.castShadow = true;
+    mesh.receiveShadow = true;
+    mesh.userData = owner;
+    const edges = new THREE.EdgesGeometry(geometry, sharpest);
+    const lines = new THREE.LineBasicMaterial({ color: color.clone().multiplyScalar(0.3) });
+    mesh.add(new THREE.LineSegments(edges, lines));
+    this.holder(part.body).add(mesh);
+    this.disposables.push(geometry, material, edges, lines);
+    return mesh;
+  }
+
+  private addBar(bar: Bar, owner: { kind: string; index: number }): THREE.Object3D {
+    const start = new THREE.Vector3(...bar.start);
+    const along = new THREE.Vector3(...bar.end).sub(start);
+    const geometry = new THREE.CylinderGeometry(bar.radius, bar.radius, along.length(), 16);
+    const material = new THREE.MeshLambertMaterial({ color: bar.color });
+    const mesh = new THREE.Mesh(geometry, material);
+    mesh.position.copy(start).addScaledVector(along, 0.5);
+    mesh.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), along.normalize());
+    mesh.castShadow = true;
+    mesh.userData = owner;
+    this.holder(bar.body).add(mesh);
+    this.disposables.push(geometry, material);
+    return mesh;
+  }
+
+  private setGlow(object: THREE.Object3D | null, strength: number): void {
+    object?.traverse((child) => {
+      if (!(child instanceof THREE.Mesh)) return;
+      if (!(child.material instanceof THREE.MeshLambertMaterial)) return;
+      child.material.emissive.set(strength > 0 ? highlightColor : 0x000000);
+      child.material.emissiveIntensity = strength;
+    });
+  }
+
+  private diagonal(): number {
+    const { min, max } = this.state.machine.bounds;
+    return Math.max(Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]), 1e-9);
+  }
+  private aspect(): number {
+    return Math.max(this.host.clientWidth, 1) / Math.max(this.host.clientHeight, 1);
+  }
+
+  /** From above, from the side and from the front, whatever of it is up. */
+  private placeLight(): void {
+    const { camera, gravity, bounds } = this.state.machine;
+    const up = new THREE.Vector3(...gravity).negate();
+    if (!(up.length() > 0)) up.set(...camera.up);
+    up.normalize();
+    const front = new THREE.Vector3(...camera.position).sub(new THREE.Vector3(...camera.target)).normalize();
+    const side = new THREE.Vector3().crossVectors(up, front);
+    const center = new THREE.Vector3(...bounds.min).add(new THREE.Vector3(...bounds.max)).multiplyScalar(0.5);
+    const size = this.diagonal();
+    this.ambient.position.copy(up);
+    this.key.target.position.copy(center);
+    const way = up.multiplyScalar(1.1).addScaledVector(front, 0.75).addScaledVector(side, -0.45);
+    this.key.position.copy(center).addScaledVector(way.normalize(), 2 * size);
+    this.key.castShadow = true;
+    this.key.shadow.mapSize.set(2048, 2048);
+    this.key.shadow.normalBias = 0.002 * size;
+    this.key.shadow.radius = 3;
+    const frustum = this.key.shadow.camera;
+    frustum.left = frustum.bottom = -0.75 * size;
+    frustum.right = frustum.top = 0.75 * size;
+    frustum.near = 0.5 * size;
+    frustum.far = 4 * size;
+  }
+
+  private resize(): void {
+    const width = Math.max(this.host.clientWidth, 1);
+    const height = Math.max(this.host.clientHeight, 1);
+    this.renderer.setSize(width, height);
+    if (this.camera instanceof THREE.PerspectiveCamera) {
+      this.camera.aspect = width / height;
+    } else {
+      this.camera.left = -width / height;
+      this.camera.right = width / height;
+    }
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  private redraw(): void {
+    if (this.scheduled) return;
+    this.scheduled = requestAnimationFrame(() => this.draw());
+  }
+  private draw(): void {
+    cancelAnimationFrame(this.scheduled);
+    this.scheduled = 0;
+    this.renderer.render(this.scene, this.camera);
+  }
+}
+
+function strip(picked: Picked | null): unknown {
+  return picked && { ...picked, point: 0 };
+}

@@ -1,0 +1,37 @@
+// The page of `sheave view`: a recording that stands in the file itself.
+
+import { button, element } from './dom';
+import { buildPage } from './page';
+import { fromBase64, inflate, unpack } from './recording';
+
+function textOf(id: string): string {
+  const holder = document.getElementById(id);
+  if (!holder?.textContent) throw new Error(`the file has no ${id}`);
+  return holder.textContent;
+}
+
+async function start(): Promise<void> {
+  const host = document.getElementById('page')!;
+  try {
+    const frames = unpack(await inflate(fromBase64(textOf('recording'))));
+    const page = buildPage(host, frames);
+    document.title = `${frames.machine.name} – Sheave`;
+    const last = page.frames.events.at(-1);
+    if (last?.kind === 'diverged') showFault(host, last.text);
+    Object.assign(window, { sheave: page });
+  } catch (error) {
+    host.replaceChildren(
+      element('p', { class: 'fault', role: 'alert' }, `This recording cannot be shown: ${String(error)}`),
+    );
+    throw error;
+  }
+}
+
+/** A run that stopped early says so over everything. */
+function showFault(host: HTMLElement, text: string): void {
+  const note = element('p', { class: 'fault', role: 'alert' }, text);
+  note.append(button('×', 'close', () => note.remove()));
+  host.append(note);
+}
+
+void start();

@@ -1,0 +1,131 @@
+// The page in a browser: with a small machine that stands in the test.
+
+import assert from 'node:assert/strict';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+
+import { filled, packExact, winch } from '../pages';
+import type { Chromium, OpenedPage } from './chromium';
+import { notDrawing, open, startChromium } from './chromium';
+
+const template = readFileSync('dist/view.html', 'utf8');
+const folder = mkdtempSync(join(tmpdir(), 'sheave-page-'));
+const path = join(folder, 'winch.html');
+writeFileSync(path, filled(template, packExact(winch())));
+
+let chromium: Chromium;
+before(async () => {
+  chromium = await startChromium();
+});
+after(async () => {
+  await chromium.close();
+  rmSync(folder, { recursive: true });
+});
+
+const limit = { timeout: 120_000 };
+const time = ({ page }: OpenedPage): Promise<number> => page.evaluate('sheave.player.time') as Promise<number>;
+
+test('opens without a fault, from a file, without a network, and draws', limit, async () => {
+  const opened = await open(chromium, path);
+  const { page, faults } = opened;
+  assert.equal(await page.title(), 'winch – Sheave');
+  // More than the background's colour.
+  const colours = await page.evaluate(`(() => {
+    sheave.scene.picture();
+    const copy = document.createElement('canvas');
+    copy.width = copy.height = 100;
+    const context = copy.getContext('2d');
+    context.drawImage(sheave.scene.canvas, 0, 0, 100, 100);
+    const data = new Uint32Array(context.getImageData(0, 0, 100, 100).data.buffer);
+    return new Set(data).size;
+  })()`);
+  assert.ok(Number(colours) > 20, `${colours} colours`);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test('everything by keys', limit, async () => {
+  const opened = await open(chromium, path);
+  const { page, faults } = opened;
+  const press = (key: string) => page.keyboard.press(key as 'Home');
+  await press('ArrowRight');
+  assert.equal(await time(opened), 0.1);
+  await press('End');
+  assert.equal(await time(opened), 1);
+  await press('ArrowLeft');
+  assert.equal(await time(opened), 0.9);
+  await press('Home');
+  assert.equal(await time(opened), 0);
+  await press('+');
+  assert.equal(await page.evaluate('sheave.player.speed'), 2);
+  await press('-');
+  await press('l');
+  assert.equal(await page.evaluate('sheave.player.loop'), true);
+  await press('Space');
+  assert.equal(await page.evaluate('sheave.player.playing'), true);
+  await page.waitForFunction('sheave.player.time > 0.3', { timeout: 20_000 });
+  await press('Space');
+  assert.equal(await page.evaluate('sheave.player.playing'), false);
+  const theme = await page.evaluate('document.documentElement.dataset.theme');
+  await press('t');
+  assert.notEqual(await page.evaluate('document.documentElement.dataset.theme'), theme);
+  await press('?');
+  assert.equal(await page.evaluate('document.querySelector("dialog").open'), true);
+  await press('Escape');
+  assert.equal(await page.evaluate('document.querySelector("dialog").open'), false);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test('a tap on a span shows its numbers, in step with the time; events are marks', limit, async () => {
+  const opened = await open(chromium, path);
+  const { page, faults } = opened;
+  await page.evaluate('sheave.player.seek(0.5)');
+  // Where the middle of the span is in the window.
+  const place = (await page.evaluate(`(() => {
+    const { scene } = sheave;
+    scene.camera.updateMatrixWorld();
+    const v = scene.camera.position.clone().set(0.5, -0.5, 0).project(scene.camera);
+    const r = scene.canvas.getBoundingClientRect();
+    return [r.left + (0.5 + 0.5 * v.x) * r.width, r.top + (0.5 - 0.5 * v.y) * r.height];
+  })()`)) as [number, number];
+  await page.mouse.click(...place);
+  const text = (): Promise<string> => page.$eval('.readout', (e) => (e as HTMLElement).innerText);
+  assert.match(await text(), /rope, span 0/);
+  const tension = 8 + Math.sin(10);
+  assert.match(await text(), new RegExp(`tension\\s+${Number(tension.toPrecision(5))} N`));
+  await page.keyboard.press('ArrowRight');
+  assert.match(await text(), new RegExp(`tension\\s+${Number((8 + Math.sin(12)).toPrecision(5))} N`));
+  await page.keyboard.press('Escape');
+  assert.equal(await page.$eval('.readout', (e) => (e as HTMLElement).hidden), true);
+  assert.equal(await page.$eval('.mark', (e) => (e as HTMLElement).title), '0.50 s: half way');
+  assert.equal((await page.$$('.uplot')).length, 1);
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test('fits on a phone', limit, async () => {
+  const opened = await open(chromium, path);
+  const { page, faults } = opened;
+  await page.setViewport({ width: 360, height: 740, hasTouch: true, isMobile: true });
+  await new Promise((resolve) => setTimeout(resolve, 300));
+  const width = await page.evaluate('document.documentElement.scrollWidth');
+  assert.equal(width, 360);
+  const stage = (await page.$eval('.stage', (e) => e.getBoundingClientRect().toJSON())) as DOMRect;
+  assert.ok(stage.width > 350 && stage.height > 200, JSON.stringify(stage));
+  assert.deepEqual(faults, []);
+  await page.close();
+});
+
+test('without WebGL it says so, and the curves are there', limit, async () => {
+  const plain = await startChromium(notDrawing);
+  const { page, faults } = await open(plain, path);
+  assert.match(await page.$eval('.no-webgl', (e) => e.textContent ?? ''), /WebGL 2/);
+  assert.equal((await page.$$('.uplot')).length, 1);
+  await page.keyboard.press('End');
+  assert.equal(await page.evaluate('sheave.player.time'), 1);
+  assert.deepEqual(faults, []);
+  await plain.close();
+});

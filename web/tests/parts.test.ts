@@ -1,0 +1,172 @@
+// The page's parts without a browser: recordings, moments, cables as lines.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { cableTubes, woundAngle } from '../src/cable_path';
+import { catenaryPoints } from '../src/catenary';
+import { sample, slackColor, tensionColor, toCss } from '../src/color_map';
+import { csv } from '../src/exports';
+import { Frames } from '../src/frames';
+import { MachineState } from '../src/machine_state';
+import { numberText } from '../src/numbers';
+import { Player } from '../src/player';
+import type { RecordingHead } from '../src/recording';
+import { unpack } from '../src/recording';
+import { dot, norm, subtract } from '../src/vector';
+import { joined, packExact, winch, winchChannels, winchTimes } from './pages';
+
+const near = (a: number, b: number, tolerance: number): void =>
+  assert.ok(Math.abs(a - b) <= tolerance, `${a} is not ${b} within ${tolerance}`);
+
+function zigzag(values: number[]): number[] {
+  const bytes: number[] = [];
+  for (const value of values) {
+    let z = value < 0 ? -2 * value - 1 : 2 * value;
+    for (; z >= 128; z = Math.floor(z / 128)) bytes.push((z % 128) + 128);
+    bytes.push(z);
+  }
+  return bytes;
+}
+
+test('every packing of a channel is read', () => {
+  // Third differences of k^3 are 1, 5, 6, 6 after nothing; and a number beyond 32 bits.
+  const head: RecordingHead = {
+    machine: winch(),
+    events: [],
+    frames: 4,
+    channels: [
+      { name: 'a', unit: '', hidden: false, packing: 'constant', value: 0.1 },
+      { name: 'b', unit: '', hidden: false, packing: 'steps', quantum: 0.5, order: 3 },
+      { name: 'c', unit: '', hidden: false, packing: 'steps', quantum: 1, order: 0, missing: 2 },
+      { name: 'd', unit: '', hidden: false, packing: 'steps', quantum: 1, order: 1 },
+    ],
+  };
+  const times = new Uint8Array(Float64Array.from([0, 1, 2, 3]).buffer);
+  const numbers = [0, 1, 5, 6, 2 ** 48 + 1, -(2 ** 48) - 1, 7, -3, 0, 1];
+  const frames = unpack(joined(head, Uint8Array.from([...times, ...zigzag(numbers)])));
+  assert.deepEqual([...frames.allTimes()], [0, 1, 2, 3]);
+  assert.deepEqual([...frames.series(0)], [0.1, 0.1, 0.1, 0.1]);
+  assert.deepEqual([...frames.series(1)], [0, 0.5, 4, 13.5]);
+  assert.deepEqual([...frames.series(2)], [NaN, NaN, 2 ** 48 + 1, -(2 ** 48) - 1]);
+  assert.deepEqual([...frames.series(3)], [7, 4, 4, 5]);
+});
+
+test('a recording that is cut off, or too long, is refused', () => {
+  const bytes = packExact(winch());
+  assert.throws(() => unpack(bytes.subarray(0, bytes.length - 3)));
+  const longer = new Uint8Array(bytes.length + 1);
+  longer.set(bytes);
+  assert.throws(() => unpack(longer), /longer/);
+});
+
+test('frames that are pushed are those that are read', () => {
+  const frames = new Frames(winch(), [
+    { name: 'a', unit: 'm', hidden: false },
+    { name: 'b', unit: '', hidden: true },
+  ]);
+  for (let k = 0; k < 200; ++k) frames.push(0.1 * k, [k, -k]);
+  assert.equal(frames.count, 200);
+  assert.equal(frames.series(frames.channel('b'))[137], -137);
+  assert.equal(frames.frameAt(0.1 * 50), 50);
+  assert.equal(frames.frameAt(0.1 * 50 + 0.05), 50);
+  assert.equal(frames.frameAt(-1), 0);
+  assert.equal(frames.frameAt(1e9), 199);
+  frames.truncate(10);
+  assert.equal(frames.count, 10);
+  assert.throws(() => frames.push(1, [1]));
+  assert.equal(csv(frames, []).split('\n')[1], '0,0');
+});
+
+test('moments: exact at frames, between them half way, forces of the start those of the first step', () => {
+  const frames = unpack(packExact(winch()));
+  const state = new MachineState(frames);
+  const channels = winchChannels();
+  for (const t of winchTimes) {
+    state.look(t);
+    channels.forEach((channel, i) => {
+      const value = channel.at(t);
+      if (!Number.isNaN(value)) assert.equal(state.values[i], value, channel.name);
+    });
+  }
+  state.look(0.55);
+  near(state.pose(1).position[1], 0.5 * (-1.25 - 1.36), 1e-15);
+  // Turned by the mean of both angles.
+  near(2 * Math.atan2(state.pose(0).orientation[3], state.pose(0).orientation[0]), -(0.25 + 0.36), 1e-12);
+  state.look(0);
+  near(state.cable(0).spans[0].tension, 8 + Math.sin(2), 1e-15);
+});
+
+test('a cable is drawn from its drum to its end, as long as it is', () => {
+  const state = new MachineState(unpack(packExact(winch())));
+  state.look(0.5);
+  const cable = state.cable(0);
+  near(woundAngle(cable.links[0], true), 2.75 / 0.5, 1e-12);
+  const style = {
+    radius: 0.02, tensionMax: 10, gravity: [0, -10, 0] as [number, number, number], floor: null, dark: false,
+  };
+  const tubes = cableTubes(cable, style);
+  assert.equal(tubes.length, 1);
+  const { points } = tubes[0];
+  let length = 0;
+  for (let k = 1; k < points.length; ++k) length += norm(subtract(points[k], points[k - 1]));
+  // Chords of 0.1 rad at most are shorter than their arcs by 0.1^2 / 24.
+  const whole = 2.75 + 1.25;
+  assert.ok(length <= whole && length > whole * (1 - 0.1 ** 2 / 24), `${length}`);
+  near(norm(subtract(points[points.length - 1], [0.5, -1.25, 0])), 0, 1e-12);
+});
+
+test('a hanging cable has its length, its ends, and is lowest in the middle', () => {
+  const points = catenaryPoints([0, 0, 0], [1, 0, 0], 2, [0, -10, 0], 401);
+  let length = 0;
+  for (let k = 1; k < points.length; ++k) length += norm(subtract(points[k], points[k - 1]));
+  // sinh(q)/q = 2 has q = 2.1773; the sag is then (cosh(q) - 1) / (2 q).
+  const q = 2.1773189849653067;
+  near(length, 2, 1e-3);
+  near(Math.min(...points.map((p) => p[1])), -(Math.cosh(q) - 1) / (2 * q), 1e-6);
+  near(dot(points[points.length - 1], [1, 0, 0]), 1, 1e-15);
+});
+
+test('colours: a scale of its own for slack, and lightness that only rises', () => {
+  assert.deepEqual(tensionColor(0, 10), slackColor);
+  assert.deepEqual(tensionColor(NaN, 10), slackColor);
+  assert.equal(toCss(sample(0)), '#2b0594');
+  assert.equal(toCss(sample(2)), '#f79342');
+  for (const dark of [false, true]) {
+    let before = 0;
+    for (let k = 0; k <= 64; ++k) {
+      const linear = sample(k / 64, dark).map((c) => ((c + 0.055) / 1.055) ** 2.4);
+      const luminance = 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2];
+      assert.ok(luminance > before, `${k}`);
+      before = luminance;
+    }
+  }
+});
+
+test('the player stops at the end, goes round in a loop, and changes speed by known steps', () => {
+  const player = new Player();
+  player.setRange(0, 1);
+  player.tick(0);
+  player.play();
+  player.tick(50);
+  near(player.time, 0.05, 1e-12);
+  player.changeSpeed(1);
+  assert.equal(player.speed, 2);
+  player.seek(0.99);
+  player.tick(100);
+  assert.equal(player.time, 1);
+  assert.equal(player.playing, false);
+  player.setLoop(true);
+  player.seek(0.95);
+  player.play();
+  player.tick(150);
+  near(player.time, 0.05, 1e-12);
+});
+
+test('numbers for people', () => {
+  assert.equal(numberText(12.857143), '12.857');
+  assert.equal(numberText(0), '0');
+  assert.equal(numberText(NaN), '–');
+  assert.equal(numberText(1.5e-5), '1.5e-5');
+  assert.equal(numberText(-123456.7), '-123460');
+});
