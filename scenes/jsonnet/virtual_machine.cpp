@@ -13,7 +13,11 @@
 #include <system_error>
 
 #include <jsonnet_library.h>
+
+// Its header does not say that its functions are C's.
+extern "C" {
 #include <libjsonnet.h>
+}
 
 #include <nlohmann/json.hpp>
 
