@@ -12,9 +12,7 @@ endif()
 # time. Names in unnamed namespaces must therefore differ within a folder.
 if(SHEAVE_UNITY)
   set(CMAKE_UNITY_BUILD ON)
-  if(NOT CMAKE_UNITY_BUILD_BATCH_SIZE)
-    set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
-  endif()
+  set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
 endif()
 
 # emscripten brings its own linker.
