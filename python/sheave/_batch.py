@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import operator
 import os
 from typing import TYPE_CHECKING, Any, Mapping, Optional
 
@@ -13,6 +15,25 @@ from ._load import SceneLike, json_text, overrides_of, source_of
 
 if TYPE_CHECKING:
     import numpy.typing as npt
+
+
+def whole_number(value: Any, name: str, least: int) -> int:
+    """The value as an integer, at least so much."""
+    try:
+        number = operator.index(value)
+    except Exception:
+        number = least - 1
+    if number < least:
+        raise ArgumentError(f"{name}: must be an integer of at least {least}, was {shown(value)}")
+    return number
+
+
+def shown(value: Any) -> str:
+    """For a message, however it looks."""
+    try:
+        return repr(value)[:80]
+    except Exception:
+        return f"<{type(value).__name__}>"
 
 
 class Batch(_sheave.Batch):
@@ -40,7 +61,11 @@ class Batch(_sheave.Batch):
 
     def run(self, until: Optional[float] = None) -> None:
         """Steps all worlds until this time [s], or for the scene's duration."""
-        steps = round((self.duration if until is None else until) / self.dt)
+        end = self.duration if until is None else until
+        if isinstance(end, bool) or not isinstance(end, (int, float)) or not math.isfinite(end):
+            raise ArgumentError(f"until: must be a finite number [s], or None, was {shown(until)}")
+        # Beyond this the count of steps has no place in an integer of NumPy's.
+        steps = round(min(max(end / self.dt, 0.0), 9e15))
         while True:
             left = np.maximum(steps - self.steps, 0)
             left[self.diverged | self.stopped] = 0
@@ -53,7 +78,10 @@ class Batch(_sheave.Batch):
     def record(self, names: "list[str]", steps: Optional[int] = None,
                every: int = 1) -> "npt.NDArray[np.float64]":
         """Steps, and keeps quantities: (n, rows, names), at the start and every `every` steps."""
-        if steps is None:
+        every = whole_number(every, "every", 1)
+        if steps is not None:
+            steps = whole_number(steps, "steps", 0)
+        else:
             steps = max(round(self.duration / self.dt) - int(self.steps.max()), 0)
         rows = [self.observe(names)]
         for _ in range(steps // every):

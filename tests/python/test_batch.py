@@ -245,3 +245,41 @@ def test_bounds_must_fit():
     with pytest.raises(sheave.ArgumentError, match="low, high"):
         sheave.VectorEnvironment(ATWOOD, 2, ["heavy.y"], ["heavy.force_y"], [1, 2], 3.0,
                                  reward=lambda seen, actions: seen[:, 0])
+
+
+def test_a_batch_in_a_forked_process_goes_on():
+    batch = sheave.Batch(ATWOOD, 4, threads=2)
+    batch.step(3)
+    child = os.fork()
+    if child == 0:
+        batch.step(2)
+        os._exit(0 if (batch.steps == 5).all() else 1)
+    assert os.waitpid(child, 0)[1] == 0
+    assert (batch.steps == 3).all()
+
+
+def test_what_is_refused_in_one_world_is_done_in_none():
+    batch = sheave.Batch(ATWOOD, 4)
+    batch.step(2)
+    before = batch.hashes
+    with pytest.raises(sheave.Error, match="world 2"):
+        batch.set("heavy.force_y", [1.0, 1.0, float("nan"), 1.0])
+    assert (batch.hashes == before).all()
+    states = batch.states()
+    batch.step(3)
+    before = batch.hashes
+    with pytest.raises(sheave.StateError):
+        batch.restore([*states[:3], b"nothing"])
+    assert (batch.hashes == before).all()
+
+
+@pytest.mark.parametrize("wrong", [np.array([]), "1", float("nan"), True, [1]])
+def test_arguments_of_run_and_record_are_told(wrong):
+    batch = sheave.Batch(ATWOOD, 2)
+    with pytest.raises(sheave.ArgumentError, match="until: "):
+        batch.run(wrong)
+    if wrong is not True:
+        with pytest.raises(sheave.ArgumentError, match="steps: "):
+            batch.record(["heavy.y"], steps=wrong)
+        with pytest.raises(sheave.ArgumentError, match="every: "):
+            batch.record(["heavy.y"], steps=2, every=wrong)

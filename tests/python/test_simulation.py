@@ -234,7 +234,7 @@ def test_records_quantities(atwood):
     frame = recording.to_pandas()
     assert frame["heavy.vy"].iloc[-1] == atwood.observe("heavy.vy")
     assert frame.index.name == "t"
-    with pytest.raises(KeyError, match='did you mean "heavy'):
+    with pytest.raises(KeyError, match="heavy.vy"):
         recording["light.vy"]
 
 
@@ -307,6 +307,38 @@ def test_videos(atwood, tmp_path):
     assert shares[-1] == 1.0
     with pytest.raises(sheave.ArgumentError, match="fps"):
         atwood.video(tmp_path / "b.mp4", fps=0)
+
+
+def test_names_that_are_misspelt_are_no_attributes(atwood):
+    for thing in (atwood, sheave.Batch(ATWOOD, 2), sheave.Model()):
+        with pytest.raises(AttributeError, match="gravty"):
+            thing.gravty = (0, 0, 0)
+
+
+def test_a_video_leaves_the_simulation_at_its_end(atwood, tmp_path):
+    other = sheave.load(ATWOOD)
+    atwood.video(tmp_path / "a.mp4", 0.2, 10, 64, 64)
+    other.run(0.2)
+    assert atwood.hash == other.hash and atwood.events == other.events
+
+
+def test_an_item_that_changes_its_list(atwood):
+    force = [0.0, 0.0, 0.0]
+
+    class Shrinks:
+        def __float__(self):
+            force.clear()
+            return 1.0
+
+    force[0] = Shrinks()
+    with pytest.raises(sheave.ArgumentError, match="force"):
+        atwood.bodies["heavy"].set_force(force)
+
+
+def test_callbacks_must_be_functions(atwood):
+    for name in ("before_step", "before_substep"):
+        with pytest.raises(sheave.ArgumentError, match=f"{name}: must be a function"):
+            atwood.step(**{name: 3})
 
 
 def test_errors_have_a_class_of_their_own():
