@@ -220,7 +220,7 @@ class SweepChart {
         "$failed using 1:2 with points pt 2 ps 1.5 lw 2 lc rgb '#D55E00'";
     if (x.values.size() <= most_written) {
       text += fmt::format(
-          ", $cells using 1:2:($3 < {0:.12g} ? 0xffffff : 0):4 with labels font ',10' "
+          ", $cells using 1:2:4:($3 < {0:.12g} ? 0xffffff : 0) with labels font ',10' "
           "tc rgb variable",
           middle);
     }

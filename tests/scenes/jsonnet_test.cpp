@@ -55,7 +55,8 @@ TEST_F(Jsonnet, ParametersAreNumbersTextsAndJson) {
 }
 
 TEST_F(Jsonnet, OverridesChangeWhatWasMade) {
-  const SceneResult scene = load_scene_text(ball, "scene.jsonnet", {{"/bodies/stone/mass", "7", ""}});
+  const SceneResult scene =
+      load_scene_text(ball, "scene.jsonnet", {{"/bodies/stone/mass", "7", ""}});
   ASSERT_TRUE(scene);
   EXPECT_EQ(scene->model.bodies[1].mass, 7.0);
 }
