@@ -142,7 +142,7 @@ class EquilibriumSearch {
                      part(reach.spin, largest_spin)});
   }
 
-  /// What makes a free body move by a hundredth of the scene [1/s2].
+  /// With which what falls freely moves by a hundred times the scene [1/s2]: the least that counts.
   [[nodiscard]] double least_shift(const ConfigurationRows& rows) const {
     constexpr double share = 0.01;
     double fastest = 0.0;
@@ -170,7 +170,10 @@ class EquilibriumSearch {
     const VectorX values = solver.eigenvalues();
     const VectorX push =
         solver.eigenvectors().transpose() * (tangent.motions.transpose() * rows.loads);
-    const double pushed = push.norm();
+    double pushed = 0.0;  // what loads could do at most
+    for (Eigen::Index i = 0; i < rows.loads.size(); ++i) {
+      pushed = std::hypot(pushed, rows.loads[i] / std::sqrt(mass_(i, i)));
+    }
     double shift = 0.0;
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       const bool stiff = values[i] > tangent.rounding;

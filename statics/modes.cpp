@@ -86,6 +86,11 @@ Acting find_acting(Configuration& configuration, double size) {
     acting.unknowns[gone] = 0.0;
     rigid.erase(rigid.begin() + worst);
   }
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const ForceUnknown& unknown = acting.rows.unknowns[static_cast<std::size_t>(i)];
+    if (unknown.lower == 0.0) acting.unknowns[i] = std::max(acting.unknowns[i], 0.0);
+    if (unknown.upper == 0.0) acting.unknowns[i] = std::min(acting.unknowns[i], 0.0);
+  }
   acting.slides = acting.rows.weighted;
   return acting;
 }

@@ -38,6 +38,11 @@ class StepProblem {
       solve_linear();
       if (!finite_ || !change_sides(i < tries_at_once)) break;
     }
+    // What rounding leaves beyond a bound no feature would take.
+    for (std::size_t g = 0; finite_ && g < sides_.size(); ++g) {
+      double& force = unknowns_[static_cast<Eigen::Index>(g)];
+      if (sides_[g] != Side::off) force = std::clamp(force, bounds_[g][0], bounds_[g][1]);
+    }
     NewtonStep step{motion_, unknowns_, std::vector<char>(sides_.size(), 0), false, finite_};
     for (std::size_t g = 0; g < sides_.size(); ++g) {
       const bool bound = sides_[g] == Side::lower || sides_[g] == Side::upper;

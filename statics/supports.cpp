@@ -1,5 +1,7 @@
 #include "statics/supports.h"
 
+#include <algorithm>
+
 #include "engine/body_set.h"
 #include "engine/index.h"
 #include "engine/shape.h"
@@ -43,6 +45,7 @@ std::vector<SupportReaction> support_reactions(Simulation& simulation,
   const Vector3 gravity =
       state.controls.has_gravity ? state.controls.gravity : simulation.world.model().gravity;
   std::vector<SupportReaction> reactions;
+  double largest = 0.0;
   for (int i = 0; i <= bodies.count(); ++i) {
     Vector3 force = sums[at(i)];
     const bool world = i == bodies.count();
@@ -56,9 +59,14 @@ std::vector<SupportReaction> support_reactions(Simulation& simulation,
         if (bodies[i].mount < 0) force += mass_of(body) * gravity;
       }
     }
-    if (force.isZero(0.0)) continue;
+    largest = std::max(largest, force.norm());
     reactions.push_back({world ? BodyId::world() : BodyId{i}, -force});
   }
+  // Weights that ropes carry leave rounding.
+  constexpr double rounding = 1e-9;
+  std::erase_if(reactions, [&](const SupportReaction& reaction) {
+    return reaction.force.norm() <= rounding * largest;
+  });
   return reactions;
 }
 

@@ -193,6 +193,11 @@ void draw(const RunOptions& options, const PlotRun& run) {
   if (!options.quiet) print_note(options.plot_file + ": drawn");
 }
 
+std::int64_t last_step_of(const RunOptions& options, const Scene& scene,
+                          const Simulation& simulation) {
+  return options.steps ? simulation.world.state().steps + *options.steps : step_count(scene);
+}
+
 ExitCode run(const RunOptions& options) {
   check_run_paths(options);
   const double trust =
@@ -201,8 +206,7 @@ ExitCode run(const RunOptions& options) {
   const Scene scene = load(options.scene);
   Simulation simulation = make_simulation(scene);
   if (!options.load_state.empty()) load_state(simulation.world, options.load_state);
-  const std::int64_t last_step =
-      options.steps ? simulation.world.state().steps + *options.steps : step_count(scene);
+  const std::int64_t last_step = last_step_of(options, scene, simulation);
   std::vector<Warning> warnings = early_warnings(options, scene, simulation, last_step);
   std::optional<measure::ErrorEstimator> estimator =
       make_estimator(options, scene, simulation.world.state());
@@ -226,8 +230,8 @@ ExitCode run(const RunOptions& options) {
     if (checks) checks->record(simulation);
     if (plot) plot->observe(simulation);
     if (ropes) ropes->observe(simulation);
-    const bool stepped = simulation.world.state().steps > first_step;
     const auto ends = [&] { return interrupted() || (time_is_over && time_is_over()); };
+    const bool stepped = simulation.world.state().steps > first_step;
     if (estimator && stepped) estimator->observe(simulation, ends);
     return wanted;
   };

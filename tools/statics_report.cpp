@@ -123,7 +123,7 @@ std::string verdict(const StaticsResult& result) {
 
 std::string one_text(const StaticsResult& result) {
   std::string text = result.scene + ": " + verdict(result);
-  TextTable bodies({"body", "x [m]", "y [m]", "z [m]", "turned [rad]"}, 1);
+  TextTable bodies({"centre of mass of", "x [m]", "y [m]", "z [m]", "turned [rad]"}, 1);
   for (std::size_t i = 0; i < result.bodies.size(); ++i) {
     const BodyState& body = result.state.bodies[i];
     const double turned = 2.0 * std::atan2(body.orientation.vec().norm(), body.orientation.w());

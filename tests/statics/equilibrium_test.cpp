@@ -91,7 +91,7 @@ TEST(Equilibrium, NetHangsInTheFunicularPolygon) {
   std::string cables;
   for (int i = 0; i < 4; ++i) {
     bodies += fmt::format(
-        R"({}{{"name": "k{}", "mobility": "planar", "axis": [0, 0, 1], "mass": 1, "inertia": [1, 1, 1], "position": [{}, -1.5, 0]}})",
+        R"({}{{"name": "k{}", "mobility": "planar", "axis": [0, 0, 1], "mass": 1, "inertia": [1, 1, 1], "position": [{}, -0.3, 0]}})",
         i == 0 ? "" : ", ", i, 0.8 * (i + 1));
   }
   for (int i = 0; i < 5; ++i) {

@@ -62,13 +62,10 @@ TEST(Modes, BeadsOnAString) {
   constexpr int n = 7;
   constexpr double pull = 50.0;
   std::string bodies;
-  std::string links = R"({"type": "attachment", "body": "world", "point": [-8, 0, 0]})";
-  std::string lengths;
   for (int i = 0; i < n; ++i) {
     bodies += fmt::format(
         R"({}{{"name": "b{}", "mobility": "slider", "axis": [0, 1, 0], "mass": 0.5, "position": [{}, 0, 0]}})",
         i == 0 ? "" : ", ", i, -7 + i);
-    links += fmt::format(R"(, {{"type": "attachment", "body": "b{}"}})", i);
   }
   // Of each span's material EA = 5000 N, shortened so that it is strained by a hundredth.
   std::string cables;
