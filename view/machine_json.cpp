@@ -64,6 +64,8 @@ Json json(const render::JointLine& line) {
           {"length", line.length}};
 }
 
+Json json(const render::JointView::Piece& piece);
+
 template <class T>
 Json list(const std::vector<T>& items) {
   Json made = Json::array();
