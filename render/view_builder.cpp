@@ -11,8 +11,6 @@
 namespace sheave::render {
 namespace {
 
-constexpr Color knot_color = rgb(0x3b4656);
-
 /// The world does not move; every other body has a pose.
 Vector3 place_in_world(const World& world, BodyId body, const Vector3& local) {
   return body.is_world() ? local : world.point(body, local);

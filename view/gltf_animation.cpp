@@ -235,8 +235,22 @@ void GltfAnimation::add(double time, const World& world, std::span<const CableRe
     const BodyId body{static_cast<int>(i)};
     poses_[i].push_back({world.position(body), world.orientation(body)});
   }
+  if (times_.size() == 1) add_knots(world, cables);
   for (std::size_t c = 0; c < cables.size(); ++c) add_cable(c, cables[c]);
   add_joints(world);
+}
+
+void GltfAnimation::add_knots(const World& world, std::span<const CableReport> cables) {
+  for (const CableReport& cable : cables) {
+    for (const LinkReport& link : cable.links) {
+      if (link.radius > 0.0) continue;
+      Vector3 local = link.center;
+      if (!link.body.is_world()) {
+        local = world.orientation(link.body).conjugate() * (local - world.position(link.body));
+      }
+      knots_.push_back({link.body, local});
+    }
+  }
 }
 
 void GltfAnimation::add_cable(std::size_t index, const CableReport& listed) {
@@ -307,6 +321,11 @@ std::string GltfAnimation::finish(const Model& model) {
   }
   for (const render::BodyBar& bar : builder_.bodies().bars) {
     writer.add_bar(bar, name_of(bar.body) + " strap");
+  }
+  for (const Knot& knot : knots_) {
+    writer.add_part({knot.body, render::SphereShape{1.7 * builder_.cable_radius()}, knot.position,
+                     Quaternion::Identity(), render::knot_color},
+                    "knot");
   }
   for (const render::JointView::Piece& piece : builder_.joints().pieces) {
     const auto joint = static_cast<std::size_t>(piece.joint);

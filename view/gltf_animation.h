@@ -35,6 +35,13 @@ class GltfAnimation {
     Quaternion orientation;
   };
 
+  /// A point of a cable that is fixed to a body.
+  struct Knot {
+    BodyId body;
+    Vector3 position;  ///< [m], frame of the body
+  };
+
+  void add_knots(const World& world, std::span<const CableReport> cables);
   void add_cable(std::size_t index, const CableReport& listed);
   void add_joints(const World& world);
 
@@ -42,6 +49,7 @@ class GltfAnimation {
   double tension_max_;
   std::vector<double> times_;
   std::vector<std::vector<Pose>> poses_;  ///< by body, then moment
+  std::vector<Knot> knots_;
   LineTracks lines_;
   std::vector<std::optional<std::size_t>> broken_;  ///< by joint: the first moment without it
 };
