@@ -92,7 +92,7 @@ FrameChannels::FrameChannels(const Simulation& simulation, const std::vector<Cab
 }
 
 int FrameChannels::add(const std::string& name, const char* unit, ChannelKind kind) {
-  channels_.push_back({name, unit, kind, true});
+  channels_.push_back({name, unit, kind, true, true});
   return static_cast<int>(channels_.size()) - 1;
 }
 
@@ -111,7 +111,8 @@ void FrameChannels::add_columns(const Model& model) {
     const std::string last = name.substr(name.rfind('.') + 1);
     auto unit = units.find(name);
     if (unit == units.end()) unit = units.find(last);
-    FrameChannel channel{name, name == "t" ? "s" : "", ChannelKind::other, false};
+    FrameChannel channel{name, name == "t" ? "s" : "", ChannelKind::other, false,
+                         observables_.known_at_start(static_cast<int>(i))};
     if (unit != units.end()) channel.unit = unit->second;
     channel.kind = kind_of(channel.unit);
     // Parts of quaternions.

@@ -128,7 +128,9 @@ std::string color_text(const render::Color& color) {
 }
 
 Json channel_json(const FrameChannel& channel) {
-  return {{"name", channel.name}, {"unit", channel.unit}, {"hidden", channel.hidden}};
+  Json made{{"name", channel.name}, {"unit", channel.unit}, {"hidden", channel.hidden}};
+  if (!channel.known_at_start) made["unknown_at_start"] = true;
+  return made;
 }
 
 Json machine_json(const Scene& scene, const std::vector<CableReport>& reports,

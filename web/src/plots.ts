@@ -106,10 +106,14 @@ export class Plots {
 
   private data(names: string[]): uPlot.AlignedData {
     // What is not known, as forces before the first step, is a gap.
-    const known = (v: number): number | null => (Number.isFinite(v) ? v : null);
     return [
       this.frames.allTimes(),
-      ...names.map((name) => Array.from(this.frames.series(this.frames.channel(name)), known)),
+      ...names.map((name) => {
+        const channel = this.frames.channel(name);
+        return Array.from(this.frames.series(channel), (v, k) =>
+          this.frames.isKnown(channel, k) ? v : null,
+        );
+      }),
     ] as uPlot.AlignedData;
   }
 
@@ -142,7 +146,12 @@ export class Plots {
       }
       return;
     }
-    for (const chart of this.charts) chart.redraw(false, false);
+    const frame = this.frames.frameAt(this.player.time);
+    for (const chart of this.charts) {
+      chart.redraw(false, false);
+      // The numbers of the moment, unless the pointer is at another.
+      if ((chart.cursor.left ?? -1) < 0) chart.setLegend({ idx: frame });
+    }
   }
   private width(): number {
     return Math.max(this.element.clientWidth, 200);
