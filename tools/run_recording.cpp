@@ -38,8 +38,7 @@ std::string text_of(const RunEvent& event) {
     case RunEvent::Source::cable:
       break;
   }
-  const std::string where =
-      event.link < 0 ? "a wrap" : fmt::format("link {}", event.link);
+  const std::string where = event.link < 0 ? "a wrap" : fmt::format("link {}", event.link);
   return fmt::format("cable {}: {} at {}{}", event.subject, event.kind, where,
                      event.body.empty() ? "" : " on " + event.body);
 }
@@ -50,8 +49,8 @@ void add_events(const Simulation& simulation, const RunOutcome& outcome,
     recording.add({event.time, std::string(event.kind), text_of(event)});
   }
   if (!outcome.divergence) return;
-  recording.add({simulation.world.state().time, "diverged",
-                 "diverged: " + outcome.divergence->message});
+  recording.add(
+      {simulation.world.state().time, "diverged", "diverged: " + outcome.divergence->message});
 }
 
 }  // namespace

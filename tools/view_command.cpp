@@ -48,17 +48,17 @@ std::string packed(const view::Json& machine, RecordedRun& run, double most) {
   int halved = 0;
   double error = 0.0;
   std::string text = view::base64(view::pack(machine, run.recording));
-  while (static_cast<double>(text.size()) > most &&
-         run.recording.times().size() > fewest_frames) {
+  while (static_cast<double>(text.size()) > most && run.recording.times().size() > fewest_frames) {
     error = std::max(error, run.recording.halving_error());
     run.recording.halve();
     ++halved;
     text = view::base64(view::pack(machine, run.recording));
   }
   if (halved > 0) {
-    print_note(fmt::format("of {} frames every one is kept, so that the page stays below {} MB: "
-                           "between them it is off by up to {:.2g} m (--size for more)",
-                           1 << halved, number_text(most / 1e6), error));
+    print_note(
+        fmt::format("of {} frames every one is kept, so that the page stays below {} MB: "
+                    "between them it is off by up to {:.2g} m (--size for more)",
+                    1 << halved, number_text(most / 1e6), error));
   }
   return text;
 }

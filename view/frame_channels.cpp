@@ -152,8 +152,8 @@ void FrameChannels::extend_path(LinkSlot& slot, std::size_t corners) {
     slot.path_count = add(slot.prefix + "path_count", "", ChannelKind::other);
   }
   while (slot.corners.size() < corners) {
-    slot.corners.push_back(add_point(fmt::format("{}path{}", slot.prefix, slot.corners.size()),
-                                     ChannelKind::length));
+    slot.corners.push_back(
+        add_point(fmt::format("{}path{}", slot.prefix, slot.corners.size()), ChannelKind::length));
   }
 }
 

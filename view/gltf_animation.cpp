@@ -25,7 +25,8 @@ struct Course {
 
   [[nodiscard]] bool is_constant() const {
     for (std::size_t k = width; k < values.size(); ++k) {
-      if (std::abs(values[k] - values[k % width]) > 1e-9 * std::abs(values[k % width])) return false;
+      if (std::abs(values[k] - values[k % width]) > 1e-9 * std::abs(values[k % width]))
+        return false;
     }
     return true;
   }
@@ -48,16 +49,16 @@ class Writer {
       : tension_max_(tension_max), moments_(times.size()) {
     gltf_.set_times(times);
     for (std::size_t k = 0; k < stops; ++k) {
-      blends_.push_back(render::sample(render::ColorMap::tension,
-                                       static_cast<double>(k) / (stops - 1)));
+      blends_.push_back(
+          render::sample(render::ColorMap::tension, static_cast<double>(k) / (stops - 1)));
     }
   }
 
   /// All else hangs on it: it turns the machine's up to glTF's.
   void add_root(const std::string& name, const Vector3& up) {
     NodePlace place;
-    place.rotation = Quaternion(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(up),
-                                                                   Eigen::Vector3d::UnitY()));
+    place.rotation = Quaternion(
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(up), Eigen::Vector3d::UnitY()));
     root_ = gltf_.node(name, -1, -1, place);
   }
 
@@ -81,7 +82,8 @@ class Writer {
   int add_part(const render::BodyPart& part, const std::string& name) {
     const int mesh = gltf_.mesh(name, render::make_mesh(part.shape, facets),
                                 gltf_.material(part.color), render::Solid{}.accent);
-    return gltf_.node(name, holder(part.body), mesh, {part.position, part.orientation, Vector3::Ones()});
+    return gltf_.node(name, holder(part.body), mesh,
+                      {part.position, part.orientation, Vector3::Ones()});
   }
 
   int add_bar(const render::BodyBar& bar, const std::string& name) {
@@ -117,8 +119,8 @@ class Writer {
     const bool blended = !line.color && !weights.is_constant();
     const int track = blended ? gltf_.track(NodePath::weights, weights.values) : -1;
     for (std::size_t piece = 0; piece < pieces; ++piece) {
-      const int node = add_piece(fmt::format("{} {}", line.name, piece), group, mesh, ends, piece,
-                                 line.radius);
+      const int node =
+          add_piece(fmt::format("{} {}", line.name, piece), group, mesh, ends, piece, line.radius);
       if (!line.color) {
         gltf_.set_weights(node, {weights.values.begin(), weights.values.begin() + stops});
       }
@@ -158,8 +160,8 @@ class Writer {
         length = along.norm();
         if (length > 0.0) {
           // On from the last turn, so that it does not spin about itself.
-          turn = (Quaternion(Eigen::Quaterniond::FromTwoVectors(
-                      Eigen::Vector3d(direction), Eigen::Vector3d(along / length))) *
+          turn = (Quaternion(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(direction),
+                                                                Eigen::Vector3d(along / length))) *
                   turn)
                      .normalized();
           direction = along / length;
@@ -273,8 +275,8 @@ void GltfAnimation::add_cable(std::size_t index, const CableReport& listed) {
   int wraps = 0;
   for (std::size_t i = 0; i < cable.links.size(); ++i) {
     const bool is_wrap = places[i] < 0;
-    const std::string place =
-        is_wrap ? fmt::format("{} wrap {}", name, wraps++) : fmt::format("{} link {}", name, places[i]);
+    const std::string place = is_wrap ? fmt::format("{} wrap {}", name, wraps++)
+                                      : fmt::format("{} link {}", name, places[i]);
     const double before = cable.spans[i > 0 || cable.closed ? (i + n - 1) % n : 0].tension;
     const double after = cable.spans[std::min(i, n - 1)].tension;
     lines_.put(place, style.radius, {}, std::move(links[i]), 0.5 * (before + after));

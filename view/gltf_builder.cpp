@@ -21,7 +21,9 @@ LinearColor linear(const render::Color& c) {
           linear(static_cast<double>(c.b))};
 }
 
-int components(int type) { return tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)); }
+int components(int type) {
+  return tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
+}
 
 }  // namespace
 
@@ -79,7 +81,8 @@ struct GltfBuilder::Content {
 
   /// Of a mesh.
   int corners(const std::vector<float>& values, int type, bool range) {
-    const int place = view(values.data(), values.size() * sizeof(float), TINYGLTF_TARGET_ARRAY_BUFFER);
+    const int place =
+        view(values.data(), values.size() * sizeof(float), TINYGLTF_TARGET_ARRAY_BUFFER);
     const auto n = static_cast<std::size_t>(components(type));
     const int made = accessor(place, 0, TINYGLTF_COMPONENT_TYPE_FLOAT, type, values.size() / n);
     if (range) add_range(model.accessors[static_cast<std::size_t>(made)], values);
@@ -147,9 +150,8 @@ int GltfBuilder::mesh(const std::string& name, const render::Mesh& mesh, int mat
   if (mesh.triangles.empty()) return -1;
   tinygltf::Primitive primitive = content_->primitive(mesh);
   primitive.material = material;
-  const bool painted = std::any_of(mesh.vertices.begin(), mesh.vertices.end(), [](const auto& v) {
-    return v.paint != render::plain_paint;
-  });
+  const bool painted = std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
+                                   [](const auto& v) { return v.paint != render::plain_paint; });
   if (painted) {
     // Multiplies the material's colour, so that an accent is what takes that to it, as far as a
     // factor of at most 1 can.
@@ -170,8 +172,7 @@ int GltfBuilder::mesh(const std::string& name, const render::Mesh& mesh, int mat
 }
 
 int GltfBuilder::blended_mesh(const std::string& name, const render::Mesh& mesh,
-                              const render::Color& base,
-                              const std::vector<render::Color>& blends) {
+                              const render::Color& base, const std::vector<render::Color>& blends) {
   tinygltf::Primitive primitive = content_->primitive(mesh);
   primitive.material = material(render::Color{1.0F, 1.0F, 1.0F});
   const auto everywhere = [&](const LinearColor& c) {
@@ -185,8 +186,8 @@ int GltfBuilder::blended_mesh(const std::string& name, const render::Mesh& mesh,
   primitive.attributes["COLOR_0"] = everywhere(from);
   for (const render::Color& blend : blends) {
     const LinearColor to = linear(blend);
-    primitive.targets.push_back({{"COLOR_0", everywhere({to[0] - from[0], to[1] - from[1],
-                                                         to[2] - from[2]})}});
+    primitive.targets.push_back(
+        {{"COLOR_0", everywhere({to[0] - from[0], to[1] - from[1], to[2] - from[2]})}});
   }
   const int made = content_->add_mesh(name, std::move(primitive));
   content_->model.meshes.back().weights.assign(blends.size(), 0.0);

@@ -16,10 +16,10 @@ namespace sheave::view {
 /// One line in all frames.
 struct LineTrack {
   std::string name;
-  double radius = 0.01;                        ///< [m]
-  std::optional<render::Color> color;          ///< nothing: by its tension
-  std::vector<std::vector<Vector3>> lines;     ///< [m]; empty: not there in that frame
-  std::vector<double> tensions;                ///< [N]
+  double radius = 0.01;                     ///< [m]
+  std::optional<render::Color> color;       ///< nothing: by its tension
+  std::vector<std::vector<Vector3>> lines;  ///< [m]; empty: not there in that frame
+  std::vector<double> tensions;             ///< [N]
 
   /// How many straight pieces show it well in all frames; 0 if it is never there.
   [[nodiscard]] std::size_t piece_count() const;
