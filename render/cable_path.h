@@ -37,8 +37,8 @@ struct CableStyle {
 [[nodiscard]] std::vector<std::vector<Vector3>> span_lines(const CableReport& cable,
                                                            const CableStyle& style);
 
-/// The centre lines on links as drawn, one per link: round wheels, along outlines; empty for points.
-/// Both in order make up the whole cable; of a cut one nothing is left.
+/// The centre lines on links as drawn, one per link: round wheels, along outlines; empty for
+/// points. Both in order make up the whole cable; of a cut one nothing is left.
 [[nodiscard]] std::vector<std::vector<Vector3>> link_lines(const CableReport& cable,
                                                            const CableStyle& style);
 

@@ -18,8 +18,8 @@ namespace sheave::view {
 
 class GltfAnimation {
  public:
-  /// `builder` says how the machine looks and must outlive this; `tension_max` [N] is the top of the
-  /// colour map, > 0.
+  /// `builder` says how the machine looks and must outlive this; `tension_max` [N] is the top of
+  /// the colour map, > 0.
   GltfAnimation(const render::ViewBuilder& builder, double tension_max);
 
   /// A moment of the animation [s], later than all before.

@@ -89,7 +89,7 @@ struct GltfBuilder::Content {
     return made;
   }
 
-  /// Of animation: its bytes follow those of meshes in a view of their own, which is made at the end.
+  /// Of animation: its bytes follow those of meshes in a view of their own, made at the end.
   int moving(const std::vector<double>& values, int type, bool range) {
     std::vector<float> numbers(values.begin(), values.end());
     const std::size_t offset = motion.size();

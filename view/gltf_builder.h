@@ -32,10 +32,10 @@ class GltfBuilder {
 
   /// Index of a material; equal colours share one.
   int material(const render::Color& color);
-  /// A mesh with the paints of its corners; -1 if it has no triangles. With `blends`, one colour for
-  /// each of the node's weights: the colour of the mesh is then `base` and, by weight, those.
+  /// A mesh with the paints of its corners; -1 if it has no triangles.
   int mesh(const std::string& name, const render::Mesh& mesh, int material,
            const render::Color& accent);
+  /// A mesh whose colour is `base` and, by weights of its nodes, those of `blends`.
   int blended_mesh(const std::string& name, const render::Mesh& mesh, const render::Color& base,
                    const std::vector<render::Color>& blends);
 
