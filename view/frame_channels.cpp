@@ -1,6 +1,7 @@
 #include "view/frame_channels.h"
 
 #include <algorithm>
+#include <limits>
 #include <string_view>
 #include <unordered_map>
 
@@ -92,7 +93,7 @@ FrameChannels::FrameChannels(const Simulation& simulation, const std::vector<Cab
 }
 
 int FrameChannels::add(const std::string& name, const char* unit, ChannelKind kind) {
-  channels_.push_back({name, unit, kind, true, true});
+  channels_.push_back({name, unit, kind, true});
   return static_cast<int>(channels_.size()) - 1;
 }
 
@@ -111,8 +112,7 @@ void FrameChannels::add_columns(const Model& model) {
     const std::string last = name.substr(name.rfind('.') + 1);
     auto unit = units.find(name);
     if (unit == units.end()) unit = units.find(last);
-    FrameChannel channel{name, name == "t" ? "s" : "", ChannelKind::other, false,
-                         observables_.known_at_start(static_cast<int>(i))};
+    FrameChannel channel{name, name == "t" ? "s" : "", ChannelKind::other, false};
     if (unit != units.end()) channel.unit = unit->second;
     channel.kind = kind_of(channel.unit);
     // Parts of quaternions.
@@ -190,6 +190,13 @@ void FrameChannels::sample(const Simulation& simulation, const std::vector<Cable
                            std::vector<double>& values) const {
   const World& world = simulation.world;
   observables_.sample(simulation, values);
+  if (world.state().steps == 0) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!observables_.known_at_start(static_cast<int>(i))) {
+        values[i] = std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+  }
   values.resize(channels_.size(), 0.0);
   const auto write_link = [&](const LinkSlot& slot, const LinkReport& link) {
     const BodyFrameNow frame(world, link.body);

@@ -25,8 +25,6 @@ struct FrameChannel {
   std::string unit;  ///< "N"; empty: a pure number
   ChannelKind kind = ChannelKind::other;
   bool hidden = false;  ///< no column of a table
-  /// Whether its value at time 0 means something. Forces are 0 there, for no step has been made.
-  bool known_at_start = true;
 };
 
 class FrameChannels {
@@ -46,7 +44,7 @@ class FrameChannels {
   /// value in frames before means nothing, for nothing counts them.
   void extend(const std::vector<CableReport>& reports);
 
-  /// One value per channel; NaN is not known. `reports` are of
+  /// One value per channel; NaN is not known, as forces before the first step are. `reports` are of
   /// the simulation's state, and fit.
   void sample(const Simulation& simulation, const std::vector<CableReport>& reports,
               std::vector<double>& values) const;

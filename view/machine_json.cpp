@@ -128,9 +128,7 @@ std::string color_text(const render::Color& color) {
 }
 
 Json channel_json(const FrameChannel& channel) {
-  Json made{{"name", channel.name}, {"unit", channel.unit}, {"hidden", channel.hidden}};
-  if (!channel.known_at_start) made["unknown_at_start"] = true;
-  return made;
+  return {{"name", channel.name}, {"unit", channel.unit}, {"hidden", channel.hidden}};
 }
 
 Json machine_json(const Scene& scene, const std::vector<CableReport>& reports,

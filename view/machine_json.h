@@ -28,7 +28,7 @@ struct MachineLook {
 [[nodiscard]] Json machine_json(const Scene& scene, const std::vector<CableReport>& reports,
                                 const FrameChannels& channels, const MachineLook& look);
 
-/// Name, unit, hidden, and whether it is not known at the start.
+/// Name, unit, hidden.
 [[nodiscard]] Json channel_json(const FrameChannel& channel);
 
 /// "#rrggbb".

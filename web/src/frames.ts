@@ -41,9 +41,8 @@ export class Frames {
     return this.columns[channel].subarray(0, this.size);
   }
 
-  /** Whether a value means something: forces do not before the first step. */
+  /** Whether a value is known; forces are not before the first step. */
   isKnown(channel: number, frame: number): boolean {
-    if (frame === 0 && this.times[0] === 0 && this.channels[channel].unknown_at_start) return false;
     return Number.isFinite(this.columns[channel][frame]);
   }
 

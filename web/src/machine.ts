@@ -118,6 +118,4 @@ export interface Channel {
   unit: string;
   /** Not a column of a table: only the picture needs it. */
   hidden: boolean;
-  /** At time 0 it is 0 and means nothing: a force before the first step. */
-  unknown_at_start?: boolean;
 }

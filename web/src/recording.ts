@@ -65,12 +65,7 @@ export function unpack(bytes: Uint8Array): Frames {
 export function unpackStream(head: RecordingHead, bytes: Uint8Array): Frames {
   const frames = new Frames(
     head.machine,
-    head.channels.map(({ name, unit, hidden, unknown_at_start }) => ({
-      name,
-      unit,
-      hidden,
-      unknown_at_start: unknown_at_start ?? false,
-    })),
+    head.channels.map(({ name, unit, hidden }) => ({ name, unit, hidden })),
   );
   const reader = new Reader(bytes);
   const times = new Float64Array(head.frames);
