@@ -37,7 +37,7 @@ std::string read_page() {
                 (folder / "../web/view.html").lexically_normal().string() +
                     ": the page is missing: this build was made without npm, or npm could not "
                     "load what web/package-lock.json names\n"
-                    "to build it: install nodejs and npm, then cmake --build the target web");
+                    "to build it: install nodejs and npm, then build the CMake target web");
 }
 
 std::string filled_page(const std::string& page, const std::string& recording) {
