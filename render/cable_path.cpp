@@ -91,6 +91,24 @@ class Drawing {
                 span.end + offset_at(cable_.links[next], windings_[next], false), style_);
   }
 
+  /// Round a wheel or along an outline; empty where the tube is cut.
+  [[nodiscard]] std::vector<Vector3> link_line(std::size_t i) const {
+    const LinkReport& link = cable_.links[i];
+    if (!link.path.empty()) return link.path;
+    const Winding& w = windings_[i];
+    std::vector<Vector3> line;
+    // Where there is no length to blend colours over, the tube is cut.
+    if (!(link.radius > 0.0) || std::abs(w.angle) * link.radius < 2.0 * style_.radius) return line;
+    const int steps = std::max(2, static_cast<int>(std::ceil(std::abs(w.angle) / step_angle)));
+    for (int k = 0; k <= steps; ++k) {
+      const double share = static_cast<double>(k) / steps;
+      const double angle = w.angle * share;
+      const Vector3 out = w.first * std::cos(angle) + w.second * std::sin(angle);
+      line.emplace_back(link.center + out * link.radius + link.normal * (w.shift * (share - 0.5)));
+    }
+    return line;
+  }
+
   std::vector<Tube> run() {
     for (std::size_t i = 0; i < cable_.links.size(); ++i) {
       add_link(i);
@@ -117,48 +135,22 @@ class Drawing {
   }
 
   void add_link(std::size_t i) {
-    const LinkReport& link = cable_.links[i];
-    const Winding& w = windings_[i];
-    if (!link.path.empty()) {
-      add_path(i);
-      return;
-    }
-    // Where there is no length to blend colours over, the tube is cut.
-    if (!(link.radius > 0.0) || std::abs(w.angle) * link.radius < 2.0 * style_.radius) {
+    const std::vector<Vector3> line = link_line(i);
+    if (line.empty()) {
       if (i == 0) cut_at_start_ = true;
       cut();
       return;
     }
     const std::size_t n = cable_.spans.size();
     const bool has_incoming = cable_.closed || i > 0;
-    const bool has_outgoing = i < n;
-    const std::size_t outgoing = has_outgoing ? i : i - 1;
-    const std::size_t incoming = has_incoming ? (i + n - 1) % n : outgoing;
-    const Color from = tension_color(cable_.spans[incoming].tension, style_);
-    const Color to = tension_color(cable_.spans[outgoing].tension, style_);
-    const int steps = std::max(2, static_cast<int>(std::ceil(std::abs(w.angle) / step_angle)));
-    for (int k = 0; k <= steps; ++k) {
-      const double share = static_cast<double>(k) / steps;
-      const double angle = w.angle * share;
-      const Vector3 out = w.first * std::cos(angle) + w.second * std::sin(angle);
-      add(link.center + out * link.radius + link.normal * (w.shift * (share - 0.5)),
-          mix(from, to, static_cast<float>(share)));
-    }
-  }
-
-  /// Along an outline, just outside it.
-  void add_path(std::size_t i) {
-    const std::vector<Vector3>& path = cable_.links[i].path;
-    const std::size_t n = cable_.spans.size();
-    const bool has_incoming = cable_.closed || i > 0;
     const std::size_t outgoing = i < n ? i : i - 1;
     const std::size_t incoming = has_incoming ? (i + n - 1) % n : outgoing;
     const Color from = tension_color(cable_.spans[incoming].tension, style_);
     const Color to = tension_color(cable_.spans[outgoing].tension, style_);
-    for (std::size_t k = 0; k < path.size(); ++k) {
+    for (std::size_t k = 0; k < line.size(); ++k) {
       const auto share = static_cast<float>(
-          path.size() > 1 ? static_cast<double>(k) / static_cast<double>(path.size() - 1) : 0.5);
-      add(path[k], mix(from, to, share));
+          line.size() > 1 ? static_cast<double>(k) / static_cast<double>(line.size() - 1) : 0.5);
+      add(line[k], mix(from, to, share));
     }
   }
 
@@ -221,6 +213,14 @@ std::vector<std::vector<Vector3>> span_lines(const CableReport& cable, const Cab
   const Drawing drawing(cable, style);
   std::vector<std::vector<Vector3>> lines;
   for (std::size_t k = 0; k < cable.spans.size(); ++k) lines.push_back(drawing.span_line(k));
+  return lines;
+}
+
+std::vector<std::vector<Vector3>> link_lines(const CableReport& cable, const CableStyle& style) {
+  if (cable.cut) return std::vector<std::vector<Vector3>>(cable.links.size());
+  const Drawing drawing(cable, style);
+  std::vector<std::vector<Vector3>> lines;
+  for (std::size_t i = 0; i < cable.links.size(); ++i) lines.push_back(drawing.link_line(i));
   return lines;
 }
 

@@ -37,6 +37,11 @@ struct CableStyle {
 [[nodiscard]] std::vector<std::vector<Vector3>> span_lines(const CableReport& cable,
                                                            const CableStyle& style);
 
+/// The centre lines on links as drawn, one per link: round wheels, along outlines; empty for
+/// points. Both in order make up the whole cable; of a cut one nothing is left.
+[[nodiscard]] std::vector<std::vector<Vector3>> link_lines(const CableReport& cable,
+                                                           const CableStyle& style);
+
 /// The whole cable. It is cut at points (attachments), where its colour jumps with the tension.
 [[nodiscard]] std::vector<Tube> cable_tubes(const CableReport& cable, const CableStyle& style);
 

@@ -19,5 +19,7 @@ Color sample(ColorMap map, double t);
 
 /// A cable that carries no tension: outside every map, so that "slack" cannot be read as "little".
 inline constexpr Color slack_color = rgb(0x8d98a5);
+/// Where a cable is fixed to a body.
+inline constexpr Color knot_color = rgb(0x3b4656);
 
 }  // namespace sheave::render

@@ -11,8 +11,6 @@
 namespace sheave::render {
 namespace {
 
-constexpr Color knot_color = rgb(0x3b4656);
-
 /// The world does not move; every other body has a pose.
 Vector3 place_in_world(const World& world, BodyId body, const Vector3& local) {
   return body.is_world() ? local : world.point(body, local);
@@ -183,22 +181,28 @@ double ViewBuilder::tension_scale(std::span<const CableReport> cables) const {
   return weight_ > 0.0 ? weight_ : 1.0;
 }
 
-void ViewBuilder::add_cables(std::span<const CableReport> cables, DrawList& list) const {
-  if (cables.empty()) return;
+CableStyle ViewBuilder::cable_style(std::size_t cable, const std::vector<int>& places,
+                                    double tension_max) const {
   CableStyle style;
   style.radius = cable_radius_;
-  style.tension_max = tension_scale(cables);
+  style.tension_max = tension_max;
   style.gravity = gravity_;
   style.floor = floor_;
+  for (const int place : places) {
+    const bool has_room = place >= 0 && cable < bodies_.winding_room.size();
+    style.winding_room.push_back(
+        has_room ? bodies_.winding_room[cable][static_cast<std::size_t>(place)] : 0.0);
+  }
+  return style;
+}
+
+void ViewBuilder::add_cables(std::span<const CableReport> cables, DrawList& list) const {
+  if (cables.empty()) return;
+  const double tension_max = tension_scale(cables);
   for (std::size_t c = 0; c < cables.size(); ++c) {
     std::vector<int> places;
     const CableReport cable = cables[c].with_wraps_in_place(&places);
-    style.winding_room.clear();
-    for (const int place : places) {
-      const bool has_room = place >= 0 && c < bodies_.winding_room.size();
-      style.winding_room.push_back(
-          has_room ? bodies_.winding_room[c][static_cast<std::size_t>(place)] : 0.0);
-    }
+    const CableStyle style = cable_style(c, places, tension_max);
     for (Tube& tube : cable_tubes(cable, style)) list.tubes.push_back(std::move(tube));
     for (const LinkReport& link : cable.links) {
       if (link.radius > 0.0) continue;
@@ -212,8 +216,8 @@ void ViewBuilder::add_cables(std::span<const CableReport> cables, DrawList& list
   }
   if (!options_.legend) return;
   Legend legend;
-  legend.max = style.tension_max;
-  legend.map = style.map;
+  legend.max = tension_max;
+  legend.map = CableStyle{}.map;
   list.legend = legend;
 }
 

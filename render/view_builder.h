@@ -56,6 +56,9 @@ class ViewBuilder {
 
   [[nodiscard]] double cable_radius() const { return cable_radius_; }
   // What was decided, for others that draw.
+  /// Of one cable of build()'s; `places` is that of CableReport::with_wraps_in_place().
+  [[nodiscard]] CableStyle cable_style(std::size_t cable, const std::vector<int>& places,
+                                       double tension_max) const;
   [[nodiscard]] const BodyView& bodies() const { return bodies_; }
   [[nodiscard]] const JointView& joints() const { return joints_; }
   [[nodiscard]] const std::optional<Plane>& floor() const { return floor_; }

@@ -1,5 +1,6 @@
 #pragma once
-// The page that `sheave view` fills: built from web/ by npm, beside the command or installed with it.
+// The page that `sheave view` fills: built from web/ by npm, beside the command or installed with
+// it.
 
 #include <string>
 

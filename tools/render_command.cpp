@@ -18,12 +18,14 @@
 #include "render/view_survey.h"
 #include "tools/command_line.h"
 #include "tools/interrupt.h"
+#include "tools/output_file.h"
 #include "tools/output_paths.h"
 #include "tools/player.h"
 #include "tools/render_outputs.h"
 #include "tools/scene_options.h"
 #include "tools/state_file.h"
 #include "tools/terminal.h"
+#include "view/gltf_animation.h"
 
 namespace sheave::tools {
 namespace {
@@ -99,6 +101,7 @@ Moments choose_moments(const Scene& scene, const PictureOptions& options, double
 struct Look {
   render::ViewBuilder builder;
   render::Camera camera;
+  double tension_max;  // [N]
 };
 
 /// Plays the scene once, to frame it and to give every tension the same colour in every frame.
@@ -125,10 +128,40 @@ Look survey(const Scene& scene, const RenderOptions& settings, std::span<const d
   const render::DrawList typical = builder.build(start.world, cables);
   const render::Camera camera =
       render::scene_camera(scene, cables, survey.bounds(), typical, options.width, options.height);
-  return {std::move(builder), camera};
+  return {std::move(builder), camera, survey.tension_max()};
 }
 
-ExitCode report(const RunOutcome& outcome, const PictureOutputs& outputs,
+/// The run as glTF, if that is asked for.
+class GlbOutput {
+ public:
+  GlbOutput(const PictureOptions& options, const Look& look)
+      : path_(options.glb), speed_(options.speed), animation_(look.builder, look.tension_max) {
+    if (!path_.empty()) file_.emplace(path_);
+  }
+  [[nodiscard]] bool is_wanted() const { return file_.has_value(); }
+  [[nodiscard]] long frames() const { return static_cast<long>(animation_.frames()); }
+
+  void add(const Simulation& simulation, const std::vector<CableReport>& cables) {
+    if (!file_) return;
+    const double time = simulation.world.state().time;
+    if (animation_.frames() == 0) begin_ = time;
+    animation_.add((time - begin_) / speed_, simulation.world, cables);
+  }
+  void finish(const Model& model) {
+    if (!file_ || animation_.frames() == 0) return;
+    file_->write(animation_.finish(model));
+    file_->commit();
+  }
+
+ private:
+  std::string path_;
+  double speed_;
+  double begin_ = 0.0;  // [s]
+  view::GltfAnimation animation_;
+  std::optional<OutputFile> file_;
+};
+
+ExitCode report(const RunOutcome& outcome, const PictureOutputs& outputs, long glb_frames,
                 const PictureOptions& options) {
   if (outcome.status == RunStatus::done) {
     if (!outcome.certificate.clean(default_trust)) {
@@ -147,6 +180,7 @@ ExitCode report(const RunOutcome& outcome, const PictureOutputs& outputs,
   // What is at fault is told with its fault.
   if (outputs.has_video() || outputs.frames() == 0) tell(options.video, outputs.frames());
   tell(options.png, outputs.png_frames());
+  tell(options.glb, glb_frames);
   if (!options.still.empty() && !outputs.has_still()) {
     text += "\n" + options.still + ": not written, its time was not reached";
   }
@@ -163,7 +197,11 @@ ExitCode render_scene(const RenderOptions& options) {
   const NamedPath first_frame{
       "--png", pictures.png.empty() ? "" : fmt::format("{}/frame_000000.png", pictures.png)};
   check_paths({{"the scene", options.scene.path}, {"--load-state", options.load_state}},
-              {{"--video", pictures.video}, {"--still", pictures.still}, first_frame}, false);
+              {{"--video", pictures.video},
+               {"--still", pictures.still},
+               {"--glb", pictures.glb},
+               first_frame},
+              false);
   const Scene scene = load(options.scene);
   double begin = 0.0;
   if (!options.load_state.empty()) {
@@ -179,12 +217,16 @@ ExitCode render_scene(const RenderOptions& options) {
   const Look look = survey(scene, options, moments.times, survey_progress);
   survey_progress.clear();
   Progress progress("draw", 0.0, steps, options.quiet);
+  GlbOutput glb(pictures, look);
   const auto show = [&](std::size_t k, const Simulation& simulation) {
-    const render::DrawList list =
-        look.builder.build(simulation.world, reports_to_show(scene, simulation));
-    if (moments.is_frame(k)) outputs.add_frame(list, look.camera);
-    if (k == moments.still) outputs.add_still(list, look.camera);
-    return outputs.any_left();
+    const std::vector<CableReport> cables = reports_to_show(scene, simulation);
+    if (moments.is_frame(k)) glb.add(simulation, cables);
+    if (outputs.any_left()) {
+      const render::DrawList list = look.builder.build(simulation.world, cables);
+      if (moments.is_frame(k)) outputs.add_frame(list, look.camera);
+      if (k == moments.still) outputs.add_still(list, look.camera);
+    }
+    return outputs.any_left() || glb.is_wanted();
   };
   RunOutcome outcome;
   try {
@@ -195,7 +237,9 @@ ExitCode render_scene(const RenderOptions& options) {
   }
   progress.clear();
   outputs.finish();
-  return outputs.faults().report(report(outcome, outputs, pictures));
+  const long glb_frames = glb.frames();
+  outputs.faults().attempt([&] { glb.finish(scene.model); });
+  return outputs.faults().report(report(outcome, outputs, glb_frames, pictures));
 }
 
 void check_usage(const PictureOptions& options) {
@@ -204,11 +248,14 @@ void check_usage(const PictureOptions& options) {
                        [&](const char* end) { return path.ends_with(end); });
   };
   if (!options.has_frames() && options.still.empty()) {
-    throw Failure(ExitCode::usage, "nothing to write: give --video, --png or --still");
+    throw Failure(ExitCode::usage, "nothing to write: give --video, --png, --still or --glb");
   }
   if (!options.video.empty() && !ends_with_any(options.video, {".mp4", ".mov", ".mkv"})) {
     throw Failure(ExitCode::usage,
                   "--video " + options.video + ": the name must end in .mp4, .mov or .mkv");
+  }
+  if (!options.glb.empty() && !ends_with_any(options.glb, {".glb"})) {
+    throw Failure(ExitCode::usage, "--glb " + options.glb + ": the name must end in .glb");
   }
   if (!options.still.empty() && !ends_with_any(options.still, {".png"})) {
     throw Failure(ExitCode::usage, "--still " + options.still + ": the name must end in .png");
@@ -226,13 +273,15 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
       ->check(number_between(0.0, std::numeric_limits<double>::max()))
       ->option_text("T")
       ->needs(still);
+  app.add_option("--glb", options.glb, "write an animated glTF 2.0 model (.glb)")
+      ->option_text("FILE");
   app.add_option("--width", options.width, "pixels; default 1280")
       ->check(CLI::Range(render::Renderer::min_side, render::Renderer::max_side / 2))
       ->option_text("N");
   app.add_option("--height", options.height, "pixels; default 720")
       ->check(CLI::Range(render::Renderer::min_side, render::Renderer::max_side / 2))
       ->option_text("N");
-  app.add_option("--fps", options.fps, "frames per second of the video; default 60")
+  app.add_option("--fps", options.fps, "frames per second of the video and of glTF; default 60")
       ->check(number_between(0.001, 1000.0))
       ->option_text("X");
   app.add_option("--speed", options.speed,
@@ -254,6 +303,7 @@ Action declare_render(CLI::App& app) {
   app.footer(R"(Examples:
   sheave render crane.json --video crane.mp4
   sheave render crane.json --still crane.png --at 1.5 --labels --width 1920 --height 1080
+  sheave render crane.json --glb crane.glb --fps 30
   sheave render crane.json --video slow.mp4 --speed 0.1 --dt 0.001 --png frames
 
 The camera is that of the scene. What the scene leaves open is chosen so that the whole run is in

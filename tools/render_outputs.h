@@ -16,14 +16,15 @@ struct PictureOptions {
   std::string video;         ///< file; empty: none
   std::string png;           ///< folder; empty: none
   std::string still;         ///< file; empty: none
+  std::string glb;           ///< animated glTF, file; empty: none
   std::optional<double> at;  ///< time of the still [s]; default: the end
   int width = 1280;          ///< [pixels]
   int height = 720;          ///< [pixels]
-  double fps = 60.0;         ///< frames per second of the video
+  double fps = 60.0;         ///< frames per second of the video and of glTF
   double speed = 1.0;        ///< simulated seconds per second of the video
   bool labels = false;       ///< write the tensions beside the cables
 
-  [[nodiscard]] bool has_frames() const { return !video.empty() || !png.empty(); }
+  [[nodiscard]] bool has_frames() const { return !video.empty() || !png.empty() || !glb.empty(); }
 };
 
 /// Opens what the options name, draws into it, and puts it in place. An output that cannot be

@@ -22,8 +22,8 @@ struct RecordedRun {
   RunOutcome outcome;
 };
 
-/// Runs a scene, from a state file unless `start` is empty, and takes down every `interval`-th step,
-/// the first and the last. Where it diverged is an event.
+/// Runs a scene, from a state file unless `start` is empty, and takes down every `interval`-th
+/// step, the first and the last. Where it diverged is an event.
 [[nodiscard]] RecordedRun record_run(const Scene& scene, const std::string& start,
                                      std::int64_t interval, Progress& progress);
 

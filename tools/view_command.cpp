@@ -142,9 +142,9 @@ Action declare_view(CLI::App& app) {
   sheave view crane.json --live --open
 
 The page is one file that needs no network: the machine in three dimensions, a time line with its
-events, the numbers of what is tapped, curves of all quantities of sheave run --out. What it holds is
-within 1e-6 of that table. Exit codes as for sheave run; after a divergence or Ctrl-C the page shows
-what was before.)");
+events, the numbers of what is tapped, curves of all quantities of sheave run --out. What it holds
+is within 1e-6 of that table. Exit codes as for sheave run; after a divergence or Ctrl-C the page
+shows what was before.)");
   return [options] { return view_scene(*options); };
 }
 

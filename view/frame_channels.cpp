@@ -1,6 +1,7 @@
 #include "view/frame_channels.h"
 
 #include <algorithm>
+#include <limits>
 #include <string_view>
 #include <unordered_map>
 
@@ -151,8 +152,8 @@ void FrameChannels::extend_path(LinkSlot& slot, std::size_t corners) {
     slot.path_count = add(slot.prefix + "path_count", "", ChannelKind::other);
   }
   while (slot.corners.size() < corners) {
-    slot.corners.push_back(add_point(fmt::format("{}path{}", slot.prefix, slot.corners.size()),
-                                     ChannelKind::length));
+    slot.corners.push_back(
+        add_point(fmt::format("{}path{}", slot.prefix, slot.corners.size()), ChannelKind::length));
   }
 }
 
@@ -189,6 +190,13 @@ void FrameChannels::sample(const Simulation& simulation, const std::vector<Cable
                            std::vector<double>& values) const {
   const World& world = simulation.world;
   observables_.sample(simulation, values);
+  if (world.state().steps == 0) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!observables_.known_at_start(static_cast<int>(i))) {
+        values[i] = std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+  }
   values.resize(channels_.size(), 0.0);
   const auto write_link = [&](const LinkSlot& slot, const LinkReport& link) {
     const BodyFrameNow frame(world, link.body);

@@ -40,8 +40,8 @@ class FrameChannels {
 
   /// Whether there is a channel for all that the cables now have: wraps, corners of outlines.
   [[nodiscard]] bool fits(const std::vector<CableReport>& reports) const;
-  /// Makes room for it. Channels that are there keep their places; new ones follow them. Their value
-  /// in frames before means nothing, for nothing counts them.
+  /// Makes room for it. Channels that are there keep their places; new ones follow them. Their
+  /// value in frames before means nothing, for nothing counts them.
   void extend(const std::vector<CableReport>& reports);
 
   /// One value per channel; NaN is not known, as forces before the first step are. `reports` are of

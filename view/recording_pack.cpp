@@ -67,8 +67,8 @@ class Packer {
   Json pack(std::size_t index) {
     const FrameChannel& channel = recording_.channels().channels()[index];
     const std::vector<double>& values = recording_.columns()[index];
-    const auto known = std::find_if(values.begin(), values.end(),
-                                    [](double v) { return !std::isnan(v); });
+    const auto known =
+        std::find_if(values.begin(), values.end(), [](double v) { return !std::isnan(v); });
     Json head = channel_json(channel);
     if (known != values.begin()) head["missing"] = known - values.begin();
     const std::vector<double> rest(known, values.end());
@@ -90,12 +90,12 @@ class Packer {
   [[nodiscard]] const std::string& stream() const { return stream_; }
 
  private:
-  [[nodiscard]] double quantum(const FrameChannel& channel, const std::vector<double>& values) const {
+  [[nodiscard]] double quantum(const FrameChannel& channel,
+                               const std::vector<double>& values) const {
     if (std::all_of(values.begin(), values.end(), is_whole)) return 1.0;
     const double own = largest_size(values);
-    const double scale = channel.kind == ChannelKind::other
-                             ? own
-                             : scales_[static_cast<std::size_t>(channel.kind)];
+    const double scale =
+        channel.kind == ChannelKind::other ? own : scales_[static_cast<std::size_t>(channel.kind)];
     return std::max(tolerance * std::min(1.0, scale), own * 0x1p-48);
   }
 

@@ -9,9 +9,9 @@
 // and forces q = 1e-6 min(1, s), with s the largest size that any value of the kind has in the
 // recording; for all others the same with s that of the channel. So what is read back is within
 // 5e-7 of the unit, and within 5e-7 of the scale of machines that are smaller than it. Only where s
-// is above 2.8e8 units q grows as s 2^-48, because numbers of quanta must stay exact in doubles; the
-// error then is below 2e-15 s. Channels of whole numbers have q = 1, those that do not change and
-// those with values that are not finite are kept as they are.
+// is above 2.8e8 units q grows as s 2^-48, because numbers of quanta must stay exact in doubles;
+// the error then is below 2e-15 s. Channels of whole numbers have q = 1; those that do not change
+// and those with values that are not finite are kept as they are.
 
 #include <string>
 

@@ -41,6 +41,11 @@ export class Frames {
     return this.columns[channel].subarray(0, this.size);
   }
 
+  /** Whether a value is known; forces are not before the first step. */
+  isKnown(channel: number, frame: number): boolean {
+    return Number.isFinite(this.columns[channel][frame]);
+  }
+
   /** Takes whole columns, as a file has them. */
   adopt(times: Float64Array, columns: Float64Array[]): void {
     if (columns.length !== this.channels.length || columns.some((c) => c.length !== times.length)) {

@@ -133,13 +133,13 @@ export class MachineState {
     frames.read(first, this.values);
     this.time = frames.time(first);
     const next = first + 1;
+    if (first === 0) this.fillStart();
     if (time > this.time && next < frames.count) {
       const share = (time - this.time) / (frames.time(next) - this.time);
       frames.read(next, this.later);
       this.blend(share);
       this.time = time;
     }
-    this.fillStart(next);
     for (let i = 0; i < this.bodyPlaces.length; ++i) this.poses[i] = this.readPose(i);
   }
 
@@ -196,11 +196,11 @@ export class MachineState {
   }
 
   /** Forces are not known before the first step; a picture of the start shows those of that step. */
-  private fillStart(next: number): void {
-    if (next !== 1 || this.frames.count < 2) return;
+  private fillStart(): void {
+    if (this.frames.count < 2) return;
     this.frames.read(1, this.later);
     for (let i = 0; i < this.values.length; ++i) {
-      if (Number.isNaN(this.values[i])) this.values[i] = this.later[i];
+      if (!this.frames.isKnown(i, 0)) this.values[i] = this.later[i];
     }
   }
 

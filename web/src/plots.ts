@@ -2,9 +2,9 @@
 
 import uPlot from 'uplot';
 
-import { element } from './dom';
+import { button, element } from './dom';
 import type { Frames } from './frames';
-import { numberText } from './numbers';
+import { numberText, quantityText } from './numbers';
 import type { Player } from './player';
 
 /** Okabe and Ito's colours, which all eyes tell apart, and dashes beside them. */
@@ -17,6 +17,7 @@ export class Plots {
   private chosen: string[] = [];
   private charts: uPlot[] = [];
   private drawnCount = -1;
+  private values: [HTMLElement, number, string][] = [];
   private readonly resizing: ResizeObserver;
   private readonly listeners: (() => void)[] = [];
 
@@ -55,6 +56,7 @@ export class Plots {
   private build(): void {
     for (const chart of this.charts) chart.destroy();
     this.element.replaceChildren();
+    this.values = [];
     const units = new Map<string, string[]>();
     for (const name of this.chosen) {
       const unit = this.frames.channels[this.frames.channel(name)].unit;
@@ -62,6 +64,7 @@ export class Plots {
     }
     this.charts = [...units].map(([unit, names]) => this.chart(unit, names));
     this.drawnCount = this.frames.count;
+    this.tell();
     if (this.chosen.length === 0) {
       this.element.append(element('p', { class: 'hint' }, 'Choose quantities to see their course.'));
     }
@@ -72,10 +75,10 @@ export class Plots {
     const ink = style.getPropertyValue('--ink').trim() || '#222';
     const grid = { stroke: style.getPropertyValue('--line').trim() || '#ddd', width: 1 };
     const axis = { stroke: ink, grid, ticks: grid, font: '11px system-ui, sans-serif' };
-    const value = (_: uPlot, v: number | null): string => (v === null ? '–' : numberText(v));
     const options: uPlot.Options = {
       width: this.width(),
       height: chartHeight,
+      legend: { show: false },
       cursor: { sync: { key: 'sheave' }, drag: { x: false, y: false } },
       scales: { x: { time: false } },
       axes: [
@@ -84,19 +87,19 @@ export class Plots {
           values: (_, ticks) => ticks.map((t) => numberText(t, 4)) },
       ],
       series: [
-        { label: 't [s]', value },
+        { label: 't [s]' },
         ...names.map((name, k) => ({
           label: name,
           stroke: strokes[k % strokes.length],
           dash: dashes[Math.floor(k / strokes.length) % dashes.length],
           width: 1.5,
           points: { show: false },
-          value,
         })),
       ],
       hooks: { draw: [(chart) => this.drawNow(chart, ink)] },
     };
     const chart = new uPlot(options, this.data(names), this.element);
+    this.element.append(this.keys(names, unit));
     chart.over.addEventListener('pointerdown', (event) => this.seek(chart, event));
     chart.over.addEventListener('pointermove', (event) => {
       if (event.buttons & 1) this.seek(chart, event);
@@ -104,12 +107,29 @@ export class Plots {
     return chart;
   }
 
+  /** Names beside their colours, with the numbers of the moment; a press takes the curve away. */
+  private keys(names: string[], unit: string): HTMLElement {
+    const list = element('ul', { class: 'keys' });
+    names.forEach((name, k) => {
+      const value = element('output');
+      const swatch = element('i', { style: `background: ${strokes[k % strokes.length]}` });
+      const remove = button('×', `no curve of ${name} any more`, () => this.toggle(name));
+      list.append(element('li', {}, swatch, element('span', {}, name), value, remove));
+      this.values.push([value, this.frames.channel(name), unit]);
+    });
+    return list;
+  }
+
   private data(names: string[]): uPlot.AlignedData {
     // What is not known, as forces before the first step, is a gap.
-    const known = (v: number): number | null => (Number.isFinite(v) ? v : null);
     return [
       this.frames.allTimes(),
-      ...names.map((name) => Array.from(this.frames.series(this.frames.channel(name)), known)),
+      ...names.map((name) => {
+        const channel = this.frames.channel(name);
+        return Array.from(this.frames.series(channel), (v, k) =>
+          this.frames.isKnown(channel, k) ? v : null,
+        );
+      }),
     ] as uPlot.AlignedData;
   }
 
@@ -140,9 +160,19 @@ export class Plots {
       for (const chart of this.charts) {
         chart.setData(this.data(chart.series.slice(1).map((s) => String(s.label))));
       }
+      this.tell();
       return;
     }
     for (const chart of this.charts) chart.redraw(false, false);
+    this.tell();
+  }
+  private tell(): void {
+    if (this.frames.count === 0) return;
+    const frame = this.frames.frameAt(this.player.time);
+    for (const [cell, channel, unit] of this.values) {
+      const known = this.frames.isKnown(channel, frame);
+      cell.textContent = quantityText(known ? this.frames.series(channel)[frame] : NaN, unit);
+    }
   }
   private width(): number {
     return Math.max(this.element.clientWidth, 200);

@@ -34,6 +34,7 @@ export class Scene3D {
   private readonly world = new THREE.Group();
   private readonly jointObjects = new Map<number, THREE.Object3D[]>();
   private readonly segments: Segments;
+  private readonly knots: THREE.InstancedMesh;
   private readonly floor: Floor | null;
   private readonly ambient = new THREE.HemisphereLight(0xffffff, 0x8a8580, 2.0);
   private readonly key = new THREE.DirectionalLight(0xfff8ee, 2.1);
@@ -87,6 +88,7 @@ export class Scene3D {
       this.jointObjects.set(piece.joint, made);
     }
     this.segments = new Segments(this.scene);
+    this.knots = this.makeKnots();
     this.floor = machine.floor ? new Floor(machine.floor, machine.bounds) : null;
     if (this.floor) this.scene.add(this.floor.object);
 
@@ -139,7 +141,9 @@ export class Scene3D {
       dark: this.dark,
     };
     this.segments.begin();
+    this.knots.count = 0;
     machine.cables.forEach((_, index) => this.addCable(index, style));
+    this.knots.instanceMatrix.needsUpdate = true;
     for (const piece of machine.joint_pieces) {
       if (this.state.isBroken(piece.joint)) continue;
       const tag: Tag = { kind: 'joint', index: piece.joint, span: -1 };
@@ -267,7 +271,13 @@ export class Scene3D {
   private addCable(index: number, style: CableStyle): void {
     const glow = this.highlightedTag?.kind === 'span' && this.highlightedTag.index === index;
     const chosen = glow && this.highlightedTag?.kind === 'span' ? this.highlightedTag.span : -2;
-    for (const tube of cableTubes(this.state.cable(index), style)) {
+    const cable = this.state.cable(index);
+    for (const link of cable.links) {
+      if (link.radius > 0) continue;
+      const place = new THREE.Matrix4().makeTranslation(...link.center);
+      this.knots.setMatrixAt(this.knots.count++, place);
+    }
+    for (const tube of cableTubes(cable, style)) {
       const count = tube.points.length;
       for (let k = 0; k < (tube.closed ? count : count - 1); ++k) {
         const span = tube.spans[k];
@@ -276,6 +286,20 @@ export class Scene3D {
         this.segments.add(tube.points[k], tube.points[(k + 1) % count], radius, tube.colors[k], tag);
       }
     }
+  }
+
+  /** Where cables are fixed to bodies. */
+  private makeKnots(): THREE.InstancedMesh {
+    const { cables, cable_radius } = this.state.machine;
+    const most = cables.reduce((sum, cable) => sum + cable.links.length, 0);
+    const geometry = new THREE.SphereGeometry(1.7 * cable_radius, 20, 14);
+    const material = new THREE.MeshLambertMaterial({ color: 0x3b4656 });
+    const mesh = new THREE.InstancedMesh(geometry, material, Math.max(most, 1));
+    mesh.frustumCulled = false;
+    mesh.castShadow = true;
+    this.scene.add(mesh);
+    this.disposables.push(geometry, material, mesh);
+    return mesh;
   }
 
   private holder(body: BodyIndex): THREE.Object3D {

@@ -51,11 +51,11 @@ export class Timeline {
     this.element = element(
       'div',
       { class: 'timeline' },
-      button('⏮', 'to the start (Home)', () => this.jump(0)),
+      button('|◂', 'to the start (Home)', () => this.jump(0)),
       button('◂', 'one step back (left)', () => this.step(-1)),
       this.playButton,
       button('▸', 'one step on (right)', () => this.step(1)),
-      button('⏭', 'to the end (End)', () => this.jump(frames.count - 1)),
+      button('▸|', 'to the end (End)', () => this.jump(frames.count - 1)),
       this.track,
       this.clock,
       this.speedChoice,
@@ -88,7 +88,7 @@ export class Timeline {
     this.track.setAttribute('aria-valuemin', String(begin));
     this.track.setAttribute('aria-valuemax', String(end));
     this.track.setAttribute('aria-valuenow', text);
-    this.playButton.textContent = playing ? '⏸' : '▶';
+    this.playButton.textContent = playing ? '❚❚' : '▶';
     this.playButton.title = playing ? 'pause (space)' : 'play (space)';
     this.playButton.setAttribute('aria-label', this.playButton.title);
     this.loopButton.setAttribute('aria-pressed', String(loop));

@@ -15,6 +15,7 @@ async function start(): Promise<void> {
   try {
     const frames = unpack(await inflate(fromBase64(textOf('recording'))));
     const page = buildPage(host, frames);
+    performance.mark('sheave-first-picture');
     document.title = `${frames.machine.name} – Sheave`;
     const last = page.frames.events.at(-1);
     if (last?.kind === 'diverged') showFault(host, last.text);

@@ -62,6 +62,6 @@ export async function open({ browser }: Chromium, path: string): Promise<OpenedP
     }
   });
   await page.goto(`file://${path}`);
-  await page.waitForFunction('window.sheave !== undefined', { timeout: 60_000 });
+  await page.waitForFunction('window.sheave !== undefined', { timeout: 120_000, polling: 100 });
   return { page, faults };
 }
