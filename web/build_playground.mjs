@@ -26,6 +26,17 @@ function packedEngine(engine) {
   return deflateSync(bytes, { level: 9 }).toString('base64');
 }
 
+/** What the engine's code is made of besides ours: header libraries, and emscripten's own. */
+function engineLicences() {
+  const packages = ['libeigen3-dev', 'nlohmann-json3-dev', 'libfmt-dev', 'emscripten'];
+  const texts = packages.map((name) => {
+    const path = `/usr/share/doc/${name}/copyright`;
+    if (!existsSync(path)) throw new Error(`${path}, the licence of ${name}, is missing`);
+    return `${name}\n\n${readFileSync(path, 'utf8')}`;
+  });
+  return `<!--\nThe engine contains:\n\n${texts.join('\n----\n\n').replaceAll('--', '—')}\n-->\n`;
+}
+
 /** The first sentences of a scene, without loading it: a scene is JSON with comments. */
 function told(text, key) {
   const found = new RegExp(`^  "${key}": ("(?:[^"\\\\]|\\\\.)*")`, 'm').exec(text);
@@ -39,13 +50,12 @@ async function buildPlayground(engine) {
   const repository = join(here, '..');
   rmSync(site, { recursive: true, force: true });
   mkdirSync(join(site, 'pictures'), { recursive: true });
-  const live = (
-    await page('play.html', 'play.ts', {
-      // What emscripten's code asks Node for, and never in a browser.
-      external: ['fs', 'path', 'crypto', 'url'],
-      alias: { 'sheave-engine': join(engine, 'sheave_engine.cjs') },
-    })
-  ).replace('/*ENGINE*/', () => packedEngine(engine));
+  const empty = await page('play.html', 'play.ts', {
+    // What emscripten's code asks Node for, and never in a browser.
+    external: ['fs', 'path', 'crypto', 'url'],
+    alias: { 'sheave-engine': join(engine, 'sheave_engine.cjs') },
+  });
+  const live = empty.replace('/*ENGINE*/', () => packedEngine(engine)) + engineLicences();
   writeFileSync(join(site, 'play.html'), live);
   writeFileSync(join(target, 'live.html'), live);
   let cards = '';
