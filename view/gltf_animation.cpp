@@ -43,9 +43,9 @@ struct Course {
 };
 
 /// Writes one machine's animation.
-class Writer {
+class AnimationWriter {
  public:
-  Writer(double tension_max, const std::vector<double>& times)
+  AnimationWriter(double tension_max, const std::vector<double>& times)
       : tension_max_(tension_max), moments_(times.size()) {
     gltf_.set_times(times);
     for (std::size_t k = 0; k < stops; ++k) {
@@ -311,7 +311,7 @@ void GltfAnimation::add_joints(const World& world) {
 }
 
 std::string GltfAnimation::finish(const Model& model) {
-  Writer writer(tension_max_, times_);
+  AnimationWriter writer(tension_max_, times_);
   writer.add_root("machine", render::up_direction(model));
   for (std::size_t i = 0; i < poses_.size(); ++i) writer.add_body(model.bodies[i].name, poses_[i]);
   const auto name_of = [&](BodyId body) {
