@@ -96,10 +96,10 @@ class AnimationWriter {
   }
 
   /// From a moment on it is not there.
-  void hide_from(int node, const Vector3& scale, const std::optional<std::size_t>& moment) {
-    if (!moment) return;
+  void hide_from(int node, const Vector3& scale, std::size_t first) {
+    if (first >= moments_) return;
     Course course{{}, 3};
-    for (std::size_t k = 0; k < moments_; ++k) course.add(k < *moment ? scale : Vector3::Zero());
+    for (std::size_t k = 0; k < moments_; ++k) course.add(k < first ? scale : Vector3::Zero());
     gltf_.animate(node, NodePath::scale, gltf_.track(NodePath::scale, course.values, true));
   }
 
@@ -332,7 +332,8 @@ std::string GltfAnimation::finish(const Model& model) {
   for (const render::JointView::Piece& piece : builder_.joints().pieces) {
     const auto joint = static_cast<std::size_t>(piece.joint);
     const std::string& name = model.joints[joint]->name;
-    const auto broken = joint < broken_.size() ? broken_[joint] : std::nullopt;
+    std::size_t broken = std::numeric_limits<std::size_t>::max();
+    if (joint < broken_.size() && broken_[joint]) broken = *broken_[joint];
     for (const render::BodyPart& part : piece.parts) {
       writer.hide_from(writer.add_part(part, name), Vector3::Ones(), broken);
     }
