@@ -114,7 +114,9 @@ TEST(Equilibrium, NetHangsInTheFunicularPolygon) {
     const Vector3 force = span.tension * (span.end - span.start).normalized();
     if (i == 0) across = force.x();
     EXPECT_NEAR(force.x(), across, 40.0 * exact);
-    if (i > 0) EXPECT_NEAR(force.y() - before, 10.0, 40.0 * exact);
+    if (i > 0) {
+      EXPECT_NEAR(force.y() - before, 10.0, 40.0 * exact);
+    }
     before = force.y();
   }
   EXPECT_EQ(rest.unstable_motions, 0);
