@@ -1,6 +1,8 @@
 #include "scenes/quantity_unit.h"
 
+#include <algorithm>
 #include <array>
+#include <vector>
 
 #include "scenes/quantities.h"
 
@@ -22,13 +24,22 @@ constexpr std::array<CoordinateName, 7> coordinate_units{{
     {"swing", true},
 }};
 
-std::optional<std::string> found_in(std::span<const QuantityGroup> groups, std::string_view last) {
+/// Adds the units of the quantities of that name, as there are of bodies and of joints.
+void add_units(std::span<const QuantityGroup> groups, std::string_view last,
+               std::vector<std::string_view>& units) {
+  constexpr std::string_view between = ", ";
   for (const QuantityGroup& group : groups) {
     for (const Quantity& quantity : group.quantities) {
-      if (quantity.name == last) return std::string(quantity.unit);
+      if (quantity.name != last) continue;
+      std::string_view rest = quantity.unit;
+      while (true) {
+        const std::string_view unit = rest.substr(0, rest.find(between));
+        if (std::find(units.begin(), units.end(), unit) == units.end()) units.push_back(unit);
+        if (unit.size() == rest.size()) break;
+        rest.remove_prefix(unit.size() + between.size());
+      }
     }
   }
-  return {};
 }
 
 /// Of "<coordinate>", "<coordinate>_rate", "<coordinate>_drive_force" and alike.
@@ -52,9 +63,13 @@ std::optional<std::string> quantity_unit(std::string_view name) {
   const std::size_t dot = name.rfind('.');
   if (dot == std::string_view::npos || dot == 0) return {};
   const std::string_view last = name.substr(dot + 1);
-  if (auto unit = found_in(quantity_groups(), last)) return unit;
-  if (auto unit = found_in(requested_quantity_groups(), last)) return unit;
-  return of_coordinate(last);
+  std::vector<std::string_view> units;
+  add_units(quantity_groups(), last, units);
+  add_units(requested_quantity_groups(), last, units);
+  if (units.empty()) return of_coordinate(last);
+  std::string all(units.front());
+  for (std::size_t i = 1; i < units.size(); ++i) all.append(", ").append(units[i]);
+  return all;
 }
 
 }  // namespace sheave

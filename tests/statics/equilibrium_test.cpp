@@ -188,7 +188,8 @@ TEST(Equilibrium, FourPartsOfAGrommet) {
   const Equilibrium rest = find_equilibrium(simulation);
   ASSERT_TRUE(rest.converged) << rest.message;
   double sum = 0.0;
-  for (const SpanReport& span : simulation.cable_reports()[0].spans) {
+  const CableReport grommet = simulation.cable_reports()[0];
+  for (const SpanReport& span : grommet.spans) {
     sum += span.tension * std::abs((span.end - span.start).normalized().y());
     EXPECT_NEAR(span.tension, tension(simulation, 0, 0), 1e5 * exact);
   }
