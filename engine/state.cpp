@@ -14,7 +14,7 @@ constexpr std::uint64_t tag_without_controls = 0x31'45'54'41'54'53'48'53;  // "S
 
 /// Files are little-endian on every machine.
 std::uint64_t little_endian(std::uint64_t word) {
-  if constexpr (std::endian::native == std::endian::little) return word;
+  if constexpr (__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__) return word;
   std::uint64_t turned = 0;
   for (int byte = 0; byte < 8; ++byte) {
     turned = turned << 8U | (word >> (8U * static_cast<unsigned>(byte)) & 0xffU);
