@@ -79,9 +79,8 @@ function(sheave_library folder)
   add_library(sheave::${folder} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder} POSITION_INDEPENDENT_CODE ${SHEAVE_PIC})
   sheave_target_flags(${target})
-  if(SHEAVE_FUZZ)
+  if(SHEAVE_FUZZ AND folder MATCHES "^(engine|cable|scenes|live)$")
     # Tells the fuzzer which branches an input takes and what is compared; its own main program comes with the link.
-    # All libraries do, because some share precompiled headers.
     target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
   endif()
   target_include_directories(
