@@ -52,13 +52,6 @@ function(sheave_target_flags target)
   target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:${SHEAVE_WARNINGS}>)
 endfunction()
 
-# Sanitized code that only drives the libraries needs no optimiser, which takes most of the time of compiling it.
-function(sheave_drives_libraries target)
-  if(SHEAVE_SANITIZE)
-    target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-O0>)
-  endif()
-endfunction()
-
 # sheave_library(<folder> LINKS <targets...> [LINKS_PRIVATE <targets...>] [PCH <headers...>]
 #                [PCH_FROM <target>] [GENERATED <sources...>])
 # makes the static library sheave_<folder>, alias sheave::<folder>, of all sources below the folder.
@@ -79,10 +72,6 @@ function(sheave_library folder)
   add_library(sheave::${folder} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${folder} POSITION_INDEPENDENT_CODE ${SHEAVE_PIC})
   sheave_target_flags(${target})
-  if(SHEAVE_FUZZ AND folder MATCHES "^(engine|cable|scenes|live)$")
-    # Tells the fuzzer which branches an input takes and what is compared; its own main program comes with the link.
-    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
-  endif()
   target_include_directories(
     ${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
                      $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sheave>)
@@ -114,7 +103,6 @@ endfunction()
 # Flags, include root and sanitizer defaults of an executable.
 function(sheave_executable_settings target)
   sheave_target_flags(${target})
-  sheave_drives_libraries(${target})
   target_include_directories(${target} PRIVATE "${PROJECT_SOURCE_DIR}" "${SHEAVE_GENERATED_DIR}")
   if(SHEAVE_SANITIZE)
     target_sources(${target} PRIVATE "${PROJECT_SOURCE_DIR}/cmake/sanitizer_defaults.cpp")
