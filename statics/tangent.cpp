@@ -90,11 +90,11 @@ Tangent make_tangent(const Configuration& configuration, const ConfigurationRows
   for (std::size_t r = 0; r < rigid.size(); ++r) {
     tangent.constraints.row(static_cast<Eigen::Index>(r)) = rows.gradients.row(rigid[r]);
   }
-  MatrixX scaled =
-      root.triangularView<Eigen::Lower>().solve(tangent.constraints.transpose()).transpose();
-  for (Eigen::Index r = 0; r < scaled.rows(); ++r) scaled.row(r).normalize();
   MatrixX null = MatrixX::Identity(n, n);
-  if (scaled.rows() > 0 && n > 0) {
+  if (!rigid.empty() && n > 0) {
+    MatrixX scaled =
+        root.triangularView<Eigen::Lower>().solve(tangent.constraints.transpose()).transpose();
+    for (Eigen::Index r = 0; r < scaled.rows(); ++r) scaled.row(r).normalize();
     const Eigen::BDCSVD<MatrixX> svd(scaled, Eigen::ComputeFullV);
     const VectorX values = svd.singularValues();
     while (tangent.rank < values.size() && values[tangent.rank] > rank_rounding * values[0]) {
@@ -102,7 +102,10 @@ Tangent make_tangent(const Configuration& configuration, const ConfigurationRows
     }
     null = svd.matrixV().rightCols(n - tangent.rank);
   }
-  tangent.motions = root.transpose().triangularView<Eigen::Upper>().solve(null);
+  tangent.motions = MatrixX::Zero(n, null.cols());
+  if (null.size() > 0) {
+    tangent.motions = root.transpose().triangularView<Eigen::Upper>().solve(null);
+  }
   constexpr double of_differences = 1e-9;
   constexpr double of_rows = 1e-13;
   const MatrixX turning = tangent.motions.transpose() * turn.forces * tangent.motions;
