@@ -96,7 +96,7 @@ Tangent make_tangent(const Configuration& configuration, const ConfigurationRows
         root.triangularView<Eigen::Lower>().solve(tangent.constraints.transpose()).transpose();
     for (Eigen::Index r = 0; r < scaled.rows(); ++r) scaled.row(r).normalize();
     const Eigen::BDCSVD<MatrixX> svd(scaled, Eigen::ComputeFullV);
-    const VectorX values = svd.singularValues();
+    const VectorX& values = svd.singularValues();
     while (tangent.rank < values.size() && values[tangent.rank] > rank_rounding * values[0]) {
       ++tangent.rank;
     }
