@@ -58,7 +58,7 @@ struct Contact {
   std::array<double, 3> last_force{};
   bool stuck = true;
   // What the solver has found so far.
-  double pressed = 0.0;  ///< l_n that bounds friction
+  double pressed = 0.0;       ///< l_n that bounds friction
   FollowedPressure pressure;  ///< what `pressed` becomes from round to round
   bool slips = false;
 
