@@ -53,16 +53,17 @@ void check_camera(const CameraDef& camera, Errors& errors) {
     fail("/up", "up must not be zero");
     return;
   }
-  std::optional<Vector3> view = camera.direction;
+  Vector3 view = camera.direction.value_or(Vector3::Zero());
   if (camera.position && camera.target) {
     view = *camera.target - *camera.position;
-    if (!(view->norm() > 0.0)) {
+    if (!(view.norm() > 0.0)) {
       fail("/target", "target must not be the position of the eye");
       return;
     }
   }
   // Without an explicit `up` a view along gravity is fine: then another direction is chosen.
-  if (view && camera.up && parallel(*view, *camera.up)) {
+  const bool looks = view.norm() > 0.0;
+  if (looks && camera.up && parallel(view, *camera.up)) {
     fail("/up", "up must not be parallel to the direction of view");
   }
 }

@@ -65,7 +65,8 @@ extern "C" {
 /// `overrides`: {"pointer": "JSON text", ...}. Null if there are faults, which sheave_text() tells.
 EMSCRIPTEN_KEEPALIVE Playground* sheave_open(const char* text, const char* overrides) {
   std::vector<sheave::Override> list;
-  for (const auto& [pointer, value] : Json::parse(overrides).items()) {
+  const Json wanted = Json::parse(overrides);
+  for (const auto& [pointer, value] : wanted.items()) {
     list.push_back({pointer, value.get<std::string>(), "setting " + pointer});
   }
   Json said = {{"ok", true}};

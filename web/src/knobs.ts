@@ -77,7 +77,7 @@ export class Knobs {
         'div',
         { class: 'row' },
         button('↶ 2 s', 'go back two seconds (B)', () => host.goBack(2)),
-        button('⏮ Again', 'from the start (0)', () => host.goBack(Infinity)),
+        button('↺ Again', 'from the start (0)', () => host.goBack(Infinity)),
         button('Link', 'copy a link to this scene with these settings', () => host.share()),
       ),
       this.certificate,

@@ -2,11 +2,11 @@
 
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
-import { join } from 'node:path';
+import { join, resolve } from 'node:path';
 
 /** The module that emscripten made in `folder`, with calls by name. */
 export async function loadEngine(folder) {
-  const createEngine = createRequire(import.meta.url)(join(folder, 'sheave_engine.cjs'));
+  const createEngine = createRequire(import.meta.url)(resolve(folder, 'sheave_engine.cjs'));
   const module = await createEngine({ wasmBinary: readFileSync(join(folder, 'sheave_engine.wasm')) });
   const call = (name, result, types, ...values) => module.ccall(`sheave_${name}`, result, types, values);
   return {
