@@ -71,6 +71,13 @@ if(installed)
     COMPONENT development)
   # The prefix as seen from the file itself, so that an installed tree can be moved.
   string(REGEX REPLACE "[^/]+" ".." SHEAVE_PC_PREFIX "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+  get_target_property(definitions sheave_engine INTERFACE_COMPILE_DEFINITIONS)
+  set(SHEAVE_PC_DEFINITIONS "")
+  foreach(definition IN LISTS definitions)
+    if(definition)
+      string(APPEND SHEAVE_PC_DEFINITIONS " -D${definition}")
+    endif()
+  endforeach()
   configure_file(cmake/sheave.pc.in "${CMAKE_CURRENT_BINARY_DIR}/sheave.pc" @ONLY)
   install(
     FILES "${CMAKE_CURRENT_BINARY_DIR}/sheave.pc"

@@ -96,7 +96,7 @@ class EquilibriumSearch {
       const ForceTurn turn = turn_of_forces(configuration, before);
       step = limited_step(configuration, rows, turn, before);
       if (!step.finite) return false;
-      line_search(configuration, rows, turn, before, step);
+      line_search(configuration, rows, before, step);
       configuration.place(step.motion);
       const bool changed = configuration.revise(configuration.forces_of(rows, step.unknowns));
       if (!changed || i + 1 == most_revisions) break;
@@ -187,9 +187,8 @@ class EquilibriumSearch {
 
   /// Shortens a step of Newton's own after which there would be more left than before.
   void line_search(Configuration& configuration, const ConfigurationRows& rows,
-                   const ForceTurn& turn, const VectorX& before, NewtonStep& step) {
+                   const VectorX& before, NewtonStep& step) {
     if (shift_ > 0.0 || (before.size() > 0 && before.isZero(0.0))) return;
-    (void)turn;
     const double start = residual_of(rows, before, step.acts).worst();
     constexpr int halvings = 5;
     double share = 1.0;

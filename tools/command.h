@@ -38,6 +38,8 @@ struct CommandLine {
   CommandLine& operator=(const CommandLine&) = delete;
 };
 
+/// Of what needs the renderer, in a build without it: takes any arguments and fails.
+Action declare_without_renderer(CLI::App& app);
 Action declare_run(CLI::App& app);
 Action declare_live(CLI::App& app);
 Action declare_render(CLI::App& app);

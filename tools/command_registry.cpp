@@ -36,6 +36,14 @@ std::span<const Command> commands() {
   return table;
 }
 
+Action declare_without_renderer(CLI::App& app) {
+  app.allow_extras();
+  return []() -> ExitCode {
+    throw Failure(ExitCode::internal,
+                  "this build has no renderer: configure with -DSHEAVE_RENDER=ON");
+  };
+}
+
 CommandLine::CommandLine()
     : app(std::make_unique<CLI::App>("Rigid bodies and cables that run over wheels.", "sheave")) {
   use_wrapped_help(*app);

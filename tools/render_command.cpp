@@ -321,13 +321,7 @@ frames so far. Exit codes as for sheave run.)");
 
 namespace sheave::tools {
 
-Action declare_render(CLI::App& app) {
-  app.allow_extras();
-  return []() -> ExitCode {
-    throw Failure(ExitCode::internal,
-                  "this build has no renderer: configure with -DSHEAVE_RENDER=ON");
-  };
-}
+Action declare_render(CLI::App& app) { return declare_without_renderer(app); }
 
 }  // namespace sheave::tools
 

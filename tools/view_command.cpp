@@ -154,13 +154,7 @@ shows what was before.)");
 
 namespace sheave::tools {
 
-Action declare_view(CLI::App& app) {
-  app.allow_extras();
-  return []() -> ExitCode {
-    throw Failure(ExitCode::internal,
-                  "this build has no renderer: configure with -DSHEAVE_RENDER=ON");
-  };
-}
+Action declare_view(CLI::App& app) { return declare_without_renderer(app); }
 
 }  // namespace sheave::tools
 

@@ -1,9 +1,8 @@
 #include "cable/links/rolling.h"
 
-#include <cmath>
-
 #include "cable/link_geometry.h"
 #include "engine/body_set.h"
+#include "engine/math/portable.h"
 
 namespace sheave {
 
@@ -44,7 +43,7 @@ Result<LinkGeometry> RollingLink::compile(const BodySet& bodies, const std::stri
   link->extra_turns = turns;
   link->starts_lifted = lifted;
   link->friction = friction.value_or(std::numeric_limits<double>::quiet_NaN());
-  if (efficiency) link->loss_exponent = -std::log(*efficiency);
+  if (efficiency) link->loss_exponent = -portable::log(*efficiency);
   return link;
 }
 

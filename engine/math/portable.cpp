@@ -1,3 +1,10 @@
+// After FreeBSD's msun, e_atan2.c, e_exp.c, s_expm1.c and e_log.c, whose coefficients these are:
+//
+//   Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved.
+//   Developed at SunPro, a Sun Microsystems, Inc. business.
+//   Permission to use, copy, modify, and distribute this software is freely granted, provided that
+//   this notice is preserved.
+
 #include "engine/math/portable.h"
 
 #include <algorithm>

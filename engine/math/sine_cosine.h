@@ -1,5 +1,11 @@
 #pragma once
 // Sine and cosine of one angle together, for the poses of many rotors.
+//
+// Coefficients of FreeBSD's msun, k_sin.c and k_cos.c:
+//   Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved.
+//   Developed at SunPro, a Sun Microsystems, Inc. business.
+//   Permission to use, copy, modify, and distribute this software is freely granted, provided that
+//   this notice is preserved.
 
 #include <cmath>
 #include <cstdint>
@@ -14,9 +20,9 @@ struct SineCosine {
 };
 
 /// Of an angle [rad], each within 1e-15, with the same bits on every machine. A third of what the
-/// library's functions take, which are exact to the last bit: the angle is brought to within an eighth of a turn in three parts of
-/// pi / 2, whose products with numbers below 2^20 are exact but for the last, and there go the
-/// polynomials of FreeBSD's msun (Sun Microsystems 1993), of degree 13 and 14.
+/// library's functions take, which are exact to the last bit: the angle is brought to within an
+/// eighth of a turn in three parts of pi / 2, whose products with numbers below 2^20 are exact but
+/// for the last, and there go the polynomials of FreeBSD's msun, of degree 13 and 14.
 [[nodiscard]] inline SineCosine sine_cosine(double angle) {
   constexpr double largest = 1e6;
   if (!(std::abs(angle) < largest)) {

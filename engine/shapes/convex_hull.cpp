@@ -30,16 +30,16 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-double length_of(const std::array<Wide, 3>& v) {
+double length_of(const std::array<WideInteger, 3>& v) {
   return Vector3(static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2]))
       .norm();
 }
 
 struct Face {
   Triangle corners{};
-  std::array<Wide, 3> normal{};  ///< outward, as long as twice the area
-  std::vector<int> above;        ///< points strictly above, ascending; empty once not alive
-  bool alive = true;             ///< still part of the hull
+  std::array<WideInteger, 3> normal{};  ///< outward, as long as twice the area
+  std::vector<int> above;               ///< points strictly above, ascending; empty once not alive
+  bool alive = true;                    ///< still part of the hull
 };
 
 /// A hull that grows point by point; points are indices into the grid.
@@ -58,7 +58,7 @@ class GrowingHull {
       const int next = faces_[id].alive ? highest_above(faces_[id]) : -1;
       if (next >= 0) add(next);  // and faces_[id] is part of the hull no more
     }
-    Wide six_volumes = 0;  // exact: seen from the corner 0 no face is turned away
+    WideInteger six_volumes = 0;  // exact: seen from the corner 0 no face is turned away
     double twice_area = 0.0;
     for (const Face& face : faces_) {
       if (!face.alive) continue;
@@ -82,26 +82,28 @@ class GrowingHull {
     return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
   }
 
-  [[nodiscard]] Wide height(const std::array<Wide, 3>& normal, int origin, int point) const {
+  [[nodiscard]] WideInteger height(const std::array<WideInteger, 3>& normal, int origin,
+                                   int point) const {
     const GridPoint r = offset(origin, point);
     return normal[0] * r[0] + normal[1] * r[1] + normal[2] * r[2];
   }
 
-  [[nodiscard]] std::array<Wide, 3> normal_of(const Triangle& corners) const {
+  [[nodiscard]] std::array<WideInteger, 3> normal_of(const Triangle& corners) const {
     const GridPoint u = offset(corners[0], corners[1]);
     const GridPoint v = offset(corners[0], corners[2]);
-    return {Wide{u[1]} * v[2] - Wide{u[2]} * v[1], Wide{u[2]} * v[0] - Wide{u[0]} * v[2],
-            Wide{u[0]} * v[1] - Wide{u[1]} * v[0]};
+    return {WideInteger{u[1]} * v[2] - WideInteger{u[2]} * v[1],
+            WideInteger{u[2]} * v[0] - WideInteger{u[0]} * v[2],
+            WideInteger{u[0]} * v[1] - WideInteger{u[1]} * v[0]};
   }
 
   /// The point farthest from the plane through `origin`, on either side; of several the last, so
   /// that it is a corner of the hull. -1 if all are in the plane.
-  [[nodiscard]] int farthest(const std::array<Wide, 3>& normal, int origin) const {
+  [[nodiscard]] int farthest(const std::array<WideInteger, 3>& normal, int origin) const {
     int best = -1;
-    Wide best_distance = 1;
+    WideInteger best_distance = 1;
     for (int i = 0; i < static_cast<int>(points_.size()); ++i) {
-      const Wide signed_distance = height(normal, origin, i);
-      const Wide distance = signed_distance < 0 ? -signed_distance : signed_distance;
+      const WideInteger signed_distance = height(normal, origin, i);
+      const WideInteger distance = signed_distance < 0 ? -signed_distance : signed_distance;
       if (distance < best_distance) continue;
       best = i;
       best_distance = distance;
@@ -115,7 +117,7 @@ class GrowingHull {
     const int first = 0;
     const int last = static_cast<int>(points_.size()) - 1;
     const GridPoint along = offset(first, last);
-    const std::array<std::array<Wide, 3>, 3> across{
+    const std::array<std::array<WideInteger, 3>, 3> across{
         {{0, along[2], -along[1]}, {-along[2], 0, along[0]}, {along[1], -along[0], 0}}};
     int third = -1;
     for (int axis = 0; axis < 3 && third < 0; ++axis) {
@@ -153,9 +155,9 @@ class GrowingHull {
   /// is a corner of the hull and no middle of one of its faces.
   [[nodiscard]] int highest_above(const Face& face) const {
     int best = -1;
-    Wide best_height = 0;
+    WideInteger best_height = 0;
     for (const int point : face.above) {
-      const Wide here = height(face.normal, face.corners[0], point);
+      const WideInteger here = height(face.normal, face.corners[0], point);
       if (here < best_height) continue;
       best = point;
       best_height = here;

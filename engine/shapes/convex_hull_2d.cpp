@@ -16,8 +16,8 @@ double distance(const GridPoint& a, const GridPoint& b) {
 }
 
 /// Twice the area of the triangle a, b, c in the plane z = 0, positive if counter-clockwise.
-Wide turn(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
-  return Wide{b[0] - a[0]} * (c[1] - a[1]) - Wide{b[1] - a[1]} * (c[0] - a[0]);
+WideInteger turn(const GridPoint& a, const GridPoint& b, const GridPoint& c) {
+  return WideInteger{b[0] - a[0]} * (c[1] - a[1]) - WideInteger{b[1] - a[1]} * (c[0] - a[0]);
 }
 
 /// The corners of a counter-clockwise polygon that stand out from the line between their
@@ -64,7 +64,7 @@ Result<std::vector<Vector3>> hull_2d(std::span<const Vector3> points) {
   }
   chain.pop_back();  // the first point again
   const std::vector<int> kept = without_flat_corners(grid->points, chain);
-  Wide twice_area = 0;
+  WideInteger twice_area = 0;
   double perimeter = 0.0;
   std::vector<Vector3> corners;
   for (std::size_t i = 0; i < kept.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/math/wide_integer.h"
 #include "engine/result.h"
 #include "engine/vector.h"
 
@@ -26,10 +27,6 @@ constexpr double flat_cells = 4.0;
 /// its width has 5e-9. Decided on the grid, because the volume of a needle in floating point is
 /// mostly rounding.
 constexpr double thinnest = 1e-9;
-
-// What ISO C++ lacks; only a typedef can do without -Wpedantic's warning.
-// NOLINTNEXTLINE(modernize-use-using)
-__extension__ typedef __int128 Wide;
 
 using GridPoint = std::array<std::int64_t, 3>;  ///< 0 .. 2^40 each
 

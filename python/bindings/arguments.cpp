@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 #include "python/bindings/errors.h"
 
@@ -41,6 +43,33 @@ bool read(py::handle value, double& number) {
   if (number != -1.0 || PyErr_Occurred() == nullptr) return true;
   PyErr_Clear();
   return false;
+}
+
+/// Something whose memory NumPy can take as it is: an array, a buffer, a column of pandas.
+bool is_array(py::handle value) {
+  return py::isinstance<py::array>(value) || PyObject_CheckBuffer(value.ptr()) != 0 ||
+         PyObject_HasAttrString(value.ptr(), "__array__") != 0;
+}
+
+/// The items of a sequence that is no array. NumPy would read a list while its items, as they make
+/// themselves numbers, may empty it; nothing changes a tuple.
+std::optional<py::tuple> items_of(py::handle value) {
+  if (is_array(value) || PyUnicode_Check(value.ptr()) || PySequence_Check(value.ptr()) == 0) {
+    return {};
+  }
+  auto items = py::reinterpret_steal<py::object>(PySequence_Tuple(value.ptr()));
+  if (!items) {
+    PyErr_Clear();
+    return {};
+  }
+  return py::reinterpret_borrow<py::tuple>(items);
+}
+
+/// Python's own or NumPy's.
+std::optional<bool> truth_value(py::handle item) {
+  if (PyBool_Check(item.ptr())) return item.ptr() == Py_True;
+  if (std::string_view(Py_TYPE(item.ptr())->tp_name) != "numpy.bool_") return {};
+  return PyObject_IsTrue(item.ptr()) == 1;
 }
 
 /// So many finite numbers.
@@ -175,8 +204,17 @@ std::vector<double> numbers(py::handle value, const char* name, std::size_t coun
   double one = 0.0;
   const std::string allowed =
       "a number, or one for each of the " + std::to_string(count) + " worlds";
-  if (PyUnicode_Check(value.ptr())) refuse(name, value, allowed);
-  if (!py::isinstance<py::array>(value) && PySequence_Check(value.ptr()) == 0) {
+  if (PyUnicode_Check(value.ptr()) || PyBytes_Check(value.ptr())) refuse(name, value, allowed);
+  if (const auto items = items_of(value)) {
+    std::vector<double> result;
+    for (const py::handle item : *items) {
+      if (!read(item, one)) refuse(name, value, allowed);
+      result.push_back(one);
+    }
+    if (result.size() != count) refuse(name, value, allowed);
+    return result;
+  }
+  if (!is_array(value)) {
     if (!read(value, one)) refuse(name, value, allowed);
     return std::vector<double>(count, one);
   }
@@ -195,6 +233,17 @@ std::vector<double> numbers(py::handle value, const char* name, std::size_t coun
 std::vector<char> mask(py::handle value, const char* name, std::size_t count) {
   if (value.is_none()) return std::vector<char>(count, 1);
   const std::string allowed = "None, or " + std::to_string(count) + " truth values";
+  if (const auto items = items_of(value)) {
+    std::vector<char> result;
+    for (const py::handle item : *items) {
+      const std::optional<bool> truth = truth_value(item);
+      if (!truth) refuse(name, value, allowed);
+      result.push_back(*truth ? 1 : 0);
+    }
+    if (result.size() != count) refuse(name, value, allowed);
+    return result;
+  }
+  if (!is_array(value)) refuse(name, value, allowed);
   const auto array = py::array::ensure(value);
   if (!array) PyErr_Clear();
   if (!array || array.dtype().kind() != 'b' || array.ndim() != 1 ||

@@ -283,3 +283,38 @@ def test_arguments_of_run_and_record_are_told(wrong):
             batch.record(["heavy.y"], steps=wrong)
         with pytest.raises(sheave.ArgumentError, match="every: "):
             batch.record(["heavy.y"], steps=2, every=wrong)
+
+
+class EmptiesItsList(list):
+    """A list whose items, as they make themselves numbers or truth values, empty it."""
+
+    class Item:
+        def __init__(self, values):
+            self.values = values
+
+        def __float__(self):
+            self.values.clear()
+            return 1.0
+
+        def __bool__(self):
+            self.values.clear()
+            return True
+
+    def __init__(self, n):
+        super().__init__()
+        self.extend(self.Item(self) for _ in range(n))
+
+
+def test_lists_that_change_as_they_are_read_are_taken_as_they_were():
+    many = batch()
+    many.set("light.force_y", EmptiesItsList(6))
+    many.set("heavy.force_y", [np.float64(1.0), 2, 3.0, np.int32(4), True, 6.0])
+    with pytest.raises(TypeError, match="mask: .*6 truth values"):
+        many.set("light.force_y", 1.0, mask=EmptiesItsList(6))
+    many.set("light.force_y", 1.0, mask=[True, np.False_, False, True, False, np.True_])
+    for wrong in ([1.0] * 5, [[1.0]] * 6, ["1"] * 6, [None] * 6, b"123456", {}, [1.0, [2.0]] * 3):
+        with pytest.raises((TypeError, ValueError), match="value"):
+            many.set("light.force_y", wrong)
+    for wrong in ([1] * 6, [True] * 5, [[True]] * 6, "tttttt", b"123456", 3):
+        with pytest.raises((TypeError, ValueError), match="mask"):
+            many.set("light.force_y", 1.0, mask=wrong)
