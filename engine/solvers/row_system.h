@@ -19,6 +19,14 @@
 // spring that was slack counts with C0 = 0: the force then does less work than it stores, so no
 // transition makes energy. Rigid rows have value = C.
 //
+// Rows that share an unknown l have a damper each, and what moves between them (cable that slides
+// over a link, or runs over a wheel) moves these, too. Each has its force k l by the rule above,
+// which gives its value, and only the sum of the values is known. With C0, the value at the start
+// (Row::past), backward (1 + g) C - g C0 + a~ k l = 0, and so, summed over the rows with a g each,
+//
+//   backward:  sum of C - C0 g / (1 + g)            +  l sum of k a~ / (1 + g)  =  0
+//   midpoint:  sum of C + C0 (1 - g) / (1 + g)      +  l sum of k a~ / (1 + g)  =  0,    S = 1
+//
 // Bounds of a row are those of force x h^2. The midpoint rule acts with F = 2 l / h^2 for half a
 // substep and so has half of them, and an impulse m of the velocities, for the other half, has the
 // bounds over 2 h.
@@ -179,10 +187,8 @@ class RowSystem {
   /// Gradients of the rows and the bodies' responses along them.
   void fill_slots(const Substep& substep);
   void make_groups();
-  /// a b of the group: with the shares a_i k_i that rows of the weights k_i have of its value, sum
-  /// of a_i b_i a_i k_i over that of a_i k_i. (What moves between its rows, cable that runs over a
-  /// wheel, deflects no spring and moves no damper, so only the change of their sum counts.)
-  [[nodiscard]] double damping_share(const Group& group) const;
+  /// Whether rows that share the group's unknown have dampers, of their own each.
+  [[nodiscard]] bool damps_apart(const Group& group) const;
   /// Of one row without compliance: by either rule the same.
   void set_rigid(std::size_t group);
   void set_backward(const Substep& substep, std::size_t group);

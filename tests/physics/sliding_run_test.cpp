@@ -99,16 +99,14 @@ TEST_P(SlidingRun, CableBetweenDryFrictionAndAHoleHasATensionThatHolds) {
 }
 
 TEST_P(SlidingRun, WhatSlidesHasStrainsInTheRatioOfItsTensions) {
-  // Also where dampers have a part of the tensions, or these are those of the middle of the step:
-  // what a run shares out is stretched in the ratio e^(m a) after every step, over spans of unlike
-  // lengths.
+  // Also where these are those of the middle of the step: what a run shares out is stretched in the
+  // ratio e^(m a) after every step, over spans of unlike lengths. (With dampers: damped_run_test.cpp.)
   test::Machine m = machine();
   m.model.add(post("post", {0, 0, 0}, 0.2));
   m.model.add(test::weight("light", {-0.2, -1.0, 0}, 1.0));
   m.model.add(test::weight("heavy", {0.2, -3.0, 0}, 4.0));
   CableDef rope = cable("rope", {attach({1}), wrapped({0}, right, 0.2), attach({2})});
   rope.axial_stiffness = 2e4;
-  rope.damping = 50.0;
   m.cables.push_back(rope);
   Simulation s = test::start(m);
   const double ratio = std::exp(0.2 * pi);
