@@ -55,7 +55,7 @@ std::vector<std::filesystem::path> mended_machines() {
   const std::filesystem::path folder = std::filesystem::path(SHEAVE_SOURCE_DIR) / "tools/faults";
   std::vector<std::filesystem::path> files;
   for (const char* name : {"a1-drum-and-post", "a1-eyelets", "a1-feed", "a1-holes", "a2-post",
-                           "axles", "damped-friction", "feed", "levers"}) {
+                           "axles", "damped-friction", "feed", "first-step-strains", "levers"}) {
     files.push_back(folder / (std::string(name) + ".json"));
   }
   return files;
