@@ -106,6 +106,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] bool has_all_rows() const override { return true; }
   [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
   bool revise(Substep& substep) override;
+  bool revise_impulses(const Substep& substep) override;
+  void end_impulses() override;
   void finish(Substep& substep, FeatureState& next) override;
   void mark_notes(NoteMark mark) override;
   void return_to(NoteMark mark) override;
@@ -225,6 +227,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   double hold_ring(const Substep& substep, const CompiledCable& cable, Run run,
                    const std::vector<double>& spare);
   void update_slip(const Substep& substep, const CompiledCable& cable);
+  /// Makes links slide that stick and do not hold.
+  void release_links(const Substep& substep, const CompiledCable& cable);
   /// Gives spans whose tension is open one that their neighbours hold. `start`: the state at the
   /// start of the substep.
   void hold_tensions(const Substep& substep, const CompiledCable& cable, const FeatureState& start);
@@ -443,6 +447,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<std::array<double, 2>> fed_;  ///< per span, of its ends, in this substep [m]
   std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
   std::vector<int> pending_slip_;
+  std::vector<int> kept_slip_;  ///< while impulses are found: what it was before; empty: it is that
+  std::vector<int> kept_flips_;
   std::vector<char> held_;  ///< per link: whether it passes nothing although it has no friction
   std::vector<int> revised_;
   /// Per span, for finish(): tension at the start [N], length at the end of the substep [m].

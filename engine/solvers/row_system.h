@@ -114,6 +114,11 @@ class RowSystem {
   /// at the current positions; it takes them from there.
   void linearise_velocities(Substep& substep, RowSystem& positions);
 
+  /// Lets features choose anew between what rows do not tell, by the impulses just found. Whether
+  /// that changes any row: then the problem is that of the velocities with the rows of now.
+  [[nodiscard]] bool revise_impulses(Substep& substep, Features features,
+                                     const RowSystem& positions);
+
   /// Finds the impulses, by sweeps unless `direct`. Friction is bounded by the impulses of its
   /// normals, not by their forces in the first half (an impact may be over then), so there are
   /// rounds until these agree. False if no active set was found.
@@ -263,6 +268,10 @@ class RowSystem {
   /// just found.
   void find_motion();
   void act_springs(Substep& substep);
+  /// The problem of the velocities with the rows that there are.
+  void pose_velocities(const Substep& substep, const RowSystem& positions);
+  /// Multiplier of a row for the forces of both halves of the substep.
+  [[nodiscard]] double whole_multiplier(double h, int row) const;
   /// Counts the impulses in the groups' multipliers as given: the unknowns are what is added to
   /// them.
   void start_from_impulses();
@@ -278,6 +287,7 @@ class RowSystem {
   /// Per feature and index of multiplier: the row at the start, -1 if there was none.
   std::vector<std::vector<int>> start_places_;
   std::vector<double> start_values_;  ///< per row
+  RowList revised_rows_;              ///< of one feature
   std::vector<Group> groups_;
   std::vector<int> group_of_;
   /// Per feature and index of multiplier: ComplementarityProblem::free in the last round, -1 if
