@@ -161,8 +161,13 @@ std::vector<std::string> texts(py::handle value, const char* name) {
   if (PyUnicode_Check(value.ptr()) || PySequence_Check(value.ptr()) == 0) {
     refuse(name, value, "a list of strings");
   }
+  const auto items = py::reinterpret_steal<py::object>(PySequence_Tuple(value.ptr()));
+  if (!items) {
+    PyErr_Clear();
+    refuse(name, value, "a list of strings");
+  }
   std::vector<std::string> result;
-  for (const py::handle item : py::reinterpret_borrow<py::sequence>(value)) {
+  for (const py::handle item : py::reinterpret_borrow<py::tuple>(items)) {
     if (!PyUnicode_Check(item.ptr())) refuse(name, value, "a list of strings");
     result.push_back(text(item, name));
   }

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "python/bindings/arguments.h"
 #include "python/bindings/errors.h"
 #include "scenes/control/scene_supervisor.h"
@@ -69,6 +71,10 @@ std::int64_t Core::steps_until(std::optional<double> end) {
   constexpr double most = 9e15;  // beyond this a double does not count one by one
   const double dt = simulation().world.model().step.dt;
   const double steps = std::round(end.value_or(scene_.duration) / dt);
+  if (end && steps > most) {
+    raise("ArgumentError",
+          fmt::format("until: must be at most 9e15 steps away, {:g} s, was {:g}", most * dt, *end));
+  }
   const double least = end ? 0.0 : 1.0;
   const auto last = static_cast<std::int64_t>(std::clamp(steps, least, most));
   return std::max<std::int64_t>(last - world().state().steps, 0);

@@ -64,8 +64,9 @@ class Batch(_sheave.Batch):
         end = self.duration if until is None else until
         if isinstance(end, bool) or not isinstance(end, (int, float)) or not math.isfinite(end):
             raise ArgumentError(f"until: must be a finite number [s], or None, was {shown(until)}")
-        # Beyond this the count of steps has no place in an integer of NumPy's.
-        steps = round(min(max(end / self.dt, 0.0), 9e15))
+        if end / self.dt > 9e15:  # where a double no longer counts one by one
+            raise ArgumentError(f"until: must be at most 9e15 steps away, {9e15 * self.dt:g} s, was {end!r}")
+        steps = round(max(end / self.dt, 0.0))
         while True:
             left = np.maximum(steps - self.steps, 0)
             left[self.diverged | self.stopped] = 0

@@ -318,3 +318,16 @@ def test_lists_that_change_as_they_are_read_are_taken_as_they_were():
     for wrong in ([1] * 6, [True] * 5, [[True]] * 6, "tttttt", b"123456", 3):
         with pytest.raises((TypeError, ValueError), match="mask"):
             many.set("light.force_y", 1.0, mask=wrong)
+
+
+def test_an_end_that_no_count_of_steps_reaches_is_refused():
+    for runs in (batch(), sheave.load(ATWOOD)):
+        with pytest.raises(sheave.Error, match="until: must be at most 9e15 steps away"):
+            runs.run(until=1e30)
+
+
+def test_names_are_a_list_of_strings():
+    simulation = sheave.load(ATWOOD)
+    for wrong in (np.array(1, dtype="u1"), [1], b"heavy.y", {1: 2}, 3):
+        with pytest.raises((TypeError, sheave.Error), match="names"):
+            simulation.record(wrong, 3)
