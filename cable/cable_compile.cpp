@@ -133,6 +133,7 @@ void CableCompiler::make_room() {
   s.strains_.resize(spans);
   s.end_strains_.assign(spans, -1.0);
   s.multipliers_.resize(spans);
+  s.start_values_.resize(spans);
   s.was_taut_.resize(spans);
   s.is_affine_.resize(spans);
   s.ends_.resize(spans);

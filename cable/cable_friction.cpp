@@ -368,14 +368,40 @@ void CableSystem::update_slip(const Substep& substep, const CompiledCable& cable
       ++flips_[at(link)];
     }
   });
-  // Links that stick: do they hold?
+  release_links(substep, cable);
+  slip_ = pending_slip_;
+}
+
+void CableSystem::release_links(const Substep& substep, const CompiledCable& cable) {
   collect_pieces(substep, cable);
   for (std::size_t first = 0, i = 0; i < pieces_.size(); ++i) {
     if (pieces_[i].link >= 0) continue;
     judge_links(substep, cable, first, i);
     first = i + 1;
   }
-  slip_ = pending_slip_;
+}
+
+bool CableSystem::revise_impulses(const Substep& substep) {
+  // The force of a spring is the same in both halves. What slides has been found to slide.
+  bool changed = false;
+  for (const CompiledCable& cable : cables_) {
+    if (!cable.has_friction || cable.compliance > 0.0 || cable.inverse_stiffness > 0.0) continue;
+    if (kept_slip_.empty()) {
+      kept_slip_ = slip_;
+      kept_flips_ = flips_;
+    }
+    release_links(substep, cable);
+    changed = changed || pending_slip_ != slip_;
+    slip_ = pending_slip_;
+  }
+  return changed;
+}
+
+void CableSystem::end_impulses() {
+  if (kept_slip_.empty()) return;
+  slip_ = pending_slip_ = kept_slip_;
+  flips_ = kept_flips_;
+  kept_slip_.clear();
 }
 
 bool CableSystem::revise(Substep& substep) {

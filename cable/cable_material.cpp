@@ -31,7 +31,8 @@
 // k_i e, and finish() gives the spans just these. (With the A of each span by itself, and cable
 // passed on afterwards, the sum of A_i e_i is not that of L1_i e_i: what has passed makes a
 // difference of the strain times the slip, which is 1 % of the stretch and more where that is
-// small.) Where F(0) > 0 the run is slack.
+// small.) Where F(0) > 0 the run is slack. Where spans are damped, k_i e is what springs alone
+// would have, and cable/cable_damping.cpp says what is in its place.
 //
 // The residual value + compliance T, whose zero solvers seek, changes by -(dl + d(on) - d(off)) for
 // T = EA e0 and w = e0, and by a share e1 - e0 or w - e0 of the arcs besides. So Newton's method
@@ -121,12 +122,12 @@ std::optional<double> CableSystem::run_strain(std::span<const StretchedSpan> spa
     double whole = 0.0;
     for (std::size_t i = 0; i < spans.size(); ++i) {
       const StretchedSpan& span = spans[i];
-      const double own = weights[i] * strain;
+      const double own = span.damping.end(weights[i] * strain);
       const double rest_length = span.length / (1.0 + own);
       const double onto = span.on / (1.0 + 0.5 * (span.start_strain + own));
       missing += rest_length - (span.before - onto);
       whole += rest_length;
-      slope += weights[i] *
+      slope += weights[i] / (1.0 + span.damping.share) *
                (rest_length / (1.0 + own) + 0.5 * onto / (1.0 + 0.5 * (span.start_strain + own)));
     }
     if (!(missing > rounding * whole)) return strain;
@@ -142,11 +143,12 @@ void CableSystem::strain_rows(const CompiledCable& cable, std::span<const Stretc
   const std::optional<double> strain = run_strain(spans, weights);
   if (!strain) return;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double own = weights[i] * *strain;
+    const double own = spans[i].damping.end(weights[i] * *strain);
     const double spring_length = spans[i].length / (1.0 + own);
-    rows[i].value =
-        *strain > 0.0 ? -own * spring_length : rest_length_at(spans[i], 0.0) - spans[i].length;
+    rows[i].value = -own * spring_length;
+    if (!(*strain > 0.0)) rows[i].value += rest_length_at(spans[i], own) - spring_length;
     rows[i].compliance = compliance_of(cable, spring_length);
+    damp_row(cable, &spans[i], spans[i].damping, rows[i]);
   }
 }
 
@@ -158,14 +160,16 @@ std::optional<double> CableSystem::end_strain(const Substep& substep, const Comp
   Row row;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     row.clear();
-    evaluate(substep, k, row, &run_work_.stretched[at(i)]);
+    StretchedSpan& span = run_work_.stretched[at(i)];
+    evaluate(substep, k, row, &span);
+    span.damping = damping_of(substep, cable, k, row);
     run_work_.weights[at(i)] = multipliers_[at(k)];
     heaviest = std::max(heaviest, multipliers_[at(k)]);
   }
   const std::span weights = std::span(run_work_.weights).first(at(run.count));
   for (double& weight : weights) weight = heaviest > 0.0 ? weight / heaviest : 1.0;
   const std::optional<double> strain = run_strain(run_work_.stretched, weights);
-  // What is stretched without a pull (a damper has all of it) keeps its own strains.
+  // What would be stretched without a pull keeps its own strains.
   return heaviest > 0.0 || strain == 0.0 ? strain : std::nullopt;
 }
 
@@ -178,7 +182,8 @@ void CableSystem::keep_end_strains(const Substep& substep) {
       const std::optional<double> strain = end_strain(substep, cable, run);
       if (!strain) return;
       for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
-        end_strains_[at(k)] = run_work_.weights[at(i)] * *strain;
+        end_strains_[at(k)] =
+            run_work_.stretched[at(i)].damping.end(run_work_.weights[at(i)] * *strain);
       }
     });
   }

@@ -81,11 +81,12 @@ struct RunWeights {
   double start = 0.0;
 };
 
-/// The sum of the values of a run's rows [m], and its change since the start of the substep where
-/// it is damped.
-struct RunValue {
-  double error = 0.0;
-  double change = 0.0;
+/// What the damper of a span in a run does: cable/cable_damping.cpp.
+struct SpanDamping {
+  double start = 0.0;  ///< stretch at the start of the substep [m], or of a material its strain
+  double share = 0.0;  ///< g, how much of that the end has, to the share 1 of the spring's
+  /// Stretch or strain at the end, of a spring that had `pull` without a damper.
+  [[nodiscard]] double end(double pull) const { return (pull + share * start) / (1.0 + share); }
 };
 
 /// A run, as the links that stick at its ends see it. Pulls are logarithms of multipliers.
@@ -137,6 +138,7 @@ struct StretchedSpan {
   double before = 0.0;             ///< rest length at the start, and what was gained [m]
   double start_strain = 0.0;       ///< >= 0
   double length = 0.0;             ///< [m]
+  SpanDamping damping;             ///< of a run
 };
 
 /// What a drive does to the rest lengths of a chain if it does its whole share.
@@ -209,6 +211,7 @@ struct RunWork {
   std::vector<SpanGeometry> spans;
   std::vector<double> weights;
   std::vector<StretchedSpan> stretched;
+  std::vector<SpanDamping> dampings;
   std::vector<RowTerm> gradient;  ///< per body; `body` is not used
   std::vector<double> spare, lengths, tensions;
 };

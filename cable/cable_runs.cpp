@@ -10,10 +10,8 @@
 //   sum_i (C_i + k_i a~_i l) = 0,   motion  x += W sum_i grad C_i d(k_i l)
 //   =>  l' = (-sum C_i + sum_j w_j l_j) / sum_j k_j (w_j + a~_j),   w_j = (sum_i grad C_i) W grad C_j^T
 //
-// with l_j the multiplier that span j has so far. Damping acts on the change of the sum, too,
-// because what passes between the spans stretches nothing: of that, span i has the share a_i k_i,
-// so g = b / h sum a_i^2 k_i / sum a_i k_i. Without friction that is one ordinary row, so any
-// number of pinholes is exact in one visit. (The paper's Algorithm 1 instead moves rest length
+// with l_j the multiplier that span j has so far. Dampers: cable/cable_damping.cpp. Without
+// friction that is one ordinary row, so any number of pinholes is exact in one visit. (The paper's Algorithm 1 instead moves rest length
 // across each pinhole so that the ratios of length to rest length become equal; as printed it swaps
 // the two excesses, see tests/physics/pinhole_test.cpp.)
 //
@@ -61,13 +59,15 @@ void pull_slack(std::vector<double>& spare) {
   }
 }
 
-/// Makes the lengths of spans [m] the rest lengths with which their springs have forces in the
-/// ratios of `tensions` [N]. Not those themselves: dampers have their part of them, and those of
-/// `rattle` are of the middle of the substep, or half of that in the course of its rounds. So all
-/// strains are s times what tensions say, with the s for which the sum of `rest_lengths` remains;
-/// none of them is below 0.
+/// Makes the lengths of spans [m] the rest lengths with which their springs and dampers have forces
+/// in the ratios of `tensions` [N]. Not those themselves: those of `rattle` are of the middle of
+/// the substep, or half of that in the course of its rounds. So all strains are those of s times
+/// what tensions say, with the s for which the sum of `rest_lengths` remains; none of them is below
+/// 0.
 void shorten_by_strain(const CompiledCable& cable, const std::vector<double>& rest_lengths,
-                       const std::vector<double>& tensions, std::vector<double>& lengths) {
+                       const std::vector<double>& tensions,
+                       const std::vector<cable_parts::SpanDamping>& dampings,
+                       std::vector<double>& lengths) {
   if (cable.inverse_stiffness == 0.0 && cable.compliance == 0.0) return;
   double excess = 0.0;
   double whole = 0.0;
@@ -78,8 +78,8 @@ void shorten_by_strain(const CompiledCable& cable, const std::vector<double>& re
   if (!(excess > 0.0)) return;
   const auto shortened = [&](std::size_t i, double s) {
     return cable.inverse_stiffness > 0.0
-               ? lengths[i] / (1.0 + s * tensions[i] * cable.inverse_stiffness)
-               : std::max(lengths[i] - s * tensions[i] * cable.compliance, 0.0);
+               ? lengths[i] / (1.0 + dampings[i].end(s * tensions[i] * cable.inverse_stiffness))
+               : std::max(lengths[i] - dampings[i].end(s * tensions[i] * cable.compliance), 0.0);
   };
   // The sum is convex: Newton's method comes to s from below.
   double s = 0.0;
@@ -91,15 +91,27 @@ void shorten_by_strain(const CompiledCable& cable, const std::vector<double>& re
       left -= lengths[i] - now;
       if (cable.inverse_stiffness > 0.0) {
         const double yield = tensions[i] * cable.inverse_stiffness;
-        slope += now * yield / (1.0 + s * yield);
+        slope += now * yield / (1.0 + dampings[i].share) / (1.0 + dampings[i].end(s * yield));
       } else if (now > 0.0) {
-        slope += tensions[i] * cable.compliance;
+        slope += tensions[i] * cable.compliance / (1.0 + dampings[i].share);
       }
     }
     if (!(left > 1e-15 * whole) || !(slope > 0.0)) break;
     s += left / slope;
   }
   for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i] = shortened(i, s);
+}
+
+/// Makes the lengths of spans [m] the rest lengths with which springs that nothing pulls at come out
+/// of their stretch against their dampers.
+void shorten_without_pull(const CompiledCable& cable,
+                          const std::vector<cable_parts::SpanDamping>& dampings,
+                          std::vector<double>& lengths) {
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    const double left = dampings[i].end(0.0);
+    lengths[i] = cable.inverse_stiffness > 0.0 ? lengths[i] / (1.0 + left)
+                                               : std::max(lengths[i] - left, 0.0);
+  }
 }
 
 }  // namespace
@@ -139,15 +151,15 @@ double CableSystem::sweep_runs(Substep& substep, int cable_index) {
   return correction;
 }
 
-double CableSystem::evaluate_run(const Substep& substep, const CompiledCable& cable, Run run,
-                                 RunValue& value) {
+double CableSystem::evaluate_run(const Substep& substep, const CompiledCable& cable, Run run) {
   double heaviest = 0.0;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     Row& row = run_work_.rows[at(i)];
     row.clear();
-    run_work_.spans[at(i)] = evaluate(substep, k, row, &run_work_.stretched[at(i)]);
-    value.error += row.value;
-    if (row.damping > 0.0) value.change += substep_change(row, substep.moving);
+    StretchedSpan& stretched = run_work_.stretched[at(i)];
+    run_work_.spans[at(i)] = evaluate(substep, k, row, &stretched);
+    stretched.damping = damping_of(substep, cable, k, row);
+    damp_row(cable, nullptr, stretched.damping, row);
     for (const RowTerm& term : row.active_terms()) {
       RowTerm& sum = run_work_.gradient[at(term.body)];
       sum.linear += term.linear;
@@ -168,24 +180,22 @@ double CableSystem::evaluate_run(const Substep& substep, const CompiledCable& ca
 }
 
 double CableSystem::weigh_run(const CompiledCable& cable, std::size_t count, double heaviest,
-                              double h, RunValue& value) {
-  double deflection = 0.0;
-  double damped = 0.0;
+                              double h) {
   for (std::size_t i = 0; i < count; ++i) {
     run_work_.weights[i] = portable::exp(run_work_.weights[i] - heaviest);
   }
-  if (strains_runs(cable)) {
-    const std::span<Row> rows = std::span<Row>(run_work_.rows).first(count);
-    strain_rows(cable, run_work_.stretched, run_work_.weights, rows);
-    value.error = 0.0;
-    for (const Row& row : rows) value.error += row.value;
+  const std::span<Row> rows = std::span<Row>(run_work_.rows).first(count);
+  if (strains_runs(cable)) strain_rows(cable, run_work_.stretched, run_work_.weights, rows);
+  double sum = 0.0;
+  for (Row& row : rows) {
+    if (cable.damping > 0.0) {
+      const double own = row.compliance * row.damping / h;
+      row.value -= own / (1.0 + own) * row.past;
+      row.compliance /= 1.0 + own;
+    }
+    sum += row.value;
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    const double share = run_work_.weights[i] * run_work_.rows[i].compliance;
-    deflection += share;
-    damped += share * run_work_.rows[i].compliance * cable.damping;
-  }
-  return damped > 0.0 ? damped / deflection / h : 0.0;
+  return sum;
 }
 
 double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run run) {
@@ -197,11 +207,8 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   run_work_.gradient.resize(substep.moving.size());
   const double inverse_square = 1.0 / (substep.h * substep.h);
 
-  RunValue value;
-  const double heaviest = evaluate_run(substep, cable, run, value);
-
-  const double gamma = weigh_run(cable, count, heaviest, substep.h, value);
-  double numerator = -(value.error + gamma * value.change);
+  const double heaviest = evaluate_run(substep, cable, run);
+  double numerator = -weigh_run(cable, count, heaviest, substep.h);
   double denominator = 0.0;
   double parts = 0.0;  // the same without what cancels between the spans
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
@@ -222,7 +229,6 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
         parts += weight * dot(term.angular, moved);
       }
     }
-    yield *= 1.0 + gamma;
     numerator += yield * multipliers_[at(k)];
     denominator += weight * (yield + row.compliance * inverse_square);
   }
@@ -259,7 +265,8 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
   // carry.
   const bool open = cable.has_friction && is_open(substep, cable, run);
   // What spans were strained by at the start of the substep they need not have shared.
-  const bool strains = run.count > 1 && strains_runs(cable) && substep.time != substep.start.time;
+  const bool at_start = substep.time == substep.start.time;
+  const bool strains = run.count > 1 && strains_runs(cable) && !at_start;
   if (strains) run_work_.stretched.resize(at(run.count));
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     Row& row = rows.emplace_back();
@@ -269,6 +276,14 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     if (open) row.upper = 0.0;
     row.active = was_taut_[at(k)] != 0;
     row.tied = i > 0;
+    if (cable.damping > 0.0) {
+      if (at_start) start_values_[at(k)] = {row.value, row.compliance};
+      if (run.count > 1 && !at_start) {
+        const SpanDamping damping = damping_of(substep, cable, k, row);
+        if (strains) run_work_.stretched[at(i)].damping = damping;
+        damp_row(cable, nullptr, damping, row);
+      }
+    }
     const int link = spans_[at(k)].first;
     if (row.tied && !links_[at(link)].frictionless()) {
       const double exponent = friction_exponent(substep, link, last, span);
@@ -300,6 +315,7 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
 
 bool CableSystem::shorten_run(const Substep& substep, const CompiledCable& cable, Run run) {
   run_work_.tensions.clear();
+  run_work_.dampings.clear();
   const double inverse_square = 1.0 / (substep.h * substep.h);
   bool taut = false;
   Row row;
@@ -310,8 +326,14 @@ bool CableSystem::shorten_run(const Substep& substep, const CompiledCable& cable
     taut = taut || run_work_.tensions.back() > 0.0;
     run_work_.spare.push_back(rest_length_of(cable, row, span.length));
     run_work_.lengths.push_back(span.length);
+    run_work_.dampings.push_back(damping_of(substep, cable, k, row));
   }
-  if (taut) shorten_by_strain(cable, run_work_.spare, run_work_.tensions, run_work_.lengths);
+  if (taut) {
+    shorten_by_strain(cable, run_work_.spare, run_work_.tensions, run_work_.dampings,
+                      run_work_.lengths);
+  } else if (cable.damping > 0.0) {
+    shorten_without_pull(cable, run_work_.dampings, run_work_.lengths);
+  }
   return taut;
 }
 
@@ -321,7 +343,7 @@ bool CableSystem::stretch_run(const Substep& substep, const CompiledCable& cable
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     taut = taut || multipliers_[at(k)] > 0.0;
     const StretchedSpan& span = run_work_.stretched[at(i)];
-    const double own = run_work_.weights[at(i)] * strain.value_or(0.0);
+    const double own = span.damping.end(run_work_.weights[at(i)] * strain.value_or(0.0));
     run_work_.lengths.push_back(span.length / (1.0 + own));
     run_work_.spare.push_back(strain
                                   ? rest_length_at(span, own)
@@ -390,8 +412,12 @@ void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run ru
     passed_before = moved;
     const int link = spans_[at(k)].second;
     if (links_[at(link)].massless) {
-      // Both sides have the same tension and strain.
-      const double strain = multipliers_[at(k)] * cable.inverse_stiffness / (substep.h * substep.h);
+      // Both sides have the same tension and, but for dampers, strain.
+      double strain = multipliers_[at(k)] * cable.inverse_stiffness / (substep.h * substep.h);
+      const double own = end_strains_[at(k)];
+      if (cable.damping > 0.0 && strains_runs(cable) && own >= 0.0) {
+        strain = 0.5 * (own + end_strains_[at(next_span(cable, k))]);
+      }
       turn_massless_wheel(substep, link, moved * (1.0 + strain));
     } else {
       next.reals[slip_index(link)] += moved;

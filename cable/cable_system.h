@@ -106,6 +106,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] bool has_all_rows() const override { return true; }
   [[nodiscard]] std::span<double> multipliers() override { return multipliers_; }
   bool revise(Substep& substep) override;
+  bool revise_impulses(const Substep& substep) override;
+  void end_impulses() override;
   void finish(Substep& substep, FeatureState& next) override;
   void mark_notes(NoteMark mark) override;
   void return_to(NoteMark mark) override;
@@ -179,15 +181,14 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   double sweep_runs(Substep& substep, int cable_index);
   using RunWeights = cable_parts::RunWeights;
   void linearise_run(Substep& substep, const CompiledCable& cable, Run run, RowList& rows);
-  using RunValue = cable_parts::RunValue;
-  /// Evaluates the spans of a run; sums their gradients body by body and their values, and collects
-  /// the logarithms of the weights k_i. Returns the largest of these.
-  double evaluate_run(const Substep& substep, const CompiledCable& cable, Run run, RunValue& value);
+  /// Evaluates the spans of a run; sums their gradients body by body, and collects the logarithms
+  /// of the weights k_i. Returns the largest of these.
+  double evaluate_run(const Substep& substep, const CompiledCable& cable, Run run);
   /// Makes the weights of a run of `count` spans relative to the heaviest, so that no number of
-  /// turns overflows, and returns the share g of its damping. Of a material it finds the run's
-  /// strain and makes the value that of the rows then.
-  double weigh_run(const CompiledCable& cable, std::size_t count, double heaviest, double h,
-                   RunValue& value);
+  /// turns overflows, and returns the sum of its rows' values [m]; of a material those with the
+  /// run's strain, which it finds. Of damped rows it makes those of springs alone with the same
+  /// forces.
+  double weigh_run(const CompiledCable& cable, std::size_t count, double heaviest, double h);
   double solve_run(Substep& substep, const CompiledCable& cable, Run run);
   /// Into run_work_.spare the rest lengths before anything passes the links [m], into
   /// run_work_.lengths those with the tensions; whether any has one.
@@ -226,6 +227,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   double hold_ring(const Substep& substep, const CompiledCable& cable, Run run,
                    const std::vector<double>& spare);
   void update_slip(const Substep& substep, const CompiledCable& cable);
+  /// Makes links slide that stick and do not hold.
+  void release_links(const Substep& substep, const CompiledCable& cable);
   /// Gives spans whose tension is open one that their neighbours hold. `start`: the state at the
   /// start of the substep.
   void hold_tensions(const Substep& substep, const CompiledCable& cable, const FeatureState& start);
@@ -239,6 +242,14 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] LayeredSpan layered_span(const Substep& substep, int span) const;
   SpanGeometry evaluate_layered(const Substep& substep, int span, Row& row,
                                 SpanTransport& transport) const;
+  // Dampers of spans that share a tension: cable/cable_damping.cpp.
+  using SpanDamping = cable_parts::SpanDamping;
+  /// Of a span whose row by itself is `row`; none where nothing is damped.
+  [[nodiscard]] SpanDamping damping_of(const Substep& substep, const CompiledCable& cable, int span,
+                                       const Row& row) const;
+  /// Lets the damper of a row of a run count from the start of the substep.
+  static void damp_row(const CompiledCable& cable, const StretchedSpan* material,
+                       const SpanDamping& damping, Row& row);
   // Cable of a material on wheels: cable/cable_material.cpp.
   [[nodiscard]] StretchedSpan stretched(int span, const SpanTransport& arcs, double length) const;
   /// Strain of a span, 0 if it is slack or its cable not of a material.
@@ -262,8 +273,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   /// Rest length of a span of a material at the end of the substep [m], before anything passes its
   /// links, if it has `strain` then.
   [[nodiscard]] static double rest_length_at(const StretchedSpan& span, double strain);
-  /// The strain e of a run whose spans end with weight x e each; 0 if it is slack, none if it is
-  /// used up.
+  /// The strain e of a run whose spans end with what their dampers make of weight x e each; 0 if it
+  /// is slack, none if it is used up.
   [[nodiscard]] static std::optional<double> run_strain(std::span<const StretchedSpan> spans,
                                                         std::span<const double> weights);
   /// Gives the rows of a run that strain.
@@ -436,6 +447,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<std::array<double, 2>> fed_;  ///< per span, of its ends, in this substep [m]
   std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
   std::vector<int> pending_slip_;
+  std::vector<int> kept_slip_;  ///< while impulses are found: what it was before; empty: it is that
+  std::vector<int> kept_flips_;
   std::vector<char> held_;  ///< per link: whether it passes nothing although it has no friction
   std::vector<int> revised_;
   /// Per span, for finish(): tension at the start [N], length at the end of the substep [m].
@@ -453,6 +466,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<Piece> pieces_;  ///< of one cable
   // Of `rattle`, whose multipliers act as at the start of the substep.
   bool knows_start_ = false;
+  std::vector<std::array<double, 2>> start_values_;  ///< of damped rows, and their compliance
   std::vector<SpanGeometry> start_spans_;  ///< of cables with friction, per span, as last evaluated
   std::vector<double> start_exponents_;    ///< per link: friction times wrap angle at the start
   // Of leave_and_touch(): on which side of its candidates a span was at the start, span by span;

@@ -67,6 +67,12 @@ class ConstraintBatch {
   /// Called when a solver of all rows at once has found multipliers: chooses anew between the
   /// states that rows do not tell (a cable sticks or slides). Returns whether anything has changed.
   virtual bool revise(Substep& /*substep*/) { return false; }
+  /// Called when `rattle` has found the impulses of the velocities, with multipliers() those of the
+  /// forces of both halves of the substep: chooses anew between such states, until end_impulses().
+  /// Returns whether anything has changed; linearise() then tells the rows, as many as before.
+  virtual bool revise_impulses(const Substep& /*substep*/) { return false; }
+  /// Called when the impulses are found: chooses again what it had chosen before them.
+  virtual void end_impulses() {}
   /// Whether its rows depend on each other too much for sweeps from row to row to get anywhere:
   /// Gauss-Seidel then solves them all at once whenever it is their turn.
   [[nodiscard]] virtual bool is_stiff() const { return false; }

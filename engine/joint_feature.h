@@ -40,6 +40,8 @@ class JointFeature : public ConstraintBatch {
   [[nodiscard]] virtual JointHold hold(int index, const FeatureState& own) const = 0;
   /// What drives a coordinate of its joint at `index`; null if nothing does.
   [[nodiscard]] virtual const JointEffect* drive(int index, int coordinate) const = 0;
+  /// Where the force of that drive is among multipliers(); -1 if nothing drives it.
+  [[nodiscard]] virtual int drive_row(int index, int coordinate) const = 0;
   /// Tells where the coordinates of its joints begin among those of all joints of the model, for
   /// Controls::joint_drives.
   virtual void number_coordinates(std::span<const int> first) = 0;

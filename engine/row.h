@@ -6,7 +6,7 @@
 // l, one step of XPBD (Macklin et al. 2016, eq. 18; damping eq. 26) is
 //
 //   dl = (-C - a~ l - g C') / ((1 + g) w + a~),   w = grad C  W  grad C^T,   g = a b / h,
-//   C' = grad C (x - x_start),
+//   C' = grad C (x - x_start), or C of a one-sided row that was free at the start,
 //   l <- l + dl, clamped to the bounds;  x <- x + W grad C^T dl  with what is left of dl.
 //
 // l has the unit of C times kg (m kg for lengths); the generalised force of the row is l / h^2,
@@ -107,6 +107,9 @@ struct Row {
   /// added, and the multiplier of each is its `weight` times the unknown. Bounds are those of the
   /// first.
   bool tied = false;
+  /// Of a damped row that shares an unknown: its value at the start of the substep, from which the
+  /// way of its own damper counts (engine/solvers/row_system.h).
+  double past = 0.0;
   /// Whether its gradient turns with its bodies as engine/solvers/curvature.h says. If it does so
   /// and does not tell, rounds are more.
   bool curved = false;
@@ -133,7 +136,7 @@ struct Row {
     weight = start_weight = 1.0;
     softness = 0.0;
     rebound_speed = unbounded;
-    value = rate = compliance = damping = 0.0;
+    value = rate = compliance = damping = past = 0.0;
     lower = -unbounded;
     upper = unbounded;
     term_count = 0;
@@ -203,6 +206,15 @@ struct RowResponse {
   return change;
 }
 
+/// What of it the row's damper sees: one-sided rows that were free have none before they close, so
+/// that none of them acts while it is free.
+[[nodiscard]] inline double damped_change(const Row& row, std::span<const MovingBody> bodies) {
+  const double change = substep_change(row, bodies);
+  const double start = row.value - change;
+  const bool was_free = (row.lower == 0.0 && start > 0.0) || (row.upper == 0.0 && start < 0.0);
+  return was_free ? row.value : change;
+}
+
 /// x <- x + W grad C^T increment.
 [[gnu::always_inline]] inline void apply_multiplier(const Row& row, const RowResponse& response,
                                                     double increment,
@@ -226,7 +238,7 @@ inline double solve_row(const Row& row, double h, double& multiplier,
   double error = row.value + scaled_compliance * multiplier;
   if (row.damping > 0.0) {
     const double gamma = row.compliance * row.damping / h;
-    error += gamma * substep_change(row, bodies);
+    error += gamma * damped_change(row, bodies);
     w *= 1.0 + gamma;
   }
   const double denominator = w + scaled_compliance;

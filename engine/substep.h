@@ -54,6 +54,9 @@ struct Substep {
   /// Set by a solver that gives up: what it found is no solution, and the stages end here.
   bool failed = false;
   Resort resort = Resort::anything;
+  /// No time passes while bodies are moved: it is asked where they would rest, and dampers have no
+  /// part in that.
+  bool at_rest = false;
   WorkLimit work;
 
   /// A substep of `bodies` from `state_at_start`; both must outlive it. Bodies are placed at the

@@ -15,6 +15,17 @@ namespace {
 /// force x h^2, to be numbers.
 constexpr double no_time = 1e-9;
 
+/// Makes of the sums over the rows of an unknown its damping; `h` is the length of the substep.
+void tell_damping(double h, ForceUnknown& unknown) {
+  if (unknown.damper) {
+    unknown.damping = h / unknown.compliance;
+    unknown.compliance = 0.0;
+    return;
+  }
+  const double square = unknown.compliance * unknown.compliance;
+  unknown.damping = square > 0.0 ? unknown.damping / square : 0.0;
+}
+
 }  // namespace
 
 Configuration::Configuration(Simulation& simulation, const State& state, double load)
@@ -37,6 +48,7 @@ void Configuration::begin() {
     features[f]->begin(substep_, state_.features[f]);
   }
   substep_.time = substep_.next.time;
+  substep_.at_rest = true;
 }
 
 void Configuration::find_dampers() {
@@ -170,7 +182,8 @@ ConfigurationRows Configuration::rows() {
       unknown_at_[f][at(row.index)] = unknown_of[at(i)];
       unknown.value += row.value;
       unknown.compliance += row.weight * row.compliance;
-      // As in RowSystem::damping_share(), over the compliance.
+      // Each row has a damper of its own, so where it moves slowly, T (sum of k a) is the sum of
+      // the stretches and of k a^2 b T'.
       unknown.damping += row.weight * row.compliance * row.compliance * row.damping;
       result.weighted = result.weighted || row.weight != 1.0;
     }
@@ -189,15 +202,7 @@ ConfigurationRows Configuration::rows() {
       }
     }
   }
-  for (ForceUnknown& unknown : result.unknowns) {
-    if (unknown.damper) {
-      unknown.damping = substep_.h / unknown.compliance;
-      unknown.compliance = 0.0;
-      continue;
-    }
-    const double square = unknown.compliance * unknown.compliance;
-    unknown.damping = square > 0.0 ? unknown.damping / square : 0.0;
-  }
+  for (ForceUnknown& unknown : result.unknowns) tell_damping(substep_.h, unknown);
   return result;
 }
 

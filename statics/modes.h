@@ -31,14 +31,22 @@ struct Mode {
   double body_share = 0.0;  ///< that part, 0 ... 1
 };
 
-/// A force along a world axis through a body's centre of mass, a torque about one, or the speed of
-/// a driven rotor.
+/// A force along a world axis through a body's centre of mass, a torque about one, or what a drive
+/// is told: of a rotor driven to a speed or an angle, and of a joint's drive to a speed or a
+/// position, the speed [rad/s or m/s] (what has been driven is a state); of a joint's drive to a
+/// force or torque that force or torque [N or N m].
 struct ModeInput {
-  enum class Kind { force, torque, drive };
+  enum class Kind { force, torque, drive, joint_drive };
   Kind kind = Kind::force;
-  int body = 0;
-  Vector3 axis = Vector3::UnitX();  ///< unit vector; not of a drive
+  int body = 0;                     ///< not of a joint's drive
+  Vector3 axis = Vector3::UnitX();  ///< unit vector; not of drives
+  int joint = 0;                    ///< index in Model::joints; of a joint's drive
+  int coordinate = 0;               ///< of that joint, which has a drive
 };
+
+/// Whether a drive acts along this coordinate of a joint, by their indices in Model::joints and
+/// JointDef::coordinates().
+[[nodiscard]] bool has_joint_drive(const World& world, int joint, int coordinate);
 
 struct Modes {
   std::vector<Mode> modes;  ///< by eigenvalue, ascending
@@ -49,9 +57,13 @@ struct Modes {
   Eigen::MatrixXd mass;       ///< Z^T M Z = 1
   Eigen::MatrixXd damping;    ///< Z^T D Z [1/s]
   Eigen::MatrixXd stiffness;  ///< Z^T K Z [1/s2]
-  /// x' = A x + B u with x = (z, z', angles of driven inputs)
+  /// x' = A x + B u with x = (z, z', d): d is what drives to speeds and places have driven.
   Eigen::MatrixXd state_matrix;
   Eigen::MatrixXd input_matrix;
+  /// Y, degrees of freedom x d: with drives, displacements are q = Z z + Y d.
+  Eigen::MatrixXd driven_motions;
+  /// Change of what each row asks for per unit of d [m or rad], in the rows' own order.
+  Eigen::MatrixXd driven_rows;
   /// By how much the poses are off a rest: forces without balance along the motions, as a share of
   /// the largest load. Modes mean what they say only where this is small.
   double imbalance = 0.0;
@@ -73,10 +85,10 @@ struct Modes {
 [[nodiscard]] State displaced_state(Simulation& simulation, const Modes& modes,
                                     const Eigen::VectorXd& shape, double amplitude);
 
-/// What linear outputs are made of: the state with displacements q = Z z, velocities Z z', and
-/// forces as they are then.
+/// What linear outputs are made of: the state with x = (z, z', d): displacements q = Z z + Y d,
+/// velocities Z z', and forces as they are then without inputs. Rotors that a drive turns stay
+/// where they are.
 [[nodiscard]] State perturbed_state(Simulation& simulation, const Modes& modes,
-                                    const Eigen::VectorXd& displacement,
-                                    const Eigen::VectorXd& velocity);
+                                    const Eigen::VectorXd& x);
 
 }  // namespace sheave

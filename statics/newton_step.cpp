@@ -153,7 +153,9 @@ class StepProblem {
     if (lu.rcond() > least_condition) {
       solution = lu.solve(scaled);
       solution += lu.solve(scaled - matrix * solution);
-    } else {
+    }
+    // Where a pivot is 0 the estimate of the condition is no number, or any.
+    if (solution.size() == 0 || !solution.allFinite()) {
       Eigen::CompleteOrthogonalDecomposition<MatrixX> decomposition;
       decomposition.setThreshold(rank_threshold);
       decomposition.compute(matrix);

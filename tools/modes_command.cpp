@@ -39,37 +39,69 @@ int body_index(const Scene& scene, const std::string& name, const std::string& o
   for (std::size_t i = 0; i < scene.model.bodies.size(); ++i) {
     if (scene.model.bodies[i].name == name) return static_cast<int>(i);
   }
-  throw Failure(ExitCode::usage, option + ": there is no body \"" + name + "\"");
+  throw Failure(ExitCode::usage, option + ": there is no body or joint \"" + name + "\"");
 }
 
-/// "force:load.x", "torque:hook.z", "drive:drum".
-ModeInput parse_input(const Scene& scene, const std::string& text) {
+[[noreturn]] void fail_input(const std::string& option) {
+  throw Failure(ExitCode::usage, option +
+                                     ": must be force:BODY.x, torque:BODY.x (or y, z), drive:ROTOR "
+                                     "of one on a fixed axle that is driven to a speed or an "
+                                     "angle, or drive:JOINT of one that has a drive, with several "
+                                     "coordinates drive:JOINT.COORDINATE");
+}
+
+/// Of "drive:ram", or "drive:guide.travel"; nothing if no joint has that name.
+std::optional<ModeInput> joint_drive_input(const Scene& scene, const World& world,
+                                           const std::string& name, const std::string& option) {
+  const auto& joints = scene.model.joints;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const JointDef& joint = *joints[j];
+    if (name != joint.name && !name.starts_with(joint.name + ".")) continue;
+    ModeInput input;
+    input.kind = ModeInput::Kind::joint_drive;
+    input.joint = static_cast<int>(j);
+    int found = 0;
+    std::string names;
+    const auto coordinates = joint.coordinates();
+    for (std::size_t k = 0; k < coordinates.size(); ++k) {
+      const std::string whole = joint.name + "." + std::string(coordinates[k].name);
+      if (!has_joint_drive(world, input.joint, static_cast<int>(k))) continue;
+      names += (names.empty() ? "" : ", ") + whole;
+      if (name != joint.name && name != whole) continue;
+      input.coordinate = static_cast<int>(k);
+      ++found;
+    }
+    if (found == 1) return input;
+    throw Failure(ExitCode::usage, option + ": joint \"" + joint.name + "\" has " +
+                                       (names.empty() ? "no drive" : "drives of " + names));
+  }
+  return {};
+}
+
+/// "force:load.x", "torque:hook.z", "drive:drum", "drive:ram".
+ModeInput parse_input(const Scene& scene, const World& world, const std::string& text) {
   const std::string option = "--input " + text;
-  const auto fail = [&] {
-    throw Failure(ExitCode::usage, option +
-                                       ": must be force:BODY.x, torque:BODY.x (or y, z), or "
-                                       "drive:ROTOR of one that is driven to a speed or an angle");
-  };
   const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) fail();
+  if (colon == std::string::npos) fail_input(option);
   const std::string kind = text.substr(0, colon);
   std::string name = text.substr(colon + 1);
   ModeInput input;
   if (kind == "drive") {
+    if (const auto joint = joint_drive_input(scene, world, name, option)) return *joint;
     input.kind = ModeInput::Kind::drive;
     input.body = body_index(scene, name, option);
     const BodyDef& body = scene.model.bodies[static_cast<std::size_t>(input.body)];
     if (body.mobility != Mobility::rotor || body.mount ||
         (body.drive != DriveKind::speed && body.drive != DriveKind::angle)) {
-      fail();
+      fail_input(option);
     }
     return input;
   }
-  if (kind != "force" && kind != "torque") fail();
+  if (kind != "force" && kind != "torque") fail_input(option);
   input.kind = kind == "force" ? ModeInput::Kind::force : ModeInput::Kind::torque;
-  if (name.size() < 3 || name[name.size() - 2] != '.') fail();
+  if (name.size() < 3 || name[name.size() - 2] != '.') fail_input(option);
   const char axis = name.back();
-  if (axis < 'x' || axis > 'z') fail();
+  if (axis < 'x' || axis > 'z') fail_input(option);
   input.axis = Vector3::Unit(axis - 'x');
   name.resize(name.size() - 2);
   input.body = body_index(scene, name, option);
@@ -96,7 +128,9 @@ ExitCode modes(const ModesOptions& options) {
   ModesFound found;
   go_to_state(options, simulation, found);
   std::vector<ModeInput> inputs;
-  for (const std::string& text : options.inputs) inputs.push_back(parse_input(scene, text));
+  for (const std::string& text : options.inputs) {
+    inputs.push_back(parse_input(scene, simulation.world, text));
+  }
   found.scene = scene.name.empty() ? options.scene.path : scene.name;
   found.modes = find_modes(simulation, inputs);
   found.freedoms = freedom_names(simulation);
@@ -124,9 +158,10 @@ Action declare_modes(CLI::App& app) {
       ->option_text("FILE");
   app.add_flag("--as-is", options->as_is,
                "linearise about the pose as it is; default: find the rest near it first");
-  app.add_option("--input", options->inputs,
-                 "an input of B: force:BODY.x, torque:BODY.z, or drive:ROTOR, its speed; may be "
-                 "repeated")
+  app.add_option(
+         "--input", options->inputs,
+         "an input of B: force:BODY.x, torque:BODY.z, or what a drive is told, drive:ROTOR or "
+         "drive:JOINT: its speed, or its force; may be repeated")
       ->option_text("INPUT")
       ->expected(1)
       ->take_all();

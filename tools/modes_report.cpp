@@ -100,14 +100,14 @@ void take_outputs(Simulation& simulation, const std::vector<std::string>& names,
     indices.push_back(*index);
   }
   const State here = simulation.world.state();
-  const Eigen::Index k = found.modes.motions.cols();
-  Eigen::VectorXd displacement = Eigen::VectorXd::Zero(k);
-  Eigen::VectorXd velocity = Eigen::VectorXd::Zero(k);
+  const Modes& modes = found.modes;
+  const Eigen::Index k = modes.motions.cols();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(states);
   std::vector<double> values(names.size());
   const auto sample = [&](double step, Eigen::Index column) {
-    (column < k ? displacement[column] : velocity[column - k]) = step;
-    const State there = perturbed_state(simulation, found.modes, displacement, velocity);
-    (column < k ? displacement[column] : velocity[column - k]) = 0.0;
+    x[column] = step;
+    const State there = perturbed_state(simulation, modes, x);
+    x[column] = 0.0;
     if (const Errors errors = simulation.world.restore(there); !errors.empty()) {
       throw Failure(ExitCode::internal, to_text(errors));
     }
@@ -117,9 +117,9 @@ void take_outputs(Simulation& simulation, const std::vector<std::string>& names,
         Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size())));
   };
   constexpr double step = 1e-4;
-  for (Eigen::Index i = 0; i < 2 * k; ++i) {
+  for (Eigen::Index i = 0; i < states; ++i) {
     // Steps that move the largest part by 1e-4 m or rad.
-    const double size = found.modes.motions.col(i % k).cwiseAbs().maxCoeff();
+    const double size = i < 2 * k ? modes.motions.col(i % k).cwiseAbs().maxCoeff() : 1.0;
     const double by = size > 0.0 ? step / size : step;
     found.output_matrix.col(i) = (sample(by, i) - sample(-by, i)) / (2.0 * by);
   }

@@ -132,7 +132,11 @@ Vector3 Evidence::turn_of(int body) const {
 
 Vector3 Evidence::displacement(int body, const Vector3& point, End at_end) const {
   if (body == bodies.count()) return Vector3::Zero();
-  const Vector3 arm = point - moments[at(at_end)].center(body);
+  const Vector3 center = moments[at(at_end)].center(body);
+  const Vector3 arm = point - center;
+  // A mounted rotor is led by its carrier, whose turn counts to first order.
+  const int mount = bodies[body].mount;
+  if (mount >= 0) return displacement(mount, center, at_end) + turn_of(body).cross(arm);
   return end.bodies[at(body)].position - start.bodies[at(body)].position + turn_of(body).cross(arm);
 }
 

@@ -193,8 +193,7 @@ class JointCheck {
       double from = x0;
       if (frame_.lower != 0.0) from = std::max(from, 0.0);
       if (frame_.upper != 0.0) from = std::min(from, 0.0);
-      const double damped =
-          frame_.compliance * frame_.damping * (x1 - (e_.rattle ? from : x0)) / e_.h;
+      const double damped = frame_.compliance * frame_.damping * (x1 - from) / e_.h;
       const double asked = (e_.rattle ? 0.5 * (from + x1) : x1) + damped;
       double off = std::abs(asked - frame_.compliance * pull);
       if (one_sided && pull == 0.0) off = std::max(frame_.lower != 0.0 ? asked : -asked, 0.0);

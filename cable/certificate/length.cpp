@@ -2,6 +2,7 @@
 // what was fed, a span gains what its wheels and holes give, and nothing is shorter than 0.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cable/certificate/checks.h"
@@ -120,6 +121,14 @@ void check_spans_of(const Evidence& evidence, const CableEvidence& cable, Findin
   }
 }
 
+/// Whether nothing resists the turning of the wheel at that end of a span.
+bool is_massless(const CableEvidence& cable, const SpanSide& side) {
+  return side.place >= 0 &&
+         std::any_of(cable.passes.begin(), cable.passes.end(), [&](const PassEvidence& pass) {
+           return pass.massless && pass.link == side.place;
+         });
+}
+
 }  // namespace
 
 double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, double reported) {
@@ -145,21 +154,26 @@ double unrolled(const Evidence& evidence, const CableEvidence& cable, const Span
   const double second = rim_travel(evidence, span.to, 1.0, rolled - first);
   if (!cable.definition->axial_stiffness) return rolled - first - second;
   // What comes onto a rim has the strain of the span, what comes off it one with which some of it
-  // lies there.
-  double strain = 0.0;
+  // lies there. Over a massless wheel, where cable passes until both sides are strained alike, it is
+  // any that the span has had in the substep.
+  std::array<double, 2> strains{};
   for (const End when : {first_end, last_end}) {
     if (span.rest_length[when] > 0.0) {
-      strain += 0.5 * std::max(span.length[when] / span.rest_length[when] - 1.0, 0.0);
+      strains[at(when)] = std::max(span.length[when] / span.rest_length[when] - 1.0, 0.0);
     }
   }
+  const double strain = 0.5 * (strains[0] + strains[1]);
+  const auto [least, largest] = std::minmax(strains[0], strains[1]);
   double most = strain;
   for (const LinkReport& link : cable.start.links) most = std::max(most, link.most_strain);
   for (const WrapReport& wrap : cable.start.wraps) most = std::max(most, wrap.link.most_strain);
   double low = 0.0;
   double high = 0.0;
-  for (const double travel : {first, second}) {
-    low += travel / (1.0 + (travel < 0.0 ? strain : most));
-    high += travel < 0.0 ? travel / (1.0 + strain) : travel;
+  for (const SpanSide* side : {&span.from, &span.to}) {
+    const double travel = side == &span.from ? first : second;
+    const bool passes = is_massless(cable, *side);
+    low += travel / (1.0 + (travel > 0.0 ? most : passes ? least : strain));
+    high += travel > 0.0 ? travel : travel / (1.0 + (passes ? largest : strain));
   }
   return rolled - std::clamp(rolled, low, high);
 }

@@ -4,7 +4,9 @@
 // of a spring is that of chains of spans joined by links over which cable may come; a rigid span
 // keeps its own length either way. With the stretch x = l - L, the compliance a and the damping b,
 // XPBD asks for a T = x + a b (change of x) / h at the end of the substep, `rattle` for the mean of
-// both ends; a tension below 0 is none.
+// both ends; a tension below 0 is none. Each span has a damper of its own, which what passes moves,
+// too: with g = a b / h and the stretch x0 at the start the law says what x is, and the sum of that
+// is asked for. Of a material it is a law of strains.
 
 #include <algorithm>
 
@@ -138,55 +140,82 @@ class SpanCheck {
   }
 
   void check_chain(const CableDef& cable, const std::vector<std::size_t>& chain) {
-    double before = 0.0;
-    double now = 0.0;
-    double wanted = 0.0;
-    double pulled = 0.0;
-    double most = 0.0;
-    double softest = 0.0;
-    double deflection = 0.0;
-    double damping = 0.0;
-    double moved = 0.0;
+    ChainSum sum;
     for (const std::size_t k : chain) {
-      const SpanEvidence& span = cable_.spans[k];
-      if (!span.has_tangent) return;
-      // What is fed in a substep is there from its start.
-      double start = span.length[first_end] - span.rest_length[first_end] - span.fed;
-      // A material's force is the mean of both ends', whatever the length is at either.
-      if (cable.axial_stiffness && span.rest_length[first_end] > 0.0) {
-        start *= span.rest_length[last_end] / span.rest_length[first_end];
-      }
-      before += start;
-      double stretch = span.length[last_end] - span.rest_length[last_end];
-      if (cable.tangent_update == TangentUpdate::substep) {
-        // What acted is between attachments that keep their places on the bodies; what rolls is in
-        // their distance.
-        const double apart = (span.to.point[last_end] - span.from.point[last_end]).norm();
-        stretch = apart - span.rest_length[first_end] - span.fed;
-      }
-      now += stretch;
-      const double a = compliance_of(cable, span.rest_length[last_end]);
-      wanted += a * span.tension();
-      pulled += span.tension();
-      most = std::max({most, std::abs(stretch), a * span.tension()});
-      // Each span has its share of what stretches all of them.
-      deflection += a * span.tension();
-      damping += a * a * span.tension() * cable.damping;
-      softest = std::max(softest, a);
-      if (cable.damping > 0.0 && !e_.rattle) {
-        moved += linear_stretch(e_, span, cable.tangent_update == TangentUpdate::iteration);
-      }
+      if (!cable_.spans[k].has_tangent) return;
+      add_span(cable, k, sum);
     }
-    const double gamma = (deflection > 0.0 ? damping / deflection : softest * cable.damping) / e_.h;
-    double given = now + gamma * moved;
-    if (e_.rattle) {
-      // A spring that was slack counts from 0.
-      before = std::max(before, 0.0);
-      given = 0.5 * (before + now) + gamma * (now - before);
-    }
-    const double off = pulled == 0.0 ? std::max(given, 0.0) : std::abs(given - wanted);
-    note(CertificateItem::Kind::span, "m", off, std::max(most, 1e-6 * size_),
+    // A spring that was slack counts from 0.
+    if (e_.rattle) sum.off += 0.5 * (std::max(sum.before, 0.0) - sum.before);
+    const double given = sum.most_damped * sum.off;
+    const double off = sum.pulled == 0.0 ? std::max(given, 0.0) : std::abs(given);
+    note(CertificateItem::Kind::span, "m", off, std::max(sum.most, 1e-6 * size_),
          rounding * 1e3 * e_.bodies.scale(), cable_.spans[chain.front()]);
+  }
+
+  struct ChainSum {
+    double off = 0.0;          ///< of the stretches, what no law says [m]
+    double before = 0.0;       ///< stretches at the start that count as they are [m]
+    double pulled = 0.0;       ///< [N]
+    double most = 0.0;         ///< of stretches and what tensions stretch [m]
+    double most_damped = 0.0;  ///< 1 + g
+  };
+
+  void add_span(const CableDef& cable, std::size_t k, ChainSum& sum) const {
+    const SpanEvidence& span = cable_.spans[k];
+    const double passed = slid_into(static_cast<int>(k));
+    const double rest_length = span.rest_length[last_end];
+    double stretch = span.length[last_end] - rest_length;
+    if (cable.tangent_update == TangentUpdate::substep) {
+      // What acted is between attachments that keep their places on the bodies; what rolls is in
+      // their distance.
+      const double apart = (span.to.point[last_end] - span.from.point[last_end]).norm();
+      stretch = apart - span.rest_length[first_end] - span.fed - passed;
+    }
+    const double pull = compliance_of(cable, rest_length) * span.tension();
+    // What has passed has its own damper with it no sooner than in the next substep.
+    const double own_length = rest_length - passed;
+    const double share = compliance_of(cable, own_length) * cable.damping / e_.h;
+    const double start = stretch_before(cable, span, stretch, passed);
+    sum.most = std::max({sum.most, std::abs(stretch), pull});
+    sum.pulled += span.tension();
+    sum.most_damped = std::max(sum.most_damped, 1.0 + (e_.rattle ? 2.0 : 1.0) * share);
+    if (!e_.rattle) {
+      sum.off += stretch - (pull + share * start) / (1.0 + share);
+      return;
+    }
+    const double twice = 2.0 * share;
+    if (!(share > 0.0)) sum.before += start;
+    sum.off += 0.5 * (stretch + ((1.0 - twice) * start - 2.0 * pull) / (1.0 + twice));
+  }
+
+  /// Stretch of the span at the start of the substep, as its law counts it [m].
+  double stretch_before(const CableDef& cable, const SpanEvidence& span, double stretch,
+                        double passed) const {
+    // What is fed in a substep is there from its start.
+    double start = span.length[first_end] - span.rest_length[first_end] - span.fed;
+    double length = span.rest_length[first_end];
+    if (!e_.rattle) {
+      length = span.rest_length[last_end] - passed;
+      start = stretch + passed;
+      if (cable.damping > 0.0) {
+        start -= linear_stretch(e_, span, cable.tangent_update == TangentUpdate::iteration);
+      }
+    }
+    // A material's force is that of its strain, whatever the length is at either end.
+    if (cable.axial_stiffness && length > 0.0) start *= span.rest_length[last_end] / length;
+    // A damper begins where its span is taut.
+    return cable.damping > 0.0 ? std::max(start, 0.0) : start;
+  }
+
+  /// Cable that slid into the span over its links [m].
+  [[nodiscard]] double slid_into(int span) const {
+    double passed = 0.0;
+    for (const PassEvidence& pass : cable_.passes) {
+      if (pass.after == span) passed += pass.slip;
+      if (pass.before == span) passed -= pass.slip;
+    }
+    return passed;
   }
 
   void note(CertificateItem::Kind kind, std::string_view unit, double value, double scale,

@@ -125,12 +125,23 @@ void RattleSolver::solve_velocities(Substep& substep, Features features) {
   substep.update_inertias();
   velocities_.linearise_velocities(substep, positions_);
   const bool direct = solver_ == SolverKind::direct;
-  if (!velocities_.solve_velocities(substep, direct, substep.iterations)) {
+  const auto find_impulses = [&] {
+    if (velocities_.solve_velocities(substep, direct, substep.iterations)) return true;
     substep.failed = substep.resort != Resort::anything;
-    if (substep.failed) return;
+    if (substep.failed) return false;
     ++substep.statistics.solver_fallbacks;
     velocities_.relax(substep, substep.iterations);
+    return true;
+  };
+  // Links of cables that begin to slide by these impulses may make others slide.
+  constexpr int most_revisions = 4;
+  bool found = find_impulses();
+  for (int i = 0; i < most_revisions && found; ++i) {
+    if (!direct || !velocities_.revise_impulses(substep, features, positions_)) break;
+    found = find_impulses();
   }
+  for (const auto& feature : features) feature->end_impulses();
+  if (!found) return;
   // Sweeps leave velocities off the constraints, which do work of their own.
   if (direct && substep.resort != Resort::anything &&
       velocities_.work_error(substep, positions_) > unresolved * energy_of_motion(substep)) {

@@ -226,11 +226,13 @@ class JointBatch final : public JointFeature {
   }
   [[nodiscard]] const JointEffect* drive(int index, int coordinate) const override {
     const Joint& joint = joints_[at(index)];
-    for (int i = 0; i < joint.effect_count; ++i) {
-      const JointEffect& effect = effects_[at(joint.first_effect + i)];
-      if (effect.coordinate == coordinate && effect.control >= 0) return &effect;
-    }
-    return nullptr;
+    const int effect = drive_effect(joint, coordinate);
+    return effect < 0 ? nullptr : &effects_[at(joint.first_effect + effect)];
+  }
+  [[nodiscard]] int drive_row(int index, int coordinate) const override {
+    const Joint& joint = joints_[at(index)];
+    const int effect = drive_effect(joint, coordinate);
+    return effect < 0 ? -1 : joint.first_row + joint.lock_count + effect;
   }
   void adopt(const ConstraintBatch& before, const FeatureState& from,
              FeatureState& own) const override {
@@ -289,6 +291,14 @@ class JointBatch final : public JointFeature {
     const Mobility mobility = bodies[bodies.index(body)].mobility;
     return mobility == Mobility::planar || mobility == Mobility::slider ||
            mobility == Mobility::rotor;
+  }
+  /// Which of its effects drives a coordinate; -1: none.
+  [[nodiscard]] int drive_effect(const Joint& joint, int coordinate) const {
+    for (int i = 0; i < joint.effect_count; ++i) {
+      const JointEffect& effect = effects_[at(joint.first_effect + i)];
+      if (effect.coordinate == coordinate && effect.control >= 0) return i;
+    }
+    return -1;
   }
   [[nodiscard]] const JointEffect& effect(const Joint& joint, int row) const {
     return effects_[at(joint.first_effect + row - joint.lock_count)];

@@ -47,8 +47,8 @@ bool AffineMotion::append(Features features) {
 
 void AffineMotion::find_matrix() {
   const std::size_t n = rows_.size();
-  for (std::vector<double>* values : {&shares_, &start_shares_, &softness_, &diagonal_, &values_,
-                                      &free_, &unknowns_, &multipliers_, &impulses_, &rates_}) {
+  for (std::vector<double>* values : {&start_shares_, &softness_, &diagonal_, &values_, &free_,
+                                      &unknowns_, &multipliers_, &impulses_, &rates_}) {
     values->assign(n, 0.0);
   }
   for (std::vector<char>* flags : {&springs_, &active_, &found_, &closed_}) flags->assign(n, 0);
@@ -100,8 +100,7 @@ void AffineMotion::prepare(const Substep& substep) {
     const double compliance = rows_.compliance(i);
     const double gamma = (rattle_ ? 2.0 : 1.0) * compliance * rows_.damping(i) / h_;
     const double scale = 1.0 / (1.0 + gamma);
-    shares_[i] = rattle_ ? 1.0 : scale;
-    start_shares_[i] = rattle_ && compliance > 0.0 ? scale * (1.0 - gamma) : 0.0;
+    start_shares_[i] = compliance > 0.0 ? scale * ((rattle_ ? 1.0 : 0.0) - gamma) : 0.0;
     softness_[i] = scale * (rattle_ ? 4.0 : 1.0) * compliance / (h_ * h_);
     soft_diagonal[i] += softness_[i];
   }
@@ -128,7 +127,7 @@ void AffineMotion::find_free_values() {
   // Of rigid rows it is the value itself.
   if (!elastic_) return free_.swap(values_);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    free_[i] = shares_[i] * values_[i] + start_shares_[i] * std::min(values_[i], 0.0);
+    free_[i] = values_[i] + start_shares_[i] * std::min(values_[i], 0.0);
   }
 }
 
@@ -219,7 +218,7 @@ bool AffineMotion::search_positions() {
       double value = values[i] + change;
       if (springs_[i] != 0) {
         value = rattle_ ? (1.0 + gamma) * value + (1.0 - gamma) * std::min(values[i], 0.0)
-                        : value + gamma * change;
+                        : value + gamma * (values[i] > 0.0 ? value : change);
       }
       posed.free[i] = active_[i] != 0 || value <= rounding ? 1 : 0;
     }

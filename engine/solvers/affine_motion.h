@@ -7,11 +7,11 @@
 // start of the substep, dq* the motion without constraints, and the rules of
 // engine/solvers/row_system.h, the unknowns l of the rows that act satisfy
 //
-//   r = p C0 + s min(C0, 0) + J dq* + (J W J^T + d) l = 0
+//   r = C0 + s min(C0, 0) + J dq* + (J W J^T + d) l = 0
 //
-//   rigid:     p = 1,           s = 0,                 d = 0
-//   backward:  p = 1 / (1 + g), s = 0,                 d = p a / h^2,           g = a b / h
-//   midpoint:  p = 1,           s = (1 - g) / (1 + g), d = 4 a / (h^2 (1 + g)), g = 2 a b / h
+//   rigid:     s = 0,                 d = 0
+//   backward:  s = -g / (1 + g),      d = a / (h^2 (1 + g)),   g = a b / h
+//   midpoint:  s = (1 - g) / (1 + g), d = 4 a / (h^2 (1 + g)), g = 2 a b / h
 //
 // and then dq = dq* + W J^T l. `rattle` gives the velocities, after the second half of the loads,
 // the other half of what springs do and the impulses m of the rigid rows, J W J^T m = -J v.
@@ -100,11 +100,11 @@ class AffineMotion {
   bool rattle_ = false;
   double scale_ = 1.0;
   double h_ = 0.0;
-  bool elastic_ = false;                                  ///< some rows are springs
-  std::vector<char> springs_;                             ///< per row
-  std::vector<double> shares_, start_shares_, softness_;  ///< p, s, d
-  std::vector<std::pair<int, int>> entries_;              ///< rows that share a number
-  std::vector<double> diagonal_;                          ///< of J W J^T
+  bool elastic_ = false;                         ///< some rows are springs
+  std::vector<char> springs_;                    ///< per row
+  std::vector<double> start_shares_, softness_;  ///< s, d
+  std::vector<std::pair<int, int>> entries_;     ///< rows that share a number
+  std::vector<double> diagonal_;                 ///< of J W J^T
   AffineProblem problem_;
   AffineProblem rigid_;  ///< of the velocities; only where some rows are springs
   bool agree_ = false;   ///< all that affine substeps leave alone is the same in both states

@@ -179,45 +179,46 @@ void RowSystem::set_rigid(std::size_t g) {
   set_bounds(g, is_pushed(row, row.value), row.active);
 }
 
-double RowSystem::damping_share(const Group& group) const {
-  if (group.row_count == 1) {
-    const Row& row = rows_[at(group.first_row)];
-    return row.compliance * row.damping;
-  }
-  double share = 0.0;
-  double compliance = 0.0;
-  for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
-    const Row& row = rows_[at(i)];
-    const double stretch = row.weight * row.compliance;
-    share += stretch * row.compliance * row.damping;
-    compliance += stretch;
-  }
-  return share > 0.0 ? share / compliance : 0.0;
+bool RowSystem::damps_apart(const Group& group) const {
+  if (group.row_count == 1 || !group.elastic) return false;
+  const auto first = rows_.begin() + group.first_row;
+  return std::any_of(first, first + group.row_count,
+                     [](const Row& row) { return row.compliance > 0.0 && row.damping > 0.0; });
 }
 
 void RowSystem::set_backward(const Substep& substep, std::size_t g) {
   Group& group = groups_[g];
-  const double gamma = damping_share(group) / substep.h;
+  const Row& first = rows_[at(group.first_row)];
+  const bool apart = damps_apart(group);
+  const double gamma = group.row_count == 1 ? first.compliance * first.damping / substep.h : 0.0;
   double value = 0.0;
   double compliance = 0.0;
   bool active = false;
   for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
     const Row& row = rows_[at(i)];
+    double soft = row.compliance / (substep.h * substep.h);
     value += row.value;
-    if (gamma > 0.0) value += gamma * substep_change(row, substep.moving);
-    compliance += row.weight * (row.compliance / (substep.h * substep.h) + row.softness);
+    if (gamma > 0.0) value += gamma * damped_change(row, substep.moving);
+    if (apart) {
+      const double own = row.compliance * row.damping / substep.h;
+      value -= own / (1.0 + own) * row.past;
+      soft /= 1.0 + own;
+    }
+    compliance += row.weight * (soft + row.softness);
     active = active || row.active;
   }
   group.scale = 1.0 / (1.0 + gamma);
   problem_.diagonal[g] = group.scale * compliance;
   problem_.constant[g] = group.scale * (value + compliance * group.multiplier);
-  set_bounds(g, is_pushed(rows_[at(group.first_row)], value), active);
+  set_bounds(g, is_pushed(first, value), active);
 }
 
 void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
   Group& group = groups_[g];
   const Row& first = rows_[at(group.first_row)];
-  const double gamma = 2.0 * damping_share(group) / substep.h;
+  const bool apart = damps_apart(group);
+  const double gamma =
+      group.row_count == 1 ? 2.0 * (first.compliance * first.damping) / substep.h : 0.0;
   double value = 0.0;
   double start = 0.0;
   double compliance = 0.0;
@@ -225,14 +226,21 @@ void RowSystem::set_midpoint(const Substep& substep, std::size_t g) {
   bool active = false;
   for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
     const Row& row = rows_[at(i)];
+    double share = row.weight * row.compliance * 4.0 / (substep.h * substep.h);
     value += row.value;
-    start += start_values_[at(i)];
-    compliance += row.weight * row.compliance * 4.0 / (substep.h * substep.h);
+    if (apart) {
+      const double own = 2.0 * row.compliance * row.damping / substep.h;
+      start += (1.0 - own) / (1.0 + own) * row.past;
+      share /= 1.0 + own;
+    } else {
+      start += start_values_[at(i)];
+    }
+    compliance += share;
     softness += row.weight * row.softness;
     active = active || row.active;
   }
-  if (first.lower == 0.0) start = std::min(start, 0.0);
-  if (first.upper == 0.0) start = std::max(start, 0.0);
+  if (!apart && first.lower == 0.0) start = std::min(start, 0.0);
+  if (!apart && first.upper == 0.0) start = std::max(start, 0.0);
   if (compliance > 0.0) value = (1.0 + gamma) * value + (1.0 - gamma) * start;
   group.scale = 1.0 / (1.0 + gamma);
   compliance += softness;

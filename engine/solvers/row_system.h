@@ -19,6 +19,14 @@
 // spring that was slack counts with C0 = 0: the force then does less work than it stores, so no
 // transition makes energy. Rigid rows have value = C.
 //
+// Rows that share an unknown l have a damper each, and what moves between them (cable that slides
+// over a link, or runs over a wheel) moves these, too. Each has its force k l by the rule above,
+// which gives its value, and only the sum of the values is known. With C0, the value at the start
+// (Row::past), backward (1 + g) C - g C0 + a~ k l = 0, and so, summed over the rows with a g each,
+//
+//   backward:  sum of C - C0 g / (1 + g)            +  l sum of k a~ / (1 + g)  =  0
+//   midpoint:  sum of C + C0 (1 - g) / (1 + g)      +  l sum of k a~ / (1 + g)  =  0,    S = 1
+//
 // Bounds of a row are those of force x h^2. The midpoint rule acts with F = 2 l / h^2 for half a
 // substep and so has half of them, and an impulse m of the velocities, for the other half, has the
 // bounds over 2 h.
@@ -106,6 +114,11 @@ class RowSystem {
   /// at the current positions; it takes them from there.
   void linearise_velocities(Substep& substep, RowSystem& positions);
 
+  /// Lets features choose anew between what rows do not tell, by the impulses just found. Whether
+  /// that changes any row: then the problem is that of the velocities with the rows of now.
+  [[nodiscard]] bool revise_impulses(Substep& substep, Features features,
+                                     const RowSystem& positions);
+
   /// Finds the impulses, by sweeps unless `direct`. Friction is bounded by the impulses of its
   /// normals, not by their forces in the first half (an impact may be over then), so there are
   /// rounds until these agree. False if no active set was found.
@@ -179,10 +192,8 @@ class RowSystem {
   /// Gradients of the rows and the bodies' responses along them.
   void fill_slots(const Substep& substep);
   void make_groups();
-  /// a b of the group: with the shares a_i k_i that rows of the weights k_i have of its value, sum
-  /// of a_i b_i a_i k_i over that of a_i k_i. (What moves between its rows, cable that runs over a
-  /// wheel, deflects no spring and moves no damper, so only the change of their sum counts.)
-  [[nodiscard]] double damping_share(const Group& group) const;
+  /// Whether rows that share the group's unknown have dampers, of their own each.
+  [[nodiscard]] bool damps_apart(const Group& group) const;
   /// Of one row without compliance: by either rule the same.
   void set_rigid(std::size_t group);
   void set_backward(const Substep& substep, std::size_t group);
@@ -257,6 +268,10 @@ class RowSystem {
   /// just found.
   void find_motion();
   void act_springs(Substep& substep);
+  /// The problem of the velocities with the rows that there are.
+  void pose_velocities(const Substep& substep, const RowSystem& positions);
+  /// Multiplier of a row for the forces of both halves of the substep.
+  [[nodiscard]] double whole_multiplier(double h, int row) const;
   /// Counts the impulses in the groups' multipliers as given: the unknowns are what is added to
   /// them.
   void start_from_impulses();
@@ -272,6 +287,7 @@ class RowSystem {
   /// Per feature and index of multiplier: the row at the start, -1 if there was none.
   std::vector<std::vector<int>> start_places_;
   std::vector<double> start_values_;  ///< per row
+  RowList revised_rows_;              ///< of one feature
   std::vector<Group> groups_;
   std::vector<int> group_of_;
   /// Per feature and index of multiplier: ComplementarityProblem::free in the last round, -1 if

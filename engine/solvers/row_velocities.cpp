@@ -22,12 +22,6 @@ double RowSystem::rate_of(const Substep& substep, const Row& row) const {
 }
 
 void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
-  const double closed = DirectSolver::closed * substep.bodies.scale();
-  const double share =
-      0.5 / substep.h;  // of the bounds, for an impulse in the second half of the substep
-  // Velocities alone tell nothing of forces that hold each other in balance. They stay what they
-  // were in the first half, where the bounds and the links have judged them.
-  const bool redundant = positions.active_set_.dropped() > 0;
   std::swap(rows_, positions.rows_);  // which have served their turn
   for (Row& row : rows_) std::swap(row.weight, row.start_weight);
   feature_rows_ = positions.feature_rows_;
@@ -38,6 +32,18 @@ void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
   slots_.join(rows_);
   make_groups();
   act_springs(substep);
+  pose_velocities(substep, positions);
+  shared_ = positions.shared_;
+  if (!shared_.empty()) begin_shared_friction();
+}
+
+void RowSystem::pose_velocities(const Substep& substep, const RowSystem& positions) {
+  const double closed = DirectSolver::closed * substep.bodies.scale();
+  const double share =
+      0.5 / substep.h;  // of the bounds, for an impulse in the second half of the substep
+  // Velocities alone tell nothing of forces that hold each other in balance. They stay what they
+  // were in the first half, where the bounds and the links have judged them.
+  const bool redundant = positions.active_set_.dropped() > 0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
     const Row& first = rows_[at(group.first_row)];
@@ -64,8 +70,46 @@ void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
     problem_.upper[g] = upper - group.multiplier;
   }
   if (redundant) start_from_impulses();
-  shared_ = positions.shared_;
-  if (!shared_.empty()) begin_shared_friction();
+}
+
+double RowSystem::whole_multiplier(double h, int row) const {
+  const auto i = at(row);
+  const Group& group = groups_[at(group_of_[i])];
+  if (group.elastic) return 2.0 * previous_[i];
+  const double impulse = group.multiplier + active_set_.solution()[at(group_of_[i])];
+  return previous_[i] + h * rows_[i].weight * impulse;
+}
+
+bool RowSystem::revise_impulses(Substep& substep, Features features, const RowSystem& positions) {
+  // Rows of friction in several directions have turned with its slip.
+  if (!shared_.empty()) return false;
+  bool changed = false;
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    const std::span<double> multipliers = features[f]->multipliers();
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      multipliers[at(rows_[at(i)].index)] = whole_multiplier(substep.h, i);
+    }
+    bool revised = features[f]->revise_impulses(substep);
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      multipliers[at(rows_[at(i)].index)] = previous_[at(i)];
+    }
+    if (!revised) continue;
+    revised_rows_.clear();
+    features[f]->linearise(substep, revised_rows_);
+    const auto first = at(feature_rows_[f]);
+    if (revised_rows_.size() != at(feature_rows_[f + 1]) - first) continue;
+    for (std::size_t i = 0; i < revised_rows_.size(); ++i) {
+      rows_[first + i] = revised_rows_[i];
+      previous_[first + i] = multipliers[at(revised_rows_[i].index)];
+    }
+    changed = true;
+  }
+  if (!changed) return false;
+  fill_slots(substep);
+  slots_.join(rows_);
+  make_groups();
+  pose_velocities(substep, positions);
+  return true;
 }
 
 bool RowSystem::bound_friction() {

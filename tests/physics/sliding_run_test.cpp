@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/certificate.h"
 #include "engine/joints/slider.h"
 #include "tests/support/builders.h"
 #include "tests/support/combinations.h"
@@ -98,17 +99,43 @@ TEST_P(SlidingRun, CableBetweenDryFrictionAndAHoleHasATensionThatHolds) {
   }
 }
 
+TEST_P(SlidingRun, ASpanThatComesTautTakesWhatItsSlackNeighbourHas) {
+  // Sweeps have moved the weight before they find that the link slides, and those of `rattle` do not
+  // ask links by the impulses of the velocities.
+  if (GetParam().solver == SolverKind::gauss_seidel) GTEST_SKIP();
+  // The near weight's span is closed, but for 1e-9 m, at the end of the fifth step, when only the
+  // velocities of `rattle` ask whether it pulls, while the far one's has 0.5 m to spare: the eyelet
+  // bears no difference to a tension of 0, so both go on falling freely.
+  test::Machine m = machine();
+  m.model.add(test::weight("far", {-0.2, -1.0, 0}, 1.0));
+  m.model.add(test::weight("near", {0.2, -1.0, 0}, 2.0));
+  CableDef rope =
+      cable("rope", {attach({0}), eyelet(BodyId::world(), {0, 0, 0}, 0.3), attach({1})});
+  const double fallen = 0.5 * g * 0.05 * 0.05;
+  rope.rest_lengths = {std::hypot(0.2, 1.0) + 0.5, std::hypot(0.2, 1.0 + fallen) + 1e-9};
+  m.cables.push_back(rope);
+  Simulation s = test::start(m);
+  constexpr int steps = 20;  // after 0.23 s all is taut
+  for (int i = 0; i < steps; ++i) {
+    ASSERT_TRUE(s.world.step().ok());
+    for (const double tension : tensions(s.cable_reports()[0])) EXPECT_EQ(tension, 0.0) << i;
+    const auto certificate = s.certificate();
+    ASSERT_TRUE(certificate);
+    EXPECT_TRUE(certificate->clean()) << certificate->worst()->sentence();
+  }
+  EXPECT_NEAR(s.world.state().bodies[0].velocity.y(), -steps * 0.01 * g, 1e-12);
+  EXPECT_NEAR(s.world.state().bodies[1].velocity.y(), -steps * 0.01 * g, 1e-12);
+}
+
 TEST_P(SlidingRun, WhatSlidesHasStrainsInTheRatioOfItsTensions) {
-  // Also where dampers have a part of the tensions, or these are those of the middle of the step:
-  // what a run shares out is stretched in the ratio e^(m a) after every step, over spans of unlike
-  // lengths.
+  // Also where these are those of the middle of the step: what a run shares out is stretched in the
+  // ratio e^(m a) after every step, over spans of unlike lengths. (With dampers: damped_run_test.cpp.)
   test::Machine m = machine();
   m.model.add(post("post", {0, 0, 0}, 0.2));
   m.model.add(test::weight("light", {-0.2, -1.0, 0}, 1.0));
   m.model.add(test::weight("heavy", {0.2, -3.0, 0}, 4.0));
   CableDef rope = cable("rope", {attach({1}), wrapped({0}, right, 0.2), attach({2})});
   rope.axial_stiffness = 2e4;
-  rope.damping = 50.0;
   m.cables.push_back(rope);
   Simulation s = test::start(m);
   const double ratio = std::exp(0.2 * pi);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "engine/body_set.h"
+#include "engine/joint_report.h"
 #include "statics/supports.h"
 #include "tests/statics/scene_at_rest.h"
 
@@ -253,6 +254,41 @@ TEST(Equilibrium, AgreesWithMotionThatDampingHasSettled) {
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(tension(still, i, 0), tension(moving, i, 0), 1e-8 * 40.0);
   }
+}
+
+TEST(Equilibrium, RowsThatMoveNothingAreNoFault) {
+  // A slider that holds a planar body has rows for what that cannot do: without gradients. A trolley
+  // of 3 kg that its drive holds, 2 kg below it: 50 N on the rail.
+  Simulation simulation = simulation_of(R"("bodies": [
+    {"name": "trolley", "mobility": "planar", "axis": [0, 0, 1], "mass": 3, "inertia": [1, 1, 1]},
+    {"name": "rod", "mobility": "planar", "axis": [0, 0, 1], "mass": 2, "position": [0, -0.5, 0], "inertia": [0.1, 0.1, 0.1]}],
+    "joints": [
+    {"type": "slider", "name": "rail", "body_b": "trolley", "anchor": [0, 0, 0], "axis": [1, 0, 0], "drive": "speed", "drive_values": [0]},
+    {"type": "hinge", "name": "pin", "body_a": "trolley", "body_b": "rod", "anchor": [0, 0, 0], "axis": [0, 0, 1]}],
+    "cables": [{"name": "spring", "axial_stiffness": 60, "rest_lengths": [0.9], "links": [
+      {"type": "attachment", "body": "world", "point": [-1, -1.2, 0]}, {"type": "attachment", "body": "rod", "point": [0, -0.5, 0]}]}])");
+  const Equilibrium rest = find_equilibrium(simulation);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  const SpanReport spring = simulation.cable_reports()[0].spans[0];
+  const Vector3 pull = spring.tension * (spring.start - spring.end).normalized();
+  const JointReport rail = joint_reports(simulation.world)[0];
+  EXPECT_NEAR(rail.force.y(), 50.0 - pull.y(), 50.0 * exact);
+  EXPECT_NEAR(rail.force.x(), -pull.x(), 50.0 * exact);
+}
+
+TEST(Equilibrium, LighterWeightFindsItsRestBesideTheWheel) {
+  // 1 kg and 2 kg over a wheel of r = 0.5 m at whose sides their rails stand: the lighter one rises
+  // until its rope, a tangent of 20 N, lies at 60 degrees to the plumb, r tan 30 above the axle.
+  Simulation simulation = simulation_of(R"("bodies": [
+    {"name": "wheel", "mobility": "rotor", "mass": 1, "shape": {"type": "cylinder", "radius": 0.5, "length": 0.1}},
+    {"name": "light", "mobility": "slider", "axis": [0, 1, 0], "mass": 1, "position": [-0.5, -2, 0]},
+    {"name": "heavy", "mobility": "slider", "axis": [0, 1, 0], "mass": 2, "position": [0.5, -2, 0]}],
+    "cables": [{"name": "rope", "links": [{"type": "attachment", "body": "light"},
+      {"type": "rolling", "body": "wheel", "winding": "clockwise"}, {"type": "attachment", "body": "heavy"}]}])");
+  const Equilibrium rest = find_equilibrium(simulation);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  EXPECT_NEAR(simulation.world.state().bodies[1].position.y(), 0.5 / std::sqrt(3.0), exact);
+  EXPECT_NEAR(tension(simulation, 0, 0), 20.0, 20.0 * exact);
 }
 
 TEST(Equilibrium, BearingBearsBothPartsOfARope) {

@@ -74,6 +74,57 @@ TEST(ModesCommand, TellsFrequenciesAndWritesMatrices) {
   EXPECT_EQ(run_sheave({"modes", scene, "--input", "drive:load"}).exit_code, 2);
 }
 
+TEST(ModesCommand, SaysWhereNothingCanMove) {
+  // A weight on a rail whose rigid rope leaves it nothing.
+  const TemporaryFolder folder;
+  std::string text = hanging_scene;
+  text.erase(text.find("\"compliance\": 0.002, "), std::string("\"compliance\": 0.002, ").size());
+  const std::string scene = folder.write("held.json", text);
+  const ProcessResult result = run_sheave({"modes", scene});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.out.find("nothing can move"), std::string::npos) << result.out;
+  EXPECT_TRUE(json::parse(run_sheave({"modes", scene, "--json"}).out)["modes"].empty());
+}
+
+TEST(ModesCommand, TakesDrivesOfJointsAsInputs) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("ram.json", R"json({
+    "format": "sheave-scene/1", "gravity": [0, 0, 0], "duration": 0.1,
+    "bodies": [
+      {"name": "carriage", "mass": 4, "inertia": [1, 1, 1]},
+      {"name": "tool", "mass": 1, "inertia": [1, 1, 1], "position": [0, 1, 0]}],
+    "joints": [
+      {"type": "slider", "name": "ram", "body_b": "carriage", "anchor": [0, 0, 0], "axis": [1, 0, 0],
+       "stiffness": 50, "drive": "force", "drive_values": [0]},
+      {"type": "cylindrical", "name": "guide", "body_a": "carriage", "body_b": "tool",
+       "anchor": [0, 1, 0], "axis": [0, 1, 0], "travel_stiffness": 20, "angle_stiffness": 3,
+       "travel_drive": "speed", "travel_drive_values": [0]}]
+  })json");
+  const ProcessResult result =
+      run_sheave({"modes", scene, "--json", "--input", "drive:ram", "--input", "drive:guide",
+                  "--output", "carriage.x", "--output", "tool.y"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const json found = json::parse(result.out);
+  // Two motions: both along x, and the tool about its guide; the drive's way is the last state.
+  ASSERT_EQ(found["A"].size(), 5U);
+  ASSERT_EQ(found["B"].size(), 5U);
+  double accelerated = 0.0;  // of the carriage by a force: C A B = 1 / m of both
+  for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t k = 0; k < 5; ++k) {
+      accelerated += found["C"][0][i].get<double>() * found["A"][i][k].get<double>() *
+                     found["B"][k][0].get<double>();
+    }
+  }
+  EXPECT_NEAR(accelerated, 1.0 / 5.0, 1e-6);
+  // What the drive has driven moves the tool as far.
+  EXPECT_EQ(found["B"][4][1].get<double>(), 1.0);
+  EXPECT_NEAR(found["C"][1][4].get<double>(), 1.0, 1e-6);
+  const ProcessResult none = run_sheave({"modes", scene, "--input", "drive:guide.angle"});
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("has drives of guide.travel"), std::string::npos) << none.err;
+  EXPECT_EQ(run_sheave({"modes", scene, "--input", "drive:rum"}).exit_code, 2);
+}
+
 TEST(RunCommand, WritesWhatRopesSuffer) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("hanging.json", hanging_scene);

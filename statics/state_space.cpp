@@ -1,0 +1,217 @@
+#include "statics/state_space.h"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+
+#include "engine/body_set.h"
+#include "engine/index.h"
+#include "engine/joint.h"
+#include "engine/joint_feature.h"
+
+namespace sheave {
+namespace {
+
+/// Whether its row is rigid and holds something.
+bool holds_rigidly(const Acting& acting, std::size_t g) {
+  const ForceUnknown& unknown = acting.rows.unknowns[g];
+  return acting.acts[g] != 0 && !unknown.damper && unknown.compliance == 0.0;
+}
+
+/// M-orthogonal displacement that rigid rows make of a unit of what a drive moves.
+VectorX driven_motion(const Tangent& tangent, const Acting& acting, const VectorX& by_drive) {
+  VectorX wanted(tangent.constraints.rows());
+  Eigen::Index r = 0;
+  for (std::size_t g = 0; g < acting.acts.size(); ++g) {
+    const auto i = static_cast<Eigen::Index>(g);
+    if (!holds_rigidly(acting, g)) continue;
+    if (acting.rows.gradients.row(i).norm() > 0.0) wanted[r++] = -by_drive[i];
+  }
+  if (wanted.size() == 0) return VectorX::Zero(tangent.mass.rows());
+  const MatrixX inverse = tangent.mass.inverse();
+  const MatrixX along = inverse * tangent.constraints.transpose();
+  const MatrixX yield = tangent.constraints * along;
+  return along * Eigen::CompleteOrthogonalDecomposition<MatrixX>(yield).solve(wanted);
+}
+
+/// What a drive moves, as a state d with d' = u.
+class DrivenState {
+ public:
+  DrivenState(const Tangent& tangent, const Acting& acting, VectorX by_drive)
+      : by_drive_(std::move(by_drive)), motion_(driven_motion(tangent, acting, by_drive_)) {
+    pull_ = tangent.stiffness * motion_;
+    drag_ = tangent.damping * motion_;
+    for (std::size_t g = 0; g < acting.acts.size(); ++g) {
+      const auto i = static_cast<Eigen::Index>(g);
+      const ForceUnknown& unknown = acting.rows.unknowns[g];
+      const VectorX action = acting.rows.actions.row(i).transpose();
+      const bool elastic = !unknown.damper && acting.acts[g] != 0 && unknown.compliance > 0.0;
+      if (unknown.damper || elastic) drag_ += unknown.damping * by_drive_[i] * action;
+      if (elastic) pull_ += by_drive_[i] / unknown.compliance * action;
+    }
+  }
+
+  /// Writes it as the state at `place`, and as the input at `column`.
+  void write(Eigen::Index place, Eigen::Index column, Modes& modes) const {
+    const Eigen::Index k = modes.motions.cols();
+    modes.state_matrix.block(k, place, k, 1) = -modes.motions.transpose() * pull_;
+    modes.input_matrix.block(k, column, k, 1) = -modes.motions.transpose() * drag_;
+    modes.input_matrix(place, column) = 1.0;
+    modes.driven_motions.col(place - 2 * k) = motion_;
+    modes.driven_rows.col(place - 2 * k) = by_drive_;
+  }
+
+ private:
+  VectorX by_drive_;
+  VectorX motion_;
+  VectorX pull_;  // forces that balance a unit of it
+  VectorX drag_;  // and a unit of its speed
+};
+
+struct DriveRow {
+  std::size_t feature = 0;
+  int multiplier = -1;  // -1: nothing drives it
+};
+
+/// Where the drive of a joint's coordinate is to be found.
+DriveRow joint_drive_row(const World& world, int joint, int coordinate) {
+  const auto& joints = world.model().joints;
+  const std::string_view type = joints[at(joint)]->type();
+  // A feature has the joints of its type in the order of the model.
+  int index = 0;
+  for (int j = 0; j < joint; ++j) index += joints[at(j)]->type() == type ? 1 : 0;
+  const auto features = world.features();
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    const auto* batch = dynamic_cast<const JointFeature*>(features[f].get());
+    if (batch != nullptr && batch->type() == type) return {f, batch->drive_row(index, coordinate)};
+  }
+  return {};
+}
+
+/// That row's unknown; -1: it has none.
+Eigen::Index drive_unknown(const World& world, const ConfigurationRows& rows,
+                           const ModeInput& input) {
+  const DriveRow drive = joint_drive_row(world, input.joint, input.coordinate);
+  for (std::size_t g = 0; drive.multiplier >= 0 && g < rows.unknowns.size(); ++g) {
+    const ForceUnknown& unknown = rows.unknowns[g];
+    if (unknown.feature == drive.feature && unknown.parts.front().index == drive.multiplier) {
+      return static_cast<Eigen::Index>(g);
+    }
+  }
+  return -1;
+}
+
+/// How one input acts: by a force along the degrees of freedom, or by what it moves.
+struct InputEffect {
+  VectorX force;     ///< empty if it moves something
+  VectorX by_drive;  ///< change of each row's C per unit of that
+};
+
+InputEffect effect_of(Configuration& configuration, const World& world, const Acting& acting,
+                      const ModeInput& input) {
+  using Kind = ModeInput::Kind;
+  const Vector3 zero = Vector3::Zero();
+  const auto count = static_cast<Eigen::Index>(acting.rows.unknowns.size());
+  InputEffect effect;
+  switch (input.kind) {
+    case Kind::force:
+      effect.force = configuration.along(input.body, input.axis, zero);
+      break;
+    case Kind::torque:
+      effect.force = configuration.along(input.body, zero, input.axis);
+      break;
+    case Kind::drive:
+      effect.by_drive = configuration.by_drive(input.body);
+      break;
+    case Kind::joint_drive: {
+      // C = c - d, or a force that is given.
+      const Eigen::Index row = drive_unknown(world, acting.rows, input);
+      effect.by_drive = VectorX::Zero(count);
+      if (row < 0) break;
+      if (acting.rows.unknowns[static_cast<std::size_t>(row)].given()) {
+        effect.force = acting.rows.actions.row(row).transpose();
+      } else {
+        effect.by_drive[row] = -1.0;
+      }
+      break;
+    }
+  }
+  return effect;
+}
+
+}  // namespace
+
+bool has_joint_drive(const World& world, int joint, int coordinate) {
+  return joint_drive_row(world, joint, coordinate).multiplier >= 0;
+}
+
+void fill_state_space(Configuration& configuration, const World& world, const Tangent& tangent,
+                      const Acting& acting, const std::vector<ModeInput>& inputs, Modes& modes) {
+  std::vector<InputEffect> effects;
+  Eigen::Index driven = 0;
+  for (const ModeInput& input : inputs) {
+    effects.push_back(effect_of(configuration, world, acting, input));
+    if (effects.back().force.size() == 0) ++driven;
+  }
+  const Eigen::Index k = modes.motions.cols();
+  const auto columns = static_cast<Eigen::Index>(inputs.size());
+  modes.state_matrix = MatrixX::Zero(2 * k + driven, 2 * k + driven);
+  modes.input_matrix = MatrixX::Zero(2 * k + driven, columns);
+  modes.driven_motions = MatrixX::Zero(modes.motions.rows(), driven);
+  modes.driven_rows = MatrixX::Zero(acting.unknowns.size(), driven);
+  modes.state_matrix.block(0, k, k, k).setIdentity();
+  modes.state_matrix.block(k, 0, k, k) = -modes.stiffness;
+  modes.state_matrix.block(k, k, k, k) = -modes.damping;
+  Eigen::Index place = 2 * k;
+  for (Eigen::Index j = 0; j < columns; ++j) {
+    const InputEffect& effect = effects[static_cast<std::size_t>(j)];
+    if (effect.force.size() > 0) {
+      modes.input_matrix.block(k, j, k, 1) = modes.motions.transpose() * effect.force;
+    } else {
+      DrivenState(tangent, acting, effect.by_drive).write(place++, j, modes);
+    }
+  }
+}
+
+State perturbed_state(Simulation& simulation, const Modes& modes, const Eigen::VectorXd& x) {
+  const State state = simulation.world.state();
+  Configuration configuration(simulation, state, 1.0);
+  const Acting acting = find_acting(configuration, simulation.world.bodies().scale());
+  const ForceTurn turn = turn_of_forces(configuration, acting.unknowns);
+  const Tangent tangent = make_tangent(configuration, acting.rows, turn, acting.acts);
+  const Eigen::Index k = modes.motions.cols();
+  const VectorX driven = x.tail(x.size() - 2 * k);
+  const VectorX q = modes.motions * x.head(k) + modes.driven_motions * driven;
+  const VectorX by_drive = modes.driven_rows * driven;
+  const VectorX rate = modes.motions * x.segment(k, k);
+  const VectorX acceleration = modes.motions * (modes.state_matrix.middleRows(k, k) * x);
+  VectorX unknowns = acting.unknowns;
+  // What rigid rows do follows from the motion that they leave.
+  VectorX missing = tangent.mass * acceleration + tangent.damping * rate + tangent.stiffness * q;
+  std::vector<Eigen::Index> rigid;
+  for (std::size_t g = 0; g < acting.acts.size(); ++g) {
+    const auto i = static_cast<Eigen::Index>(g);
+    const ForceUnknown& unknown = acting.rows.unknowns[g];
+    if (holds_rigidly(acting, g)) rigid.push_back(i);
+    if (acting.acts[g] == 0 || unknown.damper || unknown.compliance == 0.0) continue;
+    const VectorX gradient = (acting.rows.gradients.row(i) + turn.yields.row(i)).transpose();
+    unknowns[i] -= (gradient.dot(q) + by_drive[i]) / unknown.compliance +
+                   unknown.damping * acting.rows.gradients.row(i).dot(rate);
+    missing += by_drive[i] / unknown.compliance * acting.rows.actions.row(i).transpose();
+  }
+  if (!rigid.empty()) {
+    MatrixX columns(missing.size(), static_cast<Eigen::Index>(rigid.size()));
+    for (Eigen::Index r = 0; r < columns.cols(); ++r) {
+      columns.col(r) = acting.rows.actions.row(rigid[static_cast<std::size_t>(r)]).transpose();
+    }
+    const VectorX more = Eigen::CompleteOrthogonalDecomposition<MatrixX>(columns).solve(missing);
+    for (Eigen::Index r = 0; r < more.size(); ++r) {
+      unknowns[rigid[static_cast<std::size_t>(r)]] += more[r];
+    }
+  }
+  configuration.place(q);
+  State result = configuration.finish(configuration.forces_of(acting.rows, unknowns));
+  configuration.set_velocities(rate, result);
+  return result;
+}
+
+}  // namespace sheave

@@ -1,0 +1,13 @@
+#pragma once
+// Machines that say nothing about how well a machine moves.
+
+#include "tests/property/random_machine.h"
+
+namespace sheave::test {
+
+/// Whether nothing could satisfy the machine, or its first step tells of where it begins and not of
+/// how it moves: a rigid cable between bodies that move as they are told, two links of a cable at
+/// one place, bodies with half of them beneath a floor.
+[[nodiscard]] bool asks_the_impossible(const Machine& machine);
+
+}  // namespace sheave::test
