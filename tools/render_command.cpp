@@ -101,7 +101,7 @@ Moments choose_moments(const Scene& scene, const PictureOptions& options, double
 struct Look {
   render::ViewBuilder builder;
   render::Camera camera;
-  double tension_max;  // [N]
+  double tension_max = 0;  // [N]
 };
 
 /// Plays the scene once, to frame it and to give every tension the same colour in every frame.
