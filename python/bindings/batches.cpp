@@ -175,10 +175,13 @@ py::list save_batch(SharedBatch& shared) {
 void restore_batch(SharedBatch& shared, const py::object& states, const py::object& where) {
   Batch& batch = shared.get();
   const std::vector<char> chosen = mask(where, "mask", batch.size());
-  if (!py::isinstance<py::sequence>(states) || py::len(states) != batch.size()) {
+  // Nothing changes a tuple while its items are read.
+  const auto items = py::reinterpret_steal<py::object>(PySequence_Tuple(states.ptr()));
+  if (!items) PyErr_Clear();
+  const auto list = items ? py::reinterpret_borrow<py::tuple>(items) : py::tuple();
+  if (list.size() != batch.size()) {
     refuse("states", states, fmt::format("a list of {} states", batch.size()));
   }
-  const auto list = py::reinterpret_borrow<py::sequence>(states);
   std::vector<State> wanted;
   for (std::size_t i = 0; i < batch.size(); ++i) {
     const py::object one = list[i];

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import operator
 import os
-from typing import TYPE_CHECKING, Any, Mapping, Optional
+from typing import TYPE_CHECKING, Any, List, Mapping, Optional
 
 import numpy as np
 
 from . import _sheave
-from ._errors import ArgumentError
+from ._errors import ArgumentError, shown
 from ._load import SceneLike, json_text, overrides_of, source_of
 
 if TYPE_CHECKING:
@@ -28,12 +29,15 @@ def whole_number(value: Any, name: str, least: int) -> int:
     return number
 
 
-def shown(value: Any) -> str:
-    """For a message, however it looks."""
+def list_of(values: Any, most: int) -> Optional[List[Any]]:
+    """The items of what has items and is no text, one more than `most` if there are more."""
+    if isinstance(values, (str, bytes, Mapping)):
+        return None
     try:
-        return repr(value)[:80]
+        items = values.tolist() if isinstance(values, np.ndarray) else values
+        return list(itertools.islice(items, most + 1))
     except Exception:
-        return f"<{type(value).__name__}>"
+        return None
 
 
 class Batch(_sheave.Batch):
@@ -48,12 +52,16 @@ class Batch(_sheave.Batch):
 
     def __init__(self, scene: SceneLike, n: int, vary: Optional[Mapping[str, Any]] = None,
                  set: Optional[Mapping[str, Any]] = None, threads: Optional[int] = None):
+        n = whole_number(n, "n", 1)
         varied = {}
+        if vary is not None and not isinstance(vary, Mapping):
+            raise ArgumentError("vary: must be a dict from JSON pointers to values, one for each "
+                                f"world, was {shown(vary)}")
         for pointer, values in (vary or {}).items():
-            if isinstance(values, str) or not hasattr(values, "__len__") or len(values) != n:
+            listed = list_of(values, n)
+            if listed is None or len(listed) != n:
                 raise ArgumentError(f"vary: {pointer} must have {n} values, one for each world, "
-                                    f"was {values!r}"[:300])
-            listed = values.tolist() if isinstance(values, np.ndarray) else list(values)
+                                    f"was {shown(values)}")
             varied[str(pointer)] = [json_text(value, str(pointer)) for value in listed]
         if threads is None:
             threads = len(os.sched_getaffinity(0))

@@ -75,3 +75,11 @@ class StateError(Error, ValueError):
 
 class DivergenceError(Error, ArithmeticError):
     """A step has come to no state that means anything; the world is as it was before it."""
+
+
+def shown(value: Any) -> str:
+    """For a message, however it looks."""
+    try:
+        return repr(value)[:80]
+    except Exception:
+        return f"<{type(value).__name__}>"

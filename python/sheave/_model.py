@@ -63,6 +63,9 @@ class Model:
             if not isinstance(value, tuple):
                 raise ArgumentError(f"{name}: must be a list, was {value!r}"[:300])
             value = list(value)
+        if name in SINGLE and not (value is None or isinstance(value, (SINGLE[name], Mapping))):
+            raise ArgumentError(f"{name}: must be a {SINGLE[name].__name__}, a dict or None, "
+                                f"was {value!r}"[:300])
         object.__setattr__(self, name, value)
 
     def add(self, part: A) -> A:

@@ -35,6 +35,8 @@ class Recording(AbstractMapping):  # type: ignore[type-arg]
         return self._rows[:, 0]
 
     def __getitem__(self, name: str) -> "Array":
+        if not isinstance(name, str):
+            raise UnknownNameError(f"name: must be a string, was {type(name).__name__}")
         if name == "t" and name not in self._names:
             return self.time
         if name not in self._names:

@@ -21,7 +21,7 @@ from typing import (
 
 from . import _sheave
 from ._edit import Edit
-from ._errors import ArgumentError, EditError
+from ._errors import ArgumentError, EditError, shown
 from ._load import SceneLike, overrides_of, source_of
 from ._recording import Recording
 from ._sheave import LiveBody, LiveCable, LiveJoint
@@ -130,10 +130,12 @@ class Simulation(_sheave.Simulation):
 
         Without `steps` until the end of the scene's duration. A trigger may end it earlier.
         """
-        if isinstance(names, str):
-            names = [names]
-        rows = self._record(names, steps, every, before_step, before_substep)
-        return Recording(list(names), rows, [self.unit(name) for name in names])
+        try:  # once: what gives its items may give others the next time
+            listed = [names] if isinstance(names, str) else list(names)
+        except Exception:
+            raise ArgumentError(f"names: must be a list of strings, was {shown(names)}") from None
+        rows = self._record(listed, steps, every, before_step, before_substep)
+        return Recording(listed, rows, [self.unit(name) for name in listed])
 
     def plot(self, *names: str, steps: Optional[int] = None, every: int = 1, axes: Any = None,
              **options: Any) -> Any:

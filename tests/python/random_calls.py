@@ -205,7 +205,9 @@ class Caller:
                 setattr(thing, name, given)
                 return
             own = getattr(thing, name)
-            if not callable(own):
+            kept_there = (isinstance(thing, (sheave.Model, sheave.Part))
+                          and not any(getattr(own, "__self__", None) is one for one in (thing, type(thing))))
+            if not callable(own) or kept_there:  # what has been put there is not the module's to answer for
                 self.keep(own)
                 return
             given, named = self.arguments(own, name)

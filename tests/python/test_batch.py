@@ -331,3 +331,30 @@ def test_names_are_a_list_of_strings():
     for wrong in (np.array(1, dtype="u1"), [1], b"heavy.y", {1: 2}, 3):
         with pytest.raises((TypeError, sheave.Error), match="names"):
             simulation.record(wrong, 3)
+
+
+class Unsized:
+    """What says that it has a length, and has none."""
+
+    def __len__(self):
+        raise ZeroDivisionError("no length")
+
+    def __iter__(self):
+        raise ZeroDivisionError("no items")
+
+
+@pytest.mark.parametrize("wrong", [np.array(1.0), Unsized(), b"12", {"a": 1, "b": 2}, iter([1.0] * 3), 1])
+def test_varied_values_must_be_one_for_each_world(wrong):
+    with pytest.raises(sheave.ArgumentError, match="/bodies/heavy/mass must have 2 values"):
+        sheave.Batch(ATWOOD, 2, vary={"/bodies/heavy/mass": wrong})
+    with pytest.raises(sheave.ArgumentError, match="vary: must be a dict"):
+        sheave.Batch(ATWOOD, 2, vary=[wrong])
+
+
+@pytest.mark.parametrize("wrong", [np.array(b"state"), Unsized(), b"12", 1, None, [b""], [b"", 2]])
+def test_states_must_be_one_for_each_world(wrong):
+    batch = sheave.Batch(ATWOOD, 2)
+    before = batch.hashes
+    with pytest.raises((sheave.ArgumentError, sheave.StateError)):
+        batch.restore(wrong)
+    assert (batch.hashes == before).all()

@@ -217,3 +217,14 @@ def test_methods_take_nonsense(name, arguments):
     except (sheave.Error, TypeError, ValueError, AttributeError):
         pass
     sim.step()
+
+
+@pytest.mark.parametrize("name", ["step", "ground", "camera"])
+def test_what_a_model_has_once_is_checked_when_it_is_set(name):
+    model = sheave.Model()
+    for wrong in ("", 3, int, sheave.Body):
+        with pytest.raises(sheave.ArgumentError, match=f"{name}: must be a {name.capitalize()}, a dict or None"):
+            setattr(model, name, wrong)
+    setattr(model, name, {})
+    setattr(model, name, None)
+    assert getattr(model, name) is None

@@ -347,3 +347,19 @@ def test_errors_have_a_class_of_their_own():
         assert issubclass(getattr(sheave, name), sheave.Error)
     assert issubclass(sheave.UnknownNameError, KeyError)
     assert issubclass(sheave.ArgumentError, (TypeError, ValueError))
+
+
+def test_a_recording_is_asked_by_names(atwood):
+    recording = atwood.record(["heavy.y"], 2)
+    for wrong in (1, None, np.array(["heavy.y", "t"]), ["heavy.y"]):
+        with pytest.raises(sheave.UnknownNameError, match="name: must be a string"):
+            recording[wrong]
+
+
+def test_a_recording_keeps_its_own_names(atwood):
+    names = ["heavy.y"]
+    recording = atwood.record(names, 2)
+    names[0] = 3
+    assert repr(recording) == "<Recording of heavy.y: 3 rows>"
+    with pytest.raises(sheave.ArgumentError, match="names: "):
+        atwood.record(7)
