@@ -37,6 +37,10 @@ StepReport Simulation::step(const StopRequest& stop) {
   return world.step(stop, [this] { supervisor->supervise(*this); });
 }
 
+std::int64_t Simulation::leap(std::int64_t count) {
+  return supervisor == nullptr ? world.leap(count) : 0;
+}
+
 std::vector<CableReport> Simulation::cable_reports() const {
   if (cables == nullptr) return {};
   return cables->report(world.bodies(), world.state(), world.state().features.back());

@@ -60,6 +60,9 @@ struct Simulation {
   /// World::step(), with the supervisor if there is one.
   [[nodiscard]] StepReport step(const StopRequest& stop = {});
 
+  /// World::leap(); none where there is a supervisor, which acts before each substep.
+  std::int64_t leap(std::int64_t count);
+
   /// All faults of bodies, joints and cables are reported together.
   static Result<Simulation> create(const Model& model, const std::vector<CableDef>& cables);
   /// The faults that create() would report, with less work and memory where there are no cables.

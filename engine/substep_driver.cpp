@@ -33,6 +33,15 @@ int SubstepDriver::run_affine(int index, int end, State* start) {
   return done;
 }
 
+std::int64_t SubstepDriver::leap(std::int64_t count) {
+  const std::int64_t done = affine_ ? affine_->leap(count, state_, before_, substep_) : 0;
+  if (done > 0) {
+    has_stepped_ = false;
+    next_is_old_ = true;
+  }
+  return done;
+}
+
 void SubstepDriver::keep_start(State& start) {
   start.steps = state_.steps;
   start.time = state_.time;

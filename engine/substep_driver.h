@@ -54,6 +54,8 @@ class SubstepDriver {
   /// `start`, unless it is null, becomes the state before them; it must be the same one each time,
   /// and nobody else may change it unless by the whole state.
   int run_affine(int index, int end, State* start);
+  /// AffineMotion::leap(); there is no before() then until the next substep.
+  std::int64_t leap(std::int64_t count);
   /// Advances the state by substep `index` of the step. If it diverges the state is the last good
   /// one.
   std::optional<Divergence> run(int index);

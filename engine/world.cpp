@@ -159,6 +159,13 @@ StepReport World::step(const StopRequest& stop, const std::function<void()>& bef
   return report;
 }
 
+std::int64_t World::leap(std::int64_t count) {
+  Content& c = *content_;
+  const std::int64_t done = c.driver.leap(count);
+  if (done > 0 && c.stays_in_place) c.driver.put_in_place(c.bodies_place, c.reals_place);
+  return done;
+}
+
 void World::keep_in_place() {
   Content& c = *content_;
   if (c.stays_in_place) return;

@@ -101,6 +101,13 @@ class World {
   [[nodiscard]] StepReport step(const StopRequest& stop,
                                 const std::function<void()>& before_substep);
 
+  /// Makes at most `count` of the steps that step() would make, bit for bit, as long as they are of
+  /// the kind that costs next to nothing (engine/solvers/affine_motion.h), one substep each, and no
+  /// loads have been set; returns how many, mostly all or none. What a step tells besides the state
+  /// is not there for these: statistics, last_substep(), events. For callers that look at the state
+  /// only after many steps: leap, then step().
+  std::int64_t leap(std::int64_t count);
+
   // Controls: set between steps or before substeps, in force from the next substep on until they
   // are set anew or cleared, and part of the state (engine/controls.h). Where a request cannot be
   // met nothing changes, and the error says what is allowed. None allocates when it repeats one

@@ -253,13 +253,21 @@ void AffineBodies::store(const std::vector<double>& places, const std::vector<do
       // By what it has moved: a direction whose length is rounded would make the whole place creep.
       body.position = sum(loaded.bodies[at(mover.body)].position, place - loaded_[d], mover.axis);
       body.velocity = speed * mover.axis;
-      continue;
+    } else {
+      turn(mover, place, speed, body);
     }
-    body.angle = place;
-    body.angular_velocity = speed * mover.axis;
-    const auto [sine, cosine] = sine_cosine(0.5 * place);
-    body.orientation.coeffs() = cosine * mover.upright.coeffs() + sine * mover.turned.coeffs();
   }
+  carry_mounted(state);
+}
+
+void AffineBodies::turn(const Mover& mover, double place, double speed, BodyState& body) {
+  body.angle = place;
+  body.angular_velocity = speed * mover.axis;
+  const auto [sine, cosine] = sine_cosine(0.5 * place);
+  body.orientation.coeffs() = cosine * mover.upright.coeffs() + sine * mover.turned.coeffs();
+}
+
+void AffineBodies::carry_mounted(State& state) const {
   for (const int number : mounted_) {
     const Mover& mover = movers_[at(number)];
     const BodyState& carrier = state.bodies[at(mover.carrier)];
@@ -267,6 +275,50 @@ void AffineBodies::store(const std::vector<double>& places, const std::vector<do
     body.position = carrier.position + mover.offset;
     body.velocity = carrier.velocity;
   }
+}
+
+void AffineBodies::begin_unseen(const State& loaded) {
+  positions_.resize(movers_.size());
+  seen_places_.resize(movers_.size());
+  seen_speeds_.resize(movers_.size());
+  for (std::size_t d = 1; d < movers_.size(); ++d) {
+    positions_[d] = loaded.bodies[at(movers_[d].body)].position;
+  }
+}
+
+void AffineBodies::pass_unseen() {
+  places_.swap(seen_places_);
+  speeds_.swap(seen_speeds_);
+  const Mover* const movers = movers_.data();
+  const double* const places = seen_places_.data();
+  const double* const speeds = seen_speeds_.data();
+  const std::size_t count = movers_.size();
+  for (std::size_t d = 1; d < count; ++d) {
+    const Mover& mover = movers[d];
+    double place = places[d];
+    if (mover.slides) {
+      positions_[d] = sum(positions_[d], place - loaded_[d], mover.axis);
+      place = dot(mover.axis, positions_[d]);
+      loaded_[d] = place;
+    }
+    places_[d] = place;
+    const Vector3 velocity = speeds[d] * mover.axis;
+    speeds_[d] = dot(mover.axis, velocity);
+  }
+}
+
+void AffineBodies::end_unseen(State& state) const {
+  for (std::size_t d = 1; d < movers_.size(); ++d) {
+    const Mover& mover = movers_[d];
+    BodyState& body = state.bodies[at(mover.body)];
+    if (mover.slides) {
+      body.position = positions_[d];
+      body.velocity = seen_speeds_[d] * mover.axis;
+    } else {
+      turn(mover, seen_places_[d], seen_speeds_[d], body);
+    }
+  }
+  carry_mounted(state);
 }
 
 }  // namespace sheave

@@ -63,6 +63,16 @@ class AffineBodies {
   /// The end of the substep becomes the start of the next one.
   void go_on();
 
+  // Steps of which nobody sees the states between them: what store_end() and load() would do after
+  // each, to the last bit, but for what only those who look need.
+
+  /// To be called after load().
+  void begin_unseen(const State& loaded);
+  /// The start of the next substep, which go_on() has made, becomes that of the next step.
+  void pass_unseen();
+  /// Writes the end of the last step that has passed.
+  void end_unseen(State& state) const;
+
   /// Writes the start of the last substep, of which go_on() was called, to `state`, whose other
   /// bodies and numbers are those of `loaded`, the state that was loaded. Both may be the same.
   void store_start(const State& loaded, State& state) const {
@@ -95,6 +105,8 @@ class AffineBodies {
   [[nodiscard]] bool take_set_loads(const State& state);
   void store(const std::vector<double>& places, const std::vector<double>& speeds,
              const State& loaded, State& state) const;
+  static void turn(const Mover& mover, double place, double speed, BodyState& body);
+  void carry_mounted(State& state) const;
 
   const BodySet* bodies_;
   std::vector<int> numbers_;   ///< per body, and of the world
@@ -111,6 +123,8 @@ class AffineBodies {
   std::vector<double> farthest_, fastest_;  ///< beyond these a state means nothing
   std::vector<double> loaded_;              ///< places of load()
   std::vector<double> places_, speeds_, motion_, end_places_, end_speeds_;
+  std::vector<double> seen_places_, seen_speeds_;  ///< of the step that has passed, as it ended
+  std::vector<Vector3> positions_;                 ///< likewise
 };
 
 }  // namespace sheave

@@ -381,9 +381,7 @@ bool AffineMotion::finish(const Interval& time, const State& state, State& next,
 
 int AffineMotion::advance(int first, int last, State& state, State& before, Substep& substep,
                           State* start) {
-  const Controls& controls = state.controls;
-  if (controls.cables_any() || controls.motions.any() || controls.joint_drives.any()) return 0;
-  if (substep.work.stops()) return 0;
+  if (!runs_free(state.controls) || substep.work.stops()) return 0;
   substep.h = settings_.dt / settings_.substeps;
   substep.load_share = rattle_ ? 0.5 : 1.0;
   prepare(substep);
@@ -426,6 +424,36 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
   before.steps = state.steps;
   keep_forces(substep);
   count(done, substep.statistics);
+  return done;
+}
+
+bool AffineMotion::runs_free(const Controls& controls) {
+  return !controls.cables_any() && !controls.motions.any() && !controls.joint_drives.any();
+}
+
+std::int64_t AffineMotion::leap(std::int64_t count, State& state, State& before, Substep& substep) {
+  // A step of several substeps that ends in the middle would have to go back. Loads that have been
+  // set are looked at once a step.
+  if (count <= 0 || !agree_ || settings_.substeps != 1 || !runs_free(state.controls) ||
+      state.controls.has_gravity || state.controls.forces.any()) {
+    return 0;
+  }
+  substep.h = settings_.dt;
+  substep.load_share = rattle_ ? 0.5 : 1.0;
+  prepare(substep);
+  if (!bodies_.load(state)) return 0;
+  bodies_.begin_unseen(state);
+  std::int64_t done = 0;
+  for (; done < count; ++done) {
+    const double end = static_cast<double>(state.steps + 1) * settings_.dt;
+    if (!attempt({state.time, end}, false, state, before, substep)) break;
+    bodies_.go_on();
+    bodies_.pass_unseen();
+    state.features.swap(before.features);
+    state.time = end;
+    ++state.steps;
+  }
+  if (done > 0) bodies_.end_unseen(state);
   return done;
 }
 

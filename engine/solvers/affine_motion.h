@@ -48,6 +48,10 @@ class AffineMotion {
   /// the last of them; if some are left, `start`, unless it is null or there is none of them,
   /// becomes the state before all of them.
   int advance(int first, int last, State& state, State& before, Substep& substep, State* start);
+  /// At most `count` whole steps, bit for bit those that advance() makes, as long as they are such,
+  /// if settings and controls are simple: their number. Of `before`, only what no such step changes
+  /// and what the next advance() needs is right afterwards; statistics mean nothing.
+  std::int64_t leap(std::int64_t count, State& state, State& before, Substep& substep);
   /// To be called when a state has come about in another way.
   void forget() { agree_ = false; }
 
@@ -61,6 +65,8 @@ class AffineMotion {
   AffineMotion(const Model& model, const BodySet& bodies, Features features, AffineBodies moving);
   bool append(Features features);
   void find_matrix();
+  /// Whether nothing is set but loads.
+  [[nodiscard]] static bool runs_free(const Controls& controls);
   /// One substep between these times [s] from `state` to `next`.
   /// `fresh`: see AffineSubstep.
   bool attempt(const Interval& time, bool fresh, const State& state, State& next, Substep& substep);

@@ -1,5 +1,8 @@
 #include "python/bindings/batch.h"
 
+#include <algorithm>
+#include <atomic>
+
 #include <fmt/format.h>
 
 #include "scenes/control/scene_supervisor.h"
@@ -36,6 +39,9 @@ SceneResult read_scene(const Batch::Source& source, const std::vector<Override>&
 bool is_same(const Simulation& a, const std::vector<std::string>& names) {
   return ObservableSet(a).names() == names;
 }
+
+// Few enough that an interrupt is heard soon, many enough that one step among them costs little.
+constexpr std::int64_t most_unseen = 63;
 
 }  // namespace
 
@@ -98,6 +104,7 @@ void Batch::step(std::int64_t count, std::span<const char> chosen,
     if (chosen[i] == 0 || has_diverged(i) || world.stopped) return;
     const Supervisor* supervisor = world.simulation.supervisor.get();
     for (std::int64_t k = 0; k < count && !ends.load(std::memory_order_relaxed); ++k) {
+      k += world.simulation.leap(std::min(count - k - 1, most_unseen));
       const StepReport report = world.simulation.step();
       if (report.divergence) {
         world.divergence = report.divergence->message;

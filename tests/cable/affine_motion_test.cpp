@@ -260,6 +260,64 @@ TEST_P(AffineMotion, SnapshotGoesOnBitForBit) {
   EXPECT_EQ(hash(second.world.state()), hash(whole.world.state()));
 }
 
+/// The number of steps among `steps` that leaps have made; after each the state is the same bit for
+/// bit as that of a world that makes one after the other.
+std::int64_t leap_beside(const test::Machine& machine, int steps) {
+  Simulation walking = test::start(machine);
+  Simulation leaping = test::start(machine);
+  std::int64_t leapt = 0;
+  std::int64_t stride = 1;
+  while (leaping.world.state().steps < steps) {
+    leapt += leaping.leap(stride);
+    EXPECT_TRUE(leaping.world.step().ok());
+    EXPECT_TRUE(leaping.world.last_substep().has_value());
+    stride = stride % 7 + 2;
+    while (walking.world.state().steps < leaping.world.state().steps) {
+      EXPECT_TRUE(walking.world.step().ok());
+    }
+    EXPECT_EQ(hash(leaping.world.state()), hash(walking.world.state()));
+    EXPECT_EQ(leaping.world.state().time, walking.world.state().time);
+    if (testing::Test::HasFailure()) break;
+  }
+  return leapt;
+}
+
+TEST_P(AffineMotion, LeapsAreStepsBitForBit) {
+  const bool alone = substeps() == 1;
+  test::Machine thrown = train(integrator(), substeps());
+  thrown.model.ground = GroundDef{{0.0, -2.6, 0.0}, Vector3::UnitY()};
+  // A direction whose length is rounded makes each end of a step another start.
+  test::Machine askew = train(integrator(), substeps());
+  const Quaternion tilt = rotation_by({0.2, 0.3, 0.1});
+  askew.model.gravity = tilt * askew.model.gravity;
+  for (BodyDef& body : askew.model.bodies) {
+    body.position = tilt * body.position;
+    body.orientation = tilt * body.orientation;
+    if (body.axis) body.axis = tilt * *body.axis;
+  }
+  for (const test::Machine& machine :
+       {train(integrator(), substeps()), elastic_train(integrator(), substeps()),
+        tackle(integrator(), substeps()), thrown, askew}) {
+    const std::int64_t leapt = leap_beside(machine, 150);
+    EXPECT_EQ(leapt > 40, alone) << leapt;
+  }
+  for (const DriveKind drive : {DriveKind::torque, DriveKind::speed, DriveKind::angle}) {
+    EXPECT_EQ(leap_beside(winch(integrator(), substeps(), drive), 130) > 40, alone);
+  }
+}
+
+TEST_P(AffineMotion, LeapsHaveNoLastSubstepAndLeaveSetLoadsToSteps) {
+  Simulation own = test::start(train(integrator(), substeps()));
+  ASSERT_TRUE(own.world.step().ok());
+  const std::int64_t done = own.leap(10);
+  EXPECT_EQ(done, substeps() == 1 ? 10 : 0);
+  EXPECT_EQ(own.world.last_substep().has_value(), done == 0);
+  EXPECT_EQ(own.leap(0), 0);
+  EXPECT_EQ(own.leap(-1), 0);
+  ASSERT_TRUE(own.world.set_gravity({0.0, -1.0, 0.0}).empty());
+  EXPECT_EQ(own.leap(10), 0);
+}
+
 TEST_P(AffineMotion, StoppedAnywhereItIsAsBefore) {
   // The light weight is thrown up, so that steps are begun in one way and ended in another.
   test::Machine m = train(integrator(), substeps());
