@@ -1,6 +1,7 @@
 #include "statics/modes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <Eigen/Eigenvalues>
@@ -147,6 +148,39 @@ std::vector<std::string> freedom_names(const Simulation& simulation) {
     }
   }
   return names;
+}
+
+std::string largest_motion(const Simulation& simulation, const Mode& mode) {
+  if (mode.body < 0) return "";
+  const BodyFreedom& freedom = simulation.world.bodies().coordinates()[mode.body];
+  const auto part = [&](int k) { return mode.shape[freedom.first - 1 + k]; };
+  const auto parts = [&](int k) { return Vector3(part(k), part(k + 1), part(k + 2)); };
+  Vector3 way = Vector3::Zero();
+  Vector3 turn = Vector3::Zero();  // about axes of the world; of a body in a plane only its size
+  switch (freedom.kind) {
+    case Freedom::line:
+      way = part(0) * freedom.along;
+      break;
+    case Freedom::plane:
+      way = part(0) * freedom.along + part(1) * freedom.across;
+      turn.z() = part(2);
+      break;
+    case Freedom::space:
+      way = parts(0);
+      turn = parts(3);
+      break;
+    case Freedom::none:
+    case Freedom::turn:
+    case Freedom::angle:
+      return "turn";
+  }
+  constexpr std::array<const char*, 3> axes{"x", "y", "z"};
+  constexpr double stays = 1e-6;  // above what rounding leaves of a shape [m per rad]
+  const bool moves = way.norm() > stays * turn.norm();
+  if (!moves && freedom.kind == Freedom::plane) return "turn";
+  Eigen::Index largest = 0;
+  (moves ? way : turn).cwiseAbs().maxCoeff(&largest);
+  return (moves ? "" : "turn_") + std::string(axes[at(static_cast<int>(largest))]);
 }
 
 State displaced_state(Simulation& simulation, const Modes& modes, const Eigen::VectorXd& shape,

@@ -80,6 +80,11 @@ struct Modes {
 /// Names of the degrees of freedom that shapes are along: "<body>.x", "<body>.turn_z", ...
 [[nodiscard]] std::vector<std::string> freedom_names(const Simulation& simulation);
 
+/// What the body with most of a mode's energy does: "x", "y" or "z", the world axis along which its
+/// centre of mass moves most. Where that stays in place, for metres and radians do not compare, it
+/// is "turn", of a body in space "turn_x", "turn_y" or "turn_z"; of no body "".
+[[nodiscard]] std::string largest_motion(const Simulation& simulation, const Mode& mode);
+
 /// The state in which the machine is displaced by `amplitude` times a shape, moved back to where
 /// its rigid rows are met.
 [[nodiscard]] State displaced_state(Simulation& simulation, const Modes& modes,

@@ -134,6 +134,9 @@ ExitCode modes(const ModesOptions& options) {
   found.scene = scene.name.empty() ? options.scene.path : scene.name;
   found.modes = find_modes(simulation, inputs);
   found.freedoms = freedom_names(simulation);
+  for (const Mode& mode : found.modes.modes) {
+    found.motions.push_back(largest_motion(simulation, mode));
+  }
   found.inputs = options.inputs;
   for (const BodyDef& body : scene.model.bodies) found.bodies.push_back(body.name);
   take_outputs(simulation, options.outputs, found);
@@ -185,6 +188,12 @@ Action declare_modes(CLI::App& app) {
       ->option_text("X");
   app.add_option("--still", options->video.still, "write the mode at its largest as a picture")
       ->option_text("FILE");
+  app.add_option("--width", options->video.width, "of film and picture in pixels; default 1280")
+      ->check(CLI::Range(least_mode_picture, most_mode_picture))
+      ->option_text("N");
+  app.add_option("--height", options->video.height, "pixels; default 720")
+      ->check(CLI::Range(least_mode_picture, most_mode_picture))
+      ->option_text("N");
   app.add_option("--count", options->count, "how many modes the table has; default 20")
       ->check(CLI::Range(std::size_t{1}, std::size_t{1} << 20))
       ->option_text("N");

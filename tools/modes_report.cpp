@@ -141,8 +141,9 @@ std::string modes_text(const ModesFound& found, std::size_t count) {
   std::string text = fmt::format("{}: {} modes of {} degrees of freedom\n{}\n", found.scene,
                                  modes.modes.size(), found.freedoms.size(), notes(found));
   if (modes.modes.empty()) return text + "  nothing can move\n";
-  TextTable table({"mode", "most of its energy", "frequency [Hz]", "period [s]", "damping ratio"},
-                  2);
+  TextTable table(
+      {"mode", "most of its energy", "moves most", "frequency [Hz]", "period [s]", "damping ratio"},
+      3);
   for (std::size_t i = 0; i < std::min(count, modes.modes.size()); ++i) {
     const Mode& mode = modes.modes[i];
     const std::string body =
@@ -151,7 +152,7 @@ std::string modes_text(const ModesFound& found, std::size_t count) {
             : fmt::format("{} ({:.0f} %)", found.bodies[static_cast<std::size_t>(mode.body)],
                           100.0 * mode.body_share);
     const bool vibrates = mode.frequency > 0.0;
-    table.add({fmt::format("{}", i + 1), body,
+    table.add({fmt::format("{}", i + 1), body, found.motions[i],
                vibrates                ? short_number(mode.frequency)
                : mode.eigenvalue < 0.0 ? "runs away"
                                        : "0",
@@ -168,7 +169,8 @@ std::string modes_text(const ModesFound& found, std::size_t count) {
 std::string modes_json(const std::string& path, const ModesFound& found) {
   const Modes& modes = found.modes;
   ModesJson list = ModesJson::array();
-  for (const Mode& mode : modes.modes) {
+  for (std::size_t k = 0; k < modes.modes.size(); ++k) {
+    const Mode& mode = modes.modes[k];
     ModesJson shape = ModesJson::object();
     for (std::size_t i = 0; i < found.freedoms.size(); ++i) {
       shape[found.freedoms[i]] = mode.shape[static_cast<Eigen::Index>(i)];
@@ -180,6 +182,7 @@ std::string modes_json(const std::string& path, const ModesFound& found) {
          {"body", mode.body < 0 ? ModesJson()
                                 : ModesJson(found.bodies[static_cast<std::size_t>(mode.body)])},
          {"body_share", mode.body_share},
+         {"moves_most", found.motions[k]},
          {"shape", std::move(shape)}});
   }
   ModesJson poles = ModesJson::array();

@@ -15,6 +15,7 @@ struct ModesFound {
   std::optional<Equilibrium> rest;  ///< none: linearised about the pose as it was
   Modes modes;
   std::vector<std::string> freedoms;
+  std::vector<std::string> motions;  ///< largest_motion() of each mode
   std::vector<std::string> bodies;
   std::vector<std::string> inputs;
   std::vector<std::string> outputs;

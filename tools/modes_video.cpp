@@ -9,6 +9,7 @@
 #if SHEAVE_HAS_RENDER
 
 #include "engine/body_set.h"
+#include "render/renderer.h"
 #include "render/scene_view.h"
 #include "render/view_builder.h"
 #include "render/view_survey.h"
@@ -18,6 +19,8 @@
 namespace sheave::tools {
 namespace {
 
+static_assert(least_mode_picture == render::Renderer::min_side);
+static_assert(most_mode_picture == render::Renderer::max_side / 2);
 constexpr int film_frames = 120;
 constexpr double film_rate = 30.0;  // [1/s]
 constexpr int film_periods = 2;
@@ -95,6 +98,8 @@ void animate_mode(const Scene& scene, Simulation& simulation, const Modes& modes
   PictureOptions options;
   options.video = video.path;
   options.still = video.still;
+  options.width = video.width;
+  options.height = video.height;
   options.fps = film_rate;
   const std::vector<CableReport> cables = simulation.cable_reports();
   render::ViewBuilder builder(simulation.world, cables, view);

@@ -55,7 +55,7 @@ ExitCode statics(const StaticsOptions& options) {
     file.commit();
   }
   print(options.json ? statics_json(options.scene.path, results)
-                     : printable(statics_text(results)));
+                     : printable(statics_text(results, !options.quantities.empty())));
   ExitCode code = ExitCode::done;
   for (const StaticsResult& result : results) {
     if (result.rest.converged) continue;
@@ -81,8 +81,8 @@ Action declare_statics(CLI::App& app) {
       ->expected(1)
       ->take_all();
   app.add_option("--quantity", options->quantities,
-                 "a quantity for the table, by its name in the files of sheave run; may be "
-                 "repeated; default: the largest tension of each cable")
+                 "a quantity to tell, by its name in the files of sheave run; may be repeated; "
+                 "default of the table of cases: the largest tension of each cable")
       ->option_text("NAME")
       ->expected(1)
       ->take_all();

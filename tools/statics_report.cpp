@@ -245,8 +245,16 @@ StaticsResult find_rest(const StaticsCase& one, const EquilibriumSettings& setti
   return result;
 }
 
-std::string statics_text(const std::vector<StaticsResult>& results) {
-  if (results.size() == 1 && results.front().name.empty()) return one_text(results.front());
+std::string statics_text(const std::vector<StaticsResult>& results, bool quantities) {
+  if (results.size() == 1 && results.front().name.empty()) {
+    const StaticsResult& only = results.front();
+    if (!quantities || !only.rest.converged) return one_text(only);
+    TextTable asked({"quantity", "value"}, 1);
+    for (std::size_t i = 0; i < only.quantities.size(); ++i) {
+      asked.add({only.quantities[i], short_number(only.values[i])});
+    }
+    return one_text(only) + "\n" + asked.text();
+  }
   std::vector<std::string> head{"case", "found", "stability"};
   head.insert(head.end(), results.front().quantities.begin(), results.front().quantities.end());
   TextTable table(std::move(head), 3);

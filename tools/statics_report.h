@@ -36,7 +36,8 @@ struct StaticsResult {
 /// Loads the scene and finds its rest. A Failure (2) if a quantity does not exist.
 [[nodiscard]] StaticsResult find_rest(const StaticsCase& one, const EquilibriumSettings& settings,
                                       const std::vector<std::string>& quantities);
-[[nodiscard]] std::string statics_text(const std::vector<StaticsResult>& results);
+/// One rest in full, with its quantities if they were asked for, or a table of cases.
+[[nodiscard]] std::string statics_text(const std::vector<StaticsResult>& results, bool quantities);
 [[nodiscard]] std::string statics_json(const std::string& path,
                                        const std::vector<StaticsResult>& results);
 

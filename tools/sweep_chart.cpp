@@ -193,7 +193,7 @@ class SweepChart {
         failed += place + "\n";
         continue;
       }
-      cells += fmt::format("{} {:.12g} {:.3g}\n", place, value, value);
+      cells += fmt::format("{} {:.12g} {:.4g}\n", place, value, value);
       low = any ? std::min(low, value) : value;
       high = any ? std::max(high, value) : value;
       any = true;

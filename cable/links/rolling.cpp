@@ -21,8 +21,8 @@ std::span<const Field> RollingLink::field_table() {
           field<&RollingLink::efficiency>(
               "efficiency", "", {.minimum = 0.0, .maximum = 1.0, .minimum_allowed = false},
               optional,
-              "of a wheel without spin inertia: tension out over tension in, in the direction "
-              "in which the cable moves; default: 1"),
+              "of a wheel without spin inertia: tension of the cable that comes to it over that of "
+              "the cable that goes from it; default: 1"),
           field<&RollingLink::lifted>(
               "lifted", "", {}, optional,
               "whether the cable passes the wheel by at time 0; it is wound on "

@@ -17,8 +17,8 @@ class RollingLink final : public WheelLink {
   /// Capstan coefficient, >= 0; default: the cable does not slip. With it, it slips as soon as the
   /// ratio of the tensions passes e^(friction x wrap angle), any number of turns.
   std::optional<double> friction;
-  /// Of a wheel without spin inertia: the part of the tension that comes out on the side to which
-  /// cable moves, in (0, 1]; default: all of it. What is lost in bearing and rope is told as one
+  /// Of a wheel without spin inertia: the tension of the cable that comes to it over that of the
+  /// cable that goes from it, in (0, 1]; default: 1. What is lost in bearing and rope is told as one
   /// number, 0.98 for wire rope on roller bearings.
   std::optional<double> efficiency;
   /// The cable passes the wheel by at time 0; it is wound on, as `winding` says, when it comes to

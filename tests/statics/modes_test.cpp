@@ -50,10 +50,16 @@ TEST(Modes, DoublePendulum) {
     {"name": "l", "links": [{"type": "attachment", "body": "a"}, {"type": "attachment", "body": "b"}]}])");
   const Equilibrium rest = find_equilibrium(simulation);
   ASSERT_TRUE(rest.converged) << rest.message;
-  const std::vector<double> found = squares(find_modes(simulation));
+  const Modes modes = find_modes(simulation);
+  const std::vector<double> found = squares(modes);
   ASSERT_EQ(found.size(), 4U);
   EXPECT_NEAR(found[2], 10.0 * (2.0 - std::sqrt(2.0)), 10.0 * near);
   EXPECT_NEAR(found[3], 10.0 * (2.0 + std::sqrt(2.0)), 40.0 * near);
+  // Strings are upright, so bobs begin to move along x; without stiffness they turn where they are.
+  EXPECT_EQ(largest_motion(simulation, modes.modes[0]), "turn");
+  EXPECT_EQ(largest_motion(simulation, modes.modes[1]), "turn");
+  EXPECT_EQ(largest_motion(simulation, modes.modes[2]), "x");
+  EXPECT_EQ(largest_motion(simulation, modes.modes[3]), "x");
 }
 
 TEST(Modes, BeadsOnAString) {

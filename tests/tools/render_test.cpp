@@ -49,6 +49,25 @@ std::vector<int> png_size(const std::string& bytes) {
   return {number(16), number(20)};
 }
 
+TEST(ModesCommand, DrawsAModeOfTheSizeAskedFor) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("spring.json", R"json({
+    "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 0.1,
+    "bodies": [{"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 2,
+                "position": [0, -1, 0], "shape": {"type": "sphere", "radius": 0.1}}],
+    "cables": [{"name": "rope", "compliance": 0.002, "links": [
+      {"type": "attachment", "body": "world"}, {"type": "attachment", "body": "load"}]}]
+  })json");
+  std::vector<std::string> options{"modes", scene, "--still", folder.path("mode.png")};
+  options.insert(options.end(), small.begin(), small.end());
+  const ProcessResult result = run_sheave(options);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(png_size(read_file(folder.path("mode.png"))), ElementsAre(96, 64));
+  EXPECT_EQ(
+      run_sheave({"modes", scene, "--still", folder.path("mode.png"), "--width", "8"}).exit_code,
+      2);
+}
+
 TEST(RenderCommand, WritesEveryOutputInOneGo) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);

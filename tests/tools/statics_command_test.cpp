@@ -20,6 +20,15 @@ const std::string hanging_scene = R"json({
     {"type": "attachment", "body": "world"}, {"type": "attachment", "body": "load"}]}]
 })json";
 
+/// A table as it reads, whatever the widths of its columns.
+std::string with_single_blanks(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    if (c != ' ' || result.empty() || result.back() != ' ') result += c;
+  }
+  return result;
+}
+
 TEST(StaticsCommand, TellsARest) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("hanging.json", hanging_scene);
@@ -48,6 +57,16 @@ TEST(StaticsCommand, MakesATableOfLoadCases) {
   EXPECT_NEAR(cases[1]["quantities"]["load.y"].get<double>(), -1.06, 1e-10);
 }
 
+TEST(StaticsCommand, TellsQuantitiesOfOneRest) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("hanging.json", hanging_scene);
+  const ProcessResult result = run_sheave({"statics", scene, "--quantity", "load.y"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  // 1 m of rope and m g c = 2 x 10 x 0.002 m of its stretch.
+  EXPECT_NE(with_single_blanks(result.out).find("load.y -1.04"), std::string::npos) << result.out;
+  EXPECT_EQ(run_sheave({"statics", scene}).out.find("quantity"), std::string::npos);
+}
+
 TEST(StaticsCommand, SaysWhatIsWrong) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("hanging.json", hanging_scene);
@@ -72,6 +91,27 @@ TEST(ModesCommand, TellsFrequenciesAndWritesMatrices) {
   EXPECT_EQ(read_file(folder.path("m.A.npy")).substr(1, 5), "NUMPY");
   EXPECT_EQ(read_file(folder.path("m.K.npy")).size() % 8, 0U);
   EXPECT_EQ(run_sheave({"modes", scene, "--input", "drive:load"}).exit_code, 2);
+}
+
+TEST(ModesCommand, TellsAlongWhatABodyMoves) {
+  // A bob on a rope between two points of equal height moves on an ellipsoid of revolution: with the
+  // half axes a = 5 and b = 3 m along the line between the points with w^2 = g b / a^2, across it
+  // with w^2 = g / b. About the hole in its middle it turns freely.
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("bob.json", R"json({
+    "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 0.1,
+    "bodies": [{"name": "bob", "mass": 2, "inertia": [1, 1, 1], "position": [0, -3, 0]}],
+    "cables": [{"name": "track", "links": [
+      {"type": "attachment", "body": "world", "point": [-4, 0, 0]}, {"type": "pinhole", "body": "bob"},
+      {"type": "attachment", "body": "world", "point": [4, 0, 0]}]}]
+  })json");
+  const ProcessResult result = run_sheave({"modes", scene});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  // sqrt(1.2) / (2 pi) = 0.1743455 Hz, sqrt(10 / 3) / (2 pi) = 0.2905758 Hz
+  const std::string table = with_single_blanks(result.out);
+  EXPECT_NE(table.find("bob (100 %) x 0.17434"), std::string::npos) << result.out;
+  EXPECT_NE(table.find("bob (100 %) z 0.29057"), std::string::npos) << result.out;
+  EXPECT_NE(table.find("bob (100 %) turn_"), std::string::npos) << result.out;
 }
 
 TEST(ModesCommand, SaysWhereNothingCanMove) {
