@@ -93,7 +93,7 @@ void take_outputs(Simulation& simulation, const std::vector<std::string>& names,
   std::vector<int> indices;
   for (const std::string& name : names) {
     const Result<int> index = observables.index_of(name);
-    if (!index) throw Failure(ExitCode::usage, "--output " + to_text(index.errors()));
+    if (!index) throw Failure(ExitCode::usage, "--output: " + to_text(index.errors()));
     if (!observables.follows_from_state(*index)) {
       throw Failure(ExitCode::usage, "--output " + name + ": a state alone does not tell it");
     }

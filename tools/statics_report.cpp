@@ -53,7 +53,7 @@ void take_quantities(const Simulation& simulation, const std::vector<std::string
   std::vector<int> indices;
   for (const std::string& name : names) {
     const Result<int> index = observables.index_of(name);
-    if (!index) throw Failure(ExitCode::usage, "--quantity " + to_text(index.errors()));
+    if (!index) throw Failure(ExitCode::usage, "--quantity: " + to_text(index.errors()));
     if (!observables.follows_from_state(*index)) {
       throw Failure(ExitCode::usage, "--quantity " + name +
                                          ": this takes motion to tell; statics knows poses, "

@@ -71,7 +71,10 @@ TEST(StaticsCommand, SaysWhatIsWrong) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("hanging.json", hanging_scene);
   EXPECT_EQ(run_sheave({"statics", scene, "--case", "nonsense"}).exit_code, 2);
-  EXPECT_EQ(run_sheave({"statics", scene, "--quantity", "load.q"}).exit_code, 2);
+  const ProcessResult unknown = run_sheave({"statics", scene, "--quantity", "load.q"});
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_NE(unknown.err.find("--quantity: there is no quantity \"load.q\""), std::string::npos)
+      << unknown.err;
   EXPECT_EQ(run_sheave({"statics", folder.path("none.json")}).exit_code, 66);
 }
 
