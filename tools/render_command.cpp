@@ -222,9 +222,9 @@ ExitCode render_scene(const RenderOptions& options) {
     const std::vector<CableReport> cables = reports_to_show(scene, simulation);
     if (moments.is_frame(k)) glb.add(simulation, cables);
     if (outputs.any_left()) {
-      const render::DrawList list = look.builder.build(simulation.world, cables);
-      if (moments.is_frame(k)) outputs.add_frame(list, look.camera);
+      render::DrawList list = look.builder.build(simulation.world, cables);
       if (k == moments.still) outputs.add_still(list, look.camera);
+      if (moments.is_frame(k)) outputs.add_frame(std::move(list), look.camera);
     }
     return outputs.any_left() || glb.is_wanted();
   };
@@ -288,6 +288,9 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
                  "simulated seconds per second of the video; default 1, 0.1 is slow motion")
       ->check(number_between(1e-9, 1e9))
       ->option_text("X");
+  app.add_option("--parallel", options.threads, "frames drawn side by side; default: one per core")
+      ->check(CLI::Range(1, 1024))
+      ->option_text("N");
   app.add_flag("--labels", options.labels, "write the tensions [N] beside the cables");
 }
 
