@@ -11,6 +11,14 @@
 
 namespace sheave::tools {
 
+/// How width and height are used.
+enum class PictureFormat {
+  landscape,  ///< as they are
+  portrait,   ///< the other way round
+  square,     ///< as many pixels, as high as wide
+  best,       ///< whichever of these shows the scene largest
+};
+
 /// Options of `sheave render` as the user wrote them.
 struct PictureOptions {
   std::string video;         ///< file; empty: none
@@ -24,6 +32,9 @@ struct PictureOptions {
   double speed = 1.0;        ///< simulated seconds per second of the video
   bool labels = false;       ///< write the tensions beside the cables
   int threads = 0;           ///< that draw; 0: one for each core
+  PictureFormat format = PictureFormat::landscape;
+  std::optional<double> tension_max;  ///< at the top of the colour scale [N]; default: the scene's
+  std::vector<std::string> trails;    ///< NAME:SECONDS[:X,Y,Z], see tools/render_trails.h
 
   [[nodiscard]] bool has_frames() const { return !video.empty() || !png.empty() || !glb.empty(); }
 };
