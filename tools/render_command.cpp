@@ -233,7 +233,8 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
                  "simulated seconds per second of the video; default 1, 0.1 is slow motion")
       ->check(number_between(1e-9, 1e9))
       ->option_text("X");
-  app.add_option("--parallel", options.threads, "frames drawn side by side; default: one per core")
+  app.add_option("--parallel", options.threads,
+                 "frames drawn side by side; default: one per core, at most 8")
       ->check(CLI::Range(1, 1024))
       ->option_text("N");
   add_look_options(app, options);

@@ -3,6 +3,7 @@
 
 #include "tools/render_outputs.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <utility>
 
@@ -43,6 +44,10 @@ void make_folder(const std::string& path) {
   if (code) throw Failure(ExitCode::io, path + ": cannot make this folder: " + code.message());
 }
 
+/// Mesa fills the pixels of all contexts with the same threads, one for each core; what runs beside
+/// it is the rest of a frame. More contexts would only cost memory.
+int default_threads() { return std::min(core_count(), 8); }
+
 }  // namespace
 
 PictureOutputs::PictureOutputs(const PictureOptions& options) : options_(options) {
@@ -58,7 +63,8 @@ PictureOutputs::PictureOutputs(const PictureOptions& options) : options_(options
         ExitCode::io);
   }
   if (!frames_wanted()) return;
-  render::FrameLineOptions line{.threads = options.threads > 0 ? options.threads : core_count()};
+  render::FrameLineOptions line{.threads =
+                                    options.threads > 0 ? options.threads : default_threads()};
   if (!options.png.empty()) line.png = render::PngEffort::sequence;
   line_ = value_or_fail(render::FrameLine::create(options.width, options.height, line),
                         ExitCode::internal);

@@ -31,7 +31,7 @@ struct PictureOptions {
   double fps = 60.0;         ///< frames per second of the video and of glTF
   double speed = 1.0;        ///< simulated seconds per second of the video
   bool labels = false;       ///< write the tensions beside the cables
-  int threads = 0;           ///< that draw; 0: one for each core
+  int threads = 0;           ///< that draw; 0: one for each core, at most 8
   PictureFormat format = PictureFormat::landscape;
   std::optional<double> tension_max;  ///< at the top of the colour scale [N]; default: the scene's
   std::vector<std::string> trails;    ///< NAME:SECONDS[:X,Y,Z], see tools/render_trails.h
