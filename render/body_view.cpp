@@ -22,9 +22,6 @@ namespace {
 constexpr Color frame_color = rgb(0x66717f);
 constexpr Color wheel_color = rgb(0x9aabbe);
 constexpr Color strap_color = rgb(0x7b8794);
-/// Loads, in the order of the bodies. Cool and muted: the warm colours belong to the cables.
-constexpr std::array<Color, 6> load_colors = {rgb(0x5d7fa3), rgb(0x7fa387), rgb(0xcdb98a),
-                                              rgb(0x9b8fb5), rgb(0x68a0a3), rgb(0xa9a196)};
 
 MeshShape mesh_of(std::vector<Vector3> vertices,
                   std::vector<std::array<std::uint32_t, 3>> triangles) {
@@ -122,7 +119,7 @@ class Builder {
     if (body.mobility == Mobility::rotor || (carries_cable(id) && is_wheel_like(body))) {
       return wheel_color;
     }
-    return load_colors[loads_++ % load_colors.size()];
+    return load_color(body.name);
   }
 
   [[nodiscard]] bool carries_cable(BodyId id) const {
@@ -282,10 +279,16 @@ class Builder {
   double cable_radius_;
   BodyView view_;
   std::vector<const LinkReport*> matched_;
-  std::size_t loads_ = 0;
 };
 
 }  // namespace
+
+Color load_color(std::string_view name) {
+  // FNV-1a. Names that differ in a last digit get different colours.
+  std::uint32_t hash = 2166136261U;
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+  return load_colors[hash % load_colors.size()];
+}
 
 Shape drawable(const sheave::Shape& shape) {
   if (const auto* s = dynamic_cast<const Box*>(&shape)) return BoxShape{s->size};

@@ -2,7 +2,9 @@
 // How the bodies of a model look: their shapes as drawable ones, which cylinders are sheaves, and
 // colours.
 
+#include <array>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "cable/cable_report.h"
@@ -13,6 +15,16 @@ namespace sheave::render {
 
 /// The drawable form of a shape, in its own frame. A type that is not known is shown as its box.
 [[nodiscard]] Shape drawable(const sheave::Shape& shape);
+
+/// Colours of bodies that are neither fixed nor wheels. Cool and muted: the warm colours belong to
+/// the cables. They differ in lightness or along the axis from blue to yellow, which colour-blind
+/// eyes see.
+inline constexpr std::array<Color, 8> load_colors = {rgb(0x4f79a8), rgb(0xa9cbe3), rgb(0x3f8a7d),
+                                                     rgb(0xb5d3a8), rgb(0xd8c27c), rgb(0x85763c),
+                                                     rgb(0x54477c), rgb(0xa293bd)};
+
+/// The one of a body with this name, whatever other bodies there are.
+[[nodiscard]] Color load_color(std::string_view name);
 
 /// Something fixed to a body.
 struct BodyPart {

@@ -119,6 +119,19 @@ void add_joints(const JointView& view, const World& world, DrawList& list) {
   }
 }
 
+void extend_travels(const World& world, std::vector<JointTravel>& travels) {
+  const auto& joints = world.model().joints;
+  travels.resize(joints.size());
+  const JointReader reader(world);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    for (const JointCoordinateReport& c : reader.report(static_cast<int>(i)).coordinates) {
+      if (c.name != "travel" || !std::isfinite(c.value)) continue;
+      travels[i].lower = std::min(travels[i].lower, c.value);
+      travels[i].upper = std::max(travels[i].upper, c.value);
+    }
+  }
+}
+
 void extend_by_joints(const World& world, Eigen::AlignedBox3d& box) {
   // How thick pins are does not matter here.
   const JointView view = make_joint_view(world, 1e-9 * world.bodies().scale());

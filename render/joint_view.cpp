@@ -70,13 +70,15 @@ double half_thickness(const Vector3& half, const Vector3& direction) {
 
 class JointViewBuilder {
  public:
-  JointViewBuilder(const World& world, double unit) : bodies_(world.bodies()) {
+  JointViewBuilder(const World& world, double unit, std::span<const JointTravel> travels)
+      : bodies_(world.bodies()) {
     view_.unit = unit;
     const auto& joints = world.model().joints;
     for (std::size_t i = 0; i < joints.size(); ++i) {
       piece_ = {};
       piece_.joint = static_cast<int>(i);
       defined_in_ = joints[i]->defined_in;
+      travel_ = i < travels.size() ? travels[i] : JointTravel{};
       add(*joints[i]);
       if (piece_.parts.empty() && piece_.bars.empty() && piece_.lines.empty()) continue;
       view_.pieces.push_back(std::move(piece_));
@@ -199,6 +201,17 @@ class JointViewBuilder {
     return all;
   }
 
+  /// Between the stops; where there are none, as far as the body went and a little more. Nothing
+  /// if it did not move or that is not known. size: of the body [m].
+  [[nodiscard]] std::optional<Interval> travel_range(const JointCoordinate& travel,
+                                                     double size) const {
+    const bool moved = travel_.upper - travel_.lower > 0.01 * size;
+    if ((!travel.lower || !travel.upper) && !moved) return std::nullopt;
+    const double more = 4.0 * view_.unit;
+    return Interval{travel.lower ? *travel.lower : travel_.lower - more,
+                    travel.upper ? *travel.upper : travel_.upper + more};
+  }
+
   template <class Joint>
   void add_rail(const Joint& joint) {
     const Vector3 axis = joint.axis.normalized();
@@ -211,9 +224,8 @@ class JointViewBuilder {
     const double least = 4.0 * view_.unit;
     const Interval body = extent(rider, joint.anchor, axis).value_or(Interval{-least, least});
     Interval rail = body;
-    const auto& [lower, upper] = std::pair(joint.travel.lower, joint.travel.upper);
-    if (lower && upper) {
-      for (const double stop : {*lower, *upper})
+    if (const auto range = travel_range(joint.travel, body.last - body.first)) {
+      for (const double stop : {range->first, range->last})
         rail.join({body.first + sense * stop, body.last + sense * stop});
     } else if (const auto ground = extent(carrier, joint.anchor, axis)) {
       rail.join(*ground);
@@ -257,13 +269,14 @@ class JointViewBuilder {
   const BodySet& bodies_;
   JointView view_;
   JointView::Piece piece_;
+  JointTravel travel_;     // of its joint
   BodyFrames defined_in_;  // of its joint
 };
 
 }  // namespace
 
-JointView make_joint_view(const World& world, double unit) {
-  return JointViewBuilder(world, unit).take();
+JointView make_joint_view(const World& world, double unit, std::span<const JointTravel> travels) {
+  return JointViewBuilder(world, unit, travels).take();
 }
 
 }  // namespace sheave::render

@@ -12,6 +12,8 @@
 //
 // A broken joint is not drawn any more.
 
+#include <limits>
+#include <span>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -22,6 +24,15 @@
 #include "render/draw_list.h"
 
 namespace sheave::render {
+
+/// How far the body_b of a slider went along its axis in a run [m]; empty if lower > upper.
+struct JointTravel {
+  double lower = std::numeric_limits<double>::infinity();
+  double upper = -std::numeric_limits<double>::infinity();
+};
+
+/// Extends travels, one for each joint, by where the joints of a world are now.
+void extend_travels(const World& world, std::vector<JointTravel>& travels);
 
 /// A line between a point of one body and one of another.
 struct JointLine {
@@ -58,7 +69,9 @@ struct JointView {
 /// Decides how the joints of a world look, from its model. Pins suit the bodies
 /// that they go through; `unit` [m], > 0, is the radius of rods and limits that
 /// of pins: suitable_cable_radius().
-[[nodiscard]] JointView make_joint_view(const World& world, double unit);
+/// `travels`: how far the joints went, by their index, for rails without stops; may be shorter.
+[[nodiscard]] JointView make_joint_view(const World& world, double unit,
+                                        std::span<const JointTravel> travels = {});
 
 /// Appends what the joints look like now. `world` must be of the model that the
 /// view was made for.

@@ -12,16 +12,11 @@ namespace {
 
 /// Turns off the preferred direction, in the order of preference [rad].
 constexpr std::array<double, 10> turns{0.0, 0.5, -0.5, 1.0, -1.0, 1.57, -1.57, 2.3, -2.3, 3.14};
-/// Distances in gaps.
-constexpr std::array<double, 5> distances{1.0, 2.2, 3.8, 6.0, 9.0};
+/// Distances in gaps; where labels find no room near their anchors, as between the parts of a
+/// tackle, far ones with a leader.
+constexpr std::array<double, 8> distances{1.0, 2.2, 3.8, 6.0, 9.0, 13.0, 18.0, 24.0};
 /// Shares of the slide.
 constexpr std::array<double, 7> slides{0.0, 0.35, -0.35, 0.7, -0.7, 1.0, -1.0};
-
-/// Where labels find no room beside their anchors, as between the parts of a tackle, text across
-/// the cable it belongs to is clearer than text that touches a neighbour.
-constexpr double across_cost = 5.0;
-constexpr double own_line_reach =
-    3.0;  ///< a line nearer to the anchor than this is its own [pixels]
 
 /// With more labels than this, the lines they cover are not looked at: the picture is full anyway,
 /// and the cost would be felt.
@@ -49,22 +44,6 @@ double covered_length(const Rectangle& r, const ScreenSegment& s) {
   return t1 > t0 ? (t1 - t0) * std::hypot(dx, dy) : 0.0;
 }
 
-double distance_to(const ScreenSegment& s, double x, double y) {
-  const double dx = s[2] - s[0];
-  const double dy = s[3] - s[1];
-  const double squared = dx * dx + dy * dy;
-  const double along = (x - s[0]) * dx + (y - s[1]) * dy;
-  const double t = squared > 0.0 ? std::clamp(along / squared, 0.0, 1.0) : 0.0;
-  return std::hypot(x - s[0] - t * dx, y - s[1] - t * dy);
-}
-
-/// The text centred on its anchor.
-LabelPlace place_across(const LabelRequest& label, double slide) {
-  const double x = label.x + slide * label.slide_x;
-  const double y = label.y + slide * label.slide_y;
-  return {{x - 0.5 * label.width, y - 0.5 * label.height, label.width, label.height}, x, y};
-}
-
 LabelPlace place(const LabelRequest& label, double slide, double direction, double distance) {
   const double x = label.x + slide * label.slide_x;
   const double y = label.y + slide * label.slide_y;
@@ -87,6 +66,7 @@ class Layout {
     for (int round = 0; round < 2; ++round) {
       for (std::size_t i = 0; i < labels_.size(); ++i) choose(i);
     }
+    for (LabelPlace& place : places_) place.covers = covers(place.text);
     return std::move(places_);
   }
 
@@ -104,26 +84,31 @@ class Layout {
           const double own = 3.0 * static_cast<double>(d) + (any ? 0.4 : 1.0) * std::abs(turn) +
                              1.2 * std::abs(slide);
           if (own >= best_) continue;
-          consider(place(label, slide, preferred + turn, distances[d] * around_.gap), own, i,
-                   false);
+          consider(place(label, slide, preferred + turn, distances[d] * around_.gap), own, i);
         }
       }
-    }
-    for (const double slide : allowed_slides) {
-      consider(place_across(label, slide), across_cost + 1.2 * std::abs(slide), i, true);
     }
     placed_[i] = true;
   }
 
   /// Takes a place for label i if it is the best so far.
-  void consider(const LabelPlace& candidate, double own, std::size_t i, bool across) {
-    const double cost = own + conflicts(candidate, i, across);
+  void consider(const LabelPlace& candidate, double own, std::size_t i) {
+    const double cost = own + conflicts(candidate, i);
     if (cost >= best_) return;
     best_ = cost;
     places_[i] = candidate;
   }
 
-  [[nodiscard]] double conflicts(const LabelPlace& candidate, std::size_t self, bool across) const {
+  [[nodiscard]] bool covers(const Rectangle& text) const {
+    const auto& lines = around_.lines;
+    const auto& bodies = around_.bodies;
+    return std::any_of(lines.begin(), lines.end(),
+                       [&](const ScreenSegment& l) { return covered_length(text, l) > 0.0; }) ||
+           std::any_of(bodies.begin(), bodies.end(),
+                       [&](const Rectangle& body) { return overlap(text, body) > 0.0; });
+  }
+
+  [[nodiscard]] double conflicts(const LabelPlace& candidate, std::size_t self) const {
     const Rectangle& r = candidate.text;
     const double area = std::max(r.width * r.height, 1.0);
     const Rectangle padded{r.x - 3.0, r.y - 1.0, r.width + 6.0, r.height + 2.0};
@@ -139,11 +124,7 @@ class Layout {
     }
     if (labels_.size() <= many_labels) {
       double covered = 0.0;
-      for (const ScreenSegment& line : around_.lines) {
-        const double apart = distance_to(line, candidate.anchor_x, candidate.anchor_y);
-        if (across && apart < own_line_reach) continue;
-        covered += covered_length(across ? padded : airy, line);
-      }
+      for (const ScreenSegment& line : around_.lines) covered += covered_length(airy, line);
       cost += 10.0 * std::min(4.0, covered / std::max(r.height, 1.0));
       double hidden = 0.0;
       for (const Rectangle& body : around_.bodies) hidden += overlap(r, body) / area;

@@ -45,6 +45,7 @@ struct LabelPlace {
   Rectangle text;
   double anchor_x = 0.0;  ///< where the anchor has been moved to [pixels]
   double anchor_y = 0.0;
+  bool covers = false;  ///< a line or a body: only a leader tells what it belongs to
 };
 
 /// The place for each request, in order.

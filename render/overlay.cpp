@@ -160,12 +160,14 @@ std::optional<LabelRequest> request_place(const Label& label, const Projector& p
   return request;
 }
 
-/// A thin line from the anchor to the nearest point of the text, unless the text is near.
+/// A thin line from the anchor to the nearest point of the text, unless the text is near and stands
+/// free.
 void draw_leader(Canvas& canvas, const LabelPlace& place, const Style& style) {
   const Rectangle& r = place.text;
   const double x = std::clamp(place.anchor_x, r.x - 2.0, r.x + r.width + 2.0);
   const double y = std::clamp(place.anchor_y, r.y, r.y + r.height);
-  if (std::hypot(x - place.anchor_x, y - place.anchor_y) < 1.3 * style.text) return;
+  const double away = std::hypot(x - place.anchor_x, y - place.anchor_y);
+  if (away < (place.covers ? 0.1 : 1.3) * style.text) return;
   const double width = std::max(1.0, 0.07 * style.text);
   canvas.line(place.anchor_x, place.anchor_y, x, y, width + 2.0 * style.halo, rgb(0xffffff), 0.6);
   canvas.line(place.anchor_x, place.anchor_y, x, y, width, soft_ink, 0.9);

@@ -34,6 +34,7 @@ ViewOptions scene_view_options(const Scene& scene) {
   options.title = scene.name;
   if (scene.camera) {
     options.cable_radius = scene.camera->cable_radius;
+    options.tension_max = scene.camera->tension_max;
     options.force_labels = scene.camera->labels;
     options.joints = scene.camera->joints;
   }

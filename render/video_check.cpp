@@ -156,6 +156,49 @@ Result<std::int64_t> count_matroska(Bytes& bytes) {
   return count;
 }
 
+/// The end of a chain of blocks, each headed by its length; the last one has none.
+std::optional<std::int64_t> end_of_chain(Bytes& bytes, std::int64_t at) {
+  for (;;) {
+    const auto length = bytes.number(at, 1);
+    if (!length) return {};
+    at += 1 + static_cast<std::int64_t>(*length);
+    if (*length == 0) return at;
+  }
+}
+
+/// Size of the colour table that flags tell of.
+std::int64_t table_size(std::uint64_t flags) {
+  return (flags & 0x80U) == 0 ? 0 : std::int64_t{3} << ((flags & 7U) + 1U);
+}
+
+Result<std::int64_t> count_gif(Bytes& bytes) {
+  constexpr std::uint64_t image = 0x2c;
+  constexpr std::uint64_t extension = 0x21;
+  constexpr std::uint64_t end = 0x3b;
+  const Error early{"", "the file ends early"};
+  const auto screen = bytes.number(10, 1);
+  if (!screen) return early;
+  std::int64_t count = 0;
+  std::int64_t at = 13 + table_size(*screen);
+  for (;;) {
+    const auto kind = bytes.number(at, 1);
+    if (!kind) return early;
+    if (*kind == end) return count;
+    std::int64_t chain = at + 2;
+    if (*kind == image) {
+      const auto flags = bytes.number(at + 9, 1);
+      if (!flags) return early;
+      chain = at + 11 + table_size(*flags);
+      ++count;
+    } else if (*kind != extension) {
+      return Error{"", "the file is damaged"};
+    }
+    const auto next = end_of_chain(bytes, chain);
+    if (!next) return early;
+    at = *next;
+  }
+}
+
 }  // namespace
 
 Result<std::int64_t> count_video_frames(const std::string& path) {
@@ -165,6 +208,7 @@ Result<std::int64_t> count_video_frames(const std::string& path) {
   if (bytes.size() == 0) return Error{"", "the file is empty"};
   if (bytes.number(4, 4) == four("ftyp")) return count_mp4(bytes);
   if (bytes.number(0, 4) == matroska) return count_matroska(bytes);
+  if (bytes.number(0, 4) == four("GIF8")) return count_gif(bytes);
   return Error{"", "the file is no video"};
 }
 

@@ -21,8 +21,10 @@ struct Container {
   const char* name;
   bool fast_start;  ///< has an index that can be moved to the front
 };
-constexpr std::array<Container, 3> containers{
-    {{".mp4", "mp4", true}, {".mov", "mov", true}, {".mkv", "matroska", false}}};
+constexpr std::array<Container, 4> containers{{{".mp4", "mp4", true},
+                                               {".mov", "mov", true},
+                                               {".mkv", "matroska", false},
+                                               {".gif", "gif", false}}};
 
 const Container* container_of(std::string_view path) {
   for (const Container& container : containers) {
@@ -34,7 +36,7 @@ const Container* container_of(std::string_view path) {
 Errors check(const std::string& path, int width, int height, const VideoOptions& options) {
   Errors errors;
   if (container_of(path) == nullptr) {
-    errors.push_back({"", "video '" + path + "': the name must end in .mp4, .mov or .mkv"});
+    errors.push_back({"", "video '" + path + "': the name must end in .mp4, .mov, .mkv or .gif"});
   }
   if (width < 2 || height < 2 || width > 16384 || height > 16384) {
     errors.push_back({"", "video '" + path + "': size is " + std::to_string(width) + " x " +
@@ -44,6 +46,12 @@ Errors check(const std::string& path, int width, int height, const VideoOptions&
     errors.push_back({"/frames_per_second", "video '" + path + "': frames_per_second is " +
                                                 std::to_string(options.frames_per_second) +
                                                 "; it must be above 0 and at most 1000"});
+  }
+  if (path.ends_with(".gif") && options.frames_per_second > 50.0) {
+    errors.push_back({"/frames_per_second",
+                      "video '" + path + "': frames_per_second is " +
+                          std::to_string(options.frames_per_second) +
+                          "; of a GIF it must be at most 50, which is what browsers show"});
   }
   if (options.quality < 0 || options.quality > 51) {
     errors.push_back({"/quality", "video '" + path + "': quality is " +
@@ -62,6 +70,16 @@ std::vector<std::string> command_line(const Container& container, const std::str
   add({"-f", "rawvideo", "-pixel_format", "rgb24", "-video_size",
        std::to_string(width) + "x" + std::to_string(height), "-framerate",
        fixed_text(options.frames_per_second, 6), "-i", "pipe:0"});
+  if (container.name == std::string_view("gif")) {
+    // Each frame has the 256 colours that suit it: one palette for all would need all frames at
+    // once in memory. Ordered dithering stands still where the picture does.
+    add({"-filter_complex",
+         "split[a][b];[a]palettegen=stats_mode=single[p];"
+         "[b][p]paletteuse=new=1:dither=bayer:bayer_scale=4",
+         "-threads", "1", "-fflags", "+bitexact", "-map_metadata", "-1", "-loop", "0", "-f", "gif",
+         "file:" + file});
+    return line;
+  }
   // Without naming the matrix, players guess one by the size and colours shift.
   add({"-vf", "scale=out_color_matrix=bt709:out_range=tv", "-colorspace", "bt709",
        "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"});

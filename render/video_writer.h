@@ -16,7 +16,7 @@
 namespace sheave::render {
 
 struct VideoOptions {
-  double frames_per_second = 60.0;  ///< (0, 1000]
+  double frames_per_second = 60.0;  ///< (0, 1000], of a GIF (0, 50]
   /// x264's constant rate factor, 0 (lossless) to 51; lower is better and larger.
   int quality = 18;
   /// Name or path of the encoder, looked up in PATH.
@@ -25,12 +25,12 @@ struct VideoOptions {
   StopRequest abandon{};                                     ///< likewise
 };
 
-/// Writes H.264 in 4:2:0 that every player and browser shows. Frames with an odd width or height
+/// Writes H.264 in 4:2:0 that every player and browser shows, or an endless GIF. Frames with an odd width or height
 /// are extended by repeating the last column or row. The same frames give the same file with the
 /// same version of ffmpeg.
 class VideoWriter {
  public:
-  /// `path` must end in .mp4, .mov or .mkv. Fails at once if the folder cannot be written to or
+  /// `path` must end in .mp4, .mov, .mkv or .gif. Fails at once if the folder cannot be written to or
   /// ffmpeg is not installed.
   static Result<VideoWriter> create(const std::string& path, int width, int height,
                                     const VideoOptions& options = {});

@@ -118,7 +118,7 @@ ViewBuilder::ViewBuilder(const World& world, std::span<const CableReport> cables
   cable_radius_ = options_.cable_radius.value_or(suitable_cable_radius(diagonal, cables));
   bodies_ = make_body_view(world, cables, cable_radius_);
   paint_bodies();
-  if (options_.joints) joints_ = make_joint_view(world, cable_radius_);
+  if (options_.joints) joints_ = make_joint_view(world, cable_radius_, options_.travels);
 
   const Eigen::AlignedBox3d shown = options_.run_bounds.isEmpty() ? box : options_.run_bounds;
   if (world.model().ground) {

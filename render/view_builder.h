@@ -32,6 +32,8 @@ struct ViewOptions {
   /// Box round everything that the picture will show over the whole run [m], for the place of the
   /// floor; default: what is there at the beginning.
   Eigen::AlignedBox3d run_bounds{};
+  /// How far sliders will go (ViewSurvey); default: their stops, or what their bodies suggest.
+  std::vector<JointTravel> travels{};
   bool force_labels = false;  ///< the tension beside every span
   /// Colours of bodies, by their index; missing ones are chosen by what the bodies are.
   std::vector<std::optional<Color>> body_colors{};

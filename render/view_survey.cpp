@@ -31,8 +31,25 @@ double round_up(double value) {
 }  // namespace
 
 void ViewSurvey::add(const World& world, std::span<const CableReport> cables) {
-  const auto& bodies = world.model().bodies;
+  add_room(world, cables);
+  add_tensions(world, cables);
+}
+
+void ViewSurvey::add_tensions(const World& world, std::span<const CableReport> cables) {
   weight_ = total_weight(world.model());
+  const auto count = [&](double tension) {
+    if (!(tension > 0.0) || !std::isfinite(tension)) return;
+    largest_ = std::max(largest_, tension);
+    const double octave = std::clamp(std::log2(tension) - lowest_exponent, 0.0, octaves - 1e-3);
+    ++counts_[static_cast<std::size_t>(octave * classes_per_octave)];
+  };
+  for (const CableReport& cable : cables) {
+    for (const SpanReport& span : cable.with_wraps_in_place().spans) count(span.tension);
+  }
+}
+
+void ViewSurvey::add_room(const World& world, std::span<const CableReport> cables) {
+  const auto& bodies = world.model().bodies;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const BodyId id{static_cast<int>(i)};
     const Matrix3 rotation = world.orientation(id).toRotationMatrix();
@@ -44,6 +61,7 @@ void ViewSurvey::add(const World& world, std::span<const CableReport> cables) {
     if (bodies[i].shapes.empty()) extend(bounds_, world.position(id), Vector3::Zero());
   }
   extend_by_joints(world, bounds_);
+  extend_travels(world, travels_);
   CableStyle style;
   style.gravity = world.model().gravity;
   if (const auto& ground = world.model().ground) {
@@ -57,14 +75,8 @@ void ViewSurvey::add(const World& world, std::span<const CableReport> cables) {
           (Vector3::Ones() - link.normal.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt() * link.radius;
       extend(bounds_, link.center, disc);
     }
-    const auto lines = span_lines(cable, style);
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-      for (const Vector3& p : lines[k]) extend(bounds_, p, Vector3::Zero());
-      const double tension = cable.spans[k].tension;
-      if (!(tension > 0.0) || !std::isfinite(tension)) continue;
-      largest_ = std::max(largest_, tension);
-      const double octave = std::clamp(std::log2(tension) - lowest_exponent, 0.0, octaves - 1e-3);
-      ++counts_[static_cast<std::size_t>(octave * classes_per_octave)];
+    for (const auto& line : span_lines(cable, style)) {
+      for (const Vector3& p : line) extend(bounds_, p, Vector3::Zero());
     }
   }
 }

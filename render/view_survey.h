@@ -3,12 +3,14 @@
 //
 //   ViewSurvey survey;
 //   for each step that will be a frame: survey.add(world, reports);
-//   options.run_bounds = survey.bounds(); options.tension_max = survey.tension_max();
+//   options.run_bounds = survey.bounds();
+//   if (!options.tension_max) options.tension_max = survey.tension_max();
 
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -16,6 +18,7 @@
 #include "engine/world.h"
 #include "render/camera.h"
 #include "render/draw_list.h"
+#include "render/joint_view.h"
 
 namespace sheave::render {
 
@@ -23,6 +26,10 @@ class ViewSurvey {
  public:
   /// Takes note of a state; cheap compared with a step of the simulation.
   void add(const World& world, std::span<const CableReport> cables);
+  /// Only of its forces.
+  void add_tensions(const World& world, std::span<const CableReport> cables);
+  /// Only of the room that it takes.
+  void add_room(const World& world, std::span<const CableReport> cables);
 
   /// Box round all bodies and cables in all states added [m]; empty if there were none.
   [[nodiscard]] const Eigen::AlignedBox3d& bounds() const { return bounds_; }
@@ -31,6 +38,8 @@ class ViewSurvey {
   /// peak does not make all else look slack. The weight of all bodies, or 1, if there was none
   /// worth showing.
   [[nodiscard]] double tension_max() const;
+  /// How far sliders went in all states added.
+  [[nodiscard]] const std::vector<JointTravel>& travels() const { return travels_; }
 
  private:
   /// Tensions counted by size, 16 classes to a factor of two; exact counts would need the whole
@@ -40,6 +49,7 @@ class ViewSurvey {
   static constexpr int octaves = 192;
 
   Eigen::AlignedBox3d bounds_;
+  std::vector<JointTravel> travels_;
   std::array<std::int64_t, static_cast<std::size_t>(classes_per_octave* octaves)> counts_{};
   double largest_ = 0.0;  ///< [N]
   double weight_ = 0.0;   ///< of all bodies [N]

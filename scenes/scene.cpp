@@ -30,6 +30,10 @@ std::span<const Field> CameraDef::field_table() {
                                 "draw pins, rods and rails of the joints"),
       field<&CameraDef::cable_radius>("cable_radius", "m", above(0.0), optional,
                                       "that cables are drawn with; default: suits the scene"),
+      field<&CameraDef::tension_max>(
+          "tension_max", "N", above(0.0), optional,
+          "tension at the top of the colour scale; default: what 98 % of "
+          "the run's tensions do not exceed"),
   };
   return table;
 }

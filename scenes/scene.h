@@ -40,6 +40,7 @@ struct CameraDef {
   bool labels = false;                 ///< write the tensions [N] beside the cables
   bool joints = true;                  ///< draw pins, rods and rails of the joints
   std::optional<double> cable_radius;  ///< that cables are drawn with [m]; default: suits the scene
+  std::optional<double> tension_max;   ///< at the top of the colour scale [N]; default: of the run
 
   static std::span<const Field> field_table();
 };

@@ -52,7 +52,9 @@ render::ViewOptions view_of(const Scene& scene, const Mode& mode, int number,
                             const render::ViewSurvey& survey) {
   render::ViewOptions view;
   view.tension_max = survey.tension_max();
+  if (scene.camera && scene.camera->tension_max) view.tension_max = scene.camera->tension_max;
   view.run_bounds = survey.bounds();
+  view.travels = survey.travels();
   view.time = false;
   view.title = mode.frequency > 0.0
                    ? fmt::format("{}: mode {}, {:.4g} Hz", scene.name, number, mode.frequency)

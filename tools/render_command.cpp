@@ -6,22 +6,25 @@
 
 #if SHEAVE_HAS_RENDER
 
-#include <cmath>
 #include <limits>
+#include <map>
 #include <memory>
+#include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
 #include "engine/field_check.h"
-#include "render/scene_view.h"
 #include "render/view_builder.h"
-#include "render/view_survey.h"
 #include "tools/command_line.h"
 #include "tools/interrupt.h"
 #include "tools/output_file.h"
 #include "tools/output_paths.h"
 #include "tools/player.h"
+#include "tools/render_look.h"
+#include "tools/render_moments.h"
 #include "tools/render_outputs.h"
+#include "tools/render_trails.h"
 #include "tools/scene_options.h"
 #include "tools/state_file.h"
 #include "tools/terminal.h"
@@ -36,100 +39,6 @@ struct RenderOptions {
   std::string load_state;
   bool quiet = false;
 };
-
-/// The moments to show, in order, and what each is for.
-struct Moments {
-  std::vector<double> times;  // [s]
-  std::size_t still = none;   // index of the still
-  bool frames = false;        // all others, and this too if still_is_frame, are frames
-  bool still_is_frame = false;
-
-  static constexpr std::size_t none = static_cast<std::size_t>(-1);
-  [[nodiscard]] bool is_frame(std::size_t k) const {
-    return frames && (k != still || still_is_frame);
-  }
-};
-
-void insert_still(Moments& moments, double at, double tolerance) {
-  const auto place = std::lower_bound(moments.times.begin(), moments.times.end(), at - tolerance);
-  moments.still = static_cast<std::size_t>(place - moments.times.begin());
-  moments.still_is_frame = place != moments.times.end() && *place <= at + tolerance;
-  if (!moments.still_is_frame) moments.times.insert(place, at);
-}
-
-/// Frames are those of a run from the start as far as they lie behind `begin` [s], so that films of
-/// two parts fit together.
-Moments choose_moments(const Scene& scene, const PictureOptions& options, double begin) {
-  constexpr double most_frames = 1e7;
-  const double dt = scene.model.step.dt;
-  const double end = static_cast<double>(step_count(scene)) * dt;
-  const double tolerance = 1e-6 * dt;
-  if (begin > end + tolerance) {
-    throw Failure(ExitCode::usage,
-                  fmt::format("--load-state: the state is of {} s, when the run has ended at {} s; "
-                              "see --duration",
-                              number_text(begin), number_text(end)));
-  }
-  Moments moments;
-  moments.frames = options.has_frames();
-  if (moments.frames) {
-    const double interval = options.speed / options.fps;
-    const double last = std::floor((end + tolerance) / interval);
-    if (!(last < most_frames)) {
-      throw Failure(ExitCode::usage, fmt::format("{} s at this speed and rate make {:.3g} frames; "
-                                                 "at most {:.0f} are possible",
-                                                 number_text(end), last, most_frames));
-    }
-    const double first = std::ceil((begin - tolerance) / interval);
-    for (double k = std::max(first, 0.0); k <= last; ++k) moments.times.push_back(k * interval);
-  }
-  if (options.still.empty()) return moments;
-  const double at = options.at.value_or(end);
-  if (at > end + tolerance) {
-    throw Failure(ExitCode::usage, fmt::format("--at {}: the run ends at {} s; see --duration",
-                                               number_text(at), number_text(end)));
-  }
-  if (at < begin - tolerance) {
-    throw Failure(ExitCode::usage, fmt::format("--at {}: the state that is loaded is of {} s",
-                                               number_text(at), number_text(begin)));
-  }
-  insert_still(moments, std::clamp(at, begin, end), tolerance);
-  return moments;
-}
-
-/// What is known about the whole run before anything is drawn.
-struct Look {
-  render::ViewBuilder builder;
-  render::Camera camera;
-  double tension_max = 0;  // [N]
-};
-
-/// Plays the scene once, to frame it and to give every tension the same colour in every frame.
-Look survey(const Scene& scene, const RenderOptions& settings, std::span<const double> times,
-            Progress& progress) {
-  const PictureOptions& options = settings.pictures;
-  render::ViewSurvey survey;
-  const RunOutcome outcome =
-      play(scene, settings.load_state, times, progress,
-           [&](std::size_t /*k*/, const Simulation& simulation) {
-             survey.add(simulation.world, reports_to_show(scene, simulation));
-             return true;
-           });
-  if (outcome.status == RunStatus::interrupted) {
-    throw Failure(ExitCode::interrupted, "interrupted before anything was drawn");
-  }
-  const Simulation start = make_simulation(scene);
-  const std::vector<CableReport> cables = start.cable_reports();
-  render::ViewOptions view = render::scene_view_options(scene);
-  view.tension_max = survey.tension_max();
-  view.run_bounds = survey.bounds();
-  view.force_labels = view.force_labels || options.labels;
-  render::ViewBuilder builder(start.world, cables, view);
-  const render::DrawList typical = builder.build(start.world, cables);
-  const render::Camera camera =
-      render::scene_camera(scene, cables, survey.bounds(), typical, options.width, options.height);
-  return {std::move(builder), camera, survey.tension_max()};
-}
 
 /// The run as glTF, if that is asked for.
 class GlbOutput {
@@ -192,6 +101,39 @@ ExitCode report(const RunOutcome& outcome, const PictureOutputs& outputs, long g
   return diverged ? ExitCode::diverged : ExitCode::interrupted;
 }
 
+/// Plays the scene again and draws it.
+ExitCode draw(const Scene& scene, const RenderOptions& options, std::span<const Moment> moments,
+              const Look& look, Trails& trails, PictureOutputs& outputs) {
+  Progress progress("draw", 0.0, static_cast<double>(step_count(scene)), options.quiet);
+  GlbOutput glb(options.pictures, look);
+  const auto show = [&](std::size_t k, const Simulation& simulation) {
+    const Moment& moment = moments[k];
+    trails.observe(simulation.world);
+    if (!moment.frame && !moment.still) return true;
+    const std::vector<CableReport> cables = reports_to_show(scene, simulation);
+    if (moment.frame) glb.add(simulation, cables);
+    if (outputs.any_left()) {
+      render::DrawList list = look.builder.build(simulation.world, cables);
+      trails.add_to(list, look.builder.cable_radius());
+      if (moment.still) outputs.add_still(list, look.camera);
+      if (moment.frame) outputs.add_frame(std::move(list), look.camera);
+    }
+    return outputs.any_left() || glb.is_wanted();
+  };
+  RunOutcome outcome;
+  try {
+    outcome = play(scene, options.load_state, times_of(moments), progress, show);
+  } catch (...) {
+    outputs.finish();  // keeps what has been drawn
+    throw;
+  }
+  progress.clear();
+  outputs.finish();
+  const long glb_frames = glb.frames();
+  outputs.faults().attempt([&] { glb.finish(scene.model); });
+  return outputs.faults().report(report(outcome, outputs, glb_frames, options.pictures));
+}
+
 ExitCode render_scene(const RenderOptions& options) {
   const PictureOptions& pictures = options.pictures;
   const NamedPath first_frame{
@@ -209,37 +151,19 @@ ExitCode render_scene(const RenderOptions& options) {
     load_state(loaded.world, options.load_state);
     begin = loaded.world.state().time;
   }
-  const Moments moments = choose_moments(scene, pictures, begin);
+  Trails trails(scene, pictures.trails);
+  const std::vector<Moment> moments =
+      choose_moments(scene, pictures, begin, trails.longest_interval());
   catch_interrupts();
-  PictureOutputs outputs(pictures);
+  std::optional<PictureOutputs> outputs;
+  // What cannot be written is told before anything is simulated, if the size is known.
+  if (pictures.format != PictureFormat::best) outputs.emplace(sized(pictures, pictures.format));
   const auto steps = static_cast<double>(step_count(scene));
   Progress survey_progress("survey", 0.0, steps, options.quiet);
-  const Look look = survey(scene, options, moments.times, survey_progress);
+  const Look look = survey(scene, {pictures, options.load_state, begin}, moments, survey_progress);
   survey_progress.clear();
-  Progress progress("draw", 0.0, steps, options.quiet);
-  GlbOutput glb(pictures, look);
-  const auto show = [&](std::size_t k, const Simulation& simulation) {
-    const std::vector<CableReport> cables = reports_to_show(scene, simulation);
-    if (moments.is_frame(k)) glb.add(simulation, cables);
-    if (outputs.any_left()) {
-      const render::DrawList list = look.builder.build(simulation.world, cables);
-      if (moments.is_frame(k)) outputs.add_frame(list, look.camera);
-      if (k == moments.still) outputs.add_still(list, look.camera);
-    }
-    return outputs.any_left() || glb.is_wanted();
-  };
-  RunOutcome outcome;
-  try {
-    outcome = play(scene, options.load_state, moments.times, progress, show);
-  } catch (...) {
-    outputs.finish();  // keeps what has been drawn
-    throw;
-  }
-  progress.clear();
-  outputs.finish();
-  const long glb_frames = glb.frames();
-  outputs.faults().attempt([&] { glb.finish(scene.model); });
-  return outputs.faults().report(report(outcome, outputs, glb_frames, pictures));
+  if (!outputs) outputs.emplace(sized(pictures, look.format));
+  return draw(scene, options, moments, look, trails, *outputs);
 }
 
 void check_usage(const PictureOptions& options) {
@@ -250,9 +174,9 @@ void check_usage(const PictureOptions& options) {
   if (!options.has_frames() && options.still.empty()) {
     throw Failure(ExitCode::usage, "nothing to write: give --video, --png, --still or --glb");
   }
-  if (!options.video.empty() && !ends_with_any(options.video, {".mp4", ".mov", ".mkv"})) {
+  if (!options.video.empty() && !ends_with_any(options.video, {".mp4", ".mov", ".mkv", ".gif"})) {
     throw Failure(ExitCode::usage,
-                  "--video " + options.video + ": the name must end in .mp4, .mov or .mkv");
+                  "--video " + options.video + ": the name must end in .mp4, .mov, .mkv or .gif");
   }
   if (!options.glb.empty() && !ends_with_any(options.glb, {".glb"})) {
     throw Failure(ExitCode::usage, "--glb " + options.glb + ": the name must end in .glb");
@@ -262,8 +186,28 @@ void check_usage(const PictureOptions& options) {
   }
 }
 
+void add_look_options(CLI::App& app, PictureOptions& options) {
+  const std::map<std::string, PictureFormat> formats{{"landscape", PictureFormat::landscape},
+                                                     {"portrait", PictureFormat::portrait},
+                                                     {"square", PictureFormat::square},
+                                                     {"best", PictureFormat::best}};
+  app.add_option("--format", options.format,
+                 "landscape: width and height as they are (the default); portrait: the other way "
+                 "round; square; best: what shows the scene largest")
+      ->transform(CLI::Transformer(formats))
+      ->option_text("FORMAT");
+  app.add_option("--tension-max", options.tension_max,
+                 "top of the colour scale [N]; default: the scene's, else that of the whole run")
+      ->check(number_between(1e-30, 1e30))
+      ->option_text("N");
+  app.add_option("--trail", options.trails,
+                 "the way of a body in the last seconds, NAME:SECONDS, or of a point in its own "
+                 "frame, NAME:SECONDS:X,Y,Z; may be repeated")
+      ->option_text("TRAIL");
+}
+
 void add_picture_options(CLI::App& app, PictureOptions& options) {
-  app.add_option("--video", options.video, "write a video (.mp4, .mov or .mkv; needs ffmpeg)")
+  app.add_option("--video", options.video, "write a video (.mp4, .mov, .mkv or .gif; needs ffmpeg)")
       ->option_text("FILE");
   app.add_option("--png", options.png, "write every frame into a folder, frame_000000.png ...")
       ->option_text("DIR");
@@ -281,13 +225,19 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
   app.add_option("--height", options.height, "pixels; default 720")
       ->check(CLI::Range(render::Renderer::min_side, render::Renderer::max_side / 2))
       ->option_text("N");
-  app.add_option("--fps", options.fps, "frames per second of the video and of glTF; default 60")
+  app.add_option("--fps", options.fps,
+                 "frames per second of the video and of glTF; default 60, of a GIF 25 (50 at most)")
       ->check(number_between(0.001, 1000.0))
       ->option_text("X");
   app.add_option("--speed", options.speed,
                  "simulated seconds per second of the video; default 1, 0.1 is slow motion")
       ->check(number_between(1e-9, 1e9))
       ->option_text("X");
+  app.add_option("--parallel", options.threads,
+                 "frames drawn side by side; default: one per core, at most 8")
+      ->check(CLI::Range(1, 1024))
+      ->option_text("N");
+  add_look_options(app, options);
   app.add_flag("--labels", options.labels, "write the tensions [N] beside the cables");
 }
 
@@ -303,14 +253,20 @@ Action declare_render(CLI::App& app) {
   app.footer(R"(Examples:
   sheave render crane.json --video crane.mp4
   sheave render crane.json --still crane.png --at 1.5 --labels --width 1920 --height 1080
+  sheave render crane.json --video crane.gif --width 480 --height 270 --format best
+  sheave render crane.json --still way.png --trail load:3
   sheave render crane.json --glb crane.glb --fps 30
   sheave render crane.json --video slow.mp4 --speed 0.1 --dt 0.001 --png frames
 
 The camera is that of the scene. What the scene leaves open is chosen so that the whole run is in
 the picture. Outputs appear when they are complete; after a divergence or Ctrl-C they hold the
 frames so far. Exit codes as for sheave run.)");
-  return [options] {
-    check_usage(options->pictures);
+  const CLI::Option* rate = app.get_option("--fps");
+  return [options, rate] {
+    constexpr double usual_gif_rate = 25.0;
+    PictureOptions& pictures = options->pictures;
+    if (rate->count() == 0 && pictures.video.ends_with(".gif")) pictures.fps = usual_gif_rate;
+    check_usage(pictures);
     return render_scene(*options);
   };
 }

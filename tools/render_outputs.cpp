@@ -3,7 +3,9 @@
 
 #include "tools/render_outputs.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,6 +14,7 @@
 #include "render/png_writer.h"
 #include "tools/failure.h"
 #include "tools/interrupt.h"
+#include "tools/parallel.h"
 #include "tools/terminal.h"
 
 namespace sheave::tools {
@@ -41,6 +44,10 @@ void make_folder(const std::string& path) {
   if (code) throw Failure(ExitCode::io, path + ": cannot make this folder: " + code.message());
 }
 
+/// Mesa fills the pixels of all contexts with the same threads, one for each core; what runs beside
+/// it is the rest of a frame. More contexts would only cost memory.
+int default_threads() { return std::min(core_count(), 8); }
+
 }  // namespace
 
 PictureOutputs::PictureOutputs(const PictureOptions& options) : options_(options) {
@@ -55,27 +62,45 @@ PictureOutputs::PictureOutputs(const PictureOptions& options) : options_(options
                                     {.frames_per_second = options.fps, .abandon = hurried}),
         ExitCode::io);
   }
-  if (options.has_frames()) {
-    frame_renderer_ =
-        value_or_fail(render::Renderer::create(options.width, options.height), ExitCode::internal);
-  }
+  if (!frames_wanted()) return;
+  render::FrameLineOptions line{.threads =
+                                    options.threads > 0 ? options.threads : default_threads()};
+  if (!options.png.empty()) line.png = render::PngEffort::sequence;
+  line_ = value_or_fail(render::FrameLine::create(options.width, options.height, line),
+                        ExitCode::internal);
 }
 
 std::string PictureOutputs::frame_path(long frame) const {
   return fmt::format("{}/frame_{:06}.png", options_.png, frame);
 }
 
-void PictureOutputs::add_frame(const render::DrawList& list, const render::Camera& camera) {
-  const bool to_folder = !options_.png.empty() && png_well_;
-  if (!video_ && !to_folder) return;
-  const render::Image image =
-      value_or_fail(frame_renderer_->draw(list, camera), ExitCode::internal);
+void PictureOutputs::add_frame(render::DrawList list, const render::Camera& camera) {
+  if (!line_) return;
+  while (line_->full()) write_oldest();
+  line_->put(std::move(list), camera);
+}
+
+render::FrameLine::Frame PictureOutputs::take_oldest() {
+  try {
+    return value_or_fail(line_->take(), ExitCode::internal);
+  } catch (...) {
+    line_.reset();  // a frame is missing, so none may come after it
+    throw;
+  }
+}
+
+void PictureOutputs::write_oldest() {
+  const render::FrameLine::Frame frame = take_oldest();
   // Without an encoder that takes all frames there is no video at all.
-  if (video_ && !faults_.attempt([&] { check(video_->add(image), ExitCode::io); })) video_.reset();
-  if (to_folder) {
+  if (video_ && !faults_.attempt([&] { check(video_->add(frame.image), ExitCode::io); })) {
+    video_.reset();
+  }
+  if (!options_.png.empty() && png_well_) {
     const std::string path = frame_path(frames_);
-    png_well_ = faults_.attempt(
-        [&] { check(render::write_png(path, image, render::PngEffort::sequence), ExitCode::io); });
+    // Waiting for the disk after each frame would take longer than drawing it.
+    png_well_ = faults_.attempt([&] {
+      check(render::write_file(path, frame.png, render::Durability::process), ExitCode::io);
+    });
     if (png_well_) ++png_frames_;
   }
   ++frames_;
@@ -100,6 +125,8 @@ bool PictureOutputs::any_left() const {
 }
 
 void PictureOutputs::finish() {
+  while (line_ && frames_wanted() && !line_->empty()) write_oldest();
+  line_.reset();
   if (video_ && frames_ > 0) {
     video_done_ = faults_.attempt([&] { check(video_->finish(), ExitCode::io); });
   }

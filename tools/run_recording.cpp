@@ -85,13 +85,14 @@ view::Json machine_of(const Scene& scene, const RecordedRun& run) {
   const Simulation start = make_simulation(scene);
   const std::vector<CableReport> cables = start.cable_reports();
   render::ViewOptions options = render::scene_view_options(scene);
-  options.tension_max = run.survey.tension_max();
+  if (!options.tension_max) options.tension_max = run.survey.tension_max();
   options.run_bounds = run.survey.bounds();
+  options.travels = run.survey.travels();
   const render::ViewBuilder builder(start.world, cables, options);
   const render::Camera camera =
       render::scene_camera(scene, cables, run.survey.bounds(), builder.build(start.world, cables),
                            usual_width, usual_height);
-  const view::MachineLook look{builder, camera, run.survey.bounds(), run.survey.tension_max()};
+  const view::MachineLook look{builder, camera, run.survey.bounds(), *options.tension_max};
   return view::machine_json(scene, cables, run.recording.channels(), look);
 }
 

@@ -6,6 +6,7 @@
 
 #include "render/view_survey.h"
 #include "scenes/scene.h"
+#include "tools/failure.h"
 #include "tools/simulate.h"
 #include "view/machine_json.h"
 #include "view/recording.h"

@@ -100,8 +100,9 @@ class Video {
     const Simulation& now = core_->simulation();
     const std::vector<CableReport> cables = now.cable_reports();
     render::ViewOptions view = render::scene_view_options(core.scene());
-    view.tension_max = survey.tension_max();
+    if (!view.tension_max) view.tension_max = survey.tension_max();
     view.run_bounds = survey.bounds();
+    view.travels = survey.travels();
     builder_.emplace(now.world, cables, view);
     camera_ = render::scene_camera(core.scene(), cables, survey.bounds(),
                                    builder_->build(now.world, cables), side(width, "width"),

@@ -179,6 +179,29 @@ TEST_F(JointPicture, ARailReachesAsFarAsTheBodyCanTravel) {
   EXPECT_NEAR(list.tubes[0].points[1].position.x(), 2.0 + 0.5, 1e-12);
 }
 
+TEST_F(JointPicture, ARailWithoutStopsReachesAsFarAsTheRun) {
+  auto joint = std::make_shared<SliderJoint>();
+  joint->axis = Vector3::UnitX();
+  joint->travel.lower = -0.25;
+  World moving = world(joint, {2.0, 0.0, 0.0});
+  std::vector<JointTravel> travels;
+  extend_travels(moving, travels);
+  for (int k = 0; k < 50; ++k) {
+    ASSERT_TRUE(moving.step().ok());
+    extend_travels(moving, travels);
+  }
+  ASSERT_EQ(travels.size(), 1U);
+  EXPECT_NEAR(travels[0].lower, 0.0, 1e-9);
+  EXPECT_NEAR(travels[0].upper, 1.0, 1e-9);  // 2 m/s for 0.5 s
+  const World start = world(joint);
+  DrawList list;
+  add_joints(make_joint_view(start, unit, travels), start, list);
+  ASSERT_EQ(list.tubes.size(), 1U);
+  // The stop on one side; the end of the way, and four units more, on the other.
+  EXPECT_NEAR(list.tubes[0].points[0].position.x(), -0.25 - 0.5, 1e-12);
+  EXPECT_NEAR(list.tubes[0].points[1].position.x(), 1.0 + 4.0 * unit + 0.5, 1e-9);
+}
+
 TEST_F(JointPicture, TheRailIsThatOfTheBodyThatStands) {
   // The bar is body_a and moves along -x against the world, which its own travel counts as
   // positive.

@@ -221,8 +221,8 @@ std::string script(const std::string& path, const std::string& lines) {
 /// On a busy machine an encoder may do nothing for a while and yet not hang.
 Errors video_of(const std::string& path, const std::string& program, int frames,
                 double stall_seconds = 600.0) {
-  auto video =
-      VideoWriter::create(path, 64, 48, {.program = program, .stall_seconds = stall_seconds});
+  auto video = VideoWriter::create(
+      path, 64, 48, {.frames_per_second = 50, .program = program, .stall_seconds = stall_seconds});
   if (!video) return video.errors();
   Errors errors;
   for (int t = 0; t < frames && errors.empty(); ++t) errors = video->add(test_frame(64, 48, t));
@@ -244,7 +244,7 @@ TEST_F(Output, AnEncoderThatEndsWellButLeavesNoVideoIsAnError) {
       {"head -c 92160 | ffmpeg \"$@\"\n", ""},
   };
   if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
-  for (const char* name : {"v.mp4", "v.mkv", "v.mov"}) {
+  for (const char* name : {"v.mp4", "v.mkv", "v.mov", "v.gif"}) {
     for (const auto& encoder : encoders) {
       // The last one is given up by its writer, or leaves the 10 frames that it read.
       const std::string program = script(file("encoder"), encoder.lines);
@@ -257,6 +257,33 @@ TEST_F(Output, AnEncoderThatEndsWellButLeavesNoVideoIsAnError) {
     EXPECT_TRUE(video_of(file(name), script(file("encoder"), "exec ffmpeg \"$@\"\n"), 30).empty());
     fs::remove(file(name));
   }
+}
+
+TEST_F(Output, AGifHasTheColoursOfItsFrames) {
+  if (!has_ffmpeg()) GTEST_SKIP() << "ffmpeg is not installed";
+  EXPECT_FALSE(VideoWriter::create(file("v.gif"), 64, 48, {.frames_per_second = 60}));
+  // Red, then blue: a palette of the first frame would have no blue.
+  auto video = VideoWriter::create(file("v.gif"), 64, 48, {.frames_per_second = 25});
+  ASSERT_TRUE(video);
+  for (const bool red : {true, false}) {
+    Image image(64, 48);
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) image.rgb[i + (red ? 0 : 2)] = 200;
+    ASSERT_TRUE(video->add(image).empty());
+  }
+  ASSERT_TRUE(video->finish().empty());
+  EXPECT_EQ(content(file("v.gif")).substr(0, 6), "GIF89a");
+  const std::string command = "ffmpeg -nostdin -loglevel error -i '" + file("v.gif") +
+                              "' -vsync passthrough -f rawvideo -pix_fmt rgb24 '" + file("raw") +
+                              "'";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::string raw = content(file("raw"));
+  ASSERT_EQ(raw.size(), std::size_t{2} * 64 * 48 * 3);
+  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(raw[at]); };
+  // Colours of palettes are exact to a few steps of 255.
+  EXPECT_NEAR(byte(0), 200, 8);
+  EXPECT_NEAR(byte(2), 0, 8);
+  EXPECT_NEAR(byte(raw.size() / 2), 0, 8);
+  EXPECT_NEAR(byte(raw.size() / 2 + 2), 200, 8);
 }
 
 TEST_F(Output, AnEncoderThatHangsIsGivenUp) {

@@ -16,7 +16,6 @@ namespace {
 constexpr int frame_width = 160;
 constexpr int frame_height = 120;
 
-/// Making a renderer compiles its shaders, which takes longer than any test here.
 Renderer& shared_renderer() {
   static Result<Renderer> renderer = Renderer::create(frame_width, frame_height);
   return renderer.value();
@@ -173,6 +172,40 @@ TEST(Renderer, SceneFarFromTheOriginLooksTheSame) {
     different += std::abs(static_cast<int>(near->rgb[i]) - moved->rgb[i]) > 24 ? 1 : 0;
   }
   EXPECT_LT(different, static_cast<int>(near->rgb.size() / 100));
+}
+
+TEST(Renderer, WhatReachesBehindTheEyeIsCutOff) {
+  // A slab under the eye that goes on far behind it.
+  DrawList list;
+  list.solids = {solid(BoxShape{{100.0, 0.1, 100.0}}, {0.0, -1.0, 0.0}, rgb(0x2040ff))};
+  Camera camera;
+  camera.position = {0.0, 0.0, 0.0};
+  camera.target = {0.0, 0.0, -5.0};
+  const auto image = shared_renderer().draw(list, camera);
+  ASSERT_TRUE(image);
+  for (const int x : {2, frame_width / 2, frame_width - 3}) {
+    const std::uint8_t* below = image->pixel(x, frame_height - 3);
+    EXPECT_GT(below[2], below[0] + 40) << "the slab is blue";
+    EXPECT_GT(image->pixel(x, 3)[0], 200) << "the sky is bright";
+  }
+}
+
+TEST(Renderer, TheGroundHidesWhatIsUnderIt) {
+  DrawList list;
+  list.solids = {solid(SphereShape{0.5}, {0.0, 1.0, 0.0}, rgb(0x102030)),
+                 solid(SphereShape{0.5}, {0.0, -1.0, 0.0}, rgb(0x102030))};
+  list.planes.push_back({});
+  Camera camera;
+  camera.position = {0.0, 3.0, 12.0};
+  const Projector projector(camera, frame_width, frame_height);
+  const auto image = shared_renderer().draw(list, camera);
+  ASSERT_TRUE(image);
+  const auto brightness = [&](const Vector3& place) {
+    const auto at = projector.project(place);
+    return image->pixel(static_cast<int>(at->x), static_cast<int>(at->y))[1];
+  };
+  EXPECT_LT(brightness({0.0, 1.0, 0.0}), 120);
+  EXPECT_GT(brightness({0.0, -1.2, 0.0}), 150);
 }
 
 TEST(Renderer, EmptyListIsABackground) {

@@ -151,30 +151,41 @@ TEST(LabelLayout, AvoidsTextAndLinesAndSlides) {
   EXPECT_EQ(overlap(place.text, taken[0]), 0.0);
 }
 
-TEST(LabelLayout, CrowdedCablesAreLabelledAcrossTheirOwnLine) {
+TEST(LabelLayout, LabelsOfCrowdedCablesStandOnNone) {
   // The parts of a tackle, closer together than a label is wide with its gaps.
   std::vector<ScreenSegment> lines;
   std::vector<LabelRequest> labels;
   for (int k = 0; k < 5; ++k) {
-    const double x = 100.0 + 48.0 * k;
+    const double x = 200.0 + 30.0 * k;
     lines.push_back({x, 20, x, 280});
     labels.push_back(
         {.x = x, .y = 150, .direction_x = 1, .slide_y = 90, .width = 45, .height = 16});
   }
-  LabelSurroundings s = around(400, 300);
+  LabelSurroundings s = around(500, 300);
   s.gap = 13.0;
   s.lines = lines;
   const std::vector<LabelPlace> places = place_labels(labels, s);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Rectangle& r = places[i].text;
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-      const bool crosses = lines[k][0] > r.x && lines[k][0] < r.x + r.width;
-      EXPECT_TRUE(!crosses || k == i) << "label " << i << " stands on cable " << k;
-      if (k < i) {
-        EXPECT_EQ(overlap(r, places[k].text), 0.0);
-      }
+    EXPECT_FALSE(places[i].covers);
+    for (const ScreenSegment& line : lines) {
+      const bool beside = line[0] <= r.x || line[0] >= r.x + r.width;
+      const bool beyond = r.y + r.height <= line[1] || r.y >= line[3];
+      EXPECT_TRUE(beside || beyond) << "label " << i;
     }
+    for (std::size_t k = 0; k < i; ++k) EXPECT_EQ(overlap(r, places[k].text), 0.0);
   }
+}
+
+TEST(LabelLayout, TellsOfLabelsThatFindNoFreePlace) {
+  const std::vector<Rectangle> bodies{{0, 0, 400, 200}};
+  LabelSurroundings s = around(400, 200);
+  s.bodies = bodies;
+  const std::vector<LabelRequest> one{
+      {.x = 200, .y = 100, .direction_x = 1, .width = 40, .height = 12}};
+  EXPECT_TRUE(place_labels(one, s).front().covers);
+  s.bodies = {};
+  EXPECT_FALSE(place_labels(one, s).front().covers);
 }
 
 }  // namespace

@@ -146,6 +146,29 @@ TEST(RenderCommand, TheSameTwice) {
   EXPECT_NE(read_file(folder.path("a.png")), read_file(folder.path("c.png")));
 }
 
+TEST(RenderCommand, TheSameWhateverTheNumberOfThreads) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  for (const char* threads : {"1", "2", "5"}) {
+    std::vector<std::string> options{"--png", folder.path(threads), "--fps",
+                                     "20",    "--parallel",         threads};
+    if (have_ffmpeg()) {
+      options.insert(options.end(), {"--video", folder.path(threads) + std::string(".mp4")});
+    }
+    EXPECT_EQ(render(scene, options).exit_code, 0);
+  }
+  for (const char* threads : {"2", "5"}) {
+    for (int frame = 0; frame <= 20; ++frame) {
+      const std::string name =
+          std::string("/frame_0000") + (frame < 10 ? "0" : "") + std::to_string(frame) + ".png";
+      EXPECT_EQ(read_file(folder.path(threads) + name), read_file(folder.path("1") + name));
+    }
+    if (!have_ffmpeg()) continue;
+    EXPECT_EQ(read_file(folder.path(threads) + std::string(".mp4")),
+              read_file(folder.path("1.mp4")));
+  }
+}
+
 TEST(RenderCommand, SpeedAndRateDecideTheNumberOfFrames) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
