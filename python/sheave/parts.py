@@ -2081,12 +2081,14 @@ class Camera(Part):
     labels: write the tensions [N] beside the cables (true or false; default: false)
     joints: draw pins, rods and rails of the joints (true or false; default: true)
     cable_radius: that cables are drawn with; default: suits the scene (a number > 0 [m])
+    tension_max: tension at the top of the colour scale; default: what 98 % of the run's tensions do
+        not exceed (a number > 0 [N])
     """
 
     _kind = "camera"
     _keys = keys(
         "projection position target direction up vertical_fov height labels joints "
-        "cable_radius "
+        "cable_radius tension_max "
     )
 
     projection: Optional[Literal["perspective", "orthographic"]]
@@ -2099,6 +2101,7 @@ class Camera(Part):
     labels: Optional[bool]
     joints: Optional[bool]
     cable_radius: Optional[float]
+    tension_max: Optional[float]
 
     def __init__(
         self,
@@ -2113,6 +2116,7 @@ class Camera(Part):
         labels: Optional[bool] = None,
         joints: Optional[bool] = None,
         cable_radius: Optional[float] = None,
+        tension_max: Optional[float] = None,
     ) -> None:
         super().__init__(locals())
 
