@@ -73,11 +73,11 @@ std::vector<std::string> command_line(const Container& container, const std::str
   if (container.name == std::string_view("gif")) {
     // Each frame has the 256 colours that suit it: one palette for all would need all frames at
     // once in memory. Ordered dithering stands still where the picture does.
-    add({"-filter_complex",
-         "split[a][b];[a]palettegen=stats_mode=single[p];"
-         "[b][p]paletteuse=new=1:dither=bayer:bayer_scale=4",
-         "-threads", "1", "-fflags", "+bitexact", "-map_metadata", "-1", "-loop", "0", "-f", "gif",
-         "file:" + file});
+    constexpr const char* palettes =
+        "split[a][b];[a]palettegen=stats_mode=single[p];"
+        "[b][p]paletteuse=new=1:dither=bayer:bayer_scale=4";
+    add({"-filter_complex", palettes, "-threads", "1", "-fflags", "+bitexact", "-map_metadata",
+         "-1", "-loop", "0", "-f", "gif", "file:" + file});
     return line;
   }
   // Without naming the matrix, players guess one by the size and colours shift.
