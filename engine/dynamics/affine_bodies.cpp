@@ -67,6 +67,8 @@ bool AffineBodies::add(int body) {
   if (properties.prescribed()) prescribed_.push_back(number);
   if (properties.drive == DriveKind::torque) driven_.push_back(number);
   if (mover.carrier >= 0) mounted_.push_back(number);
+  // Of a velocity along a coordinate axis the speed is what it was.
+  if (mover.slides || mover.axis.cwiseAbs().sum() != 1.0) rounded_.push_back(number);
   movers_.push_back(mover);
   return true;
 }
@@ -239,16 +241,23 @@ void AffineBodies::go_on() {
   speeds_.swap(end_speeds_);
 }
 
-void AffineBodies::store(const std::vector<double>& places, const std::vector<double>& speeds,
-                         const State& loaded, State& state) const {
+[[gnu::always_inline]] inline void AffineBodies::turn(const Mover& mover, double place,
+                                                      double speed, BodyState& body) {
+  body.angle = place;
+  body.angular_velocity = speed * mover.axis;
+  const auto [sine, cosine] = sine_cosine(0.5 * place);
+  body.orientation.coeffs() = cosine * mover.upright.coeffs() + sine * mover.turned.coeffs();
+}
+
+void AffineBodies::store_end(const State& loaded, State& state) const {
   BodyState* const bodies = state.bodies.data();
   const Mover* const movers = movers_.data();
   const std::size_t count = movers_.size();
   for (std::size_t d = 1; d < count; ++d) {
     const Mover& mover = movers[d];
     BodyState& body = bodies[mover.body];
-    const double place = places[d];
-    const double speed = speeds[d];
+    const double place = places_[d];
+    const double speed = speeds_[d];
     if (mover.slides) {
       // By what it has moved: a direction whose length is rounded would make the whole place creep.
       body.position = sum(loaded.bodies[at(mover.body)].position, place - loaded_[d], mover.axis);
@@ -258,13 +267,6 @@ void AffineBodies::store(const std::vector<double>& places, const std::vector<do
     }
   }
   carry_mounted(state);
-}
-
-void AffineBodies::turn(const Mover& mover, double place, double speed, BodyState& body) {
-  body.angle = place;
-  body.angular_velocity = speed * mover.axis;
-  const auto [sine, cosine] = sine_cosine(0.5 * place);
-  body.orientation.coeffs() = cosine * mover.upright.coeffs() + sine * mover.turned.coeffs();
 }
 
 void AffineBodies::carry_mounted(State& state) const {
@@ -278,44 +280,39 @@ void AffineBodies::carry_mounted(State& state) const {
 }
 
 void AffineBodies::begin_unseen(const State& loaded) {
-  positions_.resize(movers_.size());
-  seen_places_.resize(movers_.size());
-  seen_speeds_.resize(movers_.size());
-  for (std::size_t d = 1; d < movers_.size(); ++d) {
-    positions_[d] = loaded.bodies[at(movers_[d].body)].position;
+  passed_positions_.resize(movers_.size());
+  passed_places_.resize(movers_.size());
+  passed_speeds_.resize(movers_.size());
+  for (const int number : rounded_) {
+    const std::size_t d = at(number);
+    passed_positions_[d] = loaded.bodies[at(movers_[d].body)].position;
   }
 }
 
 void AffineBodies::pass_unseen() {
-  places_.swap(seen_places_);
-  speeds_.swap(seen_speeds_);
-  const Mover* const movers = movers_.data();
-  const double* const places = seen_places_.data();
-  const double* const speeds = seen_speeds_.data();
-  const std::size_t count = movers_.size();
-  for (std::size_t d = 1; d < count; ++d) {
-    const Mover& mover = movers[d];
-    double place = places[d];
+  std::copy(places_.begin(), places_.end(), passed_places_.begin());
+  std::copy(speeds_.begin(), speeds_.end(), passed_speeds_.begin());
+  for (const int number : rounded_) {
+    const std::size_t d = at(number);
+    const Mover& mover = movers_[d];
     if (mover.slides) {
-      positions_[d] = sum(positions_[d], place - loaded_[d], mover.axis);
-      place = dot(mover.axis, positions_[d]);
-      loaded_[d] = place;
+      passed_positions_[d] = sum(passed_positions_[d], places_[d] - loaded_[d], mover.axis);
+      loaded_[d] = places_[d] = dot(mover.axis, passed_positions_[d]);
     }
-    places_[d] = place;
-    const Vector3 velocity = speeds[d] * mover.axis;
+    const Vector3 velocity = speeds_[d] * mover.axis;
     speeds_[d] = dot(mover.axis, velocity);
   }
 }
 
-void AffineBodies::end_unseen(State& state) const {
+void AffineBodies::store_passed(State& state) const {
   for (std::size_t d = 1; d < movers_.size(); ++d) {
     const Mover& mover = movers_[d];
     BodyState& body = state.bodies[at(mover.body)];
     if (mover.slides) {
-      body.position = positions_[d];
-      body.velocity = seen_speeds_[d] * mover.axis;
+      body.position = passed_positions_[d];
+      body.velocity = passed_speeds_[d] * mover.axis;
     } else {
-      turn(mover, seen_places_[d], seen_speeds_[d], body);
+      turn(mover, passed_places_[d], passed_speeds_[d], body);
     }
   }
   carry_mounted(state);

@@ -63,25 +63,20 @@ class AffineBodies {
   /// The end of the substep becomes the start of the next one.
   void go_on();
 
-  // Steps of which nobody sees the states between them: what store_end() and load() would do after
-  // each, to the last bit, but for what only those who look need.
+  /// Writes the end of the substep, of which go_on() was called, to `state`, whose other bodies are
+  /// those of `loaded`, the state that it started from. Both may be the same.
+  void store_end(const State& loaded, State& state) const;
+
+  // Substeps of which nobody sees the states between them: what store_end() and load() do after
+  // each, to the last bit, so that results do not depend on who looks; but not what only those who
+  // look need.
 
   /// To be called after load().
   void begin_unseen(const State& loaded);
-  /// The start of the next substep, which go_on() has made, becomes that of the next step.
+  /// After go_on(): the end of the substep becomes the start of the next one.
   void pass_unseen();
-  /// Writes the end of the last step that has passed.
-  void end_unseen(State& state) const;
-
-  /// Writes the start of the last substep, of which go_on() was called, to `state`, whose other
-  /// bodies and numbers are those of `loaded`, the state that was loaded. Both may be the same.
-  void store_start(const State& loaded, State& state) const {
-    store(end_places_, end_speeds_, loaded, state);
-  }
-  /// Likewise its end, which is where the next one starts.
-  void store_end(const State& loaded, State& state) const {
-    store(places_, speeds_, loaded, state);
-  }
+  /// Writes the end of the last substep that has passed.
+  void store_passed(State& state) const;
 
  private:
   struct Mover {
@@ -103,8 +98,6 @@ class AffineBodies {
   /// Of a body and what it carries [N or N m]; false if it depends on where the body is.
   [[nodiscard]] bool set_load_on(const Mover& mover, const State& state, double& load) const;
   [[nodiscard]] bool take_set_loads(const State& state);
-  void store(const std::vector<double>& places, const std::vector<double>& speeds,
-             const State& loaded, State& state) const;
   static void turn(const Mover& mover, double place, double speed, BodyState& body);
   void carry_mounted(State& state) const;
 
@@ -114,6 +107,7 @@ class AffineBodies {
   std::vector<int> driven_;    ///< by a torque that changes with time
   std::vector<int> prescribed_;
   std::vector<int> mounted_;  ///< on what slides
+  std::vector<int> rounded_;  ///< whose number or speed a state does not hold to the last bit
   double h_ = 0.0;
   double drag_time_ = 0.0;
   const Controls* controls_ = nullptr;
@@ -123,8 +117,9 @@ class AffineBodies {
   std::vector<double> farthest_, fastest_;  ///< beyond these a state means nothing
   std::vector<double> loaded_;              ///< places of load()
   std::vector<double> places_, speeds_, motion_, end_places_, end_speeds_;
-  std::vector<double> seen_places_, seen_speeds_;  ///< of the step that has passed, as it ended
-  std::vector<Vector3> positions_;                 ///< likewise
+  // Of the last substep that has passed, as it ended.
+  std::vector<double> passed_places_, passed_speeds_;
+  std::vector<Vector3> passed_positions_;
 };
 
 }  // namespace sheave

@@ -390,6 +390,7 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
   agree_ = true;
   before.memory = state.memory;
   if (!bodies_.load(state)) return 0;
+  if (last - first > 1) bodies_.begin_unseen(state);
   for (std::size_t f = 0; f < first_.size() && start != nullptr; ++f) {
     first_[f] = state.features[f].reals;
   }
@@ -402,6 +403,7 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
         (static_cast<double>(state.steps) + static_cast<double>(i + 1) / substeps) * dt;
     if (!attempt({state.time, end}, fresh && done == 0, state, before, substep)) break;
     bodies_.go_on();
+    if (i + 1 < last) bodies_.pass_unseen();
     state.features.swap(before.features);
     before.time = state.time;
     state.time = end;
@@ -413,10 +415,10 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
       start->time = first_time;
       for (std::size_t f = 0; f < first_.size(); ++f) start->features[f].reals = first_[f];
     }
-    bodies_.store_end(state, state);
+    bodies_.store_passed(state);
   } else if (done > 1) {
-    bodies_.store_start(state, before);
-    bodies_.store_end(state, state);
+    bodies_.store_passed(before);
+    bodies_.store_end(before, state);
   } else {
     state.bodies.swap(before.bodies);
     bodies_.store_end(before, state);
@@ -453,7 +455,7 @@ std::int64_t AffineMotion::leap(std::int64_t count, State& state, State& before,
     state.time = end;
     ++state.steps;
   }
-  if (done > 0) bodies_.end_unseen(state);
+  if (done > 0) bodies_.store_passed(state);
   return done;
 }
 

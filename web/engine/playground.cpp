@@ -115,19 +115,6 @@ std::string Playground::events_text(const LiveReport& report) const {
   return text;
 }
 
-namespace {
-
-/// A step with what the pointer does in each of its substeps. Without it the substeps are made in
-/// one go, to the same bits as by the command.
-LiveReport step_with(PointerSpring& pointer, LiveWorld& world) {
-  if (!pointer.holds()) return world.step();
-  const StepSettings& settings = world.simulation().world.model().step;
-  const double h = settings.dt / settings.substeps;
-  return world.step({}, [&] { pointer.act(world, h); });
-}
-
-}  // namespace
-
 void Playground::check_certificate(bool last) {
   const CableSystem* cables = world_.simulation().cables;
   static_cast<void>(cables);
@@ -136,7 +123,9 @@ void Playground::check_certificate(bool last) {
 }
 
 Playground::Ending Playground::step(std::string& text) {
-  const LiveReport report = step_with(pointer_, world_);
+  const StepSettings& settings = world_.simulation().world.model().step;
+  const double h = settings.dt / settings.substeps;
+  const LiveReport report = world_.step({}, [&] { pointer_.act(world_, h); });
   text = events_text(report);
   if (report.divergence) {
     text = report.divergence->message;
@@ -238,7 +227,10 @@ Errors Playground::set_reference(int refinement) {
 
 bool Playground::step_reference() {
   if (!reference_) return false;
-  const LiveReport report = step_with(reference_->pointer, reference_->world);
+  LiveWorld& world = reference_->world;
+  const StepSettings& settings = world.simulation().world.model().step;
+  const double h = settings.dt / settings.substeps;
+  const LiveReport report = world.step({}, [&] { reference_->pointer.act(world, h); });
   if (!report.ok()) reference_.reset();
   return report.ok();
 }
