@@ -12,8 +12,8 @@
 
 namespace sheave::render {
 
-/// Title, labels, joints, radius of cables, scale of tensions and colours of bodies as the scene has
-/// them.
+/// Title, labels, joints, radius of cables, scale of tensions and colours of bodies as the scene
+/// has them.
 [[nodiscard]] ViewOptions scene_view_options(const Scene& scene);
 
 /// A camera for a width x height picture [pixels] of `box` [m], the room that the whole run takes;

@@ -47,7 +47,7 @@ Errors check(const std::string& path, int width, int height, const VideoOptions&
                                                 std::to_string(options.frames_per_second) +
                                                 "; it must be above 0 and at most 1000"});
   }
-  if (path.ends_with(".gif") && options.frames_per_second > 50.0) {
+  if (path.ends_with(".gif") && options.frames_per_second > VideoWriter::most_gif_rate) {
     errors.push_back({"/frames_per_second",
                       "video '" + path + "': frames_per_second is " +
                           std::to_string(options.frames_per_second) +

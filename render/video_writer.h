@@ -25,13 +25,15 @@ struct VideoOptions {
   StopRequest abandon{};                                     ///< likewise
 };
 
-/// Writes H.264 in 4:2:0 that every player and browser shows, or an endless GIF. Frames with an odd width or height
-/// are extended by repeating the last column or row. The same frames give the same file with the
-/// same version of ffmpeg.
+/// Writes H.264 in 4:2:0 that every player and browser shows, or an endless GIF. Frames with an odd
+/// width or height are extended by repeating the last column or row. The same frames give the same
+/// file with the same version of ffmpeg.
 class VideoWriter {
  public:
-  /// `path` must end in .mp4, .mov, .mkv or .gif. Fails at once if the folder cannot be written to or
-  /// ffmpeg is not installed.
+  /// Frames per second of a GIF at most: what browsers show.
+  static constexpr double most_gif_rate = 50.0;
+  /// `path` must end in .mp4, .mov, .mkv or .gif. Fails at once if the folder cannot be written to
+  /// or ffmpeg is not installed.
   static Result<VideoWriter> create(const std::string& path, int width, int height,
                                     const VideoOptions& options = {});
   /// Discards the video unless finish() succeeded.

@@ -15,6 +15,8 @@
 #include <fmt/format.h>
 
 #include "engine/field_check.h"
+#include "engine/number_text.h"
+#include "render/video_writer.h"
 #include "render/view_builder.h"
 #include "tools/command_line.h"
 #include "tools/interrupt.h"
@@ -177,6 +179,12 @@ void check_usage(const PictureOptions& options) {
   if (!options.video.empty() && !ends_with_any(options.video, {".mp4", ".mov", ".mkv", ".gif"})) {
     throw Failure(ExitCode::usage,
                   "--video " + options.video + ": the name must end in .mp4, .mov, .mkv or .gif");
+  }
+  if (options.video.ends_with(".gif") && options.fps > render::VideoWriter::most_gif_rate) {
+    throw Failure(
+        ExitCode::usage,
+        fmt::format("--fps {}: of a GIF it must be at most {}, which is what browsers show",
+                    number_text(options.fps), number_text(render::VideoWriter::most_gif_rate)));
   }
   if (!options.glb.empty() && !ends_with_any(options.glb, {".glb"})) {
     throw Failure(ExitCode::usage, "--glb " + options.glb + ": the name must end in .glb");

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "scenes/suggestion.h"
 #include "tools/failure.h"
 
 namespace sheave::tools {
@@ -64,7 +65,11 @@ Trails::Trails(const Scene& scene, const std::vector<std::string>& trails) {
     const auto& bodies = scene.model.bodies;
     const auto found = std::find_if(bodies.begin(), bodies.end(),
                                     [&](const BodyDef& body) { return body.name == parts->first; });
-    if (found == bodies.end()) refuse(text, fmt::format("there is no body \"{}\"", parts->first));
+    if (found == bodies.end()) {
+      Suggestion near(parts->first);
+      for (const BodyDef& body : bodies) near.consider(body.name);
+      refuse(text, fmt::format("there is no body \"{}\"{}", parts->first, near.question()));
+    }
     trail.body = BodyId{static_cast<int>(found - bodies.begin())};
     trails_.push_back(std::move(trail));
   }

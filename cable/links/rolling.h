@@ -18,8 +18,8 @@ class RollingLink final : public WheelLink {
   /// ratio of the tensions passes e^(friction x wrap angle), any number of turns.
   std::optional<double> friction;
   /// Of a wheel without spin inertia: the tension of the cable that comes to it over that of the
-  /// cable that goes from it, in (0, 1]; default: 1. What is lost in bearing and rope is told as one
-  /// number, 0.98 for wire rope on roller bearings.
+  /// cable that goes from it, in (0, 1]; default: 1. What is lost in bearing and rope is told as
+  /// one number, 0.98 for wire rope on roller bearings.
   std::optional<double> efficiency;
   /// The cable passes the wheel by at time 0; it is wound on, as `winding` says, when it comes to
   /// touch it.

@@ -127,6 +127,25 @@ TEST(Trails, WhatIsNoneIsRefused) {
   EXPECT_FALSE(std::filesystem::exists(still));
 }
 
+TEST(Trails, ANameThatIsNearlyRightIsTold) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const ProcessResult result =
+      run_sheave({"render", scene, "--still", folder.path("still.png"), "--trail", "heavi:1"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("there is no body \"heavi\", did you mean \"heavy\"?"));
+}
+
+TEST(RenderCommand, AGifThatIsTooFastIsRefusedAsUsage) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::string film = folder.path("film.gif");
+  const ProcessResult result = run_sheave({"render", scene, "--video", film, "--fps", "60"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--fps 60: of a GIF it must be at most 50"));
+  EXPECT_FALSE(std::filesystem::exists(film));
+}
+
 TEST(RenderCommand, TrailsAndFormatsShow) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);
