@@ -78,8 +78,7 @@ struct MovingSpan {
     bool bounded = false;   ///< without stored cable it is left, or ends in another way
   };
   std::array<End, 2> ends;
-  double length = 0.0;    ///< with all places at 0 [m]
-  double shortest = 0.0;  ///< [m]
+  double length = 0.0;  ///< with all places at 0 [m]
   bool slides = false;
   bool driven = false;  ///< one of the wheels is
   int cable = 0;
@@ -94,13 +93,24 @@ struct FlatSpan {
   double length = 0.0;            ///< of one that does not slide [m]
 };
 
+/// What slides, likewise.
+struct FlatSlide {
+  int span = 0;
+  // Of both ends.
+  std::array<int, 2> sliders{};  ///< number of what slides; 0: nothing, at place 0
+  std::array<double, 2> along{};
+  double length = 0.0;    ///< with all places at 0 [m]
+  double shortest = 0.0;  ///< [m]
+};
+
 /// All of them.
 struct MovingSpans {
   std::vector<MovingSpan> spans;
   std::vector<FlatSpan> flat;      ///< of each
-  std::vector<int> sliding;        ///< which ones slide
+  std::vector<FlatSlide> sliding;  ///< of those that slide
   std::vector<int> driven;         ///< and which ones a driven wheel gives cable
   std::vector<int> bounded_links;  ///< where stored cable can come to an end
+  bool elastic = false;            ///< some are springs
   const BodySet* bodies = nullptr;
 };
 

@@ -16,7 +16,6 @@ MovingSpan CableSystem::moving_span(const AffineBodies& bodies, const State& ini
   const CompiledCable& cable = cables_[at(setup.cable)];
   MovingSpan span;
   span.length = affine.length;
-  span.shortest = AffineSpan::shortest * bodies.set().scale();
   span.cable = setup.cable;
   for (const std::size_t e : {0U, 1U}) {
     const AffineSpan::End& from = e == 0 ? affine.first : affine.second;
@@ -69,7 +68,14 @@ bool CableSystem::append_affine(const AffineBodies& bodies, AffineRows& rows) {
                             {first.link, second.link},
                             {first.given, second.given},
                             span.length});
-    if (span.slides) moving_.sliding.push_back(static_cast<int>(k));
+    if (span.slides) {
+      moving_.sliding.push_back({static_cast<int>(k),
+                                 {first.slider, second.slider},
+                                 {first.along, second.along},
+                                 span.length,
+                                 AffineSpan::shortest * bodies.set().scale()});
+    }
+    moving_.elastic = moving_.elastic || cable.compliance > 0.0;
     if (span.driven) moving_.driven.push_back(static_cast<int>(k));
     for (const MovingSpan::End& end : span.ends) {
       rows.add_term(end.slider, -end.along);
@@ -97,8 +103,8 @@ bool CableSystem::feeds(const MovingSpan& span, const FeatureState& state,
 bool CableSystem::begin_affine(const AffineSubstep& substep, const FeatureState& state,
                                std::span<double> values, std::span<char> active) {
   if (substep.fresh && state.integers != initial_.integers) return false;
-  if (controlled_) follow_controls(Controls{});
-  if (course_changes_ && !follows(state)) follow_course(*moving_.bodies, state);
+  if (substep.first && controlled_) follow_controls(Controls{});
+  if (substep.first && course_changes_ && !follows(state)) follow_course(*moving_.bodies, state);
   const double* const rest_lengths = &state.reals[rest_length_index(0)];
   const double* const remainders = &state.reals[remainder_index(0, 0)];
   const double* const tensions = &state.reals[tension_index(0)];
@@ -108,18 +114,18 @@ bool CableSystem::begin_affine(const AffineSubstep& substep, const FeatureState&
     active[k] = tensions[k] > 0.0 ? 1 : 0;
     values[k] = rest_lengths[k] + (remainders[2 * k] + remainders[2 * k + 1]) - spans[k].length;
   }
-  for (const int index : moving_.sliding) {
-    const std::size_t k = at(index);
-    const MovingSpan& span = moving_.spans[k];
-    double length = span.length;
-    double speed = 0.0;
-    for (const MovingSpan::End& end : span.ends) {
-      length += end.along * substep.places[at(end.slider)];
-      speed += std::abs(end.along * substep.speeds[at(end.slider)]);
-    }
-    if (!(length > AffineSpan::margin * substep.h * speed + span.shortest)) return false;
+  const double* const places = substep.places.data();
+  const double* const speeds = substep.speeds.data();
+  for (const FlatSlide& slide : moving_.sliding) {
+    const auto k = static_cast<std::size_t>(slide.span);
+    const auto [a, b] = slide.sliders;
+    const auto [along_a, along_b] = slide.along;
+    const double length = slide.length + along_a * places[a] + along_b * places[b];
+    const double speed = std::abs(along_a * speeds[a]) + std::abs(along_b * speeds[b]);
+    if (!(length > AffineSpan::margin * substep.h * speed + slide.shortest)) return false;
     values[k] = rest_lengths[k] + (remainders[2 * k] + remainders[2 * k + 1]) - length;
   }
+  if (moving_.driven.empty()) return true;
   return std::all_of(moving_.driven.begin(), moving_.driven.end(), [&](int k) {
     return feeds(moving_.spans[at(k)], state, substep.motion, rest_lengths[at(k)]);
   });
@@ -197,14 +203,15 @@ bool CableSystem::finish_affine(const AffineSubstep& substep, const FeatureState
   for (const int link : moving_.bounded_links) {
     if (!(next.reals[stored_length_index(link)] >= 0.0)) return false;
   }
-  for (const int index : moving_.sliding) {
-    const MovingSpan& span = moving_.spans[at(index)];
-    double& length = ends_[at(index)][1];
-    for (const MovingSpan::End& end : span.ends) {
-      length += end.along * (substep.places[at(end.slider)] + substep.motion[at(end.slider)]);
-    }
+  const double* const places = substep.places.data();
+  const double* const motion = substep.motion.data();
+  for (const FlatSlide& slide : moving_.sliding) {
+    const auto [a, b] = slide.sliders;
+    const double at_a = slide.along[0] * (places[a] + motion[a]);
+    ends_[at(slide.span)][1] = slide.length + at_a + slide.along[1] * (places[b] + motion[b]);
   }
-  if (substep.dissipates) substep.statistics->numerical_damping += affine_damping(substep, next);
+  if (substep.dissipates && moving_.elastic)
+    substep.statistics->numerical_damping += affine_damping(substep, next);
   knows_lengths_ = true;
   end_slides_and_stalls();
   return true;

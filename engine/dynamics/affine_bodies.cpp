@@ -68,7 +68,11 @@ bool AffineBodies::add(int body) {
   if (properties.drive == DriveKind::torque) driven_.push_back(number);
   if (mover.carrier >= 0) mounted_.push_back(number);
   // Of a velocity along a coordinate axis the speed is what it was.
-  if (mover.slides || mover.axis.cwiseAbs().sum() != 1.0) rounded_.push_back(number);
+  int component = 0;
+  const bool straight =
+      mover.axis.cwiseAbs().maxCoeff(&component) == 1.0 && mover.axis.cwiseAbs().sum() == 1.0;
+  if (mover.slides && straight) straight_.push_back({number, component, mover.axis[component]});
+  if (mover.slides || !straight) rounded_.push_back(number);
   movers_.push_back(mover);
   return true;
 }
@@ -283,18 +287,39 @@ void AffineBodies::begin_unseen(const State& loaded) {
   passed_positions_.resize(movers_.size());
   passed_places_.resize(movers_.size());
   passed_speeds_.resize(movers_.size());
+  by_component_.clear();
+  by_vector_.clear();
+  // That of a zero changes with any sum.
+  const auto has_negative_zero = [](const Vector3& place) {
+    return std::any_of(place.data(), place.data() + 3,
+                       [](double x) { return x == 0.0 && std::signbit(x); });
+  };
+  auto straight = straight_.begin();
   for (const int number : rounded_) {
     const std::size_t d = at(number);
     passed_positions_[d] = loaded.bodies[at(movers_[d].body)].position;
+    const bool is_straight = straight != straight_.end() && straight->number == number;
+    if (is_straight && !has_negative_zero(passed_positions_[d])) {
+      by_component_.push_back(*straight);
+    } else {
+      by_vector_.push_back(number);
+    }
+    if (is_straight) ++straight;
   }
 }
 
 void AffineBodies::pass_unseen() {
-  std::copy(places_.begin(), places_.end(), passed_places_.begin());
-  std::copy(speeds_.begin(), speeds_.end(), passed_speeds_.begin());
-  for (const int number : rounded_) {
+  for (const Straight& mover : by_component_) {
+    const std::size_t d = at(mover.number);
+    double& along = passed_positions_[d].data()[mover.component];
+    along += (places_[d] - loaded_[d]) * mover.sense;
+    loaded_[d] = places_[d] = mover.sense * along;
+  }
+  for (const int number : by_vector_) {
     const std::size_t d = at(number);
     const Mover& mover = movers_[d];
+    passed_places_[d] = places_[d];
+    passed_speeds_[d] = speeds_[d];
     if (mover.slides) {
       passed_positions_[d] = sum(passed_positions_[d], places_[d] - loaded_[d], mover.axis);
       loaded_[d] = places_[d] = dot(mover.axis, passed_positions_[d]);
@@ -305,15 +330,19 @@ void AffineBodies::pass_unseen() {
 }
 
 void AffineBodies::store_passed(State& state) const {
-  for (std::size_t d = 1; d < movers_.size(); ++d) {
+  const auto store = [&](std::size_t d, double place, double speed) {
     const Mover& mover = movers_[d];
     BodyState& body = state.bodies[at(mover.body)];
     if (mover.slides) {
       body.position = passed_positions_[d];
-      body.velocity = passed_speeds_[d] * mover.axis;
+      body.velocity = speed * mover.axis;
     } else {
-      turn(mover, passed_places_[d], passed_speeds_[d], body);
+      turn(mover, place, speed, body);
     }
+  };
+  for (std::size_t d = 1; d < movers_.size(); ++d) store(d, places_[d], speeds_[d]);
+  for (const int number : by_vector_) {
+    store(at(number), passed_places_[at(number)], passed_speeds_[at(number)]);
   }
   carry_mounted(state);
 }

@@ -75,7 +75,7 @@ class AffineBodies {
   void begin_unseen(const State& loaded);
   /// After go_on(): the end of the substep becomes the start of the next one.
   void pass_unseen();
-  /// Writes the end of the last substep that has passed.
+  /// Writes the end of the last substep that has passed, before go_on() of the next.
   void store_passed(State& state) const;
 
  private:
@@ -108,6 +108,14 @@ class AffineBodies {
   std::vector<int> prescribed_;
   std::vector<int> mounted_;  ///< on what slides
   std::vector<int> rounded_;  ///< whose number or speed a state does not hold to the last bit
+  /// What slides along a coordinate axis: of its place only one component changes, and its speed
+  /// is what it was.
+  struct Straight {
+    int number = 0;
+    int component = 0;
+    double sense = 1.0;  ///< of the axis
+  };
+  std::vector<Straight> straight_;
   double h_ = 0.0;
   double drag_time_ = 0.0;
   const Controls* controls_ = nullptr;
@@ -117,9 +125,13 @@ class AffineBodies {
   std::vector<double> farthest_, fastest_;  ///< beyond these a state means nothing
   std::vector<double> loaded_;              ///< places of load()
   std::vector<double> places_, speeds_, motion_, end_places_, end_speeds_;
-  // Of the last substep that has passed, as it ended.
-  std::vector<double> passed_places_, passed_speeds_;
+  // Of the last substep that has passed, as it ended: positions of what slides; places and speeds
+  // of what is in by_vector_.
   std::vector<Vector3> passed_positions_;
+  std::vector<double> passed_places_, passed_speeds_;
+  // Which of straight_ pass by their component alone, and what else of rounded_.
+  std::vector<Straight> by_component_;
+  std::vector<int> by_vector_;
 };
 
 }  // namespace sheave

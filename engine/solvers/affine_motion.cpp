@@ -108,9 +108,7 @@ void AffineMotion::prepare(const Substep& substep) {
   if (elastic_ && rattle_) rigid_.set_matrix(diagonal_, couplings, springs_);
 }
 
-bool AffineMotion::begin(const State& state, bool fresh) {
-  const AffineSubstep own{
-      0.0, h_, bodies_.places(), bodies_.speeds(), bodies_.motion(), {}, !rattle_, nullptr, fresh};
+bool AffineMotion::begin(AffineSubstep& own, const State& state) {
   for (std::size_t f = 0; f < features_.size(); ++f) {
     const std::size_t first = feature_rows_[f];
     const std::size_t count = feature_counts_[f];
@@ -133,9 +131,9 @@ void AffineMotion::find_free_values() {
 
 bool AffineMotion::keep_positions() {
   find_free_values();
-  if (!problem_.factor(active_)) return false;
   const std::size_t n = rows_.size();
-  const bool all = std::find(active_.begin(), active_.end(), 0) == active_.end();
+  const bool all = all_act();
+  if (!(all && problem_.factored_for_all()) && !problem_.factor(active_)) return false;
   terms_.visit([&](const auto& terms) {
     const double* const motion = bodies_.motion().data();
     const double* const free = free_.data();
@@ -268,11 +266,13 @@ bool AffineMotion::solve_velocities() {
 bool AffineMotion::keep_velocities() {
   const double rounding = RowSystem::value_rounding * scale_ / h_;
   const std::size_t n = rows_.size();
-  if (redundant_ > 0 || !velocities().factor(active_)) return false;
+  if (redundant_ > 0) return false;
+  AffineProblem& problem = velocities();
+  if (!(problem.factored_for_all() && all_act()) && !problem.factor(active_)) return false;
   for (std::size_t i = 0; i < n; ++i) {
     impulses_[i] = active_[i] != 0 && springs_[i] == 0 ? -rates_[i] : 0.0;
   }
-  velocities().solve(impulses_);
+  problem.solve(impulses_);
   return terms_.visit([&](const auto& terms) {
     double* const speeds = bodies_.end_speeds().data();
     bool holds = true;
@@ -337,12 +337,14 @@ void AffineMotion::count_search(const AffineProblem& problem) {
   factorisations_ += problem.found().factorisations();
 }
 
-bool AffineMotion::attempt(const Interval& time, bool fresh, const State& state, State& next,
+bool AffineMotion::attempt(const Interval& time, Place place, const State& state, State& next,
                            Substep& substep) {
   changes_ = factorisations_ = redundant_ = 0;
   const double loaded = rattle_ ? time.middle() : time.to;
   bodies_.predict(time.from, loaded, time.to);
-  if (!begin(state, fresh)) return false;
+  AffineSubstep own{time.to, h_,       bodies_.places(),    bodies_.speeds(), bodies_.motion(),
+                    {},      !rattle_, &substep.statistics, place.fresh,      place.first};
+  if (!begin(own, state)) return false;
   if (!keep_positions()) {
     bodies_.predict(time.from, loaded, time.to);
     if (!search_positions()) return false;
@@ -352,25 +354,15 @@ bool AffineMotion::attempt(const Interval& time, bool fresh, const State& state,
     bodies_.add_loads(time.middle(), time.to);
     if (!solve_velocities()) return false;
   }
-  return bodies_.arrive() && finish(time, state, next, substep);
+  return bodies_.arrive() && finish(own, state, next, substep.statistics);
 }
 
-bool AffineMotion::finish(const Interval& time, const State& state, State& next, Substep& substep) {
+bool AffineMotion::finish(AffineSubstep& own, const State& state, State& next,
+                          StepStatistics& statistics) {
   for (std::size_t f = 0; f < features_.size(); ++f) {
-    const std::span<const double> multipliers =
-        std::span(multipliers_).subspan(feature_rows_[f], feature_counts_[f]);
-    const AffineSubstep own{time.to,
-                            h_,
-                            bodies_.places(),
-                            bodies_.speeds(),
-                            bodies_.motion(),
-                            multipliers,
-                            !rattle_,
-                            &substep.statistics,
-                            false};
+    own.multipliers = std::span(multipliers_).subspan(feature_rows_[f], feature_counts_[f]);
     if (!features_[f]->finish_affine(own, state.features[f], next.features[f])) return false;
   }
-  StepStatistics& statistics = substep.statistics;
   statistics.last_correction = std::max(statistics.last_correction, left_);
   statistics.external_work += bodies_.work_of_set_loads();
   statistics.set_changes += changes_;
@@ -399,9 +391,10 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
   const auto substeps = static_cast<double>(settings_.substeps);
   int done = 0;
   for (int i = first; i < last; ++i, ++done) {
+    if (done > 0 && i + 1 == last) bodies_.store_passed(before);
     const double end =
         (static_cast<double>(state.steps) + static_cast<double>(i + 1) / substeps) * dt;
-    if (!attempt({state.time, end}, fresh && done == 0, state, before, substep)) break;
+    if (!attempt({state.time, end}, {fresh && done == 0, done == 0}, state, before, substep)) break;
     bodies_.go_on();
     if (i + 1 < last) bodies_.pass_unseen();
     state.features.swap(before.features);
@@ -417,7 +410,6 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
     }
     bodies_.store_passed(state);
   } else if (done > 1) {
-    bodies_.store_passed(before);
     bodies_.store_end(before, state);
   } else {
     state.bodies.swap(before.bodies);
@@ -448,7 +440,7 @@ std::int64_t AffineMotion::leap(std::int64_t count, State& state, State& before,
   std::int64_t done = 0;
   for (; done < count; ++done) {
     const double end = static_cast<double>(state.steps + 1) * settings_.dt;
-    if (!attempt({state.time, end}, false, state, before, substep)) break;
+    if (!attempt({state.time, end}, {false, done == 0}, state, before, substep)) break;
     bodies_.go_on();
     bodies_.pass_unseen();
     state.features.swap(before.features);

@@ -23,6 +23,7 @@
 // wound off all its cable, drives contradict each other) the stages of engine/step.cpp do, which
 // find the same motion. Which of the two it is follows from the state.
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -68,10 +69,15 @@ class AffineMotion {
   /// Whether nothing is set but loads.
   [[nodiscard]] static bool runs_free(const Controls& controls);
   /// One substep between these times [s] from `state` to `next`.
-  /// `fresh`: see AffineSubstep.
-  bool attempt(const Interval& time, bool fresh, const State& state, State& next, Substep& substep);
-  bool begin(const State& state, bool fresh);
-  bool finish(const Interval& time, const State& state, State& next, Substep& substep);
+  /// `fresh` and `first`: see AffineSubstep.
+  struct Place {
+    bool fresh = false;
+    bool first = false;
+  };
+  bool attempt(const Interval& time, Place place, const State& state, State& next,
+               Substep& substep);
+  bool begin(AffineSubstep& own, const State& state);
+  bool finish(AffineSubstep& own, const State& state, State& next, StepStatistics& statistics);
   /// What is the same in all substeps of this length.
   void prepare(const Substep& substep);
   /// The multipliers and the motion, if the rows act that have acted before; false if these are
@@ -85,6 +91,10 @@ class AffineMotion {
   bool act_and_check_all();
   /// Where the rows' values at the start count by the rules above: p C0 + s min(C0, 0).
   void find_free_values();
+  /// Whether all rows act that had a force.
+  [[nodiscard]] bool all_act() const {
+    return std::find(active_.begin(), active_.end(), 0) == active_.end();
+  }
   /// Changes the speeds at the end by the impulses of the rows that act, or that have to.
   bool solve_velocities();
   bool keep_velocities();

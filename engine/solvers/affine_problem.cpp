@@ -27,6 +27,7 @@ void AffineProblem::set_matrix(std::span<const double> diagonal, std::span<const
 bool AffineProblem::factor(std::span<const char> acts) {
   if (regular_ && std::equal(acts.begin(), acts.end(), factored_for_.begin())) return true;
   std::copy(acts.begin(), acts.end(), factored_for_.begin());
+  all_ = std::find(acts.begin(), acts.end(), 0) == acts.end();
   for (std::size_t i = 0; i < diagonal_.size(); ++i) {
     acting_diagonal_[i] = takes_part(acts, static_cast<int>(i)) ? diagonal_[i] : 1.0;
   }

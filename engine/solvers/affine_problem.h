@@ -28,6 +28,8 @@ class AffineProblem {
   /// Factors the matrix of the rows that act, unless it has just been; false if some of them are
   /// redundant.
   [[nodiscard]] bool factor(std::span<const char> acts);
+  /// Whether factor() was called for all rows last, and none of them is redundant.
+  [[nodiscard]] bool factored_for_all() const { return regular_ && all_; }
   /// Solves A x = b in place for the rows that factor() was called for; b is to be 0 elsewhere.
   void solve(std::span<double> x) { factor_.solve(x); }
 
@@ -51,6 +53,7 @@ class AffineProblem {
   SparseFactor factor_;
   std::vector<char> factored_for_;
   bool regular_ = false;
+  bool all_ = false;                                        ///< of factored_for_
   std::vector<double> acting_diagonal_, acting_couplings_;  // scratch of factor()
   bool analysed_ = false;                                   ///< for searches
   ComplementarityProblem problem_;

@@ -65,6 +65,8 @@ struct AffineSubstep {
   StepStatistics* statistics = nullptr;
   /// The state at the start has come about in another way than by the substep before.
   bool fresh = true;
+  /// The first of those that are made in one go: others may have used the feature since the last.
+  bool first = true;
 };
 
 }  // namespace sheave
