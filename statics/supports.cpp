@@ -44,6 +44,14 @@ std::vector<SupportReaction> support_reactions(Simulation& simulation,
   for (const CableReport& report : simulation.cable_reports()) add_cable(bodies, report, sums);
   const Vector3 gravity =
       state.controls.has_gravity ? state.controls.gravity : simulation.world.model().gravity;
+  // What acts on a mounted rotor its bearing hands on to its carrier.
+  for (int i = 0; i < bodies.count(); ++i) {
+    const int carrier = bodies[i].mount;
+    if (carrier < 0) continue;
+    const BodyDef& rotor = bodies.definition(i);
+    sums[at(i)] += rotor.force + mass_of(rotor) * gravity;
+    sums[at(carrier)] += sums[at(i)];
+  }
   std::vector<SupportReaction> reactions;
   double largest = 0.0;
   for (int i = 0; i <= bodies.count(); ++i) {
@@ -53,11 +61,8 @@ std::vector<SupportReaction> support_reactions(Simulation& simulation,
       const Mobility mobility = bodies[i].mobility;
       if (mobility == Mobility::free) continue;
       const BodyDef& body = bodies.definition(i);
-      if (mobility != Mobility::fixed && mobility != Mobility::kinematic) {
-        force += body.force;
-        // A mounted rotor's weight is its carrier's.
-        if (bodies[i].mount < 0) force += mass_of(body) * gravity;
-      }
+      const bool moves = mobility != Mobility::fixed && mobility != Mobility::kinematic;
+      if (moves && bodies[i].mount < 0) force += body.force + mass_of(body) * gravity;
     }
     largest = std::max(largest, force.norm());
     reactions.push_back({world ? BodyId::world() : BodyId{i}, -force});
