@@ -50,10 +50,6 @@ constexpr int most_flips = 4;
 /// A link that slid by nothing has been made to hold, and did not.
 constexpr int resting_flips = 2;
 
-/// What rounding leaves of the length that a span lacks or has to spare, relative to the scene's
-/// size.
-constexpr double length_rounding = 1e-13;
-
 /// What rounding leaves of sums of exponents.
 constexpr double exponent_rounding = 1e-12;
 
@@ -122,7 +118,7 @@ bool CableSystem::is_drained(const CompiledCable& cable, Run run) const {
 
 void CableSystem::collect_pieces(const Substep& substep, const CompiledCable& cable) {
   pieces_.clear();
-  const double rounding = length_rounding * substep.bodies.scale();
+  const double rounding = cable_parts::length_rounding * substep.bodies.scale();
   for_each_run(cable, [&](Run run) {
     Piece piece;
     piece.run = run;
@@ -351,7 +347,7 @@ double CableSystem::hold_ring(const Substep& substep, const CompiledCable& cable
 
 void CableSystem::update_slip(const Substep& substep, const CompiledCable& cable) {
   // Links that slide: has the cable moved with the pull, and by more than rounding?
-  const double rounding = length_rounding * substep.bodies.scale();
+  const double rounding = cable_parts::length_rounding * substep.bodies.scale();
   for_each_run(cable, [&](Run run) {
     if (run.count == 1) return;
     const std::vector<double>& spare = run_spare(substep, cable, run);

@@ -205,6 +205,10 @@ class KnownSpans {
   bool keeps_ = false;
 };
 
+/// What rounding leaves of the length that a span lacks or has to spare, relative to the scene's
+/// size.
+inline constexpr double length_rounding = 1e-13;
+
 /// Scratch of the rows of runs.
 struct RunWork {
   std::vector<Row> rows;
@@ -214,6 +218,7 @@ struct RunWork {
   std::vector<SpanDamping> dampings;
   std::vector<RowTerm> gradient;  ///< per body; `body` is not used
   std::vector<double> spare, lengths, tensions;
+  std::vector<char> rests;  ///< per link of the cable: nothing has passed over it
 };
 
 }  // namespace sheave::cable_parts

@@ -254,6 +254,19 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   return largest * denominator;
 }
 
+// Rigid parts that hold one block together have no tensions of their own while their links hold, and
+// links are judged by these. So they share the load as equal springs would.
+void CableSystem::share_load(const Substep& substep, const CompiledCable& cable, RowList& rows,
+                             std::size_t start) {
+  if (cable.compliance > 0.0 || cable.inverse_stiffness > 0.0) return;
+  constexpr double share = 1e-11;  // far above SparseFactor::dropped_pivot, and of no effect
+  RowResponse response;
+  for (std::size_t i = start; i < rows.size(); ++i) {
+    respond(rows[i], substep.moving, response);
+    rows[i].load_share = share * response.inverse_mass;
+  }
+}
+
 void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Run run,
                                 RowList& rows) {
   const std::size_t start = rows.size();
@@ -296,6 +309,7 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     row.start_weight = weights.start;
     if (cable.has_friction) last = start_spans_[at(k)] = span;
   }
+  if (cable.has_friction && !open) share_load(substep, cable, rows, start);
   const auto relative = [](double weight, double most) {
     return most == 0.0 && weight == 0.0 ? 1.0 : portable::exp(weight - most);
   };
@@ -389,12 +403,15 @@ const std::vector<double>& CableSystem::run_spare(const Substep& substep,
 }
 
 void CableSystem::share_lengths(Substep& substep, const CompiledCable& cable, FeatureState& next) {
+  std::vector<char>& rests = run_work_.rests;
+  rests.assign(at(cable.link_count), 0);
   for_each_run(cable, [&](Run run) {
     if (run.count > 1) share_run(substep, cable, run, next);
   });
   if (cable.has_friction) update_slip(substep, cable);
   for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
-    next.integers[slip_state_index(i)] = slip_[at(i)];
+    const bool resting = rests[at(i - cable.first_link)] != 0;
+    next.integers[slip_state_index(i)] = resting ? 0 : slip_[at(i)];
   }
 }
 
@@ -411,6 +428,11 @@ void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run ru
     rest_length += passed_before - moved;
     passed_before = moved;
     const int link = spans_[at(k)].second;
+    // Cable at the bound over which nothing passes is looked at anew in the next substep: what holds
+    // from then on is found from where all holds.
+    if (std::abs(passed) <= cable_parts::length_rounding * substep.bodies.scale()) {
+      run_work_.rests[at(link - cable.first_link)] = 1;
+    }
     if (links_[at(link)].massless) {
       // Both sides have the same tension and, but for dampers, strain.
       double strain = multipliers_[at(k)] * cable.inverse_stiffness / (substep.h * substep.h);

@@ -180,6 +180,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   void linearise_spans(Substep& substep, const CompiledCable& cable, RowList& rows);
   double sweep_runs(Substep& substep, int cable_index);
   using RunWeights = cable_parts::RunWeights;
+  static void share_load(const Substep& substep, const CompiledCable& cable, RowList& rows,
+                         std::size_t start);
   void linearise_run(Substep& substep, const CompiledCable& cable, Run run, RowList& rows);
   /// Evaluates the spans of a run; sums their gradients body by body, and collects the logarithms
   /// of the weights k_i. Returns the largest of these.

@@ -375,15 +375,37 @@ double RowSystem::yield(std::size_t g) const {
 
 bool RowSystem::solve(Substep& substep, bool compromise) {
   assemble();
-  const bool solved = active_set_.solve(problem_, compromise, &substep.work);
+  bool solved = solve_assembled(substep, compromise);
+  shares_load_ = solved && active_set_.dropped() > 0 && !active_set_.contradicts() && share_load();
+  if (shares_load_) solved = solve_assembled(substep, compromise);
   StepStatistics& statistics = substep.statistics;
   ++statistics.rounds;
   statistics.row_solves += static_cast<std::int64_t>(rows_.size());
+  if (compromise && active_set_.contradicts()) ++statistics.compromises;
+  return solved;
+}
+
+bool RowSystem::solve_assembled(Substep& substep, bool compromise) {
+  const bool solved = active_set_.solve(problem_, compromise, &substep.work);
+  StepStatistics& statistics = substep.statistics;
   statistics.set_changes += active_set_.changes();
   statistics.factorisations += active_set_.factorisations();
-  if (compromise && active_set_.contradicts()) ++statistics.compromises;
   statistics.redundant_rows = std::max(statistics.redundant_rows, active_set_.dropped());
   return solved;
+}
+
+bool RowSystem::share_load() {
+  bool any = false;
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const Group& group = groups_[g];
+    double share = 0.0;
+    for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
+      share += rows_[at(i)].weight * rows_[at(i)].load_share;
+    }
+    problem_.diagonal[g] += group.scale * share;
+    any = any || share > 0.0;
+  }
+  return any;
 }
 
 void RowSystem::relax(Substep& substep, int sweeps) {

@@ -210,6 +210,9 @@ class RowSystem {
   void remember_origin(const Substep& substep);
   void settle(const Substep& substep);
   void assemble();
+  bool solve_assembled(Substep& substep, bool compromise);
+  /// Adds what redundant rows share a load by to the matrix; false if nothing does.
+  bool share_load();
   /// Adds what `motion_` changes of the groups' values to the constants of the problem.
   void count_motion();
   /// Friction in several directions (engine/friction_rows.h), and what rounds have found of it.
@@ -321,6 +324,7 @@ class RowSystem {
   double bound_share_ = 1.0;    ///< of the rows' bounds, in the rule at work
   ComplementarityProblem problem_;
   ActiveSetSolver active_set_;
+  bool shares_load_ = false;  ///< in the last solve(): rows were redundant, Row::load_share
 };
 
 }  // namespace sheave

@@ -43,7 +43,7 @@ void RowSystem::pose_velocities(const Substep& substep, const RowSystem& positio
       0.5 / substep.h;  // of the bounds, for an impulse in the second half of the substep
   // Velocities alone tell nothing of forces that hold each other in balance. They stay what they
   // were in the first half, where the bounds and the links have judged them.
-  const bool redundant = positions.active_set_.dropped() > 0;
+  const bool redundant = positions.shares_load_ || positions.active_set_.dropped() > 0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
     const Row& first = rows_[at(group.first_row)];

@@ -79,9 +79,11 @@ EMSCRIPTEN_KEEPALIVE const char* sheave_text() { return answer().c_str(); }
 EMSCRIPTEN_KEEPALIVE const char* sheave_describe(const Playground* machine) {
   return say(machine->describe());
 }
-/// 0: done, 1: diverged, 2: stopped by a trigger; events or the reason in sheave_text().
+/// 0: done, 1: diverged, 2: stopped by a trigger; with 4 added there are events or a reason in
+/// sheave_text().
 EMSCRIPTEN_KEEPALIVE int sheave_step(Playground* machine) {
-  return static_cast<int>(machine->step(answer()));
+  const int ending = static_cast<int>(machine->step(answer()));
+  return answer().empty() ? ending : ending + 4;
 }
 EMSCRIPTEN_KEEPALIVE double sheave_time(const Playground* machine) {
   return machine->world().time();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include <fmt/format.h>
@@ -116,8 +117,6 @@ std::string Playground::events_text(const LiveReport& report) const {
 }
 
 void Playground::check_certificate(bool last) {
-  const CableSystem* cables = world_.simulation().cables;
-  static_cast<void>(cables);
   if (!schedule_.is_due(last)) return;
   if (const auto one = world_.simulation().certificate()) certificate_.merge(*one);
 }
@@ -125,7 +124,9 @@ void Playground::check_certificate(bool last) {
 Playground::Ending Playground::step(std::string& text) {
   const StepSettings& settings = world_.simulation().world.model().step;
   const double h = settings.dt / settings.substeps;
-  const LiveReport report = world_.step({}, [&] { pointer_.act(world_, h); });
+  std::function<void()> pull;
+  if (pointer_.holds()) pull = [&] { pointer_.act(world_, h); };
+  const LiveReport report = world_.step({}, pull);
   text = events_text(report);
   if (report.divergence) {
     text = report.divergence->message;

@@ -15,7 +15,8 @@ export async function loadEngine(folder) {
       if (machine === 0) throw new Error(call('text', 'string', []));
       return machine;
     },
-    step: (machine) => call('step', 'number', ['number'], machine),
+    /** 0: done; else it has ended. */
+    step: (machine) => module._sheave_step(machine) % 4,
     text: () => call('text', 'string', []),
     time: (machine) => call('time', 'number', ['number'], machine),
     hash: (machine) => call('hash', 'string', ['number'], machine),
