@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "render/canvas.h"
+#include "render/font.h"
 #include "render/label_layout.h"
 #include "render/number_text.h"
 
@@ -136,10 +136,10 @@ std::vector<Rectangle> visible_bodies(const DrawList& list, const Projector& pro
 
 /// Asks for a place for a label; nothing if its anchor is not in the picture.
 std::optional<LabelRequest> request_place(const Label& label, const Projector& projector,
-                                          const Style& style, const Image& image) {
+                                          const Style& style, const Canvas& canvas) {
   const auto anchor = projector.project(label.anchor);
-  if (label.text.empty() || !anchor || anchor->x < 0.0 || anchor->x > image.width ||
-      anchor->y < 0.0 || anchor->y > image.height) {
+  if (label.text.empty() || !anchor || anchor->x < 0.0 || anchor->x > canvas.width() ||
+      anchor->y < 0.0 || anchor->y > canvas.height()) {
     return std::nullopt;
   }
   LabelRequest request{.x = anchor->x, .y = anchor->y};
@@ -174,11 +174,11 @@ void draw_leader(Canvas& canvas, const LabelPlace& place, const Style& style) {
 }
 
 void draw_labels(Canvas& canvas, const DrawList& list, const Projector& projector,
-                 const Style& style, const Image& image, const std::vector<Rectangle>& occupied) {
+                 const Style& style, const std::vector<Rectangle>& occupied) {
   std::vector<LabelRequest> requests;
   std::vector<const Label*> shown;
   for (const Label& label : list.labels) {
-    if (const auto request = request_place(label, projector, style, image)) {
+    if (const auto request = request_place(label, projector, style, canvas)) {
       requests.push_back(*request);
       shown.push_back(&label);
     }
@@ -186,8 +186,8 @@ void draw_labels(Canvas& canvas, const DrawList& list, const Projector& projecto
   if (requests.empty()) return;
   const std::vector<ScreenSegment> lines = visible_lines(list, projector);
   const std::vector<Rectangle> bodies = visible_bodies(list, projector);
-  const LabelSurroundings around{static_cast<double>(image.width),
-                                 static_cast<double>(image.height),
+  const LabelSurroundings around{static_cast<double>(canvas.width()),
+                                 static_cast<double>(canvas.height()),
                                  0.75 * style.text,
                                  occupied,
                                  lines,
@@ -205,10 +205,9 @@ std::string time_text(double time) { return "t = " + fixed_text(time, 2) + " s";
 
 }  // namespace
 
-void draw_overlay(const DrawList& list, const Camera& camera, Image& image) {
-  Canvas canvas(image);
-  const Style style(image.height);
-  const Projector projector(camera, image.width, image.height);
+void draw_overlay(const DrawList& list, const Camera& camera, Canvas& canvas) {
+  const Style style(canvas.height());
+  const Projector projector(camera, canvas.width(), canvas.height());
   std::vector<Rectangle> occupied;
   double baseline = style.margin;
   if (!list.title.empty()) {
@@ -220,14 +219,14 @@ void draw_overlay(const DrawList& list, const Camera& camera, Image& image) {
     corner_text(canvas, style.margin, baseline + 0.8 * style.text, time_text(*list.time),
                 style.text, soft_ink, style.halo, occupied);
   }
-  corner_text(canvas, style.margin, image.height - style.margin, list.caption, style.text, soft_ink,
-              style.halo, occupied);
+  corner_text(canvas, style.margin, canvas.height() - style.margin, list.caption, style.text,
+              soft_ink, style.halo, occupied);
   std::optional<LegendBox> legend;
   if (list.legend) {
-    legend = layout_legend(*list.legend, style, image.width, image.height);
+    legend = layout_legend(*list.legend, style, canvas.width(), canvas.height());
     occupied.push_back(legend->area);
   }
-  draw_labels(canvas, list, projector, style, image, occupied);
+  draw_labels(canvas, list, projector, style, occupied);
   if (legend) draw_legend(canvas, *list.legend, *legend, style);
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "render/gl/frame_renderer.h"
+#include "render/image_canvas.h"
 #include "render/overlay.h"
 
 namespace sheave::render {
@@ -139,7 +140,10 @@ Result<Image> Renderer::draw(const DrawList& list, const Camera& camera) {
   if (content_->options.supersample > 1) {
     image = shrink(image.value(), content_->options.supersample);
   }
-  if (content_->options.text) draw_overlay(list, camera, image.value());
+  if (content_->options.text) {
+    ImageCanvas canvas(image.value());
+    draw_overlay(list, camera, canvas);
+  }
   return image;
 }
 

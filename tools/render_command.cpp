@@ -189,8 +189,9 @@ void check_usage(const PictureOptions& options) {
   if (!options.glb.empty() && !ends_with_any(options.glb, {".glb"})) {
     throw Failure(ExitCode::usage, "--glb " + options.glb + ": the name must end in .glb");
   }
-  if (!options.still.empty() && !ends_with_any(options.still, {".png"})) {
-    throw Failure(ExitCode::usage, "--still " + options.still + ": the name must end in .png");
+  if (!options.still.empty() && !ends_with_any(options.still, {".png", ".svg"})) {
+    throw Failure(ExitCode::usage,
+                  "--still " + options.still + ": the name must end in .png or .svg");
   }
 }
 
@@ -219,7 +220,8 @@ void add_picture_options(CLI::App& app, PictureOptions& options) {
       ->option_text("FILE");
   app.add_option("--png", options.png, "write every frame into a folder, frame_000000.png ...")
       ->option_text("DIR");
-  CLI::Option* still = app.add_option("--still", options.still, "write one picture (.png)");
+  CLI::Option* still = app.add_option("--still", options.still,
+                                      "write one picture (.png, or .svg with its texts as texts)");
   still->option_text("FILE");
   app.add_option("--at", options.at, "time of the still [s]; default: the end")
       ->check(number_between(0.0, std::numeric_limits<double>::max()))

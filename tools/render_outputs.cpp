@@ -11,11 +11,13 @@
 
 #include "render/destination.h"
 #include "render/output_file.h"
+#include "render/overlay.h"
 #include "render/png_writer.h"
 #include "tools/failure.h"
 #include "tools/interrupt.h"
 #include "tools/parallel.h"
 #include "tools/terminal.h"
+#include "view/svg_canvas.h"
 
 namespace sheave::tools {
 namespace {
@@ -108,12 +110,23 @@ void PictureOutputs::write_oldest() {
 
 void PictureOutputs::add_still(const render::DrawList& list, const render::Camera& camera) {
   // Only now: until then its memory is not needed.
-  render::Renderer renderer = value_or_fail(
-      render::Renderer::create(options_.width, options_.height, {.supersample = still_supersample}),
-      ExitCode::internal);
+  const bool svg = options_.still.ends_with(".svg");
+  render::Renderer renderer =
+      value_or_fail(render::Renderer::create(options_.width, options_.height,
+                                             {.supersample = still_supersample, .text = !svg}),
+                    ExitCode::internal);
   const render::Image image = value_or_fail(renderer.draw(list, camera), ExitCode::internal);
+  std::vector<std::uint8_t> content =
+      value_or_fail(render::encode_png(image, render::PngEffort::still), ExitCode::internal);
+  if (svg) {
+    view::SvgCanvas canvas(options_.width, options_.height);
+    render::draw_overlay(list, camera, canvas);
+    const std::string text = canvas.document({content.begin(), content.end()}, list.title);
+    content.assign(text.begin(), text.end());
+  }
   still_well_ = faults_.attempt([&] {
-    check(render::write_png(options_.still, image, render::PngEffort::still), ExitCode::io);
+    check(render::write_file(options_.still, content, render::Durability::power_loss),
+          ExitCode::io);
   });
   has_still_ = still_well_;
 }

@@ -191,6 +191,16 @@ TEST(RenderCommand, OlderFramesInTheFolderAreMentioned) {
   EXPECT_THAT(result.err, HasSubstr("frame_000003.png"));
 }
 
+TEST(RenderCommand, TextsOfAStillStayTextsInSvg) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  EXPECT_EQ(render(scene, {"--still", folder.path("still.svg"), "--labels"}).exit_code, 0);
+  const std::string svg = read_file(folder.path("still.svg"));
+  EXPECT_EQ(svg.rfind("<?xml", 0), 0U);
+  EXPECT_THAT(svg, HasSubstr(">t = "));
+  EXPECT_THAT(svg, HasSubstr("data:image/png;base64,iVBORw0KGgo"));  // the mark of PNG files
+}
+
 TEST(RenderCommand, WrongUsage) {
   const TemporaryFolder folder;
   const std::string scene = folder.write("atwood.json", atwood_scene);

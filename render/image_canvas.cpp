@@ -1,4 +1,4 @@
-#include "render/canvas.h"
+#include "render/image_canvas.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ TextMask grow(const TextMask& mask, double radius) {
 
 }  // namespace
 
-void Canvas::blend(int x, int y, const Color& color, double alpha) {
+void ImageCanvas::blend(int x, int y, const Color& color, double alpha) {
   if (x < 0 || y < 0 || x >= image_.width || y >= image_.height || !(alpha > 0.0)) return;
   const double a = std::min(alpha, 1.0);
   std::uint8_t* to = image_.pixel(x, y);
@@ -52,7 +52,7 @@ void Canvas::blend(int x, int y, const Color& color, double alpha) {
   channel(to[2], color.b);
 }
 
-void Canvas::fill(double x, double y, double w, double h, const Color& color, double alpha) {
+void ImageCanvas::fill(double x, double y, double w, double h, const Color& color, double alpha) {
   const int x0 = std::max(0, static_cast<int>(std::floor(x)));
   const int y0 = std::max(0, static_cast<int>(std::floor(y)));
   const int x1 = std::min(image_.width, static_cast<int>(std::ceil(x + w)));
@@ -67,8 +67,8 @@ void Canvas::fill(double x, double y, double w, double h, const Color& color, do
   }
 }
 
-void Canvas::line(double x0, double y0, double x1, double y1, double width, const Color& color,
-                  double alpha) {
+void ImageCanvas::line(double x0, double y0, double x1, double y1, double width, const Color& color,
+                       double alpha) {
   const double margin = 0.5 * width + 1.0;
   const int left = std::max(0, static_cast<int>(std::floor(std::min(x0, x1) - margin)));
   const int top = std::max(0, static_cast<int>(std::floor(std::min(y0, y1) - margin)));
@@ -90,7 +90,7 @@ void Canvas::line(double x0, double y0, double x1, double y1, double width, cons
   }
 }
 
-void Canvas::stamp(const TextMask& mask, int left, int top, const Color& color, double alpha) {
+void ImageCanvas::stamp(const TextMask& mask, int left, int top, const Color& color, double alpha) {
   for (int y = 0; y < mask.height; ++y) {
     for (int x = 0; x < mask.width; ++x) {
       const std::uint8_t coverage = mask.coverage[static_cast<std::size_t>(y * mask.width + x)];
@@ -99,8 +99,8 @@ void Canvas::stamp(const TextMask& mask, int left, int top, const Color& color, 
   }
 }
 
-void Canvas::text(double x, double y, std::string_view text, double pixels, const Color& color,
-                  double halo) {
+void ImageCanvas::text(double x, double y, std::string_view text, double pixels, const Color& color,
+                       double halo) {
   if (text.empty()) return;
   const int border = static_cast<int>(std::ceil(halo)) + 1;
   const TextMask mask = Font::builtin().draw(text, pixels, border);
