@@ -78,6 +78,7 @@ if(installed)
       string(APPEND SHEAVE_PC_DEFINITIONS " -D${definition}")
     endif()
   endforeach()
+  get_property(SHEAVE_PC_LIBRARIES GLOBAL PROPERTY SHEAVE_PC_LIBRARIES)
   configure_file(cmake/sheave.pc.in "${CMAKE_CURRENT_BINARY_DIR}/sheave.pc" @ONLY)
   install(
     FILES "${CMAKE_CURRENT_BINARY_DIR}/sheave.pc"
