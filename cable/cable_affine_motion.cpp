@@ -125,7 +125,6 @@ bool CableSystem::begin_affine(const AffineSubstep& substep, const FeatureState&
     if (!(length > AffineSpan::margin * substep.h * speed + slide.shortest)) return false;
     values[k] = rest_lengths[k] + (remainders[2 * k] + remainders[2 * k + 1]) - length;
   }
-  if (moving_.driven.empty()) return true;
   return std::all_of(moving_.driven.begin(), moving_.driven.end(), [&](int k) {
     return feeds(moving_.spans[at(k)], state, substep.motion, rest_lengths[at(k)]);
   });

@@ -259,7 +259,9 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
 void CableSystem::share_load(const Substep& substep, const CompiledCable& cable, RowList& rows,
                              std::size_t start) {
   if (cable.compliance > 0.0 || cable.inverse_stiffness > 0.0) return;
-  constexpr double share = 1e-11;  // far above SparseFactor::dropped_pivot, and of no effect
+  // Far above SparseFactor::dropped_pivot; a round leaves this share of what the multipliers' change
+  // moves a row by to the next one.
+  constexpr double share = 1e-11;
   RowResponse response;
   for (std::size_t i = start; i < rows.size(); ++i) {
     respond(rows[i], substep.moving, response);

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
+#include <initializer_list>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@ namespace {
 
 /// Of DejaVu Sans, from ascent to descent, in its em.
 constexpr double face_height = 1.164;
+constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
 
 std::string hex(const render::Color& color) {
   const auto byte = [](float value) {
@@ -23,12 +25,19 @@ std::string hex(const render::Color& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte(color.r), byte(color.g), byte(color.b));
 }
 
-/// Well-formed UTF-8: what is not is replaced.
+/// Well-formed UTF-8 that XML can hold but for control characters: what is not is replaced.
 std::string valid_text(std::string_view text) {
   using Json = nlohmann::json;
   const std::string quoted =
       Json(std::string(text)).dump(-1, ' ', false, Json::error_handler_t::replace);
-  return Json::parse(quoted).get<std::string>();
+  std::string valid = Json::parse(quoted).get<std::string>();
+  // U+FFFE and U+FFFF are UTF-8, but no characters of XML.
+  for (const std::string_view stranger : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) {
+    for (std::size_t at = 0; (at = valid.find(stranger, at)) != std::string::npos;) {
+      valid.replace(at, stranger.size(), replacement);
+    }
+  }
+  return valid;
 }
 
 std::string escaped(std::string_view text) {
@@ -49,7 +58,7 @@ std::string escaped(std::string_view text) {
         break;
       default:
         if (static_cast<unsigned char>(c) < 0x20) {
-          safe += "\xEF\xBF\xBD";
+          safe += replacement;
         } else {
           safe += c;
         }

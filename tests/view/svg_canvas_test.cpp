@@ -49,9 +49,10 @@ TEST(SvgCanvas, TextsAreAsWideAsInAPicture) {
 
 TEST(SvgCanvas, NamesCannotBreakTheFile) {
   SvgCanvas canvas(320, 200);
-  canvas.text(0.0, 9.0, "a<b>&\"c\"\x01\xff", 9.0, blue, 0.0);
+  canvas.text(0.0, 9.0, "a<b>&\"c\"\x01\xff\xEF\xBF\xBF", 9.0, blue, 0.0);
   const std::string text = canvas.document("", "</title><script>");
-  EXPECT_THAT(text, HasSubstr("a&lt;b&gt;&amp;&quot;c&quot;\xEF\xBF\xBD\xEF\xBF\xBD</text>"));
+  EXPECT_THAT(text,
+              HasSubstr("a&lt;b&gt;&amp;&quot;c&quot;\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD</text>"));
   EXPECT_THAT(text, Not(HasSubstr("<script>")));
 }
 
