@@ -6,6 +6,7 @@
 
 #include "cable/cable_system.h"
 #include "cable/certificate/pushes.h"
+#include "cable/links/spool.h"
 #include "engine/constraint_batch.h"
 #include "engine/dynamics/mounted_drive.h"
 #include "engine/joint_feature.h"
@@ -21,6 +22,21 @@ FeatureState with_forces(const FeatureState& like, const std::vector<double>& fo
   FeatureState own = like;
   std::copy(forces.begin(), forces.end(), own.reals.begin());
   return own;
+}
+
+/// A drum with layers acts with the radius that it has at the end.
+void let_drums_grow(const Simulation& simulation, const FeatureState& now, FeatureState& acting) {
+  const CableSystem& system = *simulation.cables;
+  for (std::size_t c = 0; c < simulation.cable_definitions->size(); ++c) {
+    const auto& links = (*simulation.cable_definitions)[c].links;
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      const auto* drum = dynamic_cast<const SpoolLink*>(links[i].get());
+      if (drum == nullptr || !(drum->layer_pitch > 0.0)) continue;
+      const auto place = static_cast<std::size_t>(
+          system.stored_length_index(system.cables()[c].first_link + static_cast<int>(i)));
+      acting.reals[place] = now.reals[place];
+    }
+  }
 }
 
 /// Bodies where they are at the end of a substep that began at `start`.
@@ -207,7 +223,7 @@ void Evidence::collect_cables(const LastSubstep& last) {
                         ? std::span<const double>(last.late_forces[feature])
                         : std::span<const double>();
   const auto force = parts(tensions, rattle, late);
-  // The course and the radii of a substep are those of its start.
+  // The course of a substep is that of its start.
   FeatureState first = before;
   FeatureState second = before;
   for (std::size_t k = 0; k < spans; ++k) {
@@ -215,6 +231,7 @@ void Evidence::collect_cables(const LastSubstep& last) {
     second.reals[system.tension_index(static_cast<int>(k))] = force[last_end][k];
     second.reals[system.rest_length_index(static_cast<int>(k))] = now.reals[k];
   }
+  let_drums_grow(simulation, now, second);
   follow_controls();
   const std::vector<CableReport> at_start = system.report(bodies, start, first);
   const std::vector<CableReport> at_end = system.report(bodies, end, second);
@@ -274,7 +291,7 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
         own.body = bodies.index(seen.body);
         own.link = link;
         own.place = places[at(link)];
-        own.radius = seen.radius;
+        own.radius[at(when)] = seen.radius;
         own.winding = seen.winding;
         own.outlined = !seen.path.empty();
         own.point[at(when)] = point;

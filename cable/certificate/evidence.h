@@ -54,9 +54,9 @@ struct Moment {
 /// One end of a span.
 struct SpanSide {
   int body = 0;
-  int link = -1;   ///< within the cable's way, wraps included
-  int place = -1;  ///< within the cable's list; -1: a wrap
-  double radius = 0.0;
+  int link = -1;                   ///< within the cable's way, wraps included
+  int place = -1;                  ///< within the cable's list; -1: a wrap
+  std::array<double, 2> radius{};  ///< at either end of the substep [m]: drums grow by layers
   int winding = 0;
   bool outlined = false;
   std::array<Vector3, 2> point;   ///< at either end of the substep [m]

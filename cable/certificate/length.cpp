@@ -132,7 +132,7 @@ bool is_massless(const CableEvidence& cable, const SpanSide& side) {
 }  // namespace
 
 double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, double reported) {
-  if (side.winding == 0 || !(side.radius > 0.0)) return 0.0;
+  if (side.winding == 0 || !(side.radius[first_end] > 0.0)) return 0.0;
   const Moment& start = evidence.moments[first_end];
   const Moment& end = evidence.moments[last_end];
   // In the wheel's own frame the contact moves by what rolls.
@@ -143,7 +143,9 @@ double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, 
   const Vector3 to = own(end, side.point[last_end] - side.center[last_end]);
   const Vector3 normal = own(start, side.normal[first_end]);
   const double angle = portable::atan2(normal.dot(from.cross(to)), from.dot(to));
-  const double factor = sense * side.winding * side.radius;
+  // Exact for layers, too: their radius grows in proportion to the angle.
+  const double radius = 0.5 * (side.radius[first_end] + side.radius[last_end]);
+  const double factor = sense * side.winding * radius;
   const double turns = std::round((reported / factor - angle) / (2.0 * pi));
   return factor * (angle + 2.0 * pi * turns);
 }

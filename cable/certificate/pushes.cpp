@@ -30,18 +30,19 @@ SpanPushes pushes_of(const SpanEvidence& span, End when, bool guided) {
     double k = 0.0;
   };
   const auto rim = [&](const SpanSide& side, double sense) {
-    Rim own{side.radius};
-    if (!(side.radius > 0.0)) return own;
+    const double radius = side.radius[at(when)];
+    Rim own{radius};
+    if (!(radius > 0.0)) return own;
     own.center = side.center[at(when)];
-    own.e = (side.point[at(when)] - own.center) / side.radius;
+    own.e = (side.point[at(when)] - own.center) / radius;
     if (side.outlined) {
       // Round a corner, whose centre follows from where the span touches it; a sharp one is a
       // point.
       own.e = side.winding * u.cross(side.normal[at(when)]).normalized();
-      own.center = side.point[at(when)] - side.radius * own.e;
+      own.center = side.point[at(when)] - radius * own.e;
     }
     own.t = side.normal[at(when)].cross(own.e);
-    own.k = sense * side.radius * (side.winding - u.dot(own.t));
+    own.k = sense * radius * (side.winding - u.dot(own.t));
     return own;
   };
   const Rim first = rim(span.from, -1.0);

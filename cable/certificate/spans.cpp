@@ -72,14 +72,15 @@ class SpanCheck {
     double off = std::abs((span.to.point[last_end] - span.from.point[last_end]).norm() -
                           span.length[last_end]);
     for (const SpanSide* side : {&span.from, &span.to}) {
-      if (side->outlined || !(side->radius > 0.0)) continue;
+      const double radius = side->radius[last_end];
+      if (side->outlined || !(radius > 0.0)) continue;
       const SpanSide& other = side == &span.from ? span.to : span.from;
       const Vector3 arm = side->point[last_end] - side->center[last_end];
-      off = std::max(off, std::abs(arm.norm() - side->radius));
+      off = std::max(off, std::abs(arm.norm() - radius));
       off = std::max(off, std::abs(arm.dot(side->normal[last_end])));
       // Seen along the plane's normal the other end lies on the tangent.
       const Vector3 to_other = other.point[last_end] - side->point[last_end];
-      off = std::max(off, std::abs(to_other.dot(arm)) / side->radius);
+      off = std::max(off, std::abs(to_other.dot(arm)) / radius);
       const double way = side->winding * side->normal[last_end].cross(arm).dot(
                                              side == &span.from ? to_other : Vector3(-to_other));
       if (way < 0.0) off = std::max(off, span.length[last_end]);
