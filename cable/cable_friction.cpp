@@ -28,8 +28,7 @@
 // slide as there is too much of it.
 //
 // While its links hold, statics leaves the tension of such a span open within the cones of its
-// neighbours, and so beside a dead end. It keeps what it had, which is what the last slip left, if
-// that is inside, or takes the nearest value that is.
+// neighbours, and so beside a dead end (cable/cable_held.cpp).
 
 #include <algorithm>
 #include <cmath>
@@ -143,6 +142,7 @@ void CableSystem::collect_pieces(const Substep& substep, const CompiledCable& ca
         }
         before = span;
       }
+      piece.turns = turns_wheel(substep, cable, run);
       piece.kind = spare > rounding    ? Piece::Kind::too_long
                    : spare < -rounding ? Piece::Kind::too_short
                                        : Piece::Kind::open;
@@ -402,81 +402,16 @@ void CableSystem::end_impulses() {
 
 bool CableSystem::revise(Substep& substep) {
   bool changed = false;
+  knows_pulls_ = true;
   for (const CompiledCable& cable : cables_) {
     if (!cable.has_friction) continue;
     const auto begin = slip_.begin() + cable.first_link;
     revised_.assign(begin, begin + cable.link_count);
     update_slip(substep, cable);
     changed = changed || !std::equal(revised_.begin(), revised_.end(), begin);
+    changed = has_other_given(substep, cable) || changed;
   }
   return changed;
-}
-
-void CableSystem::hold_tensions(const Substep& substep, const CompiledCable& cable,
-                                const FeatureState& start) {
-  collect_pieces(substep, cable);
-  for (std::size_t first = 0, i = 0; i < pieces_.size(); ++i) {
-    if (pieces_[i].link >= 0) continue;
-    hold_between(substep, cable, start, first, i);
-    first = i + 1;
-  }
-}
-
-void CableSystem::hold_between(const Substep& substep, const CompiledCable& cable,
-                               const FeatureState& start, std::size_t first, std::size_t last) {
-  const auto open = [](const Piece& p) { return p.kind != Piece::Kind::moves; };
-  // The cone that what lies behind leaves for each of them.
-  double low = no_pull;
-  double high = -no_pull;
-  for (std::size_t i = last + 1; i-- > first;) {
-    Piece& piece = pieces_[i];
-    const double held = i < last ? grip(substep, i) : 0.0;
-    low -= held;
-    high += held;
-    if (!open(piece)) {
-      low = high = piece.first_pull;
-      continue;
-    }
-    if (piece.kind == Piece::Kind::too_long) low = high = no_pull;
-    low -= piece.rise;
-    high -= piece.rise;
-    piece.low = low;
-    piece.high = high;
-  }
-  const double square = substep.h * substep.h;
-  bool known = false;  // what lies before
-  double pull = 0.0;
-  for (std::size_t i = first; i <= last; ++i) {
-    Piece& piece = pieces_[i];
-    const double held = i > first && known ? grip(substep, i - 1) : 0.0;
-    if (!open(piece)) {
-      pull = piece.last_pull;
-      known = true;
-      continue;
-    }
-    const double had = portable::log(square * start.reals[tension_index(piece.run.first)]);
-    double value = std::clamp(had, piece.low, piece.high);
-    if (known) value = std::clamp(value, pull - held, pull + held);
-    apply_held(substep, cable, piece, value);
-    pull = value + piece.rise;
-    known = true;
-  }
-}
-
-void CableSystem::apply_held(const Substep& substep, const CompiledCable& cable, const Piece& piece,
-                             double pull) {
-  SpanGeometry before;
-  for (int i = 0, k = piece.run.first; i < piece.run.count; ++i, k = next_span(cable, k)) {
-    if (piece.run.count > 1) {
-      const SpanGeometry span = geometry_of(substep, k);
-      const int over = spans_[at(k)].first;
-      if (i > 0 && !links_[at(over)].frictionless()) {
-        pull += slip_[at(over)] * friction_exponent(substep, over, before, span);
-      }
-      before = span;
-    }
-    multipliers_[at(k)] = portable::exp(pull);
-  }
 }
 
 }  // namespace sheave

@@ -100,7 +100,8 @@ struct Piece {
   Run run;
   int last = 0;  ///< its last span
   Kind kind = Kind::moves;
-  int link = -1;  ///< behind it, where cable can pass; -1: none
+  int link = -1;       ///< behind it, where cable can pass; -1: none
+  bool turns = false;  ///< whether it is open and slides over a wheel that its tensions turn
   double first_pull = 0.0;
   double last_pull = 0.0;
   double rise = 0.0;  ///< of the pull from its first span to its last, where it is not Kind::moves

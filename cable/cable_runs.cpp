@@ -147,6 +147,7 @@ double CableSystem::sweep_runs(Substep& substep, int cable_index) {
     correction = std::max(correction, corrected);
   });
   const int sweeps = ++sweeps_[at(cable_index)];
+  knows_pulls_ = true;
   if (cable.has_friction && sweeps < substep.iterations) update_slip(substep, cable);
   return correction;
 }
@@ -239,8 +240,14 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   // Where nothing but wheels that the cable slides over can move, rounding is left of w; it is no
   // yield.
   constexpr double cancelled = 64.0 * std::numeric_limits<double>::epsilon();
-  if (!(denominator > cancelled * parts)) return 0.0;
-  const double multiplier = std::max(numerator / denominator, 0.0);
+  const bool idle = !(denominator > cancelled * parts);
+  const bool acts = idle && cable.has_friction && turns_wheel(substep, cable, run) &&
+                    is_open(substep, cable, run);
+  if (idle && !acts) return 0.0;
+  if (acts) find_given(substep, cable);
+  const double multiplier =
+      acts ? substep.load_share * given_[at(run.first)] / run_work_.weights.front()
+           : std::max(numerator / denominator, 0.0);
   double largest = 0.0;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     const double increment = run_work_.weights[at(i)] * multiplier - multipliers_[at(k)];
@@ -251,7 +258,7 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
     apply_multiplier(run_work_.rows[at(i)], response, increment, substep.moving);
     largest = std::max(largest, std::abs(increment));
   }
-  return largest * denominator;
+  return largest * (acts ? parts : denominator);
 }
 
 // Rigid parts that hold one block together have no tensions of their own while their links hold, and
@@ -312,12 +319,21 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     if (cable.has_friction) last = start_spans_[at(k)] = span;
   }
   if (cable.has_friction && !open) share_load(substep, cable, rows, start);
+  const bool acts = open && turns_wheel(substep, cable, run);
+  if (acts) find_given(substep, cable);
   const auto relative = [](double weight, double most) {
     return most == 0.0 && weight == 0.0 ? 1.0 : portable::exp(weight - most);
   };
   for (std::size_t i = start; i < rows.size(); ++i) {
     rows[i].weight = relative(rows[i].weight, heaviest.now);
     rows[i].start_weight = relative(rows[i].start_weight, heaviest.start);
+  }
+  if (acts) {
+    Row& first = rows[start];
+    // Bounds are those of the unknown of the run.
+    const bool halves = substep.load_share < 1.0;
+    first.lower = given_[at(run.first)] / (halves ? first.start_weight : first.weight);
+    first.upper = first.lower;
   }
   if (!strains) return;
   run_work_.weights.clear();

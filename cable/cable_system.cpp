@@ -26,7 +26,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   follow_state(substep, state);
   begin_affine_spans(substep);
   known_.expect(spans_.size());
-  knows_start_ = false;
+  knows_start_ = knows_pulls_ = false;
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
   std::fill(sweeps_.begin(), sweeps_.end(), 0);
   std::fill(flips_.begin(), flips_.end(), 0);
@@ -44,7 +44,8 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const SpanSetup& setup = spans_[k];
     if (!setup.active) continue;
-    was_taut_[k] = state.reals[tension_index(static_cast<int>(k))] > 0.0 ? 1 : 0;
+    start_tensions_[k] = state.reals[tension_index(static_cast<int>(k))];
+    was_taut_[k] = start_tensions_[k] > 0.0 ? 1 : 0;
     const LinkGeometry& first = links_[at(setup.first)];
     const LinkGeometry& second = links_[at(setup.second)];
     // What is smaller than the quantum counts in the row, too: left out of 1e5 spans, it amounts to
@@ -236,7 +237,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
   knows_lengths_ = true;
   known_.expect(spans_.size());
   for (const CompiledCable& cable : cables_) {
-    if (cable.has_friction) hold_tensions(substep, cable, next);
+    if (cable.has_friction) hold_tensions(substep, cable);
   }
   if (!stored_.empty()) stored_end_ = stored_;
   keep_end_strains(substep);

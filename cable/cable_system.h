@@ -231,13 +231,19 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   void update_slip(const Substep& substep, const CompiledCable& cable);
   /// Makes links slide that stick and do not hold.
   void release_links(const Substep& substep, const CompiledCable& cable);
-  /// Gives spans whose tension is open one that their neighbours hold. `start`: the state at the
-  /// start of the substep.
-  void hold_tensions(const Substep& substep, const CompiledCable& cable, const FeatureState& start);
-  void hold_between(const Substep& substep, const CompiledCable& cable, const FeatureState& start,
+  // Tensions that no body decides: cable/cable_held.cpp.
+  enum class Held { given, reported };
+  /// Whether the run has a wheel between its spans that can turn.
+  [[nodiscard]] bool turns_wheel(const Substep& substep, const CompiledCable& cable, Run run) const;
+  /// Into given_ what open runs of the cable turn wheels with; whether it differs from the last.
+  void find_given(const Substep& substep, const CompiledCable& cable);
+  bool has_other_given(const Substep& substep, const CompiledCable& cable);
+  /// Gives spans whose tension is open one that their neighbours hold.
+  void hold_tensions(const Substep& substep, const CompiledCable& cable);
+  void hold_all(const Substep& substep, const CompiledCable& cable, Held what);
+  void hold_between(const Substep& substep, const CompiledCable& cable, Held what,
                     std::size_t first, std::size_t last);
-  void apply_held(const Substep& substep, const CompiledCable& cable, const Piece& piece,
-                  double pull);
+  void apply_held(const Substep& substep, const CompiledCable& cable, const Piece&, double pull);
   // Drums with layers: cable/cable_layers.cpp.
   using LayeredSpan = cable_parts::LayeredSpan;
   [[nodiscard]] bool layered(int span) const;
@@ -445,7 +451,10 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<double> strains_;      ///< per span, of a material, at the start
   std::vector<double> end_strains_;  ///< and at the end where it shares that of a run; < 0: its own
   std::vector<double> multipliers_;
-  std::vector<char> was_taut_;              ///< per span, in the last substep
+  std::vector<char> was_taut_;          ///< per span, in the last substep
+  std::vector<double> start_tensions_;  ///< per span [N]
+  std::vector<double> given_;  ///< per span that begins an open run: the first multiplier that acts
+  bool knows_pulls_ = false;   ///< whether a round has found multipliers
   std::vector<std::array<double, 2>> fed_;  ///< per span, of its ends, in this substep [m]
   std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
   std::vector<int> pending_slip_;

@@ -430,5 +430,43 @@ TEST_P(OpenSpan, ASheathOfFrictionalHolesHoldsItsTendon) {
   for (const LinkReport& link : report.links) EXPECT_EQ(link.slip, 0.0);
 }
 
+// A rope from a wall over a quarter of a spinning wheel and round a quarter of a rough eyelet to a
+// weight. Nothing moves but the wheel, over which the rope slides: with T1 = m g e^(-mu' pi / 2),
+// the least that the eyelet holds, and T0 = T1 e^(+-mu pi / 2), larger where the wheel drags the
+// rope away from the wall, it slows down by |T0 - T1| r / I, and once it has stopped it stays.
+TEST_P(OpenSpan, WheelThatSpinsUnderTheRope) {
+  for (const double sense : {-1.0, 1.0}) {
+    constexpr double radius = 0.2;
+    constexpr double inertia = 0.4;
+    constexpr double spin = 5.0;
+    constexpr double mass = 2.0;
+    test::Machine m = machine();
+    BodyDef brake = test::wheel("wheel", {0, 0, 0}, radius, inertia);
+    brake.angular_velocity = {0, 0, sense * spin};
+    const BodyId wheel = m.model.add(brake);
+    const BodyId load = m.model.add(test::weight("load", {1, -1, 0}, mass));
+    m.cables.push_back(
+        cable("rope", {attach(BodyId::world(), {-radius, -1, 0}), wrapped(wheel, right, 0.2),
+                       eyelet(BodyId::world(), {1, radius, 0}, 0.3), attach(load)}));
+    Simulation s = test::start(m);
+    const double t1 = mass * g * std::exp(-0.3 * 0.5 * pi);
+    const double t0 = t1 * std::exp(-sense * 0.2 * 0.5 * pi);
+    const double slows = std::abs(t0 - t1) * radius / inertia;
+    const double stops = spin / slows;
+    test::run(s.world, 0.5 * stops);
+    const double time = s.world.state().time;
+    EXPECT_NEAR(s.world.angular_velocity(wheel).z(), sense * (spin - slows * time), exact * spin);
+    const std::vector<double> t = tensions(s.cable_reports()[0]);
+    EXPECT_NEAR(t[0], t0, exact * t0);
+    EXPECT_NEAR(t[1], t1, exact * t1);
+    EXPECT_NEAR(t[2], mass * g, exact * mass * g);
+    ASSERT_TRUE(s.certificate().has_value());
+    EXPECT_TRUE(s.certificate()->clean(1e-9)) << s.certificate()->worst()->sentence();
+    test::run(s.world, 1.5 * stops);
+    EXPECT_NEAR(s.world.angular_velocity(wheel).z(), 0.0, exact * spin);
+    EXPECT_NEAR(s.world.position(load).y(), -1.0, exact);
+  }
+}
+
 }  // namespace
 }  // namespace sheave::open_span

@@ -1,0 +1,150 @@
+// Tensions that no body decides: those of spans that nothing can lengthen (cable/cable_friction.cpp).
+//
+// While the links around them hold, statics leaves such a tension open within the cones of its
+// neighbours, and so beside a dead end. It keeps what it had, which is what the last slip left, if
+// that is inside, or takes the nearest value that is.
+//
+// Over a free wheel between such spans cable may slide while nothing else moves: a rope from a wall
+// over a spinning brake drum into a rough eyelet. Their common row then asks for nothing, but the
+// difference of their tensions turns the wheel. So it is a force that is given: in every round
+// what the neighbours of the round before hold, in the first one what there was before.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cable/cable_system.h"
+#include "engine/index.h"
+#include "engine/math/portable.h"
+
+namespace sheave {
+namespace {
+
+/// Nothing pulls, as the logarithm of a tension.
+constexpr double no_pull = -std::numeric_limits<double>::infinity();
+
+/// Rounds that change a given force by less than this share of it are done.
+constexpr double settled_share = 1e-10;
+
+}  // namespace
+
+bool CableSystem::turns_wheel(const Substep& substep, const CompiledCable& cable, Run run) const {
+  for (int i = 0, k = run.first; i + 1 < run.count; ++i, k = next_span(cable, k)) {
+    const LinkGeometry& between = links_[at(spans_[at(k)].second)];
+    if (between.wraps() && substep.moving[at(between.body)].rotates) return true;
+  }
+  return false;
+}
+
+void CableSystem::find_given(const Substep& substep, const CompiledCable& cable) {
+  collect_pieces(substep, cable);
+  if (!knows_pulls_) {
+    for (const Piece& piece : pieces_) {
+      const int span = piece.run.first;
+      given_[at(span)] = substep.h * substep.h * start_tensions_[at(span)];
+    }
+    return;
+  }
+  // The rounds of `rattle` find the part of the first half.
+  const double rest = -portable::log(substep.load_share);
+  for (Piece& piece : pieces_) {
+    piece.first_pull += rest;
+    piece.last_pull += rest;
+  }
+  hold_all(substep, cable, Held::given);
+}
+
+bool CableSystem::has_other_given(const Substep& substep, const CompiledCable& cable) {
+  bool any = false;
+  for_each_run(cable, [&](Run run) {
+    any =
+        any || (run.count > 1 && turns_wheel(substep, cable, run) && is_open(substep, cable, run));
+  });
+  if (!any) return false;
+  const std::vector<double> before = given_;
+  find_given(substep, cable);
+  return std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& piece) {
+    const double now = given_[at(piece.run.first)];
+    const double then = before[at(piece.run.first)];
+    return piece.turns && std::abs(now - then) > settled_share * std::max(now, then);
+  });
+}
+
+void CableSystem::hold_tensions(const Substep& substep, const CompiledCable& cable) {
+  collect_pieces(substep, cable);
+  hold_all(substep, cable, Held::reported);
+}
+
+void CableSystem::hold_all(const Substep& substep, const CompiledCable& cable, Held what) {
+  for (std::size_t first = 0, i = 0; i < pieces_.size(); ++i) {
+    if (pieces_[i].link >= 0) continue;
+    hold_between(substep, cable, what, first, i);
+    first = i + 1;
+  }
+}
+
+void CableSystem::hold_between(const Substep& substep, const CompiledCable& cable, Held what,
+                               std::size_t first, std::size_t last) {
+  // What was given has acted.
+  const auto open = [&](const Piece& p) {
+    return p.kind != Piece::Kind::moves && !(what == Held::reported && p.turns);
+  };
+  // The cone that what lies behind leaves for each of them.
+  double low = no_pull;
+  double high = -no_pull;
+  for (std::size_t i = last + 1; i-- > first;) {
+    Piece& piece = pieces_[i];
+    const double held = i < last ? grip(substep, i) : 0.0;
+    low -= held;
+    high += held;
+    if (!open(piece)) {
+      low = high = piece.first_pull;
+      continue;
+    }
+    if (piece.kind == Piece::Kind::too_long) low = high = no_pull;
+    low -= piece.rise;
+    high -= piece.rise;
+    piece.low = low;
+    piece.high = high;
+  }
+  const double square = substep.h * substep.h;
+  bool known = false;  // what lies before
+  double pull = 0.0;
+  for (std::size_t i = first; i <= last; ++i) {
+    Piece& piece = pieces_[i];
+    const double held = i > first && known ? grip(substep, i - 1) : 0.0;
+    if (!open(piece)) {
+      pull = piece.last_pull;
+      known = true;
+      continue;
+    }
+    const double had = portable::log(square * start_tensions_[at(piece.run.first)]);
+    double value = std::clamp(had, piece.low, piece.high);
+    if (known) value = std::clamp(value, pull - held, pull + held);
+    if (what == Held::given) {
+      given_[at(piece.run.first)] = portable::exp(value);
+    } else {
+      apply_held(substep, cable, piece, value);
+    }
+    pull = value + piece.rise;
+    known = true;
+  }
+}
+
+void CableSystem::apply_held(const Substep& substep, const CompiledCable& cable, const Piece& piece,
+                             double pull) {
+  SpanGeometry before;
+  for (int i = 0, k = piece.run.first; i < piece.run.count; ++i, k = next_span(cable, k)) {
+    if (piece.run.count > 1) {
+      const SpanGeometry span = geometry_of(substep, k);
+      const int over = spans_[at(k)].first;
+      if (i > 0 && !links_[at(over)].frictionless()) {
+        pull += slip_[at(over)] * friction_exponent(substep, over, before, span);
+      }
+      before = span;
+    }
+    multipliers_[at(k)] = portable::exp(pull);
+  }
+}
+
+}  // namespace sheave
