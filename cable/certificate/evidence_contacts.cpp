@@ -10,6 +10,36 @@
 #include "engine/substep.h"
 
 namespace sheave::certify {
+namespace {
+
+/// Where a point of the surface [m, world] that touches the floor is at the end, if it was at
+/// `start`: material of a corner; of what is round the place that does not turn along with it.
+Vector3 place_at_end(const Evidence& evidence, int body, const PlacedShape& placed,
+                     const Vector3& start, const Vector3& normal) {
+  const std::array<Moment, 2>& moments = evidence.moments;
+  const auto carried = [&](const Vector3& place) {
+    return moments[last_end].point(body, moments[first_end].own_point(body, place));
+  };
+  const ConvexSolid solid = placed.shape->solid();
+  if (solid.kind == ConvexSolid::Kind::rounded && solid.radius > 0.0) {
+    const Vector3 below = -solid.radius * normal;
+    return carried(start - below) + below;
+  }
+  if (solid.kind != ConvexSolid::Kind::cylinder) return carried(start);
+  // The turn between the two moments without its twist about the axis.
+  const Quaternion first = moments[first_end].orientation(body);
+  const Vector3 axis = first * (placed.orientation * Vector3::UnitZ());
+  const Vector3 center =
+      moments[first_end].point(body, placed.position - evidence.bodies[body].center_of_mass);
+  const Vector3 core = center + axis * axis.dot(start - center);
+  const Quaternion turn = moments[last_end].orientation(body) * first.conjugate();
+  const double along = turn.vec().dot(axis);
+  Quaternion twist(turn.w(), along * axis.x(), along * axis.y(), along * axis.z());
+  twist.normalize();
+  return carried(core) + turn * (twist.conjugate() * (start - core));
+}
+
+}  // namespace
 
 void Evidence::collect_ground(const LastSubstep& last, std::size_t feature) {
   const auto late = last.late_forces.size() > feature
@@ -38,7 +68,9 @@ void Evidence::collect_ground(const LastSubstep& last, std::size_t feature) {
         contact.body_b = bodies.count();
         contact.normal = normal;
         for (const End when : {first_end, last_end}) {
-          contact.point_a[at(when)] = moments[at(when)].point(i, own);
+          const Vector3 touching = moments[first_end].point(i, own);
+          contact.point_a[at(when)] =
+              when == first_end ? touching : place_at_end(*this, i, placed, touching, normal);
           contact.gap[at(when)] = normal.dot(contact.point_a[at(when)] - model.ground->point);
           contact.point_b[at(when)] = contact.point_a[at(when)] - contact.gap[at(when)] * normal;
           contact.press[at(when)] = press[at(when)][k];

@@ -26,7 +26,8 @@ class Findings {
     double relative = scale > 0.0 ? excess / scale : (excess > 0.0 ? unbounded : 0.0);
     if (!std::isfinite(relative)) relative = unbounded;
     if (worst && !(relative > worst->relative)) return;
-    worst = CertificateItem{kind, name(), value, unit, scale, relative, time_, {}};
+    const double off = std::max(value, 0.0) + 0.0;  // and no negative zero
+    worst = CertificateItem{kind, name(), off, unit, scale, relative, time_, {}};
   }
 
   /// In the order of the kinds.

@@ -1,7 +1,12 @@
 // One row per point that can touch the floor: C = n . (p - p0) >= 0 with l in [0, inf), gradient n
 // at p. The points of a body are those its shapes name for the floor's direction at the start of
-// the substep; they are fixed to the body for the substep, so the gradient is exact. A rotor on a
-// fixed axle cannot fall and has no points; a mounted rotor's shape counts as part of its carrier.
+// the substep; corners are fixed to the body for the substep, so the gradient is exact. What is
+// round does not turn its lowest point along: of a ball or a capsule it stays right below the
+// centre or the end of the core, of a cylinder the rims' points turn as the axis does, not about
+// it, so that no force turns it about its axis. (Fixed to the body they would be off the middle by
+// r w h when the floor stops a fall at the speed v, which makes a cylinder spin by 2 v w h / r.) A
+// rotor on a fixed axle cannot fall and has no points; a mounted rotor's shape counts as part of
+// its carrier.
 
 #include "engine/contacts/ground_batch.h"
 
@@ -50,7 +55,7 @@ class GroundBatch final : public ConstraintBatch {
       double reach_squared = 0.0;
       std::size_t next = owner.first;
       for (const Vector3& point : points_) {
-        contacts_[next++].point = point;
+        place(substep, owner, point, contacts_[next++]);
         reach_squared = std::max(reach_squared, dot(point, point));
       }
       owner.reach = std::sqrt(reach_squared);
@@ -174,10 +179,17 @@ class GroundBatch final : public ConstraintBatch {
   }
 
  private:
+  enum class Surface { corners, ball, cylinder };
   struct Contact {
     int body;
-    Vector3 point;         // own frame [m], set in begin()
+    Vector3 point;         // own frame [m], set in begin(); of what is round that of the core
     bool pressed = false;  // in the last substep
+    Surface surface = Surface::corners;
+    double radius = 0.0;                 // of a ball [m]
+    Vector3 own_axis = Vector3::Zero();  // of a cylinder, own frame
+    // At the start of the substep:
+    Vector3 axis = Vector3::Zero();
+    Vector3 offset = Vector3::Zero();  // from the core [m]
   };
   struct Owner {
     int body;
@@ -189,6 +201,8 @@ class GroundBatch final : public ConstraintBatch {
         0.0;  // largest distance of a contact's point from the centre of mass [m], in this substep
     bool touches = false;  // one of its multipliers may not be 0
     bool near = false;     // may touch the floor in this substep, as far as its speed tells
+    Surface surface = Surface::corners;
+    double radius = 0.0;  // of a ball [m]
   };
 
   /// A body of one number: its lowest point is at `lowest` + `along` times that above the floor.
@@ -251,9 +265,40 @@ class GroundBatch final : public ConstraintBatch {
       Owner owner{body, &placed, bodies[body].center_of_mass};
       owner.first = contacts_.size();
       owner.count = points_.size();
+      find_surface(bodies, owner);
       owners_.push_back(owner);
       for (const Vector3& point : points_) contacts_.push_back({body, point, false});
     }
+  }
+
+  static void find_surface(const BodySet& bodies, Owner& owner) {
+    // What only slides does not turn.
+    if (bodies[owner.body].mount < 0 && bodies[owner.body].mobility == Mobility::slider) return;
+    const ConvexSolid solid = owner.shape->shape->solid();
+    owner.radius = solid.radius;
+    if (solid.kind == ConvexSolid::Kind::cylinder) {
+      owner.surface = Surface::cylinder;
+    } else if (solid.kind == ConvexSolid::Kind::rounded && solid.radius > 0.0) {
+      owner.surface = Surface::ball;
+    }
+  }
+
+  void place(const Substep& substep, const Owner& owner, const Vector3& point,
+             Contact& contact) const {
+    contact.surface = owner.surface;
+    contact.radius = owner.radius;
+    contact.point = point;
+    if (owner.surface == Surface::corners) return;
+    const Quaternion orientation = substep.orientation(owner.body);
+    if (owner.surface == Surface::ball) {
+      contact.point += rotated(orientation.conjugate(), owner.radius * normal_);
+      return;
+    }
+    const Vector3 center = owner.shape->position - owner.center_of_mass;
+    contact.own_axis = rotated(owner.shape->orientation, Vector3::UnitZ());
+    contact.point = center + contact.own_axis * dot(contact.own_axis, point - center);
+    contact.axis = rotated(orientation, contact.own_axis);
+    contact.offset = rotated(orientation, point - contact.point);
   }
 
   /// Twice its size above the floor leaves room for what the substep adds to the speed.
@@ -276,10 +321,25 @@ class GroundBatch final : public ConstraintBatch {
   }
 
   void evaluate(const Substep& substep, const Contact& contact, Row& row) const {
-    const Vector3 at = substep.point(contact.body, contact.point);
-    row.value = height(at);
+    Vector3 at = substep.point(contact.body, contact.point);
     row.lower = 0.0;
+    if (contact.surface == Surface::ball) {
+      row.value = height(at) - contact.radius;
+      substep.add_force(row, contact.body, at, normal_);
+      return;
+    }
+    Vector3 spin = Vector3::Zero();
+    if (contact.surface == Surface::cylinder) {
+      // By the smallest rotation that takes the axis there.
+      const Vector3 axis = rotated(substep.orientation(contact.body), contact.own_axis);
+      const double tilt = dot(axis, contact.offset) / (1.0 + dot(axis, contact.axis));
+      const Vector3 offset = contact.offset - tilt * (contact.axis + axis);
+      spin = axis * dot(axis, cross(offset, normal_));
+      at += offset;
+    }
+    row.value = height(at);
     substep.add_force(row, contact.body, at, normal_);
+    if (contact.surface == Surface::cylinder) substep.add_torque(row, contact.body, -spin);
   }
 
   Vector3 point_;
