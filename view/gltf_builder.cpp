@@ -184,10 +184,14 @@ int GltfBuilder::blended_mesh(const std::string& name, const render::Mesh& mesh,
   };
   const LinearColor from = linear(base);
   primitive.attributes["COLOR_0"] = everywhere(from);
+  // Blender knows no blending of colours, and opens only targets that move points: these by nothing.
+  const int still =
+      content_->corners(std::vector<float>(3 * mesh.vertices.size()), TINYGLTF_TYPE_VEC3, true);
   for (const render::Color& blend : blends) {
     const LinearColor to = linear(blend);
     primitive.targets.push_back(
-        {{"COLOR_0", everywhere({to[0] - from[0], to[1] - from[1], to[2] - from[2]})}});
+        {{"POSITION", still},
+         {"COLOR_0", everywhere({to[0] - from[0], to[1] - from[1], to[2] - from[2]})}});
   }
   const int made = content_->add_mesh(name, std::move(primitive));
   content_->model.meshes.back().weights.assign(blends.size(), 0.0);
