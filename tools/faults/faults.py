@@ -86,10 +86,11 @@ FAULTS = [
     one("open-spans", "spans that only prescribed motion changes do not make their neighbours slip",
         "cable/cable_friction.cpp", "  serve_pieces(substep, first, last);\n  const auto decided",
         "  const auto decided"),
-    one("open-tensions", "spans between immovable points keep what the solver leaves them", "cable/cable_friction.cpp",
-        "                                const FeatureState& start) {\n  collect_pieces(substep, cable);",
-        "                                const FeatureState& /*start*/) {\n  if (true) return;\n"
-        "  const FeatureState start;\n  collect_pieces(substep, cable);"),
+    one("open-tensions", "spans between immovable points keep what the solver leaves them", "cable/cable_held.cpp",
+        "  collect_pieces(substep, cable);\n  hold_all(substep, cable, Held::reported);",
+        "  if (true) return;\n  collect_pieces(substep, cable);\n  hold_all(substep, cable, Held::reported);"),
+    one("open-idle", "a wheel that spins under a rope between immovable points is not braked by it", "cable/cable_runs.cpp",
+        "const bool acts = open && turns_wheel(substep, cable, run);", "const bool acts = false && open;"),
     # Joints.
     one("hinge-lever", "joints pull body_a with 0.95 of what they pull body_b with", "engine/joints/lock_rows.h",
         "terms.set_value(dot(direction, at_a - at_b));\n  terms.add_force(a.body, at_a, direction);",
@@ -190,7 +191,7 @@ FAULTS = [
         "piece.kind = spare > rounding    ? Piece::Kind::too_long\n                   : spare < -rounding ? Piece::Kind::too_short\n"
         "                                       : Piece::Kind::open;",
         "static_cast<void>(spare > rounding);\n      piece.kind = Piece::Kind::open;"),
-    one("open-halved", "tensions that statics leaves open are half of what they were", "cable/cable_friction.cpp",
+    one("open-halved", "tensions that statics leaves open are half of what they were", "cable/cable_held.cpp",
         "multipliers_[at(k)] = portable::exp(pull);", "multipliers_[at(k)] = 0.5 * portable::exp(pull);"),
     one("strain-left", "material comes onto wheels without its strain", "cable/cable_system.cpp",
         "if (cable.inverse_stiffness > 0.0) {\n    transport = material_transport",
@@ -210,7 +211,7 @@ REPOSITORY = [f"scenes/analytic/{name}.json" for name in
                "sliding-box", "spinning-top", "spring-oscillator", "tipping-box", "tumbling-body", "yo-yo")]
 REPOSITORY += [f"scenes/paper/{name}.json" for name in ("bow", "elastic", "hybrid", "merge-split", "servin", "skewed-wheels")]
 REPOSITORY += [f"scenes/machines/{name}.json" for name in ("elevator-brake", "geared-hoist", "winch")]
-REPOSITORY += [f"tools/faults/{name}.json" for name in ("a1-drum-and-post", "a1-eyelets", "a1-feed",
+REPOSITORY += [f"tools/faults/{name}.json" for name in ("a1-drum-and-post", "a1-eyelets", "a1-feed", "brake-wheel",
                "a1-holes", "a2-post", "a3-drum", "a4-strained", "a5-cart", "a5-cart-1", "axles", "feed", "levers",
                "sliding-plate", "strained")]
 SCENES = [(scene, "direct", integrator) for scene in REPOSITORY for integrator in ("xpbd", "rattle")]
