@@ -136,7 +136,7 @@ void CableCompiler::make_room() {
   s.start_values_.resize(spans);
   s.was_taut_.resize(spans);
   s.start_tensions_.resize(spans);
-  s.given_.resize(spans);
+  s.given_.pulls.resize(spans);
   s.is_affine_.resize(spans);
   s.ends_.resize(spans);
   s.start_spans_.resize(spans);

@@ -402,7 +402,7 @@ void CableSystem::end_impulses() {
 
 bool CableSystem::revise(Substep& substep) {
   bool changed = false;
-  knows_pulls_ = true;
+  given_.knows_multipliers = true;
   for (const CompiledCable& cable : cables_) {
     if (!cable.has_friction) continue;
     const auto begin = slip_.begin() + cable.first_link;

@@ -1,4 +1,5 @@
-// Tensions that no body decides: those of spans that nothing can lengthen (cable/cable_friction.cpp).
+// Tensions that no body decides: those of spans that nothing can lengthen, as
+// cable/cable_friction.cpp has them.
 //
 // While the links around them hold, statics leaves such a tension open within the cones of its
 // neighbours, and so beside a dead end. It keeps what it had, which is what the last slip left, if
@@ -26,11 +27,17 @@ constexpr double no_pull = -std::numeric_limits<double>::infinity();
 /// Rounds that change a given force by less than this share of it are done.
 constexpr double settled_share = 1e-10;
 
+/// So many of them in a substep come nearer to nothing.
+constexpr int most_changes = 20;
+
 }  // namespace
 
 bool CableSystem::turns_wheel(const Substep& substep, const CompiledCable& cable, Run run) const {
+  // Of the body that holds the whole run, which moves as one with it, no part turns.
+  const int holds = links_[at(spans_[at(run.first)].first)].body;
   for (int i = 0, k = run.first; i + 1 < run.count; ++i, k = next_span(cable, k)) {
     const LinkGeometry& between = links_[at(spans_[at(k)].second)];
+    if (between.body == holds) continue;
     if (between.wraps() && substep.moving[at(between.body)].rotates) return true;
   }
   return false;
@@ -38,10 +45,10 @@ bool CableSystem::turns_wheel(const Substep& substep, const CompiledCable& cable
 
 void CableSystem::find_given(const Substep& substep, const CompiledCable& cable) {
   collect_pieces(substep, cable);
-  if (!knows_pulls_) {
+  if (!given_.knows_multipliers) {
     for (const Piece& piece : pieces_) {
       const int span = piece.run.first;
-      given_[at(span)] = substep.h * substep.h * start_tensions_[at(span)];
+      given_.pulls[at(span)] = portable::log(substep.h * substep.h * start_tensions_[at(span)]);
     }
     return;
   }
@@ -60,14 +67,17 @@ bool CableSystem::has_other_given(const Substep& substep, const CompiledCable& c
     any =
         any || (run.count > 1 && turns_wheel(substep, cable, run) && is_open(substep, cable, run));
   });
-  if (!any) return false;
-  const std::vector<double> before = given_;
+  if (!any || given_.changes >= most_changes) return false;
+  const auto first = given_.pulls.begin() + cable.first_span;
+  given_.before.assign(first, first + cable.span_count);
   find_given(substep, cable);
-  return std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& piece) {
-    const double now = given_[at(piece.run.first)];
-    const double then = before[at(piece.run.first)];
-    return piece.turns && std::abs(now - then) > settled_share * std::max(now, then);
+  const bool changed = std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& piece) {
+    const double now = given_.pulls[at(piece.run.first)];
+    const double then = given_.before[at(piece.run.first - cable.first_span)];
+    return piece.turns && now != then && !(std::abs(now - then) <= settled_share);
   });
+  if (changed) ++given_.changes;
+  return changed;
 }
 
 void CableSystem::hold_tensions(const Substep& substep, const CompiledCable& cable) {
@@ -122,7 +132,7 @@ void CableSystem::hold_between(const Substep& substep, const CompiledCable& cabl
     double value = std::clamp(had, piece.low, piece.high);
     if (known) value = std::clamp(value, pull - held, pull + held);
     if (what == Held::given) {
-      given_[at(piece.run.first)] = portable::exp(value);
+      given_.pulls[at(piece.run.first)] = value;
     } else {
       apply_held(substep, cable, piece, value);
     }

@@ -89,6 +89,14 @@ struct SpanDamping {
   [[nodiscard]] double end(double pull) const { return (pull + share * start) / (1.0 + share); }
 };
 
+/// With what open runs turn wheels between their spans: cable/cable_held.cpp.
+struct GivenPulls {
+  std::vector<double> pulls;       ///< logarithms of h^2 tension, per span that begins such a run
+  std::vector<double> before;      ///< scratch
+  int changes = 0;                 ///< in the substep
+  bool knows_multipliers = false;  ///< whether a round has found some
+};
+
 /// A run, as the links that stick at its ends see it. Pulls are logarithms of multipliers.
 struct Piece {
   enum class Kind {

@@ -147,7 +147,6 @@ double CableSystem::sweep_runs(Substep& substep, int cable_index) {
     correction = std::max(correction, corrected);
   });
   const int sweeps = ++sweeps_[at(cable_index)];
-  knows_pulls_ = true;
   if (cable.has_friction && sweeps < substep.iterations) update_slip(substep, cable);
   return correction;
 }
@@ -246,7 +245,7 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   if (idle && !acts) return 0.0;
   if (acts) find_given(substep, cable);
   const double multiplier =
-      acts ? substep.load_share * given_[at(run.first)] / run_work_.weights.front()
+      acts ? substep.load_share * portable::exp(given_.pulls[at(run.first)] + heaviest)
            : std::max(numerator / denominator, 0.0);
   double largest = 0.0;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
@@ -331,9 +330,8 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
   if (acts) {
     Row& first = rows[start];
     // Bounds are those of the unknown of the run.
-    const bool halves = substep.load_share < 1.0;
-    first.lower = given_[at(run.first)] / (halves ? first.start_weight : first.weight);
-    first.upper = first.lower;
+    const double most = substep.load_share < 1.0 ? heaviest.start : heaviest.now;
+    first.lower = first.upper = portable::exp(given_.pulls[at(run.first)] + most);
   }
   if (!strains) return;
   run_work_.weights.clear();

@@ -26,7 +26,8 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   follow_state(substep, state);
   begin_affine_spans(substep);
   known_.expect(spans_.size());
-  knows_start_ = knows_pulls_ = false;
+  knows_start_ = given_.knows_multipliers = false;
+  given_.changes = 0;
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
   std::fill(sweeps_.begin(), sweeps_.end(), 0);
   std::fill(flips_.begin(), flips_.end(), 0);
@@ -119,6 +120,7 @@ double CableSystem::sweep(Substep& substep) {
     correction = std::max(correction, cables_[i].shares ? sweep_runs(substep, static_cast<int>(i))
                                                         : sweep_spans(substep, cables_[i]));
   }
+  given_.knows_multipliers = true;
   return correction;
 }
 

@@ -235,8 +235,9 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   enum class Held { given, reported };
   /// Whether the run has a wheel between its spans that can turn.
   [[nodiscard]] bool turns_wheel(const Substep& substep, const CompiledCable& cable, Run run) const;
-  /// Into given_ what open runs of the cable turn wheels with; whether it differs from the last.
+  /// Into given_ what open runs of the cable turn wheels with.
   void find_given(const Substep& substep, const CompiledCable& cable);
+  /// Whether that is another one now.
   bool has_other_given(const Substep& substep, const CompiledCable& cable);
   /// Gives spans whose tension is open one that their neighbours hold.
   void hold_tensions(const Substep& substep, const CompiledCable& cable);
@@ -453,8 +454,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<double> multipliers_;
   std::vector<char> was_taut_;          ///< per span, in the last substep
   std::vector<double> start_tensions_;  ///< per span [N]
-  std::vector<double> given_;  ///< per span that begins an open run: the first multiplier that acts
-  bool knows_pulls_ = false;   ///< whether a round has found multipliers
+  cable_parts::GivenPulls given_;
   std::vector<std::array<double, 2>> fed_;  ///< per span, of its ends, in this substep [m]
   std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
   std::vector<int> pending_slip_;

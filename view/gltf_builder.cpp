@@ -184,7 +184,7 @@ int GltfBuilder::blended_mesh(const std::string& name, const render::Mesh& mesh,
   };
   const LinearColor from = linear(base);
   primitive.attributes["COLOR_0"] = everywhere(from);
-  // Blender knows no blending of colours, and opens only targets that move points: these by nothing.
+  // Blender does not blend colours, and opens only targets that move points: these by nothing.
   const int still =
       content_->corners(std::vector<float>(3 * mesh.vertices.size()), TINYGLTF_TYPE_VEC3, true);
   for (const render::Color& blend : blends) {

@@ -7,6 +7,9 @@
 #include "cable/certificate/evidence.h"
 #include "cable/certificate/pushes.h"
 #include "engine/dynamics/mounted_drive.h"
+#include "engine/shapes/capsule.h"
+#include "engine/shapes/cylinder.h"
+#include "engine/shapes/sphere.h"
 #include "engine/substep.h"
 
 namespace sheave::certify {
@@ -20,12 +23,14 @@ Vector3 place_at_end(const Evidence& evidence, int body, const PlacedShape& plac
   const auto carried = [&](const Vector3& place) {
     return moments[last_end].point(body, moments[first_end].own_point(body, place));
   };
-  const ConvexSolid solid = placed.shape->solid();
-  if (solid.kind == ConvexSolid::Kind::rounded && solid.radius > 0.0) {
-    const Vector3 below = -solid.radius * normal;
+  const Shape* shape = placed.shape.get();
+  const auto* ball = dynamic_cast<const Sphere*>(shape);
+  const auto* rod = dynamic_cast<const Capsule*>(shape);
+  if (ball != nullptr || rod != nullptr) {
+    const Vector3 below = -(ball != nullptr ? ball->radius : rod->radius) * normal;
     return carried(start - below) + below;
   }
-  if (solid.kind != ConvexSolid::Kind::cylinder) return carried(start);
+  if (dynamic_cast<const Cylinder*>(shape) == nullptr) return carried(start);
   // The turn between the two moments without its twist about the axis.
   const Quaternion first = moments[first_end].orientation(body);
   const Vector3 axis = first * (placed.orientation * Vector3::UnitZ());
@@ -35,6 +40,8 @@ Vector3 place_at_end(const Evidence& evidence, int body, const PlacedShape& plac
   const Quaternion turn = moments[last_end].orientation(body) * first.conjugate();
   const double along = turn.vec().dot(axis);
   Quaternion twist(turn.w(), along * axis.x(), along * axis.y(), along * axis.z());
+  // Turned over by half a turn it has none.
+  if (twist.norm() < 1e-9) return carried(start);
   twist.normalize();
   return carried(core) + turn * (twist.conjugate() * (start - core));
 }

@@ -53,12 +53,17 @@ class GroundBatch final : public ConstraintBatch {
       append_points(substep, owner);
       owner.touches = false;
       double reach_squared = 0.0;
+      double round_reach = 0.0;
       std::size_t next = owner.first;
       for (const Vector3& point : points_) {
-        place(substep, owner, point, contacts_[next++]);
+        Contact& contact = contacts_[next++];
+        place(substep, owner, point, contact);
         reach_squared = std::max(reach_squared, dot(point, point));
+        if (contact.surface == Surface::corners) continue;
+        round_reach = std::max(round_reach, contact.point.norm() + owner.radius);
       }
-      owner.reach = std::sqrt(reach_squared);
+      // The lowest point of what is round off its centre of mass comes farther from it as it turns.
+      owner.reach = std::max(std::sqrt(reach_squared), round_reach);
       owner.near = may_come_near(substep, owner);
     }
   }
@@ -202,7 +207,7 @@ class GroundBatch final : public ConstraintBatch {
     bool touches = false;  // one of its multipliers may not be 0
     bool near = false;     // may touch the floor in this substep, as far as its speed tells
     Surface surface = Surface::corners;
-    double radius = 0.0;  // of a ball [m]
+    double radius = 0.0;  // of what is round [m]
   };
 
   /// A body of one number: its lowest point is at `lowest` + `along` times that above the floor.
@@ -332,7 +337,8 @@ class GroundBatch final : public ConstraintBatch {
     if (contact.surface == Surface::cylinder) {
       // By the smallest rotation that takes the axis there.
       const Vector3 axis = rotated(substep.orientation(contact.body), contact.own_axis);
-      const double tilt = dot(axis, contact.offset) / (1.0 + dot(axis, contact.axis));
+      const double facing = 1.0 + dot(axis, contact.axis);  // 0 where it is turned over
+      const double tilt = facing > 1e-9 ? dot(axis, contact.offset) / facing : 0.0;
       const Vector3 offset = contact.offset - tilt * (contact.axis + axis);
       spin = axis * dot(axis, cross(offset, normal_));
       at += offset;
