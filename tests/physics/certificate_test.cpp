@@ -15,6 +15,7 @@
 #include "engine/shapes/box.h"
 #include "engine/shapes/cylinder.h"
 #include "tests/support/builders.h"
+#include "tests/support/shapes.h"
 
 namespace sheave::test {
 namespace {
