@@ -46,6 +46,7 @@ bool CableSystem::turns_wheel(const Substep& substep, const CompiledCable& cable
 void CableSystem::find_given(const Substep& substep, const CompiledCable& cable) {
   collect_pieces(substep, cable);
   if (!given_.knows_multipliers) {
+    given_.changes = 0;
     for (const Piece& piece : pieces_) {
       const int span = piece.run.first;
       given_.pulls[at(span)] = portable::log(substep.h * substep.h * start_tensions_[at(span)]);
@@ -59,6 +60,14 @@ void CableSystem::find_given(const Substep& substep, const CompiledCable& cable)
     piece.last_pull += rest;
   }
   hold_all(substep, cable, Held::given);
+}
+
+void CableSystem::give(const Substep& substep, const CompiledCable& cable,
+                       const RunWeights& heaviest, Row& row) {
+  find_given(substep, cable);
+  // Bounds are those of the unknown of the run.
+  const double most = substep.load_share < 1.0 ? heaviest.start : heaviest.now;
+  row.lower = row.upper = portable::exp(given_.pulls[at(row.index)] + most);
 }
 
 bool CableSystem::has_other_given(const Substep& substep, const CompiledCable& cable) {

@@ -319,7 +319,6 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
   }
   if (cable.has_friction && !open) share_load(substep, cable, rows, start);
   const bool acts = open && turns_wheel(substep, cable, run);
-  if (acts) find_given(substep, cable);
   const auto relative = [](double weight, double most) {
     return most == 0.0 && weight == 0.0 ? 1.0 : portable::exp(weight - most);
   };
@@ -327,12 +326,7 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     rows[i].weight = relative(rows[i].weight, heaviest.now);
     rows[i].start_weight = relative(rows[i].start_weight, heaviest.start);
   }
-  if (acts) {
-    Row& first = rows[start];
-    // Bounds are those of the unknown of the run.
-    const double most = substep.load_share < 1.0 ? heaviest.start : heaviest.now;
-    first.lower = first.upper = portable::exp(given_.pulls[at(run.first)] + most);
-  }
+  if (acts) give(substep, cable, heaviest, rows[start]);
   if (!strains) return;
   run_work_.weights.clear();
   for (std::size_t i = start; i < rows.size(); ++i) {

@@ -237,6 +237,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] bool turns_wheel(const Substep& substep, const CompiledCable& cable, Run run) const;
   /// Into given_ what open runs of the cable turn wheels with.
   void find_given(const Substep& substep, const CompiledCable& cable);
+  void give(const Substep& substep, const CompiledCable& cable, const RunWeights&, Row& row);
   /// Whether that is another one now.
   bool has_other_given(const Substep& substep, const CompiledCable& cable);
   /// Gives spans whose tension is open one that their neighbours hold.
