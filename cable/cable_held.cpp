@@ -46,7 +46,6 @@ bool CableSystem::turns_wheel(const Substep& substep, const CompiledCable& cable
 void CableSystem::find_given(const Substep& substep, const CompiledCable& cable) {
   collect_pieces(substep, cable);
   if (!given_.knows_multipliers) {
-    given_.changes = 0;
     for (const Piece& piece : pieces_) {
       const int span = piece.run.first;
       given_.pulls[at(span)] = portable::log(substep.h * substep.h * start_tensions_[at(span)]);

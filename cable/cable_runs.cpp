@@ -295,7 +295,7 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
         evaluate(substep, k, row, strains ? &run_work_.stretched[at(i)] : nullptr);
     row.index = k;
     if (open) row.upper = 0.0;
-    row.active = was_taut_[at(k)] != 0;
+    row.active = start_tensions_[at(k)] > 0.0;
     row.tied = i > 0;
     if (cable.damping > 0.0) {
       if (at_start) start_values_[at(k)] = {row.value, row.compliance};

@@ -27,6 +27,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   begin_affine_spans(substep);
   known_.expect(spans_.size());
   knows_start_ = given_.knows_multipliers = false;
+  given_.changes = 0;
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
   std::fill(sweeps_.begin(), sweeps_.end(), 0);
   std::fill(flips_.begin(), flips_.end(), 0);
@@ -45,7 +46,6 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     const SpanSetup& setup = spans_[k];
     if (!setup.active) continue;
     start_tensions_[k] = state.reals[tension_index(static_cast<int>(k))];
-    was_taut_[k] = start_tensions_[k] > 0.0 ? 1 : 0;
     const LinkGeometry& first = links_[at(setup.first)];
     const LinkGeometry& second = links_[at(setup.second)];
     // What is smaller than the quantum counts in the row, too: left out of 1e5 spans, it amounts to
@@ -180,7 +180,7 @@ void CableSystem::linearise_spans(Substep& substep, const CompiledCable& cable, 
     const AffineSpan& affine = affine_[at(k)];
     Row& row = rows.append_copy(affine.row);
     row.value = affine.value(substep, references_[at(k)].rest_length);
-    row.active = was_taut_[at(k)] != 0;
+    row.active = start_tensions_[at(k)] > 0.0;
   }
 }
 

@@ -453,7 +453,6 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<double> strains_;      ///< per span, of a material, at the start
   std::vector<double> end_strains_;  ///< and at the end where it shares that of a run; < 0: its own
   std::vector<double> multipliers_;
-  std::vector<char> was_taut_;          ///< per span, in the last substep
   std::vector<double> start_tensions_;  ///< per span [N]
   cable_parts::GivenPulls given_;
   std::vector<std::array<double, 2>> fed_;  ///< per span, of its ends, in this substep [m]

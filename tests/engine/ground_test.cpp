@@ -93,8 +93,8 @@ TEST_P(GroundUnderRoundBodies, LeavesTheirSpinAlone) {
   }
 }
 
-// A cylinder that lands on the edge of its rim, with its axis tilted by a: the impulse p at the arm
-// r = (-+L/2 cos a + R sin a) across the floor's normal stops the point, v + w x = 0 there:
+// A cylinder that lands on the edge of its rim, with its axis tilted by a: the impulse p stops the
+// point there, at the arm x across the floor's normal, v - p / m = w x:
 //   p = m v / (1 + m x^2 / I),  w = p x / I,  x = L/2 cos a - R sin a.
 TEST_P(GroundUnderRoundBodies, TurnThemAcrossTheirAxis) {
   constexpr double tilt = 0.3;
