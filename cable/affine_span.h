@@ -16,6 +16,7 @@
 #include <array>
 #include <vector>
 
+#include "cable/winding_kernels.h"
 #include "engine/row.h"
 #include "engine/substep.h"
 
@@ -84,16 +85,7 @@ struct MovingSpan {
   int cable = 0;
 };
 
-/// What every substep needs of one, close together.
-struct FlatSpan {
-  // Of both ends.
-  std::array<int, 2> wheels{};  ///< number of the wheel; 0: none
-  std::array<int, 2> links{};
-  std::array<double, 2> given{};  ///< cable that it gives the span per radian [m]
-  double length = 0.0;            ///< of one that does not slide [m]
-};
-
-/// What slides, likewise.
+/// What every substep needs of one that slides, close together.
 struct FlatSlide {
   int span = 0;
   // Of both ends.
@@ -106,12 +98,15 @@ struct FlatSlide {
 /// All of them.
 struct MovingSpans {
   std::vector<MovingSpan> spans;
-  std::vector<FlatSpan> flat;      ///< of each
+  WindingSpans winding;            ///< of each, what every substep needs
+  std::vector<double> moved;       ///< scratch of winding: two per span, and a 0
   std::vector<FlatSlide> sliding;  ///< of those that slide
   std::vector<int> driven;         ///< and which ones a driven wheel gives cable
-  std::vector<int> bounded_links;  ///< where stored cable can come to an end
   bool elastic = false;            ///< some are springs
   const BodySet* bodies = nullptr;
+
+  /// Of so many links, when all spans are known.
+  void find_link_ends(std::size_t links);
 };
 
 }  // namespace sheave

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cable/cable_system.h"
 #include "engine/dynamics/affine_bodies.h"
@@ -9,6 +10,18 @@
 #include "engine/solvers/affine_rows.h"
 
 namespace sheave {
+
+void MovingSpans::find_link_ends(std::size_t links) {
+  const std::size_t none = 2 * spans.size();
+  for (std::vector<int>& ends : winding.link_ends) ends.assign(links, static_cast<int>(none));
+  auto& [first, second] = winding.link_ends;
+  // A link has at most two: those of the spans before it and after it.
+  for (std::size_t e = 0; e < none; ++e) {
+    const auto link = at(spans[e / 2].ends[e % 2].link);
+    (at(first[link]) == none ? first : second)[link] = static_cast<int>(e);
+  }
+  moved.assign(none + 1, 0.0);
+}
 
 MovingSpan CableSystem::moving_span(const AffineBodies& bodies, const State& initial,
                                     const AffineSpan& affine, int index) const {
@@ -57,17 +70,18 @@ bool CableSystem::append_affine(const AffineBodies& bodies, AffineRows& rows) {
                                [](const AffineSpan& span) { return span.possible; });
   if (!all) return false;
   const State initial = bodies.set().initial_state();
-  std::vector<char> bounded(links_.size(), 0);
+  moving_.winding.least_stored.assign(links_.size(), -std::numeric_limits<double>::infinity());
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const MovingSpan& span =
         moving_.spans.emplace_back(moving_span(bodies, initial, affine[k], static_cast<int>(k)));
     const CompiledCable& cable = cables_[at(span.cable)];
     rows.add_row(cable.compliance, cable.damping, static_cast<int>(k));
     const auto& [first, second] = span.ends;
-    moving_.flat.push_back({{first.wheel, second.wheel},
-                            {first.link, second.link},
-                            {first.given, second.given},
-                            span.length});
+    moving_.winding.lengths.push_back(span.length);
+    for (const std::size_t e : {0U, 1U}) {
+      moving_.winding.wheels[e].push_back(span.ends[e].wheel);
+      moving_.winding.given[e].push_back(span.ends[e].given);
+    }
     if (span.slides) {
       moving_.sliding.push_back({static_cast<int>(k),
                                  {first.slider, second.slider},
@@ -80,12 +94,10 @@ bool CableSystem::append_affine(const AffineBodies& bodies, AffineRows& rows) {
     for (const MovingSpan::End& end : span.ends) {
       rows.add_term(end.slider, -end.along);
       rows.add_term(end.wheel, end.given);
-      if (end.bounded) bounded[at(end.link)] = 1;
+      if (end.bounded) moving_.winding.least_stored[at(end.link)] = 0.0;
     }
   }
-  for (std::size_t i = 0; i < bounded.size(); ++i) {
-    if (bounded[i] != 0) moving_.bounded_links.push_back(static_cast<int>(i));
-  }
+  moving_.find_link_ends(links_.size());
   return true;
 }
 
@@ -108,12 +120,8 @@ bool CableSystem::begin_affine(const AffineSubstep& substep, const FeatureState&
   const double* const rest_lengths = &state.reals[rest_length_index(0)];
   const double* const remainders = &state.reals[remainder_index(0, 0)];
   const double* const tensions = &state.reals[tension_index(0)];
-  const FlatSpan* const spans = moving_.flat.data();
-  const std::size_t count = moving_.flat.size();
-  for (std::size_t k = 0; k < count; ++k) {
-    active[k] = tensions[k] > 0.0 ? 1 : 0;
-    values[k] = rest_lengths[k] + (remainders[2 * k] + remainders[2 * k + 1]) - spans[k].length;
-  }
+  find_active(moving_.spans.size(), tensions, active.data());
+  find_values(moving_.winding, rest_lengths, remainders, values.data());
   const double* const places = substep.places.data();
   const double* const speeds = substep.speeds.data();
   for (const FlatSlide& slide : moving_.sliding) {
@@ -146,61 +154,35 @@ void CableSystem::end_slides_and_stalls() {
   }
 }
 
-// The lengths stored on links are those of `now` before.
 bool CableSystem::finish_affine_cable(const CompiledCable& cable, const AffineSubstep& substep,
                                       const FeatureState& now, FeatureState& next) {
-  const double* const rest_lengths = &now.reals[rest_length_index(0)];
-  const double* const remainders = &now.reals[remainder_index(0, 0)];
-  const double* const tensions = &now.reals[tension_index(0)];
-  double* const end_rest_lengths = &next.reals[rest_length_index(0)];
-  double* const end_remainders = &next.reals[remainder_index(0, 0)];
-  double* const end_tensions = &next.reals[tension_index(0)];
-  double* const stored = next.reals.data() + stored_length_index(0);
-  const double* const motion = substep.motion.data();
-  const FlatSpan* const spans = moving_.flat.data();
-  const double inverse_square = 1.0 / (substep.h * substep.h);
-  const double quantum = cable.quantum;
-  const double inverse_quantum = 1.0 / quantum;
-  double shortest = 0.0;
-  double strongest = 0.0;
-  double most = 0.0;
-  const auto end = static_cast<std::size_t>(cable.first_span + cable.span_count);
-  for (auto k = static_cast<std::size_t>(cable.first_span); k < end; ++k) {
-    const FlatSpan& span = spans[k];
-    double rest_length = rest_lengths[k];
-    const auto wind = [&](std::size_t e) {
-      const double amount = span.given[e] * motion[span.wheels[e]];
-      const double remainder = remainders[2 * k + e];
-      const double whole = amount + remainder;
-      most = std::max(most, std::abs(whole));
-      const double moved = CompiledCable::quantised_small(whole, quantum, inverse_quantum);
-      end_remainders[2 * k + e] = remainder + (amount - moved);
-      rest_length += moved;
-      stored[span.links[e]] -= moved;
-    };
-    wind(0);
-    wind(1);
-    end_rest_lengths[k] = rest_length;
-    shortest = std::min(shortest, rest_length);
-    const double tension = substep.multipliers[k] * inverse_square;
-    ends_[k] = {tensions[k], span.length};
-    end_tensions[k] = tension;
-    strongest = std::max(strongest, tension);
-  }
+  const auto first = at(cable.first_span);
+  const auto count = at(cable.span_count);
+  const WindingCable wound{first, first + count, cable.quantum};
+  const auto [shortest, most_moved] =
+      wind_cable(moving_.winding, wound, substep.motion.data(), &now.reals[rest_length_index(0)],
+                 &now.reals[remainder_index(0, 0)], &next.reals[rest_length_index(0)],
+                 &next.reals[remainder_index(0, 0)], moving_.moved.data());
+  const double strongest =
+      find_tensions(count, 1.0 / (substep.h * substep.h), substep.multipliers.data() + first,
+                    &next.reals[tension_index(0)] + first);
   return shortest >= 0.0 && strongest <= cable.breaking_tension &&
          substep.end_time + 0.5 * substep.h <= cable.cut_time &&
-         CompiledCable::is_small(most, inverse_quantum);
+         CompiledCable::is_small(most_moved, 1.0 / cable.quantum);
 }
 
 bool CableSystem::finish_affine(const AffineSubstep& substep, const FeatureState& now,
                                 FeatureState& next) {
-  const auto stored = static_cast<std::ptrdiff_t>(stored_length_index(0));
-  std::copy_n(now.reals.begin() + stored, links_.size(), next.reals.begin() + stored);
   for (const CompiledCable& cable : cables_) {
     if (!finish_affine_cable(cable, substep, now, next)) return false;
   }
-  for (const int link : moving_.bounded_links) {
-    if (!(next.reals[stored_length_index(link)] >= 0.0)) return false;
+  if (!take_from_links(moving_.winding, &now.reals[stored_length_index(0)], moving_.moved.data(),
+                       &next.reals[stored_length_index(0)])) {
+    return false;
+  }
+  // Of those that do not slide lengths stay what they are.
+  for (std::size_t k = 0; k < ends_.size() && substep.fresh; ++k) {
+    ends_[k][1] = moving_.winding.lengths[k];
   }
   const double* const places = substep.places.data();
   const double* const motion = substep.motion.data();
@@ -210,22 +192,23 @@ bool CableSystem::finish_affine(const AffineSubstep& substep, const FeatureState
     ends_[at(slide.span)][1] = slide.length + at_a + slide.along[1] * (places[b] + motion[b]);
   }
   if (substep.dissipates && moving_.elastic)
-    substep.statistics->numerical_damping += affine_damping(substep, next);
+    substep.statistics->numerical_damping += affine_damping(substep, now, next);
   knows_lengths_ = true;
   end_slides_and_stalls();
   return true;
 }
 
 // What implicit Euler takes from the vibration of elastic cables [J].
-double CableSystem::affine_damping(const AffineSubstep& substep, const FeatureState& next) const {
+double CableSystem::affine_damping(const AffineSubstep& substep, const FeatureState& now,
+                                   const FeatureState& next) const {
   double damped = 0.0;
   for (const CompiledCable& cable : cables_) {
     if (cable.compliance == 0.0) continue;
     for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
       const double rest_length = next.reals[rest_length_index(k)];
-      const auto [before, length] = ends_[at(k)];
-      damped += numerical_damping(cable, {before, next.reals[tension_index(k)]},
-                                  length - rest_length, rest_length, substep.h);
+      damped +=
+          numerical_damping(cable, {now.reals[tension_index(k)], next.reals[tension_index(k)]},
+                            ends_[at(k)][1] - rest_length, rest_length, substep.h);
     }
   }
   return damped;

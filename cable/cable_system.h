@@ -158,7 +158,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
                            std::span<const double> motion, double rest_length) const;
   [[nodiscard]] bool finish_affine_cable(const CompiledCable& cable, const AffineSubstep& substep,
                                          const FeatureState& now, FeatureState& next);
-  [[nodiscard]] double affine_damping(const AffineSubstep& substep, const FeatureState& next) const;
+  [[nodiscard]] double affine_damping(const AffineSubstep& substep, const FeatureState& now,
+                                      const FeatureState& next) const;
   void end_slides_and_stalls();
   [[nodiscard]] MovingSpan moving_span(const AffineBodies& bodies, const State& initial,
                                        const AffineSpan& affine, int index) const;

@@ -84,6 +84,12 @@ function(sheave_library folder)
   if(arg_LINKS_PRIVATE)
     target_link_libraries(${target} PRIVATE ${arg_LINKS_PRIVATE})
   endif()
+  # Loops over flat arrays (engine/math/packs.h): -O2 makes packs of next to none of them.
+  set(kernels ${units})
+  list(FILTER kernels INCLUDE REGEX "_kernels\\.cpp$")
+  set_source_files_properties(
+    ${kernels} PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O3>" SKIP_PRECOMPILE_HEADERS ON
+                          SKIP_UNITY_BUILD_INCLUSION ON)
   if(SHEAVE_PCH AND TARGET "${arg_PCH_FROM}")
     target_precompile_headers(${target} REUSE_FROM ${arg_PCH_FROM})
   elseif(SHEAVE_PCH)

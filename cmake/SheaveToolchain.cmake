@@ -41,7 +41,7 @@ if(SHEAVE_SANITIZE)
 endif()
 if(SHEAVE_FUZZ)
   # Tells the fuzzer which branches an input takes and what is compared; its own main program comes with the link.
-  add_compile_options(-fsanitize=fuzzer-no-link)
+  add_compile_options(${SHEAVE_FUZZ_FLAGS})
 endif()
 if(SHEAVE_COVERAGE)
   add_compile_options(-fprofile-instr-generate -fcoverage-mapping)

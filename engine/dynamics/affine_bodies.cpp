@@ -7,7 +7,6 @@
 #include "engine/divergence.h"
 #include "engine/index.h"
 #include "engine/integrators/loads.h"
-#include "engine/math/sine_cosine.h"
 
 namespace sheave {
 
@@ -25,6 +24,8 @@ std::optional<AffineBodies> AffineBodies::of(const BodySet& bodies) {
         &affine.motion_, &affine.end_places_, &affine.end_speeds_}) {
     values->assign(count, 0.0);
   }
+  affine.prescribed_speeds_.assign(affine.prescribed_.size(), 0.0);
+  affine.scratch_.assign(3 * affine.turning_.size(), 0.0);
   return affine;
 }
 
@@ -32,6 +33,7 @@ bool AffineBodies::add(int body) {
   const BodyProperties& properties = (*bodies_)[body];
   const BodyDef& definition = bodies_->definition(body);
   if (properties.mobility == Mobility::fixed) return properties.mounted_rotors.empty();
+  const auto number = static_cast<int>(movers_.size());
   Mover mover;
   mover.body = body;
   mover.axis = properties.axis;
@@ -56,13 +58,16 @@ bool AffineBodies::add(int body) {
     mover.drag = definition.angular_damping;
     mover.load = dot(mover.axis, definition.torque);
     const Vector3& own = properties.axis;
-    mover.upright = carrier * properties.start_orientation;
-    mover.turned =
+    const Quaternion upright = carrier * properties.start_orientation;
+    const Quaternion turned =
         carrier * Quaternion(0.0, own.x(), own.y(), own.z()) * properties.start_orientation;
+    TurningBody turning{{}, {}, {mover.axis.x(), mover.axis.y(), mover.axis.z()}, body, number};
+    std::copy_n(upright.coeffs().data(), 4, turning.upright.begin());
+    std::copy_n(turned.coeffs().data(), 4, turning.turned.begin());
+    turning_.push_back(turning);
   } else {
     return false;
   }
-  const auto number = static_cast<int>(movers_.size());
   numbers_[at(body)] = number;
   if (properties.prescribed()) prescribed_.push_back(number);
   if (properties.drive == DriveKind::torque) driven_.push_back(number);
@@ -152,7 +157,7 @@ double AffineBodies::work_of_set_loads() const {
   return work;
 }
 
-bool AffineBodies::load(const State& state) {
+bool AffineBodies::load(const State& state, bool known) {
   controls_ = &state.controls;
   const bool any = state.controls.has_gravity || state.controls.forces.any();
   if (any || has_set_loads_) {
@@ -161,6 +166,7 @@ bool AffineBodies::load(const State& state) {
     if (!take_set_loads(state)) return false;
     has_set_loads_ = any;
   }
+  if (known) return true;
   const BodyState* const bodies = state.bodies.data();
   const Mover* const movers = movers_.data();
   double* const places = places_.data();
@@ -173,25 +179,26 @@ bool AffineBodies::load(const State& state) {
     speeds[d] = dot(mover.axis, mover.slides ? body.velocity : body.angular_velocity);
   }
   std::copy(places_.begin(), places_.end(), loaded_.begin());
+  begin_passing(state);
   return true;
 }
 
 void AffineBodies::predict(double from, double loaded, double to) {
   const std::size_t count = movers_.size();
-  for (std::size_t d = 1; d < count; ++d) {
-    end_speeds_[d] = keep_[d] * speeds_[d] + push_[d];
-    motion_[d] = h_ * end_speeds_[d];
-  }
+  load_speeds(count, keep_.data(), push_.data(), speeds_.data(), end_speeds_.data());
+  move_at(count, h_, end_speeds_.data(), motion_.data());
   for (const int number : driven_) {
     const std::size_t d = at(number);
     end_speeds_[d] += yields_[d] * drive_of(d).integral(from, loaded);
     motion_[d] = h_ * end_speeds_[d];
   }
+  std::size_t i = 0;
   for (const int number : prescribed_) {
     const std::size_t d = at(number);
     const BodyDrive drive = drive_of(d);
     motion_[d] = drive.turn(from, to);
     end_speeds_[d] = drive.speed(from, to, h_, loaded < to);
+    prescribed_speeds_[i++] = end_speeds_[d];
   }
 }
 
@@ -202,19 +209,14 @@ void AffineBodies::go_straight(std::span<double> way) const {
 }
 
 void AffineBodies::derive() {
-  const double rate = 1.0 / h_;
-  const std::size_t count = movers_.size();
-  const double* const motion = motion_.data();
-  const double* const yields = yields_.data();
-  double* const speeds = end_speeds_.data();
-  for (std::size_t d = 1; d < count; ++d) {
-    if (yields[d] > 0.0) speeds[d] = rate * motion[d];
+  move_at(movers_.size(), 1.0 / h_, motion_.data(), end_speeds_.data());
+  for (std::size_t i = 0; i < prescribed_.size(); ++i) {
+    end_speeds_[at(prescribed_[i])] = prescribed_speeds_[i];
   }
 }
 
 void AffineBodies::add_loads(double from, double to) {
-  const std::size_t count = movers_.size();
-  for (std::size_t d = 1; d < count; ++d) end_speeds_[d] = keep_[d] * end_speeds_[d] + push_[d];
+  load_speeds(movers_.size(), keep_.data(), push_.data(), end_speeds_.data(), end_speeds_.data());
   for (const int number : driven_) {
     const std::size_t d = at(number);
     end_speeds_[d] += yields_[d] * drive_of(d).integral(from, to);
@@ -222,55 +224,13 @@ void AffineBodies::add_loads(double from, double to) {
 }
 
 bool AffineBodies::arrive() {
-  // A NaN passes no comparison.
-  bool sound = true;
-  const std::size_t count = movers_.size();
-  const double* const places = places_.data();
-  const double* const motion = motion_.data();
-  const double* const speeds = end_speeds_.data();
-  double* const ends = end_places_.data();
-  const double* const farthest = farthest_.data();
-  const double* const fastest = fastest_.data();
-  for (std::size_t d = 1; d < count; ++d) {
-    const double place = places[d] + motion[d];
-    ends[d] = place;
-    sound &= std::abs(place) <= farthest[d];
-    sound &= std::abs(speeds[d]) <= fastest[d];
-  }
-  return sound;
+  return move_places(movers_.size(), places_.data(), motion_.data(), farthest_.data(),
+                     end_speeds_.data(), fastest_.data(), end_places_.data());
 }
 
 void AffineBodies::go_on() {
   places_.swap(end_places_);
   speeds_.swap(end_speeds_);
-}
-
-[[gnu::always_inline]] inline void AffineBodies::turn(const Mover& mover, double place,
-                                                      double speed, BodyState& body) {
-  body.angle = place;
-  body.angular_velocity = speed * mover.axis;
-  const auto [sine, cosine] = sine_cosine(0.5 * place);
-  body.orientation.coeffs() = cosine * mover.upright.coeffs() + sine * mover.turned.coeffs();
-}
-
-void AffineBodies::store_end(const State& loaded, State& state) const {
-  BodyState* const bodies = state.bodies.data();
-  const Mover* const movers = movers_.data();
-  const std::size_t count = movers_.size();
-  for (std::size_t d = 1; d < count; ++d) {
-    const Mover& mover = movers[d];
-    BodyState& body = bodies[mover.body];
-    const double place = places_[d];
-    const double speed = speeds_[d];
-    if (mover.slides) {
-      // By what it has moved: a direction whose length is rounded would make the whole place creep.
-      body.position = sum(loaded.bodies[at(mover.body)].position, place - loaded_[d], mover.axis);
-      body.velocity = speed * mover.axis;
-    } else {
-      turn(mover, place, speed, body);
-    }
-  }
-  carry_mounted(state);
 }
 
 void AffineBodies::carry_mounted(State& state) const {
@@ -283,9 +243,8 @@ void AffineBodies::carry_mounted(State& state) const {
   }
 }
 
-void AffineBodies::begin_unseen(const State& loaded) {
+void AffineBodies::begin_passing(const State& loaded) {
   passed_positions_.resize(movers_.size());
-  passed_places_.resize(movers_.size());
   passed_speeds_.resize(movers_.size());
   by_component_.clear();
   by_vector_.clear();
@@ -308,7 +267,7 @@ void AffineBodies::begin_unseen(const State& loaded) {
   }
 }
 
-void AffineBodies::pass_unseen() {
+void AffineBodies::pass() {
   for (const Straight& mover : by_component_) {
     const std::size_t d = at(mover.number);
     double& along = passed_positions_[d].data()[mover.component];
@@ -318,7 +277,6 @@ void AffineBodies::pass_unseen() {
   for (const int number : by_vector_) {
     const std::size_t d = at(number);
     const Mover& mover = movers_[d];
-    passed_places_[d] = places_[d];
     passed_speeds_[d] = speeds_[d];
     if (mover.slides) {
       passed_positions_[d] = sum(passed_positions_[d], places_[d] - loaded_[d], mover.axis);
@@ -329,20 +287,28 @@ void AffineBodies::pass_unseen() {
   }
 }
 
-void AffineBodies::store_passed(State& state) const {
-  const auto store = [&](std::size_t d, double place, double speed) {
-    const Mover& mover = movers_[d];
-    BodyState& body = state.bodies[at(mover.body)];
-    if (mover.slides) {
-      body.position = passed_positions_[d];
-      body.velocity = speed * mover.axis;
-    } else {
-      turn(mover, place, speed, body);
-    }
-  };
-  for (std::size_t d = 1; d < movers_.size(); ++d) store(d, places_[d], speeds_[d]);
+void AffineBodies::store_slider(std::size_t number, double speed, State& state) const {
+  const Mover& mover = movers_[number];
+  BodyState& body = state.bodies[at(mover.body)];
+  body.position = passed_positions_[number];
+  body.velocity = speed * mover.axis;
+}
+
+void AffineBodies::store_passed(State& state) {
+  turn_bodies(turning_, places_.data(), speeds_.data(), scratch_.data(), state.bodies.data());
+  for (const int number : rounded_) {
+    const std::size_t d = at(number);
+    if (movers_[d].slides) store_slider(d, speeds_[d], state);
+  }
+  // Of these the numbers are what a state holds of what it was given.
   for (const int number : by_vector_) {
-    store(at(number), passed_places_[at(number)], passed_speeds_[at(number)]);
+    const std::size_t d = at(number);
+    const Mover& mover = movers_[d];
+    if (mover.slides) {
+      store_slider(d, passed_speeds_[d], state);
+    } else {
+      state.bodies[at(mover.body)].angular_velocity = passed_speeds_[d] * mover.axis;
+    }
   }
   carry_mounted(state);
 }

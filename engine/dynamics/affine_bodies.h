@@ -12,6 +12,7 @@
 
 #include "engine/body_drive.h"
 #include "engine/body_set.h"
+#include "engine/dynamics/affine_body_kernels.h"
 #include "engine/state.h"
 
 namespace sheave {
@@ -38,8 +39,8 @@ class AffineBodies {
 
   /// Takes places [m], [rad] and speeds from a state, and what its controls say of drives and
   /// loads. False if a force that has been set turns about an axle. `state` must outlive the
-  /// substeps that follow.
-  [[nodiscard]] bool load(const State& state);
+  /// substeps that follow. `known`: it is what store_passed() has last written, but for controls.
+  [[nodiscard]] bool load(const State& state, bool known);
   [[nodiscard]] std::span<const double> places() const { return places_; }  ///< at the start
   [[nodiscard]] std::span<const double> speeds() const { return speeds_; }  ///< likewise
   /// Displacements of the substep [m], [rad]: free ones from predict() on.
@@ -63,20 +64,11 @@ class AffineBodies {
   /// The end of the substep becomes the start of the next one.
   void go_on();
 
-  /// Writes the end of the substep, of which go_on() was called, to `state`, whose other bodies are
-  /// those of `loaded`, the state that it started from. Both may be the same.
-  void store_end(const State& loaded, State& state) const;
-
-  // Substeps of which nobody sees the states between them: what store_end() and load() do after
-  // each, to the last bit, so that results do not depend on who looks; but not what only those who
-  // look need.
-
-  /// To be called after load().
-  void begin_unseen(const State& loaded);
-  /// After go_on(): the end of the substep becomes the start of the next one.
-  void pass_unseen();
+  /// After go_on(): what writing the end of the substep to a state and taking it from there again
+  /// would do to numbers, to the last bit, so that results do not depend on who looks.
+  void pass();
   /// Writes the end of the last substep that has passed, before go_on() of the next.
-  void store_passed(State& state) const;
+  void store_passed(State& state);
 
  private:
   struct Mover {
@@ -87,9 +79,6 @@ class AffineBodies {
     double mass = 0.0;  ///< or moment of inertia; 0: prescribed
     double load = 0.0;  ///< constant force or torque along it
     double drag = 0.0;
-    // The orientation at the angle a is cos(a/2) upright + sin(a/2) turned.
-    Quaternion upright = Quaternion::Identity();
-    Quaternion turned = Quaternion::Identity();
     Vector3 offset = Vector3::Zero();  ///< of the centre from the carrier's centre of mass
   };
   explicit AffineBodies(const BodySet& bodies) : bodies_(&bodies) {}
@@ -98,15 +87,18 @@ class AffineBodies {
   /// Of a body and what it carries [N or N m]; false if it depends on where the body is.
   [[nodiscard]] bool set_load_on(const Mover& mover, const State& state, double& load) const;
   [[nodiscard]] bool take_set_loads(const State& state);
-  static void turn(const Mover& mover, double place, double speed, BodyState& body);
+  void begin_passing(const State& loaded);
+  void store_slider(std::size_t number, double speed, State& state) const;
   void carry_mounted(State& state) const;
 
   const BodySet* bodies_;
   std::vector<int> numbers_;   ///< per body, and of the world
   std::vector<Mover> movers_;  ///< per number; the first is none
-  std::vector<int> driven_;    ///< by a torque that changes with time
+  std::vector<TurningBody> turning_;
+  std::vector<int> driven_;  ///< by a torque that changes with time
   std::vector<int> prescribed_;
-  std::vector<int> mounted_;  ///< on what slides
+  std::vector<double> prescribed_speeds_;  ///< of these, at the end of the substep
+  std::vector<int> mounted_;               ///< on what slides
   std::vector<int> rounded_;  ///< whose number or speed a state does not hold to the last bit
   /// What slides along a coordinate axis: of its place only one component changes, and its speed
   /// is what it was.
@@ -128,10 +120,11 @@ class AffineBodies {
   // Of the last substep that has passed, as it ended: positions of what slides; places and speeds
   // of what is in by_vector_.
   std::vector<Vector3> passed_positions_;
-  std::vector<double> passed_places_, passed_speeds_;
+  std::vector<double> passed_speeds_;
   // Which of straight_ pass by their component alone, and what else of rounded_.
   std::vector<Straight> by_component_;
   std::vector<int> by_vector_;
+  std::vector<double> scratch_;  ///< of turn_bodies()
 };
 
 }  // namespace sheave

@@ -15,7 +15,8 @@ std::unique_ptr<AffineMotion> AffineMotion::create(const Model& model, const Bod
   if (!moving) return nullptr;
   std::unique_ptr<AffineMotion> motion(
       new AffineMotion(model, bodies, features, std::move(*moving)));
-  if (!motion->append(features) || !motion->terms_.take(motion->rows_)) return nullptr;
+  if (!motion->append(features) || !motion->terms_.take(motion->rows_, motion->bodies_.count()))
+    return nullptr;
   motion->find_matrix();
   return motion;
 }
@@ -131,43 +132,23 @@ void AffineMotion::find_free_values() {
 
 bool AffineMotion::keep_positions() {
   find_free_values();
-  const std::size_t n = rows_.size();
   const bool all = all_act();
   if (!(all && problem_.factored_for_all()) && !problem_.factor(active_)) return false;
-  terms_.visit([&](const auto& terms) {
-    const double* const motion = bodies_.motion().data();
-    const double* const free = free_.data();
-    double* const unknowns = unknowns_.data();
-    for (std::size_t i = 0; i < n && all; ++i) unknowns[i] = -(free[i] + terms.along(i, motion));
-    for (std::size_t i = 0; i < n && !all; ++i) {
-      unknowns[i] = active_[i] != 0 ? -(free[i] + terms.along(i, motion)) : 0.0;
-    }
-  });
+  find_shortfalls(terms_.gradients(), free_.data(), bodies_.motion().data(), unknowns_.data());
+  for (std::size_t i = 0; i < rows_.size() && !all; ++i) {
+    if (active_[i] == 0) unknowns_[i] = 0.0;
+  }
   problem_.solve(unknowns_);
   return all ? act_and_check_all() : act_and_check(active_);
 }
 
 bool AffineMotion::act_and_check_all() {
   const std::size_t n = rows_.size();
-  double least = 0.0;
-  terms_.visit([&](const auto& terms) {
-    double* const motion = bodies_.motion().data();
-    const double* const unknowns = unknowns_.data();
-    double* const multipliers = multipliers_.data();
-    for (std::size_t i = 0; i < n; ++i) {
-      least = std::min(least, unknowns[i]);
-      multipliers[i] = std::max(unknowns[i], 0.0);
-      terms.act(i, multipliers[i], motion);
-    }
-    double most = 0.0;
-    const double* const free = free_.data();
-    const double* const softness = softness_.data();
-    for (std::size_t i = 0; i < n; ++i) {
-      const double residual = free[i] + terms.along(i, motion) + softness[i] * multipliers[i];
-      most = std::max(most, std::abs(residual));
-    }
-    left_ = most;
-  });
+  double* const motion = bodies_.motion().data();
+  const double least = take_positive(n, unknowns_.data(), multipliers_.data());
+  terms_.respond_to(multipliers_.data(), motion);
+  left_ = largest_residual(terms_.gradients(), free_.data(), softness_.data(), multipliers_.data(),
+                           motion, rates_.data());
   bool holds = left_ <= DirectSolver::tolerance * scale_;
   const double rounding = RowSystem::value_rounding * scale_;
   for (std::size_t i = 0; i < n && least < 0.0; ++i) {
@@ -232,18 +213,12 @@ bool AffineMotion::search_positions() {
   return true;
 }
 
-bool AffineMotion::solve_velocities() {
-  const double rate = 1.0 / h_;
+void AffineMotion::find_closed() {
   const double closed = DirectSolver::closed * scale_;
-  const std::span<double> speeds = bodies_.end_speeds();
   const std::vector<double>& values = elastic_ ? values_ : free_;
   terms_.visit([&](const auto& terms) {
     const double* const motion = bodies_.motion().data();
-    for (std::size_t i = 0; i < rows_.size() && elastic_; ++i) {
-      if (springs_[i] != 0) terms.act(i, rate * multipliers_[i], speeds.data());
-    }
     for (std::size_t i = 0; i < rows_.size(); ++i) {
-      rates_[i] = terms.along(i, speeds.data());
       // An open row that closes now is one that may act.
       closed_[i] = springs_[i] == 0 &&
                            (multipliers_[i] > 0.0 || values[i] + terms.along(i, motion) <= closed)
@@ -251,15 +226,27 @@ bool AffineMotion::solve_velocities() {
                        : 0;
     }
   });
+}
+
+bool AffineMotion::solve_velocities() {
+  const double rate = 1.0 / h_;
+  const std::span<double> speeds = bodies_.end_speeds();
+  terms_.visit([&](const auto& terms) {
+    for (std::size_t i = 0; i < rows_.size() && elastic_; ++i) {
+      if (springs_[i] != 0) terms.act(i, rate * multipliers_[i], speeds.data());
+    }
+  });
+  find_rates(terms_.gradients(), speeds.data(), rates_.data());
   std::copy(speeds.begin(), speeds.end(), speeds_.begin());
   if (!keep_velocities()) {
     std::copy(speeds_.begin(), speeds_.end(), speeds.begin());
+    find_closed();
     if (!search_velocities()) return false;
   }
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
+  for (std::size_t i = 0; i < rows_.size() && elastic_; ++i) {
     if (springs_[i] != 0) impulses_[i] = rate * multipliers_[i];
-    multipliers_[i] += h_ * impulses_[i];
   }
+  add_product(rows_.size(), h_, impulses_.data(), multipliers_.data());
   return true;
 }
 
@@ -267,21 +254,24 @@ bool AffineMotion::keep_velocities() {
   const double rounding = RowSystem::value_rounding * scale_ / h_;
   const std::size_t n = rows_.size();
   if (redundant_ > 0) return false;
+  const bool all = all_act();
   AffineProblem& problem = velocities();
-  if (!(problem.factored_for_all() && all_act()) && !problem.factor(active_)) return false;
-  for (std::size_t i = 0; i < n; ++i) {
-    impulses_[i] = active_[i] != 0 && springs_[i] == 0 ? -rates_[i] : 0.0;
+  if (!(all && problem.factored_for_all()) && !problem.factor(active_)) return false;
+  find_opposites(n, rates_.data(), impulses_.data());
+  for (std::size_t i = 0; i < n && !(all && !elastic_); ++i) {
+    if (active_[i] == 0 || springs_[i] != 0) impulses_[i] = 0.0;
   }
   problem.solve(impulses_);
+  bool holds = true;
+  if (take_positive(n, impulses_.data(), unknowns_.data()) < 0.0) {
+    for (std::size_t i = 0; i < n; ++i) holds &= impulses_[i] * diagonal_[i] >= -rounding;
+  }
+  impulses_.swap(unknowns_);
+  double* const speeds = bodies_.end_speeds().data();
+  terms_.respond_to(impulses_.data(), speeds);
+  if (all || !holds) return holds;
+  find_closed();
   return terms_.visit([&](const auto& terms) {
-    double* const speeds = bodies_.end_speeds().data();
-    bool holds = true;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (springs_[i] != 0) continue;
-      holds &= impulses_[i] * diagonal_[i] >= -rounding;
-      impulses_[i] = std::max(impulses_[i], 0.0);
-      terms.act(i, impulses_[i], speeds);
-    }
     for (std::size_t i = 0; i < n; ++i) {
       if (closed_[i] == 0 || active_[i] != 0) continue;
       holds &= terms.along(i, speeds) >= -rounding;
@@ -381,9 +371,8 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
   if (fresh) before = state;
   agree_ = true;
   before.memory = state.memory;
-  if (!bodies_.load(state)) return 0;
-  if (last - first > 1) bodies_.begin_unseen(state);
-  for (std::size_t f = 0; f < first_.size() && start != nullptr; ++f) {
+  if (!bodies_.load(state, !fresh)) return 0;
+  for (std::size_t f = 0; f < first_.size() && start != nullptr && last - first > 1; ++f) {
     first_[f] = state.features[f].reals;
   }
   const double first_time = state.time;
@@ -396,7 +385,7 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
         (static_cast<double>(state.steps) + static_cast<double>(i + 1) / substeps) * dt;
     if (!attempt({state.time, end}, {fresh && done == 0, done == 0}, state, before, substep)) break;
     bodies_.go_on();
-    if (i + 1 < last) bodies_.pass_unseen();
+    bodies_.pass();
     state.features.swap(before.features);
     before.time = state.time;
     state.time = end;
@@ -409,11 +398,9 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
       for (std::size_t f = 0; f < first_.size(); ++f) start->features[f].reals = first_[f];
     }
     bodies_.store_passed(state);
-  } else if (done > 1) {
-    bodies_.store_end(before, state);
   } else {
-    state.bodies.swap(before.bodies);
-    bodies_.store_end(before, state);
+    if (done == 1) state.bodies.swap(before.bodies);
+    bodies_.store_passed(state);
   }
   before.steps = state.steps;
   keep_forces(substep);
@@ -435,14 +422,13 @@ std::int64_t AffineMotion::leap(std::int64_t count, State& state, State& before,
   substep.h = settings_.dt;
   substep.load_share = rattle_ ? 0.5 : 1.0;
   prepare(substep);
-  if (!bodies_.load(state)) return 0;
-  bodies_.begin_unseen(state);
+  if (!bodies_.load(state, true)) return 0;
   std::int64_t done = 0;
   for (; done < count; ++done) {
     const double end = static_cast<double>(state.steps + 1) * settings_.dt;
     if (!attempt({state.time, end}, {false, done == 0}, state, before, substep)) break;
     bodies_.go_on();
-    bodies_.pass_unseen();
+    bodies_.pass();
     state.features.swap(before.features);
     state.time = end;
     ++state.steps;
@@ -464,7 +450,9 @@ void AffineMotion::keep_forces(Substep& substep) const {
   const double rate = 1.0 / h_;
   for (std::size_t f = 0; f < features_.size(); ++f) {
     std::vector<double>& late = substep.late_forces[f];
-    late.assign(features_[f]->multipliers().size(), 0.0);
+    const std::size_t count = features_[f]->multipliers().size();
+    // What no row writes stays 0.
+    if (late.size() != count) late.assign(count, 0.0);
     for (std::size_t i = feature_rows_[f]; i < feature_rows_[f] + feature_counts_[f]; ++i) {
       late[at(rows_.index(i))] = rate * impulses_[i];
     }

@@ -23,7 +23,7 @@
 // wound off all its cable, drives contradict each other) the stages of engine/step.cpp do, which
 // find the same motion. Which of the two it is follows from the state.
 
-#include <algorithm>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <vector>
@@ -93,10 +93,12 @@ class AffineMotion {
   void find_free_values();
   /// Whether all rows act that had a force.
   [[nodiscard]] bool all_act() const {
-    return std::find(active_.begin(), active_.end(), 0) == active_.end();
+    return active_.empty() || std::memchr(active_.data(), 0, active_.size()) == nullptr;
   }
   /// Changes the speeds at the end by the impulses of the rows that act, or that have to.
   bool solve_velocities();
+  /// Rows that an impulse may stop.
+  void find_closed();
   bool keep_velocities();
   bool search_velocities();
   /// What the last search did.

@@ -198,7 +198,20 @@ void SparseFactor::solve_chain(std::span<double> x) const {
     }
   };
   double* const values = x.data();
-  if (in_order_) {
+  if (in_order_ && dropped_ == 0) {
+    // The same without questions, and products that wait for nothing come first.
+    double last = values[0];
+    for (int k = 1; k < count; ++k) {
+      last = values[k] - below[k] * last;
+      values[k] = last;
+    }
+    for (int k = 0; k < count; ++k) values[k] *= inverse[k];
+    last = values[count - 1];
+    for (int k = count - 1; k-- > 0;) {
+      last = values[k] - above[k + 1] * last;
+      values[k] = last;
+    }
+  } else if (in_order_) {
     sweep([values](int k) -> double& { return values[k]; });
   } else {
     const int* const unknown = unknown_.data();

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -35,6 +36,28 @@ TEST(SineCosine, KnowsQuarterTurnsAndWhatIsNoAngle) {
   EXPECT_EQ(sine_cosine(0.0).cosine, 1.0);
   EXPECT_TRUE(std::isnan(sine_cosine(std::numeric_limits<double>::quiet_NaN()).sine));
   EXPECT_TRUE(std::isnan(sine_cosine(std::numeric_limits<double>::infinity()).cosine));
+}
+
+// One that is not small sends all of them the long way; the bits are those of each alone.
+TEST(SineCosine, OfManyAnglesAreThoseOfEach) {
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  for (const std::size_t count : {1U, 4U, 7U, 33U}) {
+    for (const double last : {0.5, 3e7, -1e300, nothing}) {
+      std::vector<double> angles;
+      for (std::size_t i = 0; i + 1 < count; ++i) {
+        angles.push_back(-40.0 + 2.7 * static_cast<double>(i));
+      }
+      angles.push_back(last);
+      std::vector<double> sines(count);
+      std::vector<double> cosines(count);
+      sines_cosines(count, angles.data(), sines.data(), cosines.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto [sine, cosine] = sine_cosine(angles[i]);
+        EXPECT_TRUE(sines[i] == sine || (std::isnan(sines[i]) && std::isnan(sine)));
+        EXPECT_TRUE(cosines[i] == cosine || (std::isnan(cosines[i]) && std::isnan(cosine)));
+      }
+    }
+  }
 }
 
 }  // namespace
