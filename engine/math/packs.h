@@ -3,9 +3,11 @@
 // is chosen when the program starts, by what the processor can do.
 //
 // Both have the same bits: products and sums are not contracted, lanes are not summed. Where
-// compilers cannot do it, or the sanitizers are in the way, there are pairs alone.
+// compilers or the C library cannot do it, or the sanitizers are in the way, there are pairs alone.
 
-#if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \
+#include <cstddef>  // tells __GLIBC__
+
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
     defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
 #define SHEAVE_IN_PACKS [[gnu::target_clones("avx2", "default")]]
 #else
