@@ -1,6 +1,8 @@
 // What fuzzing has found once is tried in every build: fuzz/regressions/TARGET/ has the inputs that
 // broke a promise, fuzz/corpus/ TARGET/ a few that reach most of the code.
 
+#include <array>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -47,6 +49,24 @@ TEST_P(Replay, no_promise_is_broken) {
 
 INSTANTIATE_TEST_SUITE_P(fuzz, Replay, testing::ValuesIn(targets),
                          [](const auto& target) { return std::string(target.param.name); });
+
+std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
+  const char* text = std::getenv(name);
+  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
+}
+
+// SHEAVE_CASES machines that follow from the seeds from SHEAVE_SEED on: `tools/fuzz random`.
+TEST(RandomMachines, keep_every_promise) {
+  const std::uint64_t cases = from_environment("SHEAVE_CASES", 10);
+  const std::uint64_t first = from_environment("SHEAVE_SEED", 1);
+  for (std::uint64_t seed = first; seed < first + cases; ++seed) {
+    std::array<std::uint8_t, 8> bytes{};
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+      bytes[i] = static_cast<std::uint8_t>(seed >> (8 * i));
+    }
+    EXPECT_NO_THROW(try_machine(bytes)) << "seed " << seed;
+  }
+}
 
 }  // namespace
 }  // namespace sheave::fuzz
