@@ -5,6 +5,7 @@
 
 #include "engine/joints/ball.h"
 
+#include "engine/joints/drive_reach.h"
 #include "engine/joints/joint_batch.h"
 #include "engine/joints/lock_rows.h"
 #include "engine/math/portable.h"
@@ -98,6 +99,8 @@ Errors BallJoint::validate(const BodySet& bodies, const std::string& path) const
                       "joint \"" + name + "\": there is no stop; give swing_limit"});
   }
   check_coordinate(twist, name, path, "twist_", errors);
+  check_reach(twist, *this, axis.value_or(Vector3::Zero()), Turning::freely, bodies,
+              path + "/twist_drive", errors);
   return errors;
 }
 

@@ -4,6 +4,7 @@
 
 #include "engine/joints/cylindrical.h"
 
+#include "engine/joints/drive_reach.h"
 #include "engine/joints/joint_batch.h"
 #include "engine/joints/lock_rows.h"
 
@@ -71,6 +72,9 @@ Errors CylindricalJoint::validate(const BodySet& bodies, const std::string& path
   check_direction(axis, name, path + "/axis", errors);
   check_coordinate(travel, name, path, "travel_", errors);
   check_coordinate(angle, name, path, "angle_", errors);
+  check_reach(angle, *this, axis,
+              angular_compliance > 0.0 ? Turning::freely : Turning::about_one_axis, bodies,
+              path + "/angle_drive", errors);
   return errors;
 }
 

@@ -5,6 +5,7 @@
 
 #include "engine/joints/hinge.h"
 
+#include "engine/joints/drive_reach.h"
 #include "engine/joints/joint_batch.h"
 #include "engine/joints/lock_rows.h"
 #include "engine/math/portable.h"
@@ -124,6 +125,9 @@ Errors HingeJoint::validate(const BodySet& bodies, const std::string& path) cons
   Errors errors = JointDef::validate(bodies, path);
   check_direction(axis, name, path + "/axis", errors);
   check_coordinate(angle, name, path, "", errors);
+  check_reach(angle, *this, axis,
+              angular_compliance > 0.0 ? Turning::freely : Turning::about_one_axis, bodies,
+              path + "/drive", errors);
   return errors;
 }
 

@@ -4,6 +4,7 @@
 
 #include "engine/joints/plane.h"
 
+#include "engine/joints/drive_reach.h"
 #include "engine/joints/joint_batch.h"
 #include "engine/joints/lock_rows.h"
 
@@ -77,6 +78,9 @@ Errors PlaneJoint::validate(const BodySet& bodies, const std::string& path) cons
   Errors errors = JointDef::validate(bodies, path);
   check_direction(normal, name, path + "/normal", errors);
   check_coordinate(angle, name, path, "angle_", errors);
+  check_reach(angle, *this, normal,
+              angular_compliance > 0.0 ? Turning::freely : Turning::about_one_axis, bodies,
+              path + "/angle_drive", errors);
   return errors;
 }
 

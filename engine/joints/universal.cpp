@@ -6,6 +6,7 @@
 
 #include "engine/joints/universal.h"
 
+#include "engine/joints/drive_reach.h"
 #include "engine/joints/joint_batch.h"
 #include "engine/joints/lock_rows.h"
 #include "engine/math/portable.h"
@@ -102,6 +103,8 @@ Errors UniversalJoint::validate(const BodySet& bodies, const std::string& path) 
   }
   check_coordinate(angle_a, name, path, "angle_a_", errors);
   check_coordinate(angle_b, name, path, "angle_b_", errors);
+  check_reach(angle_a, *this, axis_a, Turning::freely, bodies, path + "/angle_a_drive", errors);
+  check_reach(angle_b, *this, axis_b, Turning::freely, bodies, path + "/angle_b_drive", errors);
   return errors;
 }
 

@@ -9,18 +9,18 @@
 namespace sheave {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double largest = std::numeric_limits<double>::max();
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 
 TEST(Range, NeverContainsWhatIsNotFinite) {
   for (const Range range : {any_number(), at_least(0.0), above(0.0), between(-1.0, 1.0),
-                            Range{.minimum = -infinity, .maximum = infinity}}) {
+                            Range{.minimum = -endless, .maximum = endless}}) {
     EXPECT_FALSE(range.contains(nan));
     EXPECT_FALSE(range.contains(-nan));
-    EXPECT_FALSE(range.contains(infinity));
-    EXPECT_FALSE(range.contains(-infinity));
+    EXPECT_FALSE(range.contains(endless));
+    EXPECT_FALSE(range.contains(-endless));
   }
 }
 
