@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <span>
+
 #include "engine/substep.h"
 #include "engine/wrench.h"
 
@@ -48,8 +51,10 @@ class JointTerms {
     if (wrench_ == nullptr) {
       // The world never moves and would only take up room in the row.
       if (body >= substep_.bodies.count()) return;
+      const int terms = row_.term_count;
       substep_.add_force(row_, body, at, direction);
       row_.curved = true;
+      if (shares_carrier(body, terms)) drop_cancelled(body, reach(body, at) * direction.norm());
     } else if (body == watched_) {
       wrench_->force += scale_ * direction;
       wrench_->torque += scale_ * cross(at - wrench_->about, direction);
@@ -57,13 +62,37 @@ class JointTerms {
   }
   void add_torque(int body, const Vector3& direction) {
     if (wrench_ == nullptr) {
-      if (body < substep_.bodies.count()) substep_.add_torque(row_, body, direction);
+      if (body >= substep_.bodies.count()) return;
+      const int terms = row_.term_count;
+      substep_.add_torque(row_, body, direction);
+      if (shares_carrier(body, terms)) drop_cancelled(body, direction.norm());
     } else if (body == watched_) {
       wrench_->torque += scale_ * direction;
     }
   }
 
  private:
+  /// Whether what was added to a row of so many terms is shared between a rotor and its carrier.
+  [[nodiscard]] bool shares_carrier(int body, int terms) const {
+    return substep_.bodies[body].mount >= 0 || row_.term_count == terms;
+  }
+  [[nodiscard]] double reach(int body, const Vector3& at) const {
+    const int mount = substep_.bodies[body].mount;
+    const double own = (at - substep_.position(body)).norm();
+    return mount < 0 ? own : std::max(own, (at - substep_.position(mount)).norm());
+  }
+  /// Makes torques 0 that are but rounding of `whole`: about the axle of a rotor that is pushed
+  /// across it, and on a carrier that a joint with its own rotor pushes to and fro. There 1e-17
+  /// would be all that the row can move, and would hold it with a force beyond all measure.
+  void drop_cancelled(int body, double whole) {
+    constexpr double rounding = 1e-12;
+    const int mount = substep_.bodies[body].mount;
+    for (RowTerm& term : std::span(row_.terms).first(static_cast<std::size_t>(row_.term_count))) {
+      if (term.body != body && term.body != mount) continue;
+      if (term.angular.norm() <= rounding * whole) term.angular.setZero();
+    }
+  }
+
   const Substep& substep_;
   Row& row_;
   int watched_ = -1;

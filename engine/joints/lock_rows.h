@@ -21,11 +21,6 @@ inline void lock_point_along(const Anchor& a, const Anchor& b, const Vector3& di
   terms.add_force(b.body, at_b, -direction);
 }
 
-/// The same along the world axis `index` (0, 1, 2).
-inline void lock_point(const Anchor& a, const Anchor& b, int index, JointTerms& terms) {
-  lock_point_along(a, b, Vector3::Unit(index), terms);
-}
-
 /// How far B's anchor has moved along the axis `index` of A's frame: C = n . (p_b - p_a).
 inline void offset_along(const Anchor& a, const Anchor& b, int index, JointTerms& terms) {
   const Vector3 at_b = b.position(terms.substep());
@@ -33,6 +28,14 @@ inline void offset_along(const Anchor& a, const Anchor& b, int index, JointTerms
   terms.set_value(dot(direction, at_b - a.position(terms.substep())));
   terms.add_force(a.body, at_b, -direction);
   terms.add_force(b.body, at_b, direction);
+}
+
+/// The anchors coincide along the world axis `index` (0, 1, 2), or that of B's frame where both
+/// bodies are led by one carrier: along world axes turning the carrier would close what a rotor has
+/// left open, by as much as is open, and rounding of little would turn it by much.
+inline void lock_point(const Anchor& a, const Anchor& b, int index, JointTerms& terms) {
+  if (terms.substep().share_carrier(a.body, b.body)) return offset_along(b, a, index, terms);
+  lock_point_along(a, b, Vector3::Unit(index), terms);
 }
 
 /// A's axis `axis` is perpendicular to B's axis `across`: C = u . v. Rotations change it by
@@ -51,7 +54,20 @@ inline void lock_perpendicular(const Anchor& a, int axis, const Anchor& b, int a
 /// w >= 0, is the identity: C = 2 E_k (the rotation vector for small errors). A world rotation d of
 /// A changes E to (1, d/2) E, one of B to E (1, -d/2), so with E = (w, v)
 ///   dC_k = (w e_k + v x e_k) . d_a - (w e_k - v x e_k) . d_b.
+/// Where one carrier leads both bodies the axes are those of A's frame, as in lock_point(): with
+/// q_a^-1 q_b = (w, v) and C = -2 v_k, dC_k = q_a (w e_k + v x e_k) . (d_a - d_b).
 inline void lock_rotation(const Anchor& a, const Anchor& b, int index, JointTerms& terms) {
+  if (terms.substep().share_carrier(a.body, b.body)) {
+    const Quaternion frame = a.orientation(terms.substep());
+    Quaternion relative = frame.conjugate() * b.orientation(terms.substep());
+    if (relative.w() < 0.0) relative.coeffs() = -relative.coeffs();
+    terms.set_value(-2.0 * relative.vec()[index]);
+    const Vector3 own = Vector3::Unit(index);
+    const Vector3 gradient = frame * Vector3(relative.w() * own + relative.vec().cross(own));
+    terms.add_torque(a.body, gradient);
+    terms.add_torque(b.body, -gradient);
+    return;
+  }
   Quaternion error = a.orientation(terms.substep()) * b.orientation(terms.substep()).conjugate();
   if (error.w() < 0.0) error.coeffs() = -error.coeffs();
   const Vector3 axis = Vector3::Unit(index);

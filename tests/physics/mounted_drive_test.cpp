@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "engine/body_set.h"
+#include "engine/joint_report.h"
 #include "engine/joints/hinge.h"
+#include "engine/joints/slider.h"
 #include "tests/support/builders.h"
 #include "tests/support/combinations.h"
 
@@ -104,6 +106,41 @@ TEST_P(MountedDrives, CanBeSet) {
     EXPECT_NEAR(world.state().bodies[0].angle, -turned * share, 1e-10);
     const double speed = kind == DriveKind::speed ? 6.0 : 0.0;
     EXPECT_NEAR(world.angular_velocity(BodyId{0}).z(), -speed * share, 1e-10);
+  }
+}
+
+// A slider locks the rotor to its carrier, whichever way it lies: one body that turns under a
+// torque on both, which the joint passes on to the rotor. Of the five locks only those about the
+// axle have anything to hold.
+TEST_P(MountedDrives, AJointBetweenRotorAndCarrierLocksTheAxleAlone) {
+  constexpr double torque = 0.3;
+  for (const Mobility mobility : {Mobility::planar, Mobility::free}) {
+    for (const int first : {0, 1}) {
+      Model model = floating();
+      model.step = step_settings(0.01, 50);
+      model.bodies[0].mobility = mobility;
+      model.bodies[0].orientation = rotation_by(0.3 * Vector3::UnitZ());
+      model.bodies[0].torque = torque * Vector3::UnitZ();
+      auto slider = std::make_shared<SliderJoint>();
+      slider->name = "lock";
+      slider->body_a = BodyId{first};
+      slider->body_b = BodyId{1 - first};
+      slider->anchor = {1.3, 0.2, 0.2};
+      slider->axis = {-0.66, -0.77, -0.38};
+      model.joints = {slider};
+      World world = start(model);
+      test::run(world, 1.0);
+      const double of_carrier = world.angular_velocity(BodyId{0}).z();
+      const double of_rotor = world.angular_velocity(BodyId{1}).z();
+      EXPECT_NEAR(lumped_inertia() * of_carrier + spin_inertia * of_rotor, torque, 1e-9);
+      // `xpbd` makes the turns of a substep alike: that of a free carrier with half of what its
+      // loads add, while its angular velocity has all of it.
+      const double late = mobility == Mobility::free ? 0.5 * 0.01 * torque / lumped_inertia() : 0;
+      EXPECT_NEAR(of_carrier, of_rotor, late + 1e-9);
+      // Forces and torques of the locks share the load.
+      const JointReport report = joint_reports(world)[0];
+      EXPECT_LT(report.torque.norm() + report.force.norm(), 10.0 * torque);
+    }
   }
 }
 
