@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cable/certificate/bounces.h"
 #include "cable/certificate/checks.h"
 #include "cable/certificate/joint_frames.h"
 
@@ -54,9 +55,9 @@ class EnergyCheck {
       if (!joint.broken) check_joint(joint);
     }
     for (const ContactEvidence& contact : e_.contacts) check_contact(contact);
-    if (bounce_flow_ > 0.0) {
-      add(std::max(bounced_ + fallen_beside(), 0.0), bounce_flow_,
-          [] { return std::string("the bounces"); });
+    const Bounced bounced = BounceCheck(e_).sum();
+    if (bounced.flow > 0.0) {
+      add(std::max(bounced.energy, 0.0), bounced.flow, [] { return std::string("the bounces"); });
     }
     findings_.note(Kind::energy, "J", std::abs(sum_), std::max(flow_, floor_), 0.0,
                    [] { return std::string("all together"); });
@@ -186,28 +187,20 @@ class EnergyCheck {
 
   void check_contact(const ContactEvidence& contact) {
     double compliance = 0.0;
-    bool bounces = false;
     for (const ColliderDef* collider : {contact.collider_a, contact.collider_b}) {
-      if (collider == nullptr) continue;
-      compliance += collider->compliance;
-      bounces = bounces || collider->restitution > 0.0;
+      if (collider != nullptr) compliance += collider->compliance;
     }
     if (compliance > 0.0) return;
+    // A bounce is in the velocities: its energy is that of all of them.
+    if (bounces(contact) && !e_.rattle) return;
     const auto speed_at = [&](End when) {
       const Moment& now = e_.moments[at(when)];
       return contact.normal.dot(now.velocity(contact.body_a, contact.point_a[at(when)]) -
                                 now.velocity(contact.body_b, contact.point_b[at(when)]));
     };
     const double press = contact.press[0] + contact.press[1];
-    const double mean = 0.5 * (speed_at(first_end) + speed_at(last_end));
     const double flow =
         press * e_.h * std::max(std::abs(speed_at(first_end)), std::abs(speed_at(last_end)));
-    // A bounce is in the velocities: its energy is that of all of them.
-    if (bounces && !e_.rattle) {
-      bounced_ += press * e_.h * mean;
-      bounce_flow_ += flow;
-      return;
-    }
     const double way = contact.gap[last_end] - contact.gap[first_end];
     add(std::max(press * way, 0.0), flow, [&] {
       return "the contact of " + e_.body_name(contact.body_a) +
@@ -216,24 +209,8 @@ class EnergyCheck {
     });
   }
 
-  /// What gravity does to bodies on the part of their way that is not their velocity's: that before
-  /// a bounce [J]. (Velocities of `xpbd` are means over the substep.)
-  [[nodiscard]] double fallen_beside() const {
-    double work = 0.0;
-    for (int i = 0; i < e_.bodies.count(); ++i) {
-      const BodyProperties& body = e_.bodies[i];
-      if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) continue;
-      const BodyState& to = e_.end.bodies[at(i)];
-      const Vector3 beside = e_.h * to.velocity - (to.position - e_.start.bodies[at(i)].position);
-      work += body.mass * e_.gravity.dot(beside);
-    }
-    return work;
-  }
-
   const Evidence& e_;
   Findings& findings_;
-  double bounced_ = 0.0;
-  double bounce_flow_ = 0.0;
   double kinetic_ = 0.0;
   double weight_ = 0.0;
   double flow_ = 0.0;

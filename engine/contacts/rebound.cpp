@@ -83,7 +83,8 @@ void Rebound::collect(const Substep& substep, std::span<const Contact> contacts,
                       std::span<const double> multipliers) {
   impacts_.clear();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (!(multipliers[3 * i] > 0.0)) continue;
+    // Springs push through the substep, whatever meets beside them.
+    if (!(multipliers[3 * i] > 0.0) || contacts[i].compliance > 0.0) continue;
     Impact& impact = impacts_.emplace_back();
     impact.contact = i;
     impact.rows.resize(at(contacts[i].rows));

@@ -58,10 +58,18 @@ const Finding not_for_sweeps{false, 0.0, 0.0, ""};
 
 using Check = std::function<Finding(const Machine&, std::uint64_t seed)>;
 
+/// What is wrong, without when, where and how much.
+std::string subject(const std::string& what) {
+  const std::size_t from = what.find("the ");
+  const std::string text = what.substr(from == std::string::npos ? 0 : from);
+  return text.substr(0, std::min(text.find('"'), text.find(" is off")));
+}
+
 /// Whether a smaller machine shows the same fault: about as large, or at least as large as can be
 /// overlooked.
 bool as_bad(const Finding& smaller, const Finding& finding) {
-  return !smaller.holds() && smaller.value > std::min(0.1 * finding.value, 0.01);
+  return !smaller.holds() && smaller.value > std::min(0.1 * finding.value, 0.01) &&
+         subject(smaller.what) == subject(finding.what);
 }
 
 /// The worst of a machine's four runs. One that fails is shrunk, told as a scene, and written if

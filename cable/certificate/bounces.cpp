@@ -1,0 +1,178 @@
+// What bounces make of the energy, exactly.
+//
+// Impulses P of contacts, which act at the end of a substep of `xpbd`, change the kinetic energy by
+// P . (v- + v+) / 2, with v+ the velocities at the end and v- = v+ - W P those without them: what
+// friction and other forces have done before is theirs. Bodies also are not where v- has led them:
+// at the acceleration a they have been put d = x1 - x0 - h v- elsewhere, which costs -m a . d, along
+// the normals of their contacts. (Across them it is friction that holds them.)
+//
+// Velocities of `xpbd` are means over a substep, a h / 2 behind those at its end, and with those
+// energy is kept in free fall: (v- + v+) / 2 has a h / 2 more. What leaves the surface at w < a h
+// and is put back on it within the substep gains m w (a h - w) / 2, m a^2 h^2 / 8 at most: so short
+// a bounce has no height. `rattle`, whose substeps with impacts are done by the rule of `xpbd`, has
+// the velocities of the end; there the fall h^2 a is too long by half, and the m a^2 h^2 / 2 that
+// this loses is not the bounces'.
+
+#include "cable/certificate/bounces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace sheave::certify {
+
+bool bounces(const ContactEvidence& contact) {
+  const auto rebounds = [](const ColliderDef* collider) {
+    return collider != nullptr && collider->restitution > 0.0;
+  };
+  const auto gives = [](const ColliderDef* collider) {
+    return collider != nullptr && collider->compliance > 0.0;
+  };
+  return (rebounds(contact.collider_a) || rebounds(contact.collider_b)) &&
+         !gives(contact.collider_a) && !gives(contact.collider_b);
+}
+
+BounceCheck::BounceCheck(const Evidence& evidence) : e_(evidence) {
+  if (e_.rattle || std::none_of(e_.contacts.begin(), e_.contacts.end(), bounces)) return;
+  changes_.resize(at(e_.bodies.count()) + 1);
+  for (const ContactEvidence& contact : e_.contacts) {
+    const Vector3 impulse =
+        e_.h * (contact.press[last_end] * contact.normal + contact.drag[last_end]);
+    push(contact.body_a, contact.point_a[last_end], impulse);
+    push(contact.body_b, contact.point_b[last_end], -impulse);
+    if (!bounces(contact)) continue;
+    for (const int body : {contact.body_a, contact.body_b}) span(leader(body), contact.normal);
+  }
+  for (int i = 0; i < e_.bodies.count(); ++i) yield(i);
+}
+
+int BounceCheck::leader(int body) const {
+  const int mount = e_.bodies[body].mount;
+  return mount >= 0 ? mount : body;
+}
+
+void BounceCheck::push(int body, const Vector3& point, const Vector3& impulse) {
+  if (body == e_.bodies.count()) return;
+  const Moment& now = e_.moments[last_end];
+  const int mount = e_.bodies[body].mount;
+  Vector3 spin = Vector3::Zero();
+  if (mount >= 0) {
+    // The bearing passes on all but the torque about the axle.
+    const Vector3 axle = now.orientation(mount) * e_.bodies[body].axis;
+    spin = axle * axle.dot((point - now.center(body)).cross(impulse));
+    changes_[at(body)].angular += spin;
+  }
+  Change& led = changes_[at(leader(body))];
+  led.linear += impulse;
+  led.angular += (point - now.center(leader(body))).cross(impulse) - spin;
+}
+
+void BounceCheck::span(int body, const Vector3& normal) {
+  Change& change = changes_[at(body)];
+  Vector3 rest = normal;
+  for (int k = 0; k < change.normal_count; ++k) {
+    rest -= change.normals[at(k)] * change.normals[at(k)].dot(rest);
+  }
+  if (change.normal_count == 3 || !(rest.norm() > 1e-6)) return;
+  change.normals[at(change.normal_count++)] = rest.normalized();
+}
+
+void BounceCheck::yield(int body) {
+  const BodyProperties& properties = e_.bodies[body];
+  Change& change = changes_[at(body)];
+  const Vector3 along = properties.axis * properties.axis.dot(change.linear);
+  const Matrix3 rotation = e_.moments[last_end].orientation(body).toRotationMatrix();
+  Vector3 linear = Vector3::Zero();
+  Vector3 angular = Vector3::Zero();
+  switch (properties.mobility) {
+    case Mobility::fixed:
+    case Mobility::kinematic:
+      break;
+    case Mobility::free:
+      linear = change.linear / properties.mass;
+      angular = rotation * (properties.inverse_inertia * (rotation.transpose() * change.angular));
+      break;
+    case Mobility::planar:
+      linear = (change.linear - along) / properties.mass;
+      angular = properties.axis * properties.axis.dot(change.angular) / properties.axis_inertia;
+      break;
+    case Mobility::slider:
+      linear = along / properties.mass;
+      break;
+    case Mobility::rotor: {
+      if (!(properties.axis_inertia > 0.0) || properties.prescribed()) break;
+      const bool mounted = properties.mount >= 0;
+      const Vector3 axle =
+          mounted ? Vector3(e_.moments[last_end].orientation(properties.mount) * properties.axis)
+                  : properties.axis;
+      angular = axle * axle.dot(change.angular) / properties.axis_inertia;
+      break;
+    }
+  }
+  change.linear = linear;
+  change.angular = angular;
+}
+
+Vector3 BounceCheck::without(int body, const Vector3& point) const {
+  const Moment& now = e_.moments[last_end];
+  Vector3 velocity = now.velocity(body, point);
+  if (body == e_.bodies.count()) return velocity;
+  const Change& led = changes_[at(leader(body))];
+  velocity -= led.linear + led.angular.cross(point - now.center(leader(body)));
+  if (leader(body) == body) return velocity;
+  // A mounted rotor has of its carrier's turn all but that about the axle.
+  const Vector3 axle = now.orientation(leader(body)) * e_.bodies[body].axis;
+  const Vector3 spun = changes_[at(body)].angular - axle * axle.dot(led.angular);
+  return velocity - spun.cross(point - now.center(body));
+}
+
+Vector3 BounceCheck::acceleration(int body) const {
+  const BodyProperties& properties = e_.bodies[body];
+  const bool moves = properties.mobility == Mobility::free ||
+                     properties.mobility == Mobility::planar ||
+                     properties.mobility == Mobility::slider;
+  if (!moves) return Vector3::Zero();
+  return e_.gravity + e_.load_force(body, last_end) / properties.mass;
+}
+
+Bounced BounceCheck::sum() const {
+  Bounced bounced;
+  if (changes_.empty()) return bounced;
+  const bool means = e_.model.step.integrator == IntegratorKind::xpbd;
+  for (const ContactEvidence& contact : e_.contacts) {
+    const double push = e_.h * contact.press[last_end];
+    if (!bounces(contact) || !(push > 0.0)) continue;
+    const auto towards = [&](const auto& velocity_of) {
+      return contact.normal.dot(velocity_of(contact.body_a, contact.point_a[last_end]) -
+                                velocity_of(contact.body_b, contact.point_b[last_end]));
+    };
+    const double after = towards(
+        [&](int body, const Vector3& point) { return e_.moments[last_end].velocity(body, point); });
+    const double before =
+        towards([&](int body, const Vector3& point) { return without(body, point); });
+    bounced.energy += 0.5 * push * (before + after);
+    for (const auto& [body, sense] : {std::pair{contact.body_a, 1.0}, {contact.body_b, -1.0}}) {
+      if (body == e_.bodies.count()) continue;
+      const double a = sense * contact.normal.dot(acceleration(leader(body)));
+      bounced.energy -= (means ? 0.5 : 1.0) * e_.h * a * push;
+    }
+    bounced.flow += push * std::max(std::abs(before), std::abs(after));
+  }
+  for (int i = 0; i < e_.bodies.count(); ++i) bounced.energy += fallen_beside(i, means);
+  return bounced;
+}
+
+double BounceCheck::fallen_beside(int body, bool means) const {
+  const Change& change = changes_[at(body)];
+  const BodyState& to = e_.end.bodies[at(body)];
+  const Vector3 beside = e_.h * to.velocity - (to.position - e_.start.bodies[at(body)].position);
+  const Vector3 a = acceleration(body);
+  double work = 0.0;
+  for (int k = 0; k < change.normal_count; ++k) {
+    const double fall = change.normals[at(k)].dot(a);
+    work += fall * change.normals[at(k)].dot(beside);
+    work -= (means ? 0.125 : 0.5) * fall * fall * e_.h * e_.h;
+  }
+  return e_.bodies[body].mass * work;
+}
+
+}  // namespace sheave::certify
