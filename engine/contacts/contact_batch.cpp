@@ -172,7 +172,8 @@ class ContactBatch final : public ConstraintBatch {
       }
       record.gap = contact.gap(substep);
       const bool touches = multipliers_[3 * i] > 0.0;
-      record.sticks = contact.friction > 0.0 && (touches ? !contact.slips : contact.stuck);
+      record.sticks =
+          contact.friction > 0.0 && (touches ? !contact.slips && !is_at_bound(i) : contact.stuck);
       if (record.sticks && touches) {
         record.slipped = contact.slip(substep);
         record.slipped -= contact.normal * dot(contact.normal, record.slipped);
@@ -302,6 +303,13 @@ class ContactBatch final : public ConstraintBatch {
     // Positions of `rattle` carry half of the force.
     const double limit = (1.0 - 1e-9) * substep.load_share * contact.friction * contact.pressed;
     contact.slips = portable::hypot(multipliers_[3 * i + 1], multipliers_[3 * i + 2]) >= limit;
+  }
+
+  /// Whether friction is all that the normal force allows, which in a round that follows it may be
+  /// less than what the round began with.
+  [[nodiscard]] bool is_at_bound(std::size_t i) const {
+    const double limit = (1.0 - settled_share) * contacts_[i].friction * multipliers_[3 * i];
+    return portable::hypot(multipliers_[3 * i + 1], multipliers_[3 * i + 2]) >= limit;
   }
 
   /// Makes what acted in the second half of the substep four numbers per contact: along the normal,

@@ -133,6 +133,8 @@ bool RowSystem::bound_friction() {
     const double next = pressures_[i].next(before, bound);
     problem_.lower[g] = -next - groups_[g].multiplier;
     problem_.upper[g] = next - groups_[g].multiplier;
+    // What has no room is not looked for: nothing would tell that it leaves its bounds.
+    if (next == 0.0) problem_.free[g] = 0;
   }
   return changed;
 }

@@ -199,5 +199,59 @@ TEST(ContactFriction, StaysWithinItsBoundWhereATallBoxTipsAndLands) {
   }
 }
 
+// Friction at its bound lets slip, however the normal force changes: a ball that lands sliding on a
+// spring and rolls in the end is never pushed on. About a point of the floor its angular momentum
+// stays what it was, so it rolls at 5/7 of its speed.
+TEST(ContactFriction, DoesNotPullBackWhatHasSlippedOnASpring) {
+  for (const test::Method& method : test::methods) {
+    SCOPED_TRACE(test::name_of(method));
+    Heap heap(method.solver, method.integrator);
+    heap.model.step = test::settings(0.0015, 1, 100);
+    heap.model.step.solver = method.solver;
+    heap.model.step.integrator = method.integrator;
+    heap.surface.friction = 0.7;
+    heap.surface.compliance = 4e-7;
+    heap.floor();
+    constexpr double radius = 0.15;
+    const BodyId ball = heap.put(test::ball(radius), {0.0, radius, 0.0}, 1.2);
+    heap.last().velocity = {0.216, -0.04, 0.0};
+    World world = heap.start();
+    double least = 0.216;
+    for (int i = 0; i < 60; ++i) {
+      ASSERT_TRUE(world.step().ok());
+      const double slip = world.velocity(ball).x() + radius * world.angular_velocity(ball).z();
+      least = std::min(least, slip);
+    }
+    // Row::softness leaves 1e-7 of what friction stops.
+    EXPECT_GT(least, -1e-6);
+    EXPECT_NEAR(world.velocity(ball).x(), 5.0 / 7.0 * 0.216, 1e-6);
+  }
+}
+
+// A box that lands flat begins to tip over its leading edge: in the second half of a substep of
+// `rattle` nothing presses the trailing corners any more, and there is no friction there.
+TEST(ContactFriction, OfCornersThatNothingPressesIsNone) {
+  for (const test::Method& method : test::methods) {
+    if (method.solver != SolverKind::direct) continue;
+    SCOPED_TRACE(test::name_of(method));
+    constexpr double friction = 0.372;
+    Heap heap(method.solver, method.integrator);
+    heap.model.step = test::direct_settings(method.integrator, 0.00333);
+    heap.surface.friction = friction;
+    heap.floor();
+    heap.put(test::box({0.3, 0.3, 0.3}), {0.0, 0.15, 0.0}, 1.326);
+    heap.last().velocity = {0.517, -0.732, 0.0};
+    World world = heap.start();
+    for (int i = 0; i < 30; ++i) {
+      ASSERT_TRUE(world.step().ok());
+      for (const ContactReport& contact : world.contacts()) {
+        // As near as rounds of friction end: 1e-7 of the bound.
+        ASSERT_LE(contact.friction_force.norm(), (1.0 + 1e-6) * friction * contact.normal_force)
+            << i;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sheave
