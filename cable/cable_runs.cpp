@@ -275,6 +275,13 @@ void CableSystem::share_load(const Substep& substep, const CompiledCable& cable,
   }
 }
 
+void CableSystem::start_without_feed(int span, Row& row) const {
+  // What is fed in a substep comes evenly: at the start none of it is there.
+  const SpanSetup& setup = spans_[at(span)];
+  if (!links_[at(setup.first)].feeds && !links_[at(setup.second)].feeds) return;
+  row.value -= fed_[at(span)][0] + fed_[at(span)][1];
+}
+
 void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Run run,
                                 RowList& rows) {
   const std::size_t start = rows.size();
@@ -293,6 +300,7 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     Row& row = rows.emplace_back();
     const SpanGeometry span =
         evaluate(substep, k, row, strains ? &run_work_.stretched[at(i)] : nullptr);
+    if (at_start) start_without_feed(k, row);
     row.index = k;
     if (open) row.upper = 0.0;
     row.active = start_tensions_[at(k)] > 0.0;
@@ -327,14 +335,16 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     rows[i].start_weight = relative(rows[i].start_weight, heaviest.start);
   }
   if (acts) give(substep, cable, heaviest, rows[start]);
-  if (!strains) return;
-  run_work_.weights.clear();
-  for (std::size_t i = start; i < rows.size(); ++i) {
-    run_work_.weights.push_back(rows[i].start_weight);
+  if (strains && rows.size() > start) {
+    Row* const first = &*rows.begin() + start;
+    strain_shared(cable, {first, rows.size() - start});
   }
-  if (rows.size() == start) return;
-  Row* const first = &*rows.begin() + start;
-  strain_rows(cable, run_work_.stretched, run_work_.weights, {first, rows.size() - start});
+}
+
+void CableSystem::strain_shared(const CompiledCable& cable, std::span<Row> rows) {
+  run_work_.weights.clear();
+  for (const Row& row : rows) run_work_.weights.push_back(row.start_weight);
+  strain_rows(cable, run_work_.stretched, run_work_.weights, rows);
 }
 
 bool CableSystem::shorten_run(const Substep& substep, const CompiledCable& cable, Run run) {

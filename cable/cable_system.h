@@ -184,8 +184,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   static void share_load(const Substep& substep, const CompiledCable& cable, RowList& rows,
                          std::size_t start);
   void linearise_run(Substep& substep, const CompiledCable& cable, Run run, RowList& rows);
-  /// Evaluates the spans of a run; sums their gradients body by body, and collects the logarithms
-  /// of the weights k_i. Returns the largest of these.
+  void start_without_feed(int span, Row& row) const;
+  /// Evaluates the spans of a run, sums their gradients body by body; returns the largest ln k_i.
   double evaluate_run(const Substep& substep, const CompiledCable& cable, Run run);
   /// Makes the weights of a run of `count` spans relative to the heaviest, so that no number of
   /// turns overflows, and returns the sum of its rows' values [m]; of a material those with the
@@ -291,6 +291,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   /// Gives the rows of a run that strain.
   void strain_rows(const CompiledCable& cable, std::span<const StretchedSpan> spans,
                    std::span<const double> weights, std::span<Row> rows);
+  void strain_shared(const CompiledCable& cable, std::span<Row> rows);
   /// The strain with which a run ends, with the ratios of its tensions as weights; leaves these and
   /// the spans in run_work_.weights and run_work_.stretched. None if its spans keep strains of their own.
   std::optional<double> end_strain(const Substep& substep, const CompiledCable& cable, Run run);

@@ -193,8 +193,7 @@ class SpanCheck {
   /// Stretch of the span at the start of the substep, as its law counts it [m].
   double stretch_before(const CableDef& cable, const SpanEvidence& span, double stretch,
                         double passed) const {
-    // What is fed in a substep is there from its start.
-    double start = span.length[first_end] - span.rest_length[first_end] - span.fed;
+    double start = span.length[first_end] - span.rest_length[first_end];
     double length = span.rest_length[first_end];
     if (!e_.rattle) {
       length = span.rest_length[last_end] - passed;

@@ -332,5 +332,34 @@ TEST(ElasticCable, ASpanThatIsDrainedGivesNoMore) {
   }
 }
 
+// Between a wall and a body that nothing moves a span that is wound up with the speed v is stretched
+// by x = v t, and pulls with x / c. `xpbd` reports what it is at the end of a substep, `rattle` the
+// mean of both ends; one that began with what the substep winds up would be v h / 2 ahead.
+TEST(ElasticFeed, PullsByWhatIsWoundUpAtItsTime) {
+  constexpr double compliance = 1e-4;
+  constexpr double speed = 0.2;
+  constexpr double h = 0.004;
+  for (const test::Combination& combination : test::combinations) {
+    SCOPED_TRACE(test::combination_name({combination, 0}));
+    test::Machine m;
+    m.model.add(test::weight("rock", {0.0, -1.0, 0.0}, 1e15));
+    auto winch = test::attach(BodyId::world());
+    winch->feed_speed = -speed;
+    m.cables.push_back(test::cable("rope", {winch, test::attach({0})}));
+    m.cables[0].compliance = compliance;
+    m.model.step = test::settings(h, 1, 20);
+    m.model.step.solver = combination.solver;
+    m.model.step.integrator = combination.integrator;
+    Simulation simulation = test::start(m);
+    for (int i = 1; i <= 50; ++i) {
+      ASSERT_TRUE(simulation.world.step().ok());
+      const double late = combination.integrator == IntegratorKind::rattle ? 0.5 : 0.0;
+      const double expected = speed * h * (i - late) / compliance;
+      // The rock gives by F t^2 / 2 m < 1e-14 m; lengths are multiples of a quantum of 1e-15 m.
+      ASSERT_NEAR(simulation.cable_reports()[0].spans[0].tension, expected, 1e-8 * expected) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sheave

@@ -54,9 +54,9 @@ INSTANTIATE_TEST_SUITE_P(scenes, CertifiedScene, testing::ValuesIn(valid_scene_f
 std::vector<std::filesystem::path> mended_machines() {
   const std::filesystem::path folder = std::filesystem::path(SHEAVE_SOURCE_DIR) / "tools/faults";
   std::vector<std::filesystem::path> files;
-  for (const char* name :
-       {"a1-drum-and-post", "a1-eyelets", "a1-feed", "a1-holes", "a2-post", "axles",
-        "damped-friction", "feed", "first-step-strains", "late-impulse", "levers"}) {
+  for (const char* name : {"a1-drum-and-post", "a1-eyelets", "a1-feed", "a1-holes", "a2-post",
+                           "axles", "damped-friction", "elastic-friction", "feed",
+                           "first-step-strains", "late-impulse", "levers"}) {
     files.push_back(folder / (std::string(name) + ".json"));
   }
   return files;
