@@ -279,7 +279,9 @@ void CableSystem::start_without_feed(int span, Row& row) const {
   // What is fed in a substep comes evenly: at the start none of it is there.
   const SpanSetup& setup = spans_[at(span)];
   if (!links_[at(setup.first)].feeds && !links_[at(setup.second)].feeds) return;
-  row.value -= fed_[at(span)][0] + fed_[at(span)][1];
+  const double fed = fed_[at(span)][0] + fed_[at(span)][1];
+  row.value -= fed;
+  row.compliance -= fed * cables_[at(setup.cable)].inverse_stiffness;
 }
 
 void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Run run,

@@ -165,19 +165,19 @@ class SpanCheck {
   void add_span(const CableDef& cable, std::size_t k, ChainSum& sum) const {
     const SpanEvidence& span = cable_.spans[k];
     const double passed = slid_into(static_cast<int>(k));
-    const double rest_length = span.rest_length[last_end];
+    double rest_length = span.rest_length[last_end];
     double stretch = span.length[last_end] - rest_length;
     if (cable.tangent_update == TangentUpdate::substep) {
       // What acted is between attachments that keep their places on the bodies; what rolls is in
       // their distance.
-      const double apart = (span.to.point[last_end] - span.from.point[last_end]).norm();
-      stretch = apart - span.rest_length[first_end] - span.fed - passed;
+      rest_length = span.rest_length[first_end] + span.fed + passed;
+      stretch = (span.to.point[last_end] - span.from.point[last_end]).norm() - rest_length;
     }
     const double pull = compliance_of(cable, rest_length) * span.tension();
     // What has passed has its own damper with it no sooner than in the next substep.
     const double own_length = rest_length - passed;
     const double share = compliance_of(cable, own_length) * cable.damping / e_.h;
-    const double start = stretch_before(cable, span, stretch, passed);
+    const double start = stretch_before(cable, span, stretch, rest_length, passed);
     sum.most = std::max({sum.most, std::abs(stretch), pull});
     sum.pulled += span.tension();
     sum.most_damped = std::max(sum.most_damped, 1.0 + (e_.rattle ? 2.0 : 1.0) * share);
@@ -190,20 +190,21 @@ class SpanCheck {
     sum.off += 0.5 * (stretch + ((1.0 - twice) * start - 2.0 * pull) / (1.0 + twice));
   }
 
-  /// Stretch of the span at the start of the substep, as its law counts it [m].
+  /// Stretch of the span at the start of the substep, as its law counts it [m], from that at the
+  /// end and the rest length there.
   double stretch_before(const CableDef& cable, const SpanEvidence& span, double stretch,
-                        double passed) const {
+                        double rest_length, double passed) const {
     double start = span.length[first_end] - span.rest_length[first_end];
     double length = span.rest_length[first_end];
     if (!e_.rattle) {
-      length = span.rest_length[last_end] - passed;
+      length = rest_length - passed;
       start = stretch + passed;
       if (cable.damping > 0.0) {
         start -= linear_stretch(e_, span, cable.tangent_update == TangentUpdate::iteration);
       }
     }
     // A material's force is that of its strain, whatever the length is at either end.
-    if (cable.axial_stiffness && length > 0.0) start *= span.rest_length[last_end] / length;
+    if (cable.axial_stiffness && length > 0.0) start *= rest_length / length;
     // A damper begins where its span is taut.
     return cable.damping > 0.0 ? std::max(start, 0.0) : start;
   }
