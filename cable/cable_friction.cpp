@@ -42,9 +42,12 @@
 namespace sheave {
 namespace {
 
-/// More changes of a link between sticking and sliding in one substep are rounding or a solver far
-/// from convergence.
+/// More changes of a link between sticking and sliding in one substep, many at once, go round.
 constexpr int most_flips = 4;
+
+/// One at a time, the first of those that have to, they need not; beyond that it is rounding or a
+/// solver far from convergence.
+constexpr int most_single_flips = 12;
 
 /// A link that slid by nothing has been made to hold, and did not.
 constexpr int resting_flips = 2;
@@ -184,11 +187,25 @@ double CableSystem::grip(const Substep& substep, std::size_t piece) {
   return before.grip;
 }
 
+bool CableSystem::may_change(int link) {
+  const int most = slip_changes_.single ? most_single_flips : most_flips;
+  if (slip_changes_.single && slip_changes_.done) return false;
+  const bool may = flips_[at(link)] < most;
+  slip_changes_.refused = slip_changes_.refused || !may;
+  return may;
+}
+
 void CableSystem::set_slip(std::size_t from, std::size_t to, int slip) {
   // All or none, because what does not slide holds the others.
+  bool changes = false;
   for (std::size_t i = from; i < to; ++i) {
-    if (flips_[at(pieces_[i].link)] >= most_flips) return;
+    changes = changes || pending_slip_[at(pieces_[i].link)] != slip;
   }
+  if (!changes) return;
+  for (std::size_t i = from; i < to; ++i) {
+    if (!may_change(pieces_[i].link)) return;
+  }
+  slip_changes_.done = true;
   for (std::size_t i = from; i < to; ++i) {
     const int link = pieces_[i].link;
     if (pending_slip_[at(link)] == slip) continue;
@@ -346,6 +363,16 @@ double CableSystem::hold_ring(const Substep& substep, const CompiledCable& cable
 }
 
 void CableSystem::update_slip(const Substep& substep, const CompiledCable& cable) {
+  slip_changes_ = {};
+  look_at_links(substep, cable);
+  if (slip_changes_.refused && pending_slip_ == slip_) {
+    slip_changes_.single = true;
+    look_at_links(substep, cable);
+  }
+  slip_ = pending_slip_;
+}
+
+void CableSystem::look_at_links(const Substep& substep, const CompiledCable& cable) {
   // Links that slide: has the cable moved with the pull, and by more than rounding?
   const double rounding = cable_parts::length_rounding * substep.bodies.scale();
   for_each_run(cable, [&](Run run) {
@@ -357,15 +384,16 @@ void CableSystem::update_slip(const Substep& substep, const CompiledCable& cable
       const int link = spans_[at(k)].second;
       int& slip = pending_slip_[at(link)];
       if (links_[at(link)].frictionless() || slip == 0) continue;
-      if (passed * slip > rounding || flips_[at(link)] >= most_flips) continue;
+      if (passed * slip > rounding) continue;
       // One that does not hold either, but over which nothing passes, is at its bound.
       if (passed * slip >= -rounding && flips_[at(link)] >= resting_flips) continue;
+      if (!may_change(link)) continue;
+      slip_changes_.done = true;
       slip = 0;
       ++flips_[at(link)];
     }
   });
   release_links(substep, cable);
-  slip_ = pending_slip_;
 }
 
 void CableSystem::release_links(const Substep& substep, const CompiledCable& cable) {
@@ -386,6 +414,7 @@ bool CableSystem::revise_impulses(const Substep& substep) {
       kept_slip_ = slip_;
       kept_flips_ = flips_;
     }
+    slip_changes_ = {};
     release_links(substep, cable);
     changed = changed || pending_slip_ != slip_;
     slip_ = pending_slip_;

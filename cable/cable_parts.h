@@ -89,6 +89,14 @@ struct SpanDamping {
   [[nodiscard]] double end(double pull) const { return (pull + share * start) / (1.0 + share); }
 };
 
+/// Of a look at what slides: whether one change at a time is made, whether it has been, and whether
+/// one would have been too many.
+struct SlipChanges {
+  bool single = false;
+  bool done = false;
+  bool refused = false;
+};
+
 /// With what open runs turn wheels between their spans: cable/cable_held.cpp.
 struct GivenPulls {
   std::vector<double> pulls;       ///< logarithms of h^2 tension, per span that begins such a run

@@ -189,8 +189,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   double evaluate_run(const Substep& substep, const CompiledCable& cable, Run run);
   /// Makes the weights of a run of `count` spans relative to the heaviest, so that no number of
   /// turns overflows, and returns the sum of its rows' values [m]; of a material those with the
-  /// run's strain, which it finds. Of damped rows it makes those of springs alone with the same
-  /// forces.
+  /// run's strain, which it finds. Damped rows it makes those of springs with the same forces.
   double weigh_run(const CompiledCable& cable, std::size_t count, double heaviest, double h);
   double solve_run(Substep& substep, const CompiledCable& cable, Run run);
   /// Into run_work_.spare the rest lengths before anything passes the links [m], into
@@ -217,19 +216,19 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   double grip(const Substep& substep, std::size_t piece);
   /// Of the links between two pieces.
   void set_slip(std::size_t from, std::size_t to, int slip);
-  /// Of pieces `first` to `last`, between dead ends: lets cable slide into those too short and out
-  /// of those too long.
+  /// Lets cable slide into pieces that are too short and out of those too long, between dead ends.
   void serve_pieces(const Substep& substep, std::size_t first, std::size_t last);
   void serve(std::size_t index);
   void judge_links(const Substep& substep, const CompiledCable& cable, std::size_t first,
                    std::size_t last);
   /// Whether the spans of the run, of constant compliance, have no rest length left.
   [[nodiscard]] bool is_drained(const CompiledCable& cable, Run run) const;
-  /// Holds a link of a ring all of whose links would slide; returns what passes over the ring's
-  /// first link then [m]. `spare`: run_spare().
+  /// Holds a link of a ring that would all slide; returns what passes over its first one then [m].
   double hold_ring(const Substep& substep, const CompiledCable& cable, Run run,
                    const std::vector<double>& spare);
   void update_slip(const Substep& substep, const CompiledCable& cable);
+  void look_at_links(const Substep& substep, const CompiledCable& cable);
+  [[nodiscard]] bool may_change(int link);
   /// Makes links slide that stick and do not hold.
   void release_links(const Substep& substep, const CompiledCable& cable);
   // Tensions that no body decides: cable/cable_held.cpp.
@@ -460,6 +459,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<std::array<double, 2>> fed_;  ///< per span, of its ends, in this substep [m]
   std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
   std::vector<int> pending_slip_;
+  cable_parts::SlipChanges slip_changes_;
   std::vector<int> kept_slip_;  ///< while impulses are found: what it was before; empty: it is that
   std::vector<int> kept_flips_;
   std::vector<char> held_;  ///< per link: whether it passes nothing although it has no friction
