@@ -175,10 +175,15 @@ class EnergyCheck {
     double flow = 0.0;
     for (const End when : {first_end, last_end}) {
       const Vector3& force = joint.acting[at(when)].force;
-      const Moment& now = e_.moments[at(when)];
       work += force.dot(opened);
-      flow += e_.h * std::max(std::abs(force.dot(now.velocity(frame.body_a, frame.anchor_a(now)))),
-                              std::abs(force.dot(now.velocity(frame.body_b, frame.anchor_b(now)))));
+      // What it stops has passed all of its energy.
+      double power = 0.0;
+      for (const Moment& now : e_.moments) {
+        power =
+            std::max({power, std::abs(force.dot(now.velocity(frame.body_a, frame.anchor_a(now)))),
+                      std::abs(force.dot(now.velocity(frame.body_b, frame.anchor_b(now))))});
+      }
+      flow += e_.h * power;
     }
     add(work, flow, [&] {
       return std::string(joint.definition->type()) + " \"" + joint.definition->name + "\"";

@@ -180,7 +180,10 @@ void Evidence::push(End when, int body, const Vector3& point, const Vector3& for
     add(body, Vector3::Zero(), spin);
     balances[at(body)].largest_force = std::max(balances[at(body)].largest_force, size);
   }
-  balances[at(body)].power += std::abs(force.dot(now.velocity(body, point)));
+  // What it stops has passed all of its energy.
+  balances[at(body)].power +=
+      std::max(std::abs(force.dot(moments[first_end].velocity(body, point))),
+               std::abs(force.dot(moments[last_end].velocity(body, point))));
 }
 
 void Evidence::twist(End when, int body, const Vector3& torque) {
@@ -200,7 +203,8 @@ void Evidence::twist(End when, int body, const Vector3& torque) {
     add(body, spin);
   }
   balances[at(body)].power +=
-      std::abs(torque.dot((*moments[at(when)].states)[at(body)].angular_velocity));
+      std::max(std::abs(torque.dot(start.bodies[at(body)].angular_velocity)),
+               std::abs(torque.dot(end.bodies[at(body)].angular_velocity)));
 }
 
 void Evidence::mark_unknown(int body) {

@@ -259,8 +259,12 @@ class JointCheck {
     double over = 0.0;
     if (settings.lower) over = std::max(over, *settings.lower - c);
     if (settings.upper) over = std::max(over, c - *settings.upper);
-    const double give = settings.limit_compliance *
-                        (joint_.end.coordinates[k].angle ? torque_.norm() : force_.norm());
+    // What drives and springs of the coordinate push it with does not come out of the joint.
+    const JointCoordinateReport& now = joint_.end.coordinates[k];
+    const double inner = std::abs(now.drive_force) + settings.friction +
+                         settings.stiffness * std::abs(now.value - settings.rest);
+    const double give =
+        settings.limit_compliance * (inner + (now.angle ? torque_.norm() : force_.norm()));
     // An elastic one gives; by how much, the balance of momentum tells.
     if (settings.limit_compliance > 0.0) over = std::max(over - 2.0 * give, 0.0);
     note(Kind::joint, unit_of(k), over, scale_of(k), rounding * scale_of(k));
