@@ -152,8 +152,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] std::vector<AffineSpan> affine_spans(const BodySet& bodies, bool ends_stay) const;
   [[nodiscard]] AffineSpan affine_span(const Substep& start, const SpanSetup& setup,
                                        bool ends_stay) const;
-  /// Whether the span, and what its cable has stored at the ends, is far from being drawn whole by
-  /// the wheels' free motion.
+  /// Whether the wheels' free motion is far from drawing all of a span and what its ends store.
   [[nodiscard]] bool feeds(const MovingSpan& span, const FeatureState& state,
                            std::span<const double> motion, double rest_length) const;
   [[nodiscard]] bool finish_affine_cable(const CompiledCable& cable, const AffineSubstep& substep,
@@ -167,8 +166,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   using Run = cable_parts::Run;
   [[nodiscard]] int next_span(const CompiledCable& cable, int span) const;
   [[nodiscard]] bool shared(int link) const;
-  /// Finds the frictionless links beside drained spans of a cable of constant compliance that pass
-  /// nothing in the substep.
+  /// Of a constant compliance: frictionless links beside drained spans that pass nothing.
   void hold_drained(const CompiledCable& cable, const FeatureState& start);
   template <class Visit>
   void for_each_run(const CompiledCable& cable, Visit visit) const;
