@@ -31,7 +31,9 @@ std::vector<Vector3> outline_path(const Substep& now, const LinkGeometry& link, 
   const auto point = [&](int k) { return now.point(link.carrier, link.outline->corners[at(k)]); };
   std::vector<Vector3> path{point(corner)};
   double walked = 0.0;
-  while (true) {
+  // Counted, because outlines of extreme size have edges that are no numbers.
+  const int most_corners = static_cast<int>(most_turns + 1.0) * count;
+  for (int k = 0; k < most_corners; ++k) {
     const int next = (corner + step) % count;
     const double edge = (curve.corner(next) - curve.corner(corner)).norm();
     const bool arrived = entry >= 0 && exit >= 0 && corner == entry;

@@ -35,6 +35,7 @@ class BodyCheck {
     check_fields(BodyDef::field_table(), &body_, path_, errors_);
     for (std::size_t i = 0; i < body_.shapes.size(); ++i) check_shape(i);
     if (errors_.size() > before) return;  // what follows computes with these numbers
+    check_reach();
     check_axis();
     check_mount();
     check_motion();
@@ -52,6 +53,22 @@ class BodyCheck {
   [[nodiscard]] bool moves() const { return !is(Mobility::fixed) && !is(Mobility::kinematic); }
   [[nodiscard]] std::string mobility_name() const {
     return std::string(mobility_names[static_cast<std::size_t>(body_.mobility)]);
+  }
+
+  /// Beyond it squares of distances are not finite, and nothing could tell how far off a state is.
+  static constexpr double farthest = 1e150;
+
+  void check_reach() {
+    const auto reach = [](const Vector3& place) { return place.cwiseAbs().maxCoeff(); };
+    double shape = 0.0;
+    for (const PlacedShape& placed : body_.shapes) {
+      shape = std::max(shape, reach(placed.position) + reach(placed.shape->half_extent()));
+    }
+    const bool by_shape = !(shape <= farthest);
+    if (!by_shape && reach(body_.position) <= farthest) return;
+    const std::string field = body_.shapes.size() == 1 ? "/shape" : "/shapes";
+    fail(by_shape ? field : "/position",
+         "no more than 1e150 m from the origin is allowed, for squares of lengths must be finite");
   }
 
   void check_shape(std::size_t i) {

@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "fuzz/machine.h"
 #include "fuzz/target.h"
+#include "tests/property/shrink.h"
 
 namespace sheave::fuzz {
 namespace {
@@ -55,7 +57,16 @@ std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
   return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
 }
 
+/// The scene of a machine whose run broke a promise, for a look at it.
+void keep_scene(Bytes bytes, std::uint64_t seed) {
+  const char* folder = std::getenv("SHEAVE_FAULTS");
+  if (folder == nullptr) return;
+  std::ofstream(fs::path(folder) / ("machine-" + std::to_string(seed) + ".json"))
+      << test::scene_of(trial_from(bytes).machine);
+}
+
 // SHEAVE_CASES machines that follow from the seeds from SHEAVE_SEED on: `tools/fuzz random`.
+// Scenes of those that break a promise are written to the folder SHEAVE_FAULTS.
 TEST(RandomMachines, keep_every_promise) {
   const std::uint64_t cases = from_environment("SHEAVE_CASES", 10);
   const std::uint64_t first = from_environment("SHEAVE_SEED", 1);
@@ -64,7 +75,12 @@ TEST(RandomMachines, keep_every_promise) {
     for (std::size_t i = 0; i < bytes.size(); ++i) {
       bytes[i] = static_cast<std::uint8_t>(seed >> (8 * i));
     }
-    EXPECT_NO_THROW(try_machine(bytes)) << "seed " << seed;
+    try {
+      try_machine(bytes);
+    } catch (const std::exception& fault) {
+      ADD_FAILURE() << fault.what() << "\nseed " << seed;
+      keep_scene(bytes, seed);
+    }
   }
 }
 

@@ -249,9 +249,13 @@ void Evidence::collect_cables(const LastSubstep& last) {
     cable.end = after[c];
     const CompiledCable& layout = system.cables()[c];
     const auto differs = [&](std::size_t i) { return before.integers[i] != now.integers[i]; };
+    // How a wheel has been left is nothing to the cable that passes it by.
+    const auto mode = [&](const FeatureState& state, int link) {
+      return std::min(state.integers[system.mode_index(link)], RunningLink::lifted_mode);
+    };
     cable.has_changed = differs(system.cut_index(static_cast<int>(c)));
     for (int i = layout.first_link; i < layout.first_link + layout.link_count; ++i) {
-      cable.has_changed = cable.has_changed || differs(system.mode_index(i)) ||
+      cable.has_changed = cable.has_changed || mode(before, i) != mode(now, i) ||
                           differs(system.next_index(i)) || differs(system.wrap_index(i));
     }
     const std::vector<CableEvent>& events = system.events();

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "engine/body_set.h"
 #include "engine/joints/ball.h"
 #include "engine/joints/distance.h"
 #include "engine/joints/hinge.h"
@@ -115,6 +116,16 @@ TEST(BodyCheck, Axes) {
   expect_fault("/bodies/2", [](Model& m) { m.bodies[2].axis.reset(); });
   expect_fault("/bodies/2/axis", [](Model& m) { m.bodies[2].axis = Vector3::Zero(); });
   expect_fault("/bodies/2/axis/1", [](Model& m) { m.bodies[2].axis = Vector3(1, nan_value, 0); });
+}
+
+TEST(BodyCheck, LengthsWhoseSquaresAreNotFinite) {
+  expect_fault("/bodies/0/position", [](Model& m) { m.bodies[0].position.y() = -2e150; });
+  expect_fault("/bodies/0/shape", [](Model& m) { m.bodies[0].shapes[0].position.x() = 2e150; });
+  Model model = good_model();
+  model.bodies[0].position = Vector3::Constant(1e150);
+  const Result<BodySet> bodies = BodySet::create(model);
+  ASSERT_TRUE(bodies.ok());
+  EXPECT_TRUE(std::isfinite(bodies->scale()));
 }
 
 TEST(BodyCheck, Mounts) {
