@@ -375,13 +375,17 @@ class MomentumCheck {
     return h * missing.dot(0.5 * (from.angular_velocity + to.angular_velocity));
   }
 
-  /// Whether cable loses tension on the wheel, whose bearing then brakes it.
+  /// Whether cable loses tension on the wheel, whose bearing then brakes it; or leans to its plane
+  /// between attachments that stay where they are, so that its bearing takes what is left of the
+  /// torque.
   [[nodiscard]] bool brakes(int i) const {
     return std::any_of(e_.cables.begin(), e_.cables.end(), [&](const CableEvidence& cable) {
       const auto& links = cable.definition->links;
+      const bool frozen = cable.definition->tangent_update == TangentUpdate::substep;
       return std::any_of(links.begin(), links.end(), [&](const auto& link) {
         const auto* rolling = dynamic_cast<const RollingLink*>(link.get());
-        return rolling != nullptr && rolling->efficiency && e_.bodies.index(rolling->body) == i;
+        return rolling != nullptr && (frozen || rolling->efficiency) &&
+               e_.bodies.index(rolling->body) == i;
       });
     });
   }
