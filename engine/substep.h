@@ -82,13 +82,6 @@ struct Substep {
 
   /// Rotation from own frame to world frame.
   [[nodiscard]] Quaternion orientation(int body) const;
-  /// Whether they are a rotor and the body that carries it, or two rotors on one body.
-  [[nodiscard]] bool share_carrier(int a, int b) const {
-    const auto carrier = [&](int body) {
-      return bodies[body].mount >= 0 ? bodies[body].mount : body;
-    };
-    return carrier(a) == carrier(b);
-  }
   /// Position of the centre of mass (of a mounted rotor: its centre) [m].
   [[nodiscard]] Vector3 position(int body) const;
   /// World position of the point `local` [m] of the body's own frame.

@@ -12,6 +12,9 @@ struct Anchor {
   int body = 0;
   Vector3 point = Vector3::Zero();            ///< [m]
   Quaternion frame = Quaternion::Identity();  ///< joint frame to own frame
+  /// Whether the other anchor is on the body that carries this one, or the other way round, or both
+  /// are on rotors of one body.
+  bool shares_carrier = false;
 
   /// The anchor of `joint` at the world point `world_point` [m] with the joint frame `world_frame`,
   /// both told where bodies are when it is defined.
@@ -45,8 +48,13 @@ struct AnchorPair {
   [[nodiscard]] static AnchorPair at_start(const BodySet& bodies, const JointDef& joint,
                                            BodyId body_a, BodyId body_b, const Vector3& world_point,
                                            const Quaternion& frame = Quaternion::Identity()) {
-    return {Anchor::at_start(bodies, joint, body_a, world_point, frame),
-            Anchor::at_start(bodies, joint, body_b, world_point, frame)};
+    AnchorPair pair{Anchor::at_start(bodies, joint, body_a, world_point, frame),
+                    Anchor::at_start(bodies, joint, body_b, world_point, frame)};
+    const auto carrier = [&](int body) {
+      return bodies[body].mount >= 0 ? bodies[body].mount : body;
+    };
+    pair.a.shares_carrier = pair.b.shares_carrier = carrier(pair.a.body) == carrier(pair.b.body);
+    return pair;
   }
   /// Makes A's anchor, as defined, that of a joint that was locked again
   /// (engine/joints/joint_hold.h).

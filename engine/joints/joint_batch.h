@@ -62,6 +62,8 @@ class JointBatch final : public JointFeature {
       joint.exact = joints[j].exact;
       joint.restricted = !joint.exact && (is_restricted(bodies, definition.body_a) ||
                                           is_restricted(bodies, definition.body_b));
+      joint.has_rotor = bodies[bodies.index(definition.body_a)].mount >= 0 ||
+                        bodies[bodies.index(definition.body_b)].mount >= 0;
       elastic_ = elastic_ || joint.kernel.elastic() ||
                  std::any_of(joints[j].effects.begin(), joints[j].effects.end(),
                              [](const JointEffect& e) { return e.elastic(); });
@@ -266,6 +268,7 @@ class JointBatch final : public JointFeature {
     int first_coordinate = -1;  // < 0: none are counted
     int reported = 0;           // how many coordinates reports tell; more than the pose is counted
     bool restricted = false;    // whether a body has a restricted mobility
+    bool has_rotor = false;     // whether a body is a rotor on another one
     int lock_count = 0;
     int first_acting = 0;  // of its rows
     bool exact = false;    // as JointParts
@@ -331,7 +334,7 @@ class JointBatch final : public JointFeature {
     if constexpr (coordinate_count == 0) {
       return 0.0;
     } else {
-      JointTerms terms(substep, row);
+      JointTerms terms(substep, row, joint.has_rotor);
       joint.kernel.coordinate(k, terms);
       const JointCoordinateInfo& info = Kernel::coordinates[at(k)];
       if (info.measure == JointCoordinateInfo::Measure::pose) return row.value;
@@ -362,7 +365,7 @@ class JointBatch final : public JointFeature {
   void evaluate_at(const Substep& substep, const Joint& joint, int i,
                    std::span<const double> starts, Row& row, Measured* known = nullptr) const {
     if (i < joint.lock_count) {
-      JointTerms terms(substep, row);
+      JointTerms terms(substep, row, joint.has_rotor);
       joint.kernel.lock(i, terms);
       return;
     }

@@ -32,7 +32,9 @@ inline void drop_rounding(Row& row, std::span<const MovingBody> bodies) {
 /// and, if asked, as the wrench on one of them.
 class JointTerms {
  public:
-  JointTerms(const Substep& substep, Row& row) : substep_(substep), row_(row) {}
+  /// `has_rotor`: whether one of the bodies is a rotor on another body.
+  JointTerms(const Substep& substep, Row& row, bool has_rotor = false)
+      : substep_(substep), row_(row), has_rotor_(has_rotor) {}
   /// Adds what acts on `body`, times `scale`, to `wrench` instead of the row.
   JointTerms(const Substep& substep, Row& row, int body, double scale, Wrench& wrench)
       : substep_(substep), row_(row), watched_(body), scale_(scale), wrench_(&wrench) {}
@@ -54,7 +56,8 @@ class JointTerms {
       const int terms = row_.term_count;
       substep_.add_force(row_, body, at, direction);
       row_.curved = true;
-      if (shares_carrier(body, terms)) drop_cancelled(body, reach(body, at) * direction.norm());
+      if (has_rotor_ && shares_carrier(body, terms))
+        drop_cancelled(body, reach(body, at) * direction.norm());
     } else if (body == watched_) {
       wrench_->force += scale_ * direction;
       wrench_->torque += scale_ * cross(at - wrench_->about, direction);
@@ -65,7 +68,7 @@ class JointTerms {
       if (body >= substep_.bodies.count()) return;
       const int terms = row_.term_count;
       substep_.add_torque(row_, body, direction);
-      if (shares_carrier(body, terms)) drop_cancelled(body, direction.norm());
+      if (has_rotor_ && shares_carrier(body, terms)) drop_cancelled(body, direction.norm());
     } else if (body == watched_) {
       wrench_->torque += scale_ * direction;
     }
@@ -95,6 +98,7 @@ class JointTerms {
 
   const Substep& substep_;
   Row& row_;
+  bool has_rotor_ = false;
   int watched_ = -1;
   double scale_ = 1.0;
   Wrench* wrench_ = nullptr;

@@ -34,7 +34,7 @@ inline void offset_along(const Anchor& a, const Anchor& b, int index, JointTerms
 /// bodies are led by one carrier: along world axes turning the carrier would close what a rotor has
 /// left open, by as much as is open, and rounding of little would turn it by much.
 inline void lock_point(const Anchor& a, const Anchor& b, int index, JointTerms& terms) {
-  if (terms.substep().share_carrier(a.body, b.body)) return offset_along(b, a, index, terms);
+  if (a.shares_carrier) return offset_along(b, a, index, terms);
   lock_point_along(a, b, Vector3::Unit(index), terms);
 }
 
@@ -57,7 +57,7 @@ inline void lock_perpendicular(const Anchor& a, int axis, const Anchor& b, int a
 /// Where one carrier leads both bodies the axes are those of A's frame, as in lock_point(): with
 /// q_a^-1 q_b = (w, v) and C = -2 v_k, dC_k = q_a (w e_k + v x e_k) . (d_a - d_b).
 inline void lock_rotation(const Anchor& a, const Anchor& b, int index, JointTerms& terms) {
-  if (terms.substep().share_carrier(a.body, b.body)) {
+  if (a.shares_carrier) {
     const Quaternion frame = a.orientation(terms.substep());
     Quaternion relative = frame.conjugate() * b.orientation(terms.substep());
     if (relative.w() < 0.0) relative.coeffs() = -relative.coeffs();
