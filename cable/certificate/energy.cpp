@@ -17,7 +17,7 @@
 
 #include "cable/certificate/bounces.h"
 #include "cable/certificate/checks.h"
-#include "cable/certificate/joint_frames.h"
+#include "cable/certificate/joint_energy.h"
 
 namespace sheave::certify {
 namespace {
@@ -161,31 +161,8 @@ class EnergyCheck {
   }
 
   void check_joint(const JointEvidence& joint) {
-    const JointFrame frame = frame_of(e_.bodies, joint);
-    if (frame.compliance > 0.0 || frame.kind.coupling || frame.kind.distance) return;
-    const auto gap = [&](const Moment& now) -> Vector3 {
-      const Vector3 apart = frame.anchor_b(now) - frame.anchor_a(now);
-      const Vector3 axis = frame.turned_a(now) * frame.axis_a;
-      if (frame.kind.on_axis) return apart - axis * axis.dot(apart);
-      if (frame.kind.in_plane) return axis * axis.dot(apart);
-      return apart;
-    };
-    const Vector3 opened = gap(e_.moments[last_end]) - gap(e_.moments[first_end]);
-    double work = 0.0;
-    double flow = 0.0;
-    for (const End when : {first_end, last_end}) {
-      const Vector3& force = joint.acting[at(when)].force;
-      work += force.dot(opened);
-      // What it stops has passed all of its energy.
-      double power = 0.0;
-      for (const Moment& now : e_.moments) {
-        power =
-            std::max({power, std::abs(force.dot(now.velocity(frame.body_a, frame.anchor_a(now)))),
-                      std::abs(force.dot(now.velocity(frame.body_b, frame.anchor_b(now))))});
-      }
-      flow += e_.h * power;
-    }
-    add(work, flow, [&] {
+    const JointWork work = work_of(e_, joint);
+    add(work.unexplained, work.flow, [&] {
       return std::string(joint.definition->type()) + " \"" + joint.definition->name + "\"";
     });
   }

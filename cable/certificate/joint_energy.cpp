@@ -1,0 +1,135 @@
+// What joints do to the energy beside what is theirs to do.
+//
+// A lock is a value C of B against A that is to be 0, and an effort f on B along it: a force, or a
+// torque over what an angle changes C by. Its work on the bodies is f . dC. A rigid lock should do
+// none. An elastic one has C^2 / 2c; by its rule, f = -C / c with C of the end (`xpbd`) or the mean
+// of both ends (`rattle`), for which f . dC is what the spring gives, exactly, or as much less as
+// implicit Euler takes. So what nothing explains is (f + C / c) . dC: stiff springs store, over a
+// gap that sweeps have left, much more than their force has done.
+//
+// What a ball resists turning with, beyond its damper, is friction and does no work > 0.
+
+#include "cable/certificate/joint_energy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/certificate/joint_frames.h"
+#include "engine/joints/ball.h"
+
+namespace sheave::certify {
+namespace {
+
+class JointWorker {
+ public:
+  JointWorker(const Evidence& evidence, const JointEvidence& joint)
+      : e_(evidence), joint_(joint), frame_(frame_of(evidence.bodies, joint)) {}
+
+  JointWork sum() {
+    if (frame_.kind.coupling || frame_.kind.distance) return work_;
+    add_flow();
+    lock(frame_.compliance, [&](End when) { return point(when); });
+    if (frame_.kind.parallel) {
+      lock(frame_.angular_compliance, [&](End when) { return tilt(when); });
+    }
+    if (frame_.kind.no_turn) {
+      lock(frame_.angular_compliance, [&](End when) { return turn(when); });
+    }
+    resist();
+    return work_;
+  }
+
+ private:
+  /// A lock at one end of the substep, B against A.
+  struct Lock {
+    Vector3 value = Vector3::Zero();
+    Vector3 effort = Vector3::Zero();
+  };
+
+  template <class LockAt>
+  void lock(double compliance, const LockAt& lock_at) {
+    const Lock first = lock_at(first_end);
+    const Lock last = lock_at(last_end);
+    const Vector3 opened = last.value - first.value;
+    work_.unexplained += (first.effort + last.effort).dot(opened);
+    if (!(compliance > 0.0)) return;
+    const Vector3 ruled = e_.rattle ? Vector3(0.5 * (first.value + last.value)) : last.value;
+    const double taken = ruled.dot(opened) / compliance;
+    work_.unexplained += taken;
+    work_.flow = std::max(work_.flow, std::abs(taken));
+  }
+
+  [[nodiscard]] Vector3 axis_at(End when) const {
+    return frame_.turned_a(e_.moments[at(when)]) * frame_.axis_a;
+  }
+
+  [[nodiscard]] Lock point(End when) const {
+    const Moment& now = e_.moments[at(when)];
+    const Vector3 axis = axis_at(when);
+    const auto locked = [&](const Vector3& all) -> Vector3 {
+      if (frame_.kind.on_axis) return all - axis * axis.dot(all);
+      if (frame_.kind.in_plane) return axis * axis.dot(all);
+      return all;
+    };
+    return {locked(frame_.anchor_b(now) - frame_.anchor_a(now)),
+            locked(joint_.acting[at(when)].force)};
+  }
+  /// By the sine of the angle between the axes.
+  [[nodiscard]] Lock tilt(End when) const {
+    const Vector3 own = axis_at(when);
+    const Vector3 other = frame_.turned_by(e_.moments[at(when)], frame_.body_b) * frame_.axis_b;
+    const Vector3& torque = joint_.acting[at(when)].torque;
+    const double cosine = own.dot(other);
+    return {own.cross(other), (torque - own * own.dot(torque)) / cosine};
+  }
+  /// By twice the sine of half the angle of the turn.
+  [[nodiscard]] Lock turn(End when) const {
+    const Moment& now = e_.moments[at(when)];
+    Quaternion off = frame_.turned_by(now, frame_.body_b) * frame_.turned_a(now).conjugate();
+    if (off.w() < 0.0) off.coeffs() = -off.coeffs();
+    return {2.0 * off.vec(), joint_.acting[at(when)].torque / off.w()};
+  }
+
+  /// What the joint stops has passed all of its energy.
+  void add_flow() {
+    for (const End when : {first_end, last_end}) {
+      const JointReport& acting = joint_.acting[at(when)];
+      double power = 0.0;
+      for (const Moment& now : e_.moments) {
+        for (const auto& [body, point] : {std::pair{frame_.body_a, frame_.anchor_a(now)},
+                                          std::pair{frame_.body_b, frame_.anchor_b(now)}}) {
+          if (now.is_world(body)) continue;
+          power = std::max(
+              power, std::abs(acting.force.dot(now.velocity(body, point))) +
+                         std::abs(acting.torque.dot((*now.states)[at(body)].angular_velocity)));
+        }
+      }
+      work_.flow += e_.h * power;
+    }
+  }
+
+  void resist() {
+    const auto* ball = dynamic_cast<const BallJoint*>(joint_.definition);
+    if (ball == nullptr || ball->swing_limit || ball->twist.acts()) return;
+    const Vector3 turned = turn_of(frame_.body_b) - turn_of(frame_.body_a);
+    const Vector3 torque = joint_.acting[first_end].torque + joint_.acting[last_end].torque;
+    const Vector3 excess = torque + ball->damping / e_.h * turned;
+    work_.unexplained += std::max(excess.dot(turned), 0.0);
+  }
+  [[nodiscard]] Vector3 turn_of(int body) const {
+    return body == e_.bodies.count() ? Vector3(Vector3::Zero()) : e_.turn_of(body);
+  }
+
+  const Evidence& e_;
+  const JointEvidence& joint_;
+  JointFrame frame_;
+  JointWork work_;
+};
+
+}  // namespace
+
+JointWork work_of(const Evidence& evidence, const JointEvidence& joint) {
+  return JointWorker(evidence, joint).sum();
+}
+
+}  // namespace sheave::certify

@@ -1,0 +1,15 @@
+#pragma once
+// What joints do to the energy beside what their springs, dampers and friction are there for.
+
+#include "cable/certificate/evidence.h"
+
+namespace sheave::certify {
+
+struct JointWork {
+  double unexplained = 0.0;  ///< on the bodies and their springs [J]
+  double flow = 0.0;         ///< what passed through the joint [J]
+};
+
+[[nodiscard]] JointWork work_of(const Evidence& evidence, const JointEvidence& joint);
+
+}  // namespace sheave::certify
