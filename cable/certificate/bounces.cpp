@@ -3,8 +3,9 @@
 // Impulses P of contacts, which act at the end of a substep of `xpbd`, change the kinetic energy by
 // P . (v- + v+) / 2, with v+ the velocities at the end and v- = v+ - W P those without them: what
 // friction and other forces have done before is theirs. Bodies also are not where v- has led them:
-// at the acceleration a they have been put d = x1 - x0 - h v- elsewhere, which costs -m a . d, along
-// the normals of their contacts. (Across them it is friction that holds them.)
+// at the acceleration a by all that is no contact they have been put d = x1 - x0 - h v- elsewhere,
+// out of what they had cut into, too. That costs -m a . d, along the normals of their contacts.
+// (Across them it is friction that holds them.)
 //
 // Velocities of `xpbd` are means over a substep, a h / 2 behind those at its end, and with those
 // energy is kept in free fall: (v- + v+) / 2 has a h / 2 more. What leaves the surface at w < a h
@@ -131,7 +132,8 @@ Vector3 BounceCheck::acceleration(int body) const {
                      properties.mobility == Mobility::planar ||
                      properties.mobility == Mobility::slider;
   if (!moves) return Vector3::Zero();
-  return e_.gravity + e_.load_force(body, last_end) / properties.mass;
+  const Vector3 change = e_.end.bodies[at(body)].velocity - e_.start.bodies[at(body)].velocity;
+  return (change - changes_[at(body)].linear) / e_.h;
 }
 
 Bounced BounceCheck::sum() const {
