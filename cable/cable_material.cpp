@@ -34,6 +34,10 @@
 // small.) Where F(0) > 0 the run is slack. Where spans are damped, k_i e is what springs alone
 // would have, and cable/cable_damping.cpp says what is in its place.
 //
+// Where attachments keep their places for the substep, what has rolled is still between them: the
+// length that spans have afterwards is none that anything has pulled at, but that of the law that
+// has acted says what strain comes with what is wound.
+//
 // The residual value + compliance T, whose zero solvers seek, changes by -(dl + d(on) - d(off)) for
 // T = EA e0 and w = e0, and by a share e1 - e0 or w - e0 of the arcs besides. So Newton's method
 // with the row's gradient is exact but for changes of strain, which also vanish for stiff cables.
@@ -175,6 +179,16 @@ std::optional<double> CableSystem::end_strain(const Substep& substep, const Comp
 
 void CableSystem::keep_end_strains(const Substep& substep) {
   for (const CompiledCable& cable : cables_) {
+    if (cable.inverse_stiffness > 0.0 && cable.tangent_update == TangentUpdate::substep) {
+      for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
+        const double rest_length = std::max(references_[at(k)].rest_length, 0.0);
+        double share = cable.damping * cable.inverse_stiffness * rest_length / substep.h;
+        if (knows_start_) share -= 0.5;  // cable/cable_damping.cpp
+        const double pull = multipliers_[at(k)] * cable.inverse_stiffness / (substep.h * substep.h);
+        end_strains_[at(k)] = std::max(SpanDamping{strains_[at(k)], share}.end(pull), 0.0);
+      }
+      continue;
+    }
     if (!cable.shares || !strains_runs(cable)) continue;
     std::fill_n(end_strains_.begin() + cable.first_span, cable.span_count, -1.0);
     for_each_run(cable, [&](Run run) {
