@@ -166,7 +166,8 @@ class ContactBatch final : public ConstraintBatch {
       record.normal = contact.normal;
       record.point =
           substep.point(contact.body_a, contact.own_a) - contact.radius_a * contact.normal;
-      record.force = inverse_square * multipliers_[3 * i];
+      // Points that share a load have theirs to its rounding, on either side of none.
+      record.force = inverse_square * std::max(multipliers_[3 * i], 0.0);
       for (std::size_t k = 0; k < 2 && contact.friction > 0.0; ++k) {
         record.friction += inverse_square * multipliers_[3 * i + 1 + k] * contact.tangents[k];
       }
