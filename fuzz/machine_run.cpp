@@ -5,6 +5,7 @@
 
 #include "cable/cable_system.h"
 #include "cable/links/attachment.h"
+#include "cable/links/spool.h"
 #include "engine/body_set.h"
 #include "engine/joint_report.h"
 #include "engine/joints/gear.h"
@@ -87,6 +88,22 @@ double motion(const World& world) {
         fastest, body.velocity.norm() + world.bodies().scale() * body.angular_velocity.norm());
   }
   return fastest * world.model().step.dt / world.model().step.substeps;
+}
+
+/// What drums that turn by w h take more, or give, since their radius grows by the pitch with each
+/// turn, pitch (w h)^2 / 4 pi [m].
+double layered_motion(const CableDef& cable, const World& world) {
+  double turn = 0.0;
+  for (const BodyState& body : world.state().bodies) {
+    turn = std::max(turn, body.angular_velocity.norm());
+  }
+  turn *= world.model().step.dt / world.model().step.substeps;
+  double sum = 0.0;
+  for (const auto& link : cable.links) {
+    const auto* spool = dynamic_cast<const SpoolLink*>(link.get());
+    if (spool != nullptr) sum += spool->layer_pitch * turn * turn / (4.0 * pi);
+  }
+  return sum;
 }
 
 bool is_rigid(const CableDef& cable) {
@@ -195,11 +212,11 @@ void StepCheck::check_cables(const Simulation& simulation, bool clean) {
   quiet_ = events == events_ ? quiet_ + 1 : 0;
   events_ = events;
   const StepSettings& step = simulation.world.model().step;
-  const double moved = motion(simulation.world);
   for (std::size_t c = 0; c < cables.size(); ++c) {
     const CableReport& cable = cables[c];
     const CableDef& definition = (*simulation.cable_definitions)[c];
     const Lengths lengths(cable);
+    const double moved = motion(simulation.world) + layered_motion(definition, simulation.world);
     const double whole = std::max(cable.total_length, lengths.longest + moved);
     if (lengths.longest + moved > 4.0 * cable.total_length || driven_) {
       rounding_[c] += 16.0 * test::eps * step.substeps * whole / cable.total_length;
