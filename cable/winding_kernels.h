@@ -2,6 +2,7 @@
 // The loops over spans between wheels on fixed axles that every substep goes through
 // (cable/cable_affine_motion.cpp).
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -9,13 +10,13 @@ namespace sheave {
 
 /// What every substep needs of such spans, per span; `wheels` and `given` of both ends.
 struct WindingSpans {
-  std::vector<int> wheels[2];    ///< number of the wheel; 0: none
-  std::vector<double> given[2];  ///< cable that it gives the span per radian [m]
-  std::vector<double> lengths;   ///< of those that do not slide [m]
+  std::array<std::vector<int>, 2> wheels;    ///< number of the wheel; 0: none
+  std::array<std::vector<double>, 2> given;  ///< cable that it gives the span per radian [m]
+  std::vector<double> lengths;               ///< of those that do not slide [m]
   // Where a link's cable goes: the place of the end of a span among twice the spans, in their
   // order. 2 x spans: none.
-  std::vector<int> link_ends[2];     ///< per link
-  std::vector<double> least_stored;  ///< per link [m]
+  std::array<std::vector<int>, 2> link_ends;  ///< per link
+  std::vector<double> least_stored;           ///< per link [m]
 };
 
 /// Spans of one cable: from `first` to before `last`.

@@ -48,7 +48,7 @@ void turn_bodies(std::span<const TurningBody> rotors, const double* places, cons
     for (std::size_t i = 0; i < 3; ++i) spin[i] = speed * rotor.axis[i];
     body.angle = places[rotor.number];
     double* const orientation = body.orientation.coeffs().data();
-    std::array<double, 4> now;
+    std::array<double, 4> now{};
     for (std::size_t i = 0; i < 4; ++i) {
       now[i] = cosines[j] * rotor.upright[i] + sines[j] * rotor.turned[i];
     }
