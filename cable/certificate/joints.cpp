@@ -165,8 +165,9 @@ class JointCheck {
       const auto sine = [&](const Moment& now) -> Vector3 {
         return Vector3(axis_of(now).dot(other_axis(now)), 0.0, 0.0);
       };
-      double open = ruled(sine).x();
+      double open = sine(e_.moments[last_end]).x();
       if (b > 0.0) {
+        open = ruled(sine).x();
         const Vector3 across =
             axis_of(e_.moments[last_end]).cross(other_axis(e_.moments[last_end]));
         open -= b * torque_.dot(across);

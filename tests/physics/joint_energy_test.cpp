@@ -6,10 +6,11 @@
 #include "cable/certificate.h"
 #include "engine/joint_report.h"
 #include "engine/joints/ball.h"
+#include "engine/joints/universal.h"
 #include "tests/support/builders.h"
 #include "tests/support/rounding.h"
 
-namespace sheave::test {
+namespace sheave::test::joint_energy {
 namespace {
 
 using Kind = CertificateItem::Kind;
@@ -126,5 +127,31 @@ TEST(JointEnergy, DamperThatDoesNotTakeWhatItShould) {
   EXPECT_TRUE(solved.clean(1e-6)) << solved.worst()->sentence();
 }
 
+// What locks rigidly is where it is at the end of the substep, not the mean of both ends: of the
+// right angle between the axes, off by e, the joint reports e and the certificate sin e. (A body
+// that turns about its centre of mass opens nothing else.)
+TEST(JointEnergy, RightAngleThatSweepsLeaveOpen) {
+  Machine machine;
+  machine.model.step = settings(0.05, 1, 1);
+  machine.model.step.integrator = IntegratorKind::rattle;
+  BodyDef body = lump("body", Vector3::Zero(), mass);
+  body.inertia = Vector3(0.08, 0.16, 0.1);
+  body.angular_velocity = {1.0, 2.0, 3.0};
+  const BodyId id = machine.model.add(body);
+  auto joint = std::make_shared<UniversalJoint>();
+  joint->name = "cross";
+  joint->body_b = id;
+  joint->axis_a = Vector3::UnitX();
+  joint->axis_b = Vector3::UnitY();
+  machine.model.joints.push_back(joint);
+  Simulation simulation = start(machine);
+  ASSERT_TRUE(simulation.world.step().ok());
+  const double off = joint_reports(simulation.world)[0].angle_error;
+  const CertificateItem item = *simulation.certificate()->find(Kind::joint);
+  ASSERT_GT(off, 1e-4);
+  ASSERT_EQ(item.unit, "rad") << item.sentence();
+  EXPECT_NEAR(item.value, off, off * off * off);
+}
+
 }  // namespace
-}  // namespace sheave::test
+}  // namespace sheave::test::joint_energy
