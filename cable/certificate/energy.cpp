@@ -108,13 +108,43 @@ class EnergyCheck {
     return 0.5 * (body.mass * state.velocity.squaredNorm() + w.dot(momentum));
   }
 
+  [[nodiscard]] double flow_through(const SpanEvidence& span) const {
+    double speed = 0.0;
+    for (const End when : {first_end, last_end}) {
+      const Moment& now = e_.moments[at(when)];
+      const Vector3& u = span.direction[at(when)];
+      speed =
+          std::max({speed, std::abs(u.dot(now.velocity(span.from.body, span.from.point[at(when)]))),
+                    std::abs(u.dot(now.velocity(span.to.body, span.to.point[at(when)])))});
+    }
+    return span.tension() * e_.h * speed;
+  }
+
+  /// Attachments that have kept their places for the substep are laid anew at its end: the spring
+  /// then has another length than it was stretched to.
+  void check_laid(const CableEvidence& cable, std::size_t k) {
+    const SpanEvidence& span = cable.spans[k];
+    const CableDef& definition = *cable.definition;
+    const auto stored = [&](double length, double rest_length) {
+      const double stretch = std::max(length - rest_length, 0.0);
+      const double compliance = definition.axial_stiffness
+                                    ? std::max(rest_length, 0.0) / *definition.axial_stiffness
+                                    : definition.compliance.value_or(0.0);
+      return compliance > 0.0 ? 0.5 * stretch * stretch / compliance : 0.0;
+    };
+    const double acted = (span.to.point[last_end] - span.from.point[last_end]).norm();
+    const double rest_length =
+        span.rest_length[first_end] + span.fed + passed_into(cable, static_cast<int>(k));
+    add(stored(span.length[last_end], span.rest_length[last_end]) - stored(acted, rest_length),
+        flow_through(span), [&] { return span.name(); });
+  }
+
   void check_span(const CableEvidence& cable, std::size_t k) {
     const SpanEvidence& span = cable.spans[k];
     const double tension = span.tension();
-    if (!(tension > 0.0) || !span.has_tangent ||
-        cable.definition->tangent_update != TangentUpdate::iteration) {
-      return;
-    }
+    if (!span.has_tangent) return;
+    if (cable.definition->tangent_update != TangentUpdate::iteration) return check_laid(cable, k);
+    if (!(tension > 0.0)) return;
     const double gained = span.rest_length[last_end] - span.rest_length[first_end];
     const double passed = span.fed + passed_into(cable, static_cast<int>(k));
     const double rolled = gained - passed;
@@ -139,15 +169,7 @@ class EnergyCheck {
         unexplained -= tension * (std::max(excess1, 0.0) - std::max(excess0, 0.0));
       }
     }
-    double speed = 0.0;
-    for (const End when : {first_end, last_end}) {
-      const Moment& now = e_.moments[at(when)];
-      const Vector3& u = span.direction[at(when)];
-      speed =
-          std::max({speed, std::abs(u.dot(now.velocity(span.from.body, span.from.point[at(when)]))),
-                    std::abs(u.dot(now.velocity(span.to.body, span.to.point[at(when)])))});
-    }
-    add(unexplained, tension * e_.h * speed, [&] { return span.name(); });
+    add(unexplained, flow_through(span), [&] { return span.name(); });
   }
 
   /// Cable that slid into a span over its links [m].
