@@ -55,15 +55,6 @@ bool is_driven(const Model& model, const std::vector<CableDef>& cables) {
   return by_body || by_joint || by_cable || by_contact;
 }
 
-/// Springs over frozen tangents are as long as the tangents say that are found anew in the next
-/// substep: that work is nobody's, and `run` warns of it.
-bool jumps(const std::vector<CableDef>& cables) {
-  return std::any_of(cables.begin(), cables.end(), [](const CableDef& cable) {
-    return cable.tangent_update == TangentUpdate::substep &&
-           (cable.axial_stiffness || cable.compliance.value_or(0.0) > 0.0);
-  });
-}
-
 bool is_finite(const BodyState& body) {
   return body.position.allFinite() && body.orientation.coeffs().allFinite() &&
          body.velocity.allFinite() && body.angular_velocity.allFinite() &&
@@ -188,7 +179,6 @@ StepCheck::StepCheck(const Simulation& simulation, bool ordinary)
       driven_(is_driven(simulation.world.model(), simulation.cable_definitions
                                                       ? *simulation.cable_definitions
                                                       : std::vector<CableDef>())),
-      jumps_(simulation.cable_definitions && jumps(*simulation.cable_definitions)),
       before_(test::start({simulation.world.model(), simulation.cable_definitions
                                                          ? *simulation.cable_definitions
                                                          : std::vector<CableDef>()})),
@@ -336,8 +326,7 @@ double turned_by_tensions(const Simulation& simulation, const std::vector<Motion
 void StepCheck::check_energy(const Simulation& simulation) {
   const std::optional<LastSubstep> last = simulation.world.last_substep();
   // What a body has cut into when a cable comes to touch it is taken in by the substep after.
-  if (driven_ || jumps_ || quiet_ < 2 || !last || !before_.world.restore(last->start).empty())
-    return;
+  if (driven_ || quiet_ < 2 || !last || !before_.world.restore(last->start).empty()) return;
   const World& world = simulation.world;
   const double size = world.bodies().scale();
   const std::vector<MotionChange> changes = changes_of(world, *last);

@@ -23,7 +23,6 @@ class StepCheck {
 
   bool ordinary_;
   bool driven_;        ///< something does work on the machine, or takes energy from nowhere
-  bool jumps_;         ///< the energy of springs does, from substep to substep
   Simulation before_;  ///< another of the same, put into states of this run
   std::vector<double>
       rounding_;  ///< per cable, what the sum of its lengths may be off by, relative
