@@ -181,7 +181,7 @@ bool CableSystem::finish_affine(const AffineSubstep& substep, const FeatureState
     return false;
   }
   // Of those that do not slide lengths stay what they are.
-  for (std::size_t k = 0; k < ends_.size() && substep.fresh; ++k) {
+  for (std::size_t k = 0; k < ends_.size() && (substep.fresh || !knows_lengths_); ++k) {
     ends_[k][1] = moving_.winding.lengths[k];
   }
   const double* const places = substep.places.data();

@@ -40,7 +40,7 @@ if(SHEAVE_SANITIZE)
   add_link_options(-fsanitize=address,undefined)
 endif()
 if(SHEAVE_FUZZ)
-  # Tells the fuzzer which branches an input takes and what is compared; its own main program comes with the link.
+  # Tells the fuzzer which branches an input takes and, in campaigns, what is compared; its own main program comes with the link.
   add_compile_options(${SHEAVE_FUZZ_FLAGS})
 endif()
 if(SHEAVE_COVERAGE)

@@ -135,7 +135,11 @@ class EnergyCheck {
     const double acted = (span.to.point[last_end] - span.from.point[last_end]).norm();
     const double rest_length =
         span.rest_length[first_end] + span.fed + passed_into(cable, static_cast<int>(k));
-    add(stored(span.length[last_end], span.rest_length[last_end]) - stored(acted, rest_length),
+    // What a material stores goes with it onto wheels, and is no change of the span's own.
+    const double rest_now = span.rest_length[last_end];
+    const double same =
+        definition.axial_stiffness && rest_length > 0.0 ? rest_now / rest_length : 1.0;
+    add(stored(span.length[last_end], rest_now) - same * stored(acted, rest_length),
         flow_through(span), [&] { return span.name(); });
   }
 

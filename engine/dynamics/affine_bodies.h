@@ -117,7 +117,7 @@ class AffineBodies {
   std::vector<double> farthest_, fastest_;  ///< beyond these a state means nothing
   std::vector<double> loaded_;              ///< places of load()
   std::vector<double> places_, speeds_, motion_, end_places_, end_speeds_;
-  // Of the last substep that has passed, as it ended: positions of what slides; places and speeds
+  // Of the last substep that has passed, as it ended: positions of what slides; speeds
   // of what is in by_vector_.
   std::vector<Vector3> passed_positions_;
   std::vector<double> passed_speeds_;

@@ -1,5 +1,7 @@
 #include "engine/joints/drive_reach.h"
 
+#include <algorithm>
+
 #include "engine/body_set.h"
 #include "engine/field_check.h"
 
@@ -57,6 +59,11 @@ bool leans(const Turns& turns, const Vector3& axis) {
   return turns.any || (turns.one && std::abs(turns.axis.dot(axis)) > printed);
 }
 
+/// Whether bodies that turn about an axis each may come to turn about any.
+bool meet(const Turns& a, const Turns& b) {
+  return a.one && b.one && a.axis.cross(b.axis).norm() > printed;
+}
+
 std::string text_of(const Vector3& v) {
   return "(" + number_text(v.x()) + ", " + number_text(v.y()) + ", " + number_text(v.z()) + ")";
 }
@@ -73,6 +80,11 @@ void check_reach(const JointCoordinate& angle, const JointDef& joint, const Vect
   const bool prescribes =
       angle.drive == CoordinateDrive::speed || angle.drive == CoordinateDrive::position;
   if (!prescribes || angle.drive_limit || angle.drive_compliance > 0.0) return;
+  // One that keeps the angle where it is asks for no motion.
+  const bool moves = angle.drive_amplitude != 0.0 ||
+                     std::any_of(angle.drive_values.begin(), angle.drive_values.end(),
+                                 [](double value) { return value != 0.0; });
+  if (!moves) return;
   if (!(axis.norm() > 1e-12)) return;  // an error of its own
   const Vector3 direction = axis.normalized();
   const int index_a = bodies.index(joint.body_a);
@@ -81,7 +93,7 @@ void check_reach(const JointCoordinate& angle, const JointDef& joint, const Vect
   const Turns b = turns_of(bodies, index_b, joint.defined_in);
   const bool reached = turning == Turning::about_one_axis
                            ? spans(a, b, direction)
-                           : leans(a, direction) || leans(b, direction);
+                           : leans(a, direction) || leans(b, direction) || meet(a, b);
   if (reached) return;
   errors.push_back({path, "joint \"" + joint.name + "\": its drive turns bodies about " +
                               text_of(direction) + ", but " + ability(bodies, index_a, a) +

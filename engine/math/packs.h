@@ -8,7 +8,7 @@
 #include <cstddef>  // tells __GLIBC__
 
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
-    defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
+    defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define SHEAVE_IN_PACKS [[gnu::target_clones("avx2", "default")]]
 #else
 #define SHEAVE_IN_PACKS

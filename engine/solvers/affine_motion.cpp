@@ -368,7 +368,11 @@ int AffineMotion::advance(int first, int last, State& state, State& before, Subs
   substep.load_share = rattle_ ? 0.5 : 1.0;
   prepare(substep);
   const bool fresh = !agree_;
-  if (fresh) before = state;
+  if (fresh) {
+    before = state;
+    // The stages may have loaded rows that are none here.
+    for (std::vector<double>& late : substep.late_forces) late.clear();
+  }
   agree_ = true;
   before.memory = state.memory;
   if (!bodies_.load(state, !fresh)) return 0;

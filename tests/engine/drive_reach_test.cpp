@@ -67,6 +67,18 @@ TEST(DriveReach, AnAxisThatLeansIsLockedByTheHinge) {
   EXPECT_TRUE(errors_of(planar, leaning).empty()) << "the locks give";
 }
 
+TEST(DriveReach, OneThatHoldsAsksForNoMotion) {
+  const BodyDef slider = body_of(Mobility::slider, Vector3::UnitZ());
+  HingeJoint hinge = driven_about({0, 0, 1});
+  hinge.angle.drive_values = {0.0};
+  EXPECT_TRUE(errors_of(slider, hinge).empty());
+  hinge.angle.drive = CoordinateDrive::position;
+  EXPECT_TRUE(errors_of(slider, hinge).empty());
+  hinge.angle.drive_amplitude = 0.1;
+  hinge.angle.drive_frequency = 1.0;
+  EXPECT_EQ(errors_of(slider, hinge).size(), 1U);
+}
+
 TEST(DriveReach, OneThatMayStallOrPrescribesNoMotionMayPush) {
   const BodyDef slider = body_of(Mobility::slider, Vector3::UnitZ());
   HingeJoint hinge = driven_about({0, 0, 1});

@@ -71,5 +71,40 @@ TEST_P(FrozenStrain, WhatIsLaidAnewIsToldByTheCertificate) {
   EXPECT_GT(item.relative, 0.01);
 }
 
+// A drum that turns evenly under the weight of its load, whose rope is strained by m g / EA = 3.6 %
+// everywhere: what is wound keeps its energy, there is no other length to be laid anew to, and
+// nothing is gained.
+TEST_P(FrozenStrain, WhatIsWoundUnderAConstantTensionKeepsItsEnergy) {
+  for (const double turning : {2.0, -2.0}) {
+    Machine machine;
+    machine.model.step = step_settings(0.01, 20);
+    machine.model.gravity = down;
+    const double r = 0.1;
+    const double stiffness = 270.0;
+    const double strain = 9.81 / stiffness;
+    BodyDef winch = wheel("drum", Vector3::Zero(), r, 0.02);
+    winch.drive = DriveKind::speed;
+    winch.drive_values = {turning};
+    winch.angular_velocity = {0.0, 0.0, turning};
+    const BodyId drum = machine.model.add(winch);
+    BodyDef hanging = weight("load", {r, -1.0, 0.0}, 1.0);
+    hanging.velocity = {0.0, r * turning, 0.0};
+    const BodyId load = machine.model.add(hanging);
+    auto wound = roll(drum, left);
+    wound->stored_length = 1.0;
+    machine.cables.push_back(cable("rope", {attach(load), wound}));
+    machine.cables[0].axial_stiffness = stiffness;
+    machine.cables[0].tangent_update = TangentUpdate::substep;
+    machine.cables[0].rest_lengths = {1.0 / (1.0 + strain)};
+    Simulation simulation = start(machine);
+    for (int i = 0; i < 20; ++i) {
+      ASSERT_TRUE(simulation.world.step().ok());
+      const Certificate certificate = *simulation.certificate();
+      EXPECT_TRUE(certificate.clean()) << certificate.worst()->sentence();
+    }
+    EXPECT_NEAR(simulation.world.velocity(load).y(), r * turning, 1e-3);
+  }
+}
+
 }  // namespace
 }  // namespace sheave::test::frozen_strain
