@@ -1,6 +1,5 @@
-#include "engine/math/sine_cosine.h"
-
 #include "engine/math/packs.h"
+#include "engine/math/sine_cosine.h"
 
 namespace sheave {
 
