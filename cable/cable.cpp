@@ -19,7 +19,8 @@ std::span<const Field> CableDef::field_table() {
                                 "of each span; needs an elastic cable"),
       choice_field<&CableDef::tangent_update>(
           "tangent_update", tangent_update_names, optional,
-          "when tangents and rest lengths follow the bodies; substep is the paper's"),
+          "when tangents and rest lengths follow the bodies; substep is the paper's, for cables "
+          "that stay on circles in one plane"),
       field<&CableDef::rest_lengths>(
           "rest_lengths", "m", above(0.0), optional,
           "of each span at time 0; default: its length, so that the cable is just taut"),

@@ -13,7 +13,9 @@ namespace sheave {
 /// When the tangents, and with them the rest lengths, follow the bodies.
 enum class TangentUpdate {
   iteration,  ///< in every iteration: accurate
-  substep,    ///< once per substep, as in the paper
+  substep,    ///< once per substep, as in the paper; of a cable that leaves the plane of a
+              ///< wheel or lies on an outline in every iteration all the same: the paper's forces
+              ///< would lose work there at any step size, or jump
 };
 inline constexpr std::array<std::string_view, 2> tangent_update_names{"iteration", "substep"};
 

@@ -179,7 +179,7 @@ std::optional<double> CableSystem::end_strain(const Substep& substep, const Comp
 
 void CableSystem::keep_end_strains(const Substep& substep) {
   for (const CompiledCable& cable : cables_) {
-    if (cable.inverse_stiffness > 0.0 && cable.tangent_update == TangentUpdate::substep) {
+    if (cable.inverse_stiffness > 0.0 && cable.frozen) {
       for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
         const double rest_length = std::max(references_[at(k)].rest_length, 0.0);
         double share = cable.damping * cable.inverse_stiffness * rest_length / substep.h;

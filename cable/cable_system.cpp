@@ -15,6 +15,27 @@ bool asks_where(const SpanSetup& setup, const CompiledCable& cable) {
          cable.tangent_update == TangentUpdate::substep;
 }
 
+/// Where the ends of a span are on their bodies, for the substep.
+void keep_places(const Substep& substep, const LinkGeometry& first, const LinkGeometry& second,
+                 const SpanGeometry& span, SpanReference& reference) {
+  const auto own_point = [&](int body, const Vector3& point) -> Vector3 {
+    return substep.orientation(body).conjugate() * (point - substep.position(body));
+  };
+  reference.first_point = own_point(first.body, span.start);
+  reference.second_point = own_point(second.body, span.end);
+}
+
+/// Whether the attachment of a span cannot keep its place on a link for a substep. Where the span
+/// leans to the link's plane it would do work with the arm r cos(lean) while the rim takes on cable
+/// with the arm r, at any step size; below 1e-6 that is less than rounding, 5e-13 of it. On an
+/// outline it jumps by an edge.
+bool must_follow(const Substep& substep, const LinkGeometry& link, const SpanGeometry& span) {
+  if (!link.wraps()) return false;
+  constexpr double least = 1e-6;
+  const Vector3 normal = rotated(substep.orientation(link.carrier), link.normal);
+  return link.outline || std::abs(dot(normal, span.direction)) > least;
+}
+
 }  // namespace
 
 double CableSystem::compliance_of(const CompiledCable& cable, double rest_length) const {
@@ -42,6 +63,9 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     stored_arcs_[i] = stored_arc(state, link);
     stored_[at(strain_places_[i])] = stored_strain(state, link);
   }
+  for (CompiledCable& cable : cables_) {
+    cable.frozen = cable.tangent_update == TangentUpdate::substep;
+  }
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const SpanSetup& setup = spans_[k];
     if (!setup.active) continue;
@@ -58,7 +82,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
       references_[k].rest_length = state.reals[k] + below_quantum;
       continue;
     }
-    const CompiledCable& cable = cables_[at(setup.cable)];
+    CompiledCable& cable = cables_[at(setup.cable)];
     SpanGeometry span;
     if (asks_where(setup, cable)) span = known_.keep(span_index, geometry_of(substep, span_index));
     references_[k] =
@@ -70,11 +94,9 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
       references_[k].rest_length += fed_[k][0] + fed_[k][1];
     }
     if (cable.tangent_update == TangentUpdate::substep) {
-      const auto own_point = [&](int body, const Vector3& point) -> Vector3 {
-        return substep.orientation(body).conjugate() * (point - substep.position(body));
-      };
-      references_[k].first_point = own_point(first.body, span.start);
-      references_[k].second_point = own_point(second.body, span.end);
+      keep_places(substep, first, second, span, references_[k]);
+      const bool follows = must_follow(substep, first, span) || must_follow(substep, second, span);
+      cable.frozen = cable.frozen && !follows;
     }
   }
   for (const CompiledCable& cable : cables_) {
@@ -93,7 +115,7 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row,
   const SpanReference& reference = references_[at(span)];
   row.lower = 0.0;  // a cable pulls and never pushes
   row.rate = first.feeds || second.feeds ? drive_work_.feed_rates[at(span)] : 0.0;
-  const bool frozen = cable.tangent_update == TangentUpdate::substep;
+  const bool frozen = cable.frozen;
   SpanTransport transport;
   // A conditional, so that the span is made where it is kept.
   const SpanGeometry geometry =

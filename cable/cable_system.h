@@ -276,7 +276,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   /// Whether the spans of a run have one strain (times their weights), which its rows and finish()
   /// find together.
   [[nodiscard]] static bool strains_runs(const CompiledCable& cable) {
-    return cable.inverse_stiffness > 0.0 && cable.tangent_update != TangentUpdate::substep;
+    return cable.inverse_stiffness > 0.0 && !cable.frozen;
   }
   /// Rest length of a span of a material at the end of the substep [m], before anything passes its
   /// links, if it has `strain` then.

@@ -45,6 +45,9 @@ struct CompiledCable {
   bool shares = false;        ///< cable can pass at one of its links other than by rolling
   bool has_friction = false;  ///< and at one of them with friction
   TangentUpdate tangent_update = TangentUpdate::iteration;
+  /// In this substep attachments keep their places on the bodies: `tangent_update` says so, and no
+  /// span ends on an outline or leans to the plane of a wheel.
+  bool frozen = false;
   double start_length = 0.0;  ///< rest and stored lengths at time 0 [m]
   /// How far a length of now is from what it was at the start and what was fed since, relative to
   /// the start, or to now where all of it has been fed.

@@ -120,34 +120,46 @@ class EnergyCheck {
     return span.tension() * e_.h * speed;
   }
 
+  /// What it works where its ends move, whatever their direction.
+  [[nodiscard]] double flow_beside(const SpanEvidence& span) const {
+    double speed = 0.0;
+    for (const End when : {first_end, last_end}) {
+      const Moment& now = e_.moments[at(when)];
+      speed = std::max({speed, now.velocity(span.from.body, span.from.point[at(when)]).norm(),
+                        now.velocity(span.to.body, span.to.point[at(when)]).norm()});
+    }
+    return span.tension() * e_.h * speed;
+  }
+
   /// Attachments that have kept their places for the substep are laid anew at its end: the spring
   /// then has another length than it was stretched to.
   void check_laid(const CableEvidence& cable, std::size_t k) {
     const SpanEvidence& span = cable.spans[k];
     const CableDef& definition = *cable.definition;
-    const auto stored = [&](double length, double rest_length) {
-      const double stretch = std::max(length - rest_length, 0.0);
-      const double compliance = definition.axial_stiffness
-                                    ? std::max(rest_length, 0.0) / *definition.axial_stiffness
-                                    : definition.compliance.value_or(0.0);
-      return compliance > 0.0 ? 0.5 * stretch * stretch / compliance : 0.0;
+    const double rest_length = span.rest_length[last_end];
+    const double compliance = definition.axial_stiffness
+                                  ? std::max(rest_length, 0.0) / *definition.axial_stiffness
+                                  : definition.compliance.value_or(0.0);
+    if (!(compliance > 0.0)) return;
+    const auto stored = [&](double stretch) {
+      return 0.5 * std::max(stretch, 0.0) * std::max(stretch, 0.0) / compliance;
     };
     const double acted = (span.to.point[last_end] - span.from.point[last_end]).norm();
-    const double rest_length =
-        span.rest_length[first_end] + span.fed + passed_into(cable, static_cast<int>(k));
-    // What a material stores goes with it onto wheels, and is no change of the span's own.
-    const double rest_now = span.rest_length[last_end];
-    const double same =
-        definition.axial_stiffness && rest_length > 0.0 ? rest_now / rest_length : 1.0;
-    add(stored(span.length[last_end], rest_now) - same * stored(acted, rest_length),
-        flow_through(span), [&] { return span.name(); });
+    const double gained = rest_length - span.rest_length[first_end];
+    const double rolled = gained - span.fed - passed_into(cable, static_cast<int>(k));
+    // Cable that a rim passes is as long off it as on it.
+    const double first = rim_travel(e_, span.from, -1.0, rolled);
+    const double second = rim_travel(e_, span.to, 1.0, rolled - first);
+    const double off = span.length[last_end] - acted - first - second;
+    const double laid = span.length[last_end] - rest_length;
+    add(stored(laid) - stored(laid - off), flow_beside(span), [&] { return span.name(); });
   }
 
   void check_span(const CableEvidence& cable, std::size_t k) {
     const SpanEvidence& span = cable.spans[k];
     const double tension = span.tension();
     if (!span.has_tangent) return;
-    if (cable.definition->tangent_update != TangentUpdate::iteration) return check_laid(cable, k);
+    if (cable.frozen) return check_laid(cable, k);
     if (!(tension > 0.0)) return;
     const double gained = span.rest_length[last_end] - span.rest_length[first_end];
     const double passed = span.fed + passed_into(cable, static_cast<int>(k));

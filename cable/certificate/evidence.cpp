@@ -269,11 +269,34 @@ void Evidence::collect_cables(const LastSubstep& last) {
   }
 }
 
+namespace {
+
+void find_directions(SpanEvidence& span) {
+  for (const End when : {first_end, last_end}) {
+    const Vector3 along = span.to.point[at(when)] - span.from.point[at(when)];
+    const double length = along.norm();
+    span.direction[at(when)] = length > 0.0 ? Vector3(along / length) : Vector3(Vector3::Zero());
+  }
+}
+
+/// Whether its attachments cannot keep their places: cable/cable_system.cpp.
+bool must_follow(const SpanEvidence& span) {
+  const auto must = [&](const SpanSide& side) {
+    return side.winding != 0 &&
+           (side.outlined ||
+            std::abs(side.normal[first_end].dot(span.direction[first_end])) > 1e-6);
+  };
+  return must(span.from) || must(span.to);
+}
+
+}  // namespace
+
 void Evidence::freeze(SpanEvidence& span) const {
   const Vector3 from = moments[first_end].own_point(span.from.body, span.from.point[first_end]);
   const Vector3 to = moments[first_end].own_point(span.to.body, span.to.point[first_end]);
   span.from.point[last_end] = moments[last_end].point(span.from.body, from);
   span.to.point[last_end] = moments[last_end].point(span.to.body, to);
+  find_directions(span);
 }
 
 void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
@@ -302,7 +325,7 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
         own.radius[at(when)] = seen.radius;
         own.winding = seen.winding;
         own.outlined = !seen.path.empty();
-        own.point[at(when)] = point;
+        own.point[at(when)] = own.laid = point;
         own.center[at(when)] = seen.center;
         own.normal[at(when)] = seen.normal;
       };
@@ -314,12 +337,12 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
       span.has_tangent = span.has_tangent && reported.has_tangent;
     }
     cable.free_length += span.length[last_end];
-    if (cable.definition->tangent_update == TangentUpdate::substep) freeze(span);
-    for (const End when : {first_end, last_end}) {
-      const Vector3 along = span.to.point[at(when)] - span.from.point[at(when)];
-      const double length = along.norm();
-      span.direction[at(when)] = length > 0.0 ? Vector3(along / length) : Vector3(Vector3::Zero());
-    }
+    find_directions(span);
+  }
+  cable.frozen = cable.definition->tangent_update == TangentUpdate::substep &&
+                 std::none_of(cable.spans.begin(), cable.spans.end(), must_follow);
+  if (cable.frozen) {
+    for (SpanEvidence& span : cable.spans) freeze(span);
   }
   collect_passes(cable, from, to, places);
 }
@@ -360,8 +383,7 @@ void Evidence::apply_cables() {
       }
       for (const End when : {first_end, last_end}) {
         if (span.force[at(when)] == 0.0) continue;
-        const SpanPushes pushes =
-            pushes_of(span, when, cable.definition->tangent_update == TangentUpdate::iteration);
+        const SpanPushes pushes = pushes_of(span, when, !cable.frozen);
         for (int i = 0; i < pushes.count; ++i) {
           const SpanPush& one = pushes.all[at(i)];
           push(when, one.body, one.point, one.force);

@@ -59,7 +59,8 @@ struct SpanSide {
   std::array<double, 2> radius{};  ///< at either end of the substep [m]: drums grow by layers
   int winding = 0;
   bool outlined = false;
-  std::array<Vector3, 2> point;   ///< at either end of the substep [m]
+  std::array<Vector3, 2> point;   ///< at either end of the substep [m]: where its force acts
+  Vector3 laid;                   ///< at its end, where what is frozen has been laid anew [m]
   std::array<Vector3, 2> center;  ///< of its circle [m]
   std::array<Vector3, 2> normal;
 };
@@ -103,6 +104,9 @@ struct CableEvidence {
   bool has_changed =
       false;  ///< its course or an end: what acted is not what is reported at the end
   bool was_changed = false;  ///< at the end of the substep before: spans may begin too long
+  /// Attachments keep their places on the bodies: it is asked for, and no span ends on an outline
+  /// or leans to a wheel's plane.
+  bool frozen = false;
   double free_length = 0.0;  ///< of all spans [m]
   CableReport start;
   CableReport end;

@@ -97,10 +97,7 @@ void check_feeds(const Evidence& evidence, const CableEvidence& cable, Findings&
 }
 
 void check_spans_of(const Evidence& evidence, const CableEvidence& cable, Findings& findings) {
-  if (cable.has_changed || cable.start.cut ||
-      cable.definition->tangent_update != TangentUpdate::iteration) {
-    return;
-  }
+  if (cable.has_changed || cable.start.cut) return;
   for (std::size_t k = 0; k < cable.spans.size(); ++k) {
     const SpanEvidence& span = cable.spans[k];
     if (!span.has_tangent || span.from.outlined || span.to.outlined) continue;
@@ -140,7 +137,7 @@ double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, 
     return now.orientation(side.body).conjugate() * world;
   };
   const Vector3 from = own(start, side.point[first_end] - side.center[first_end]);
-  const Vector3 to = own(end, side.point[last_end] - side.center[last_end]);
+  const Vector3 to = own(end, side.laid - side.center[last_end]);
   const Vector3 normal = own(start, side.normal[first_end]);
   const double angle = portable::atan2(normal.dot(from.cross(to)), from.dot(to));
   // Exact for layers, too: their radius grows in proportion to the angle.

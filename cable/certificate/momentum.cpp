@@ -375,29 +375,14 @@ class MomentumCheck {
     return h * missing.dot(0.5 * (from.angular_velocity + to.angular_velocity));
   }
 
-  /// Whether cable leans to the wheel's plane between attachments that stay where they are, so that
-  /// its bearing takes what is left of the torque.
-  [[nodiscard]] static bool leans(const CableEvidence& cable, int i) {
-    if (cable.definition->tangent_update != TangentUpdate::substep) return false;
-    return std::any_of(cable.spans.begin(), cable.spans.end(), [&](const SpanEvidence& span) {
-      const auto off = [&](const SpanSide& side, End when) {
-        return side.body == i &&
-               std::abs(side.normal[at(when)].dot(span.direction[at(when)])) > 1e-9;
-      };
-      return off(span.from, first_end) || off(span.from, last_end) || off(span.to, first_end) ||
-             off(span.to, last_end);
-    });
-  }
-
-  /// Whether cable loses tension on the wheel, whose bearing then brakes it, or leans there.
+  /// Whether cable loses tension on the wheel, whose bearing then brakes it.
   [[nodiscard]] bool brakes(int i) const {
     return std::any_of(e_.cables.begin(), e_.cables.end(), [&](const CableEvidence& cable) {
       const auto& links = cable.definition->links;
-      const bool loses = std::any_of(links.begin(), links.end(), [&](const auto& link) {
+      return std::any_of(links.begin(), links.end(), [&](const auto& link) {
         const auto* rolling = dynamic_cast<const RollingLink*>(link.get());
         return rolling != nullptr && rolling->efficiency && e_.bodies.index(rolling->body) == i;
       });
-      return loses || leans(cable, i);
     });
   }
 

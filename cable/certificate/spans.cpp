@@ -65,21 +65,17 @@ class SpanCheck {
 
   /// The reported ends lie on their circles, and the span touches them there.
   void check_geometry(const SpanEvidence& span) {
-    if (!span.has_tangent || span.length[last_end] <= 0.0 ||
-        cable_.definition->tangent_update != TangentUpdate::iteration) {
-      return;
-    }
-    double off = std::abs((span.to.point[last_end] - span.from.point[last_end]).norm() -
-                          span.length[last_end]);
+    if (!span.has_tangent || span.length[last_end] <= 0.0) return;
+    double off = std::abs((span.to.laid - span.from.laid).norm() - span.length[last_end]);
     for (const SpanSide* side : {&span.from, &span.to}) {
       const double radius = side->radius[last_end];
       if (side->outlined || !(radius > 0.0)) continue;
       const SpanSide& other = side == &span.from ? span.to : span.from;
-      const Vector3 arm = side->point[last_end] - side->center[last_end];
+      const Vector3 arm = side->laid - side->center[last_end];
       off = std::max(off, std::abs(arm.norm() - radius));
       off = std::max(off, std::abs(arm.dot(side->normal[last_end])));
       // Seen along the plane's normal the other end lies on the tangent.
-      const Vector3 to_other = other.point[last_end] - side->point[last_end];
+      const Vector3 to_other = other.laid - side->laid;
       off = std::max(off, std::abs(to_other.dot(arm)) / radius);
       const double way = side->winding * side->normal[last_end].cross(arm).dot(
                                              side == &span.from ? to_other : Vector3(-to_other));
@@ -167,7 +163,7 @@ class SpanCheck {
     const double passed = slid_into(static_cast<int>(k));
     double rest_length = span.rest_length[last_end];
     double stretch = span.length[last_end] - rest_length;
-    if (cable.tangent_update == TangentUpdate::substep) {
+    if (cable_.frozen) {
       // What acted is between attachments that keep their places on the bodies; what rolls is in
       // their distance.
       rest_length = span.rest_length[first_end] + span.fed + passed;
@@ -200,7 +196,7 @@ class SpanCheck {
       length = rest_length - passed;
       start = stretch + passed;
       if (cable.damping > 0.0) {
-        start -= linear_stretch(e_, span, cable.tangent_update == TangentUpdate::iteration);
+        start -= linear_stretch(e_, span, !cable_.frozen);
       }
     }
     // A material's force is that of its strain, whatever the length is at either end.

@@ -1891,8 +1891,8 @@ class Cable(Part):
     axial_stiffness: EA of the cable's material; a span then has the compliance rest length / EA,
         and cable comes onto wheels with its strain (a number > 0 [N])
     damping: of each span; needs an elastic cable (a number >= 0 [N s/m]; default: 0.0)
-    tangent_update: when tangents and rest lengths follow the bodies; substep is the paper's
-        ("iteration", "substep"; default: "iteration")
+    tangent_update: when tangents and rest lengths follow the bodies; substep is the paper's, for
+        cables that stay on circles in one plane ("iteration", "substep"; default: "iteration")
     rest_lengths: of each span at time 0; default: its length, so that the cable is just taut (a
         list of numbers > 0 [m]; default: [])
     wrap_friction: capstan coefficient on wrappable bodies that the cable comes to touch (a number
