@@ -156,7 +156,8 @@ void CableSystem::collect_pieces(const Substep& substep, const CompiledCable& ca
   // A ring begins, and ends, with a piece whose tension bodies decide, unless a link that does not
   // pass cable opens it.
   const bool ring = cable.closed && pieces_.back().link >= 0;
-  if (!ring || pieces_.size() == 1) {
+  // Of a single piece, too, the link that holds has its two ends on its sides.
+  if (!ring || (pieces_.size() == 1 && shared(pieces_.back().link))) {
     pieces_.back().link = -1;
     return;
   }

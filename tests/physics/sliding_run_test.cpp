@@ -161,6 +161,40 @@ TEST_P(SlidingRun, WhatSlidesHasStrainsInTheRatioOfItsTensions) {
   EXPECT_GT(slip, 0.1);
 }
 
+TEST_P(SlidingRun, TheLinkThatClosesARingIsHeldByItsOwnFriction) {
+  // A body draws a springy ring through three rough holes. Its cable comes from both sides over A
+  // and C until that from A, which has less friction, needs more than B holds: then it comes over B,
+  // too, and C holds. Where A and C alone slide, all spans are one run, whose ends B has to be asked
+  // about.
+  test::Machine m = machine();
+  m.model.gravity.setZero();
+  m.model.step.dt = 1e-4;
+  BodyDef drawn = test::lump("drawn", {0, 1, 0}, 1.0);
+  drawn.mobility = Mobility::planar;
+  drawn.velocity = {0, 1, 0};
+  m.model.add(drawn);
+  const BodyId world = BodyId::world();
+  CableDef ring = cable("ring", {eyelet({0}, {0, 0, 0}, 0.0), eyelet(world, {-1, 0, 0}, 0.1),
+                                 eyelet(world, {0, -1, 0}, 0.05), eyelet(world, {1, 0, 0}, 0.5)});
+  ring.closed = true;
+  ring.compliance = 1e-3;
+  m.cables.push_back(ring);
+  Simulation s = test::start(m);
+  test::run(s.world, 0.01);
+  const CableReport report = s.cable_reports()[0];
+  const std::vector<double> t = tensions(report);
+  // Angles change by v h = 1e-4 rad in a step.
+  constexpr double turned = 1e-4;
+  ASSERT_GT(t[0], 3.0);
+  EXPECT_NEAR(t[3] / t[0], 1.0, 1e-9);
+  EXPECT_NEAR(t[1] / t[0], std::exp(-0.1 * report.links[1].wrap_angle), turned);
+  EXPECT_NEAR(t[2] / t[1], std::exp(-0.05 * report.links[2].wrap_angle), turned);
+  EXPECT_LT(std::log(t[3] / t[2]), 0.5 * report.links[3].wrap_angle);
+  EXPECT_LT(report.links[1].slip, 0.0);
+  EXPECT_LT(report.links[2].slip, 0.0);
+  EXPECT_EQ(report.links[3].slip, 0.0);
+}
+
 // A ring over two drums of one swing and through two holes, of which none knows whether it slides
 // before its neighbours do: changed all at once where they have to, they go round and end where one
 // holds ever so much.
