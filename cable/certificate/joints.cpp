@@ -312,6 +312,21 @@ class JointCheck {
          std::max(now.angle ? 1.0 : size_, most), slop);
   }
 
+  /// Speed along a translation as its damper sees it: of `xpbd` what its force at the end works
+  /// against. Where the joint turns about something far away that is of another second order than
+  /// `moved`, the change of the coordinate.
+  [[nodiscard]] double seen_by_damper(int along, double moved) const {
+    if (e_.rattle || (along != 1 && along != 3)) return moved;
+    const Moment& moment = e_.moments[last_end];
+    const Vector3 at_b = frame_.anchor_b(moment);
+    const Vector3 at_a = along == 1 ? at_b : frame_.anchor_a(moment);
+    const Vector3 direction = along == 1 ? Vector3(frame_.turned_a(moment) * frame_.axis_a)
+                                         : Vector3((at_b - at_a).normalized());
+    return direction.dot(e_.displacement(frame_.body_b, at_b, last_end) -
+                         e_.displacement(frame_.body_a, at_a, last_end)) /
+           e_.h;
+  }
+
   /// What acts along a coordinate is its drive, its spring and its damper, friction as far as it
   /// goes, and stops that push.
   void check_law(std::size_t k, const CoordinateSettings& entry) {
@@ -336,7 +351,8 @@ class JointCheck {
     const double mean = e_.rattle ? 0.5 * (now.value + before.value) : now.value;
     const double spring =
         settings.stiffness > 0.0 ? -settings.stiffness * (mean - settings.rest) : 0.0;
-    const double expected = now.drive_force + spring - damping * moved;
+    const double slowed = damping > 0.0 ? seen_by_damper(entry.along, moved) : 0.0;
+    const double expected = now.drive_force + spring - damping * slowed;
     const double rest = acting - expected;
     // As near as rows count as closed (engine/solvers/row_velocities.cpp).
     const double slop = 2e-8 * std::max(scale_of(k), e_.bodies.scale());

@@ -1,0 +1,41 @@
+// The certificate on the laws along coordinates of joints.
+
+#include <gtest/gtest.h>
+
+#include "cable/certificate.h"
+#include "engine/joints/slider.h"
+#include "tests/support/builders.h"
+
+namespace sheave::test::joint_law {
+namespace {
+
+// The damper of a slider whose axis is fixed in a body that swings 4 m away: with `xpbd` its force
+// works against the motion at the end of a substep, which is 4 m x (w h)^2 / 2 less than the change
+// of the coordinate.
+TEST(JointLaw, DampedSliderFarFromTheBodyThatCarriesItsAxis) {
+  for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
+    Machine machine;
+    machine.model.gravity = down;
+    machine.model.step = direct_settings(integrator, 0.003);
+    const BodyId swing = machine.model.add(lump("swing", {4.0, 0.4, 0.0}, 1.0));
+    const BodyId held = machine.model.add(wheel("held", Vector3::Zero(), 0.16, 0.01));
+    auto slider = std::make_shared<SliderJoint>();
+    slider->name = "rail";
+    slider->body_a = swing;
+    slider->body_b = held;
+    slider->anchor = {8.0, -0.1, 0.0};
+    slider->axis = Vector3(0.8, 0.6, 0.0);
+    slider->travel.stiffness = 6000.0;
+    slider->travel.damping = 15.0;
+    machine.model.joints.push_back(slider);
+    Simulation simulation = start(machine);
+    for (int i = 0; i < 100; ++i) {
+      ASSERT_TRUE(simulation.world.step().ok());
+      const Certificate certificate = *simulation.certificate();
+      EXPECT_TRUE(certificate.clean(1e-5)) << certificate.worst()->sentence();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sheave::test::joint_law
