@@ -414,6 +414,7 @@ bool CableSystem::revise_impulses(const Substep& substep) {
     if (kept_slip_.empty()) {
       kept_slip_ = slip_;
       kept_flips_ = flips_;
+      std::fill(flips_.begin(), flips_.end(), 0);
     }
     slip_changes_ = {};
     release_links(substep, cable);

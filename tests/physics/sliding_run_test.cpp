@@ -249,5 +249,54 @@ TEST(SlidingRing, LinksThatGoRoundAreFoundOneAtATime) {
   }
 }
 
+// A ring over posts and rails, of which one is held by a joint: nothing but its links says what the
+// span to it carries. In the positions they go round for as often as they may; the impulses of
+// `rattle` have to be free to let them slide again.
+TEST(SlidingRing, ImpulsesAskLinksAnewThatHaveGoneRound) {
+  test::Machine m;
+  m.model.gravity = test::down;
+  m.model.step = test::direct_settings(IntegratorKind::rattle, 0.001556);
+  m.model.step.iterations = 100;
+  const auto rail = [&](const char* name, const Vector3& place, double mass, const Vector3& axis) {
+    BodyDef body = test::weight(name, place, mass);
+    body.axis = axis;
+    return m.model.add(body);
+  };
+  const BodyId first = rail("first", {0.896, 0, 0}, 2.91, {-0.695, 0.719, 0});
+  const BodyId upper = m.model.add(post("upper", {0.337, 1.037, 0}, 0.087));
+  const BodyId held = rail("held", {-0.763, 0.554, 0}, 1.52, {-0.498, 0.867, 0});
+  BodyDef swinging = test::lump("swinging", {-0.999, -0.726, 0}, 1.52);
+  swinging.orientation = Quaternion(0.621, 0.0, 0.0, -0.784).normalized();
+  swinging.velocity = {-0.8, -0.805, 0};
+  const BodyId free = m.model.add(swinging);
+  const BodyId lower = m.model.add(post("lower", {0.373, -1.148, 0}, 0.2));
+  auto weld = std::make_shared<FixedJoint>();
+  weld->name = "weld";
+  weld->body_b = held;
+  weld->anchor = {-1.0, 0.8, 0.0};
+  m.model.joints = {weld};
+  const auto over = [](BodyId body, double radius, double friction) {
+    auto link = test::roll(body, left);
+    if (radius > 0.0) link->radius = radius;
+    if (friction > 0.0) link->friction = friction;
+    return link;
+  };
+  auto twice = over(lower, 0.0, 0.117);
+  twice->turns = 2;
+  CableDef ring =
+      cable("ring", {over(first, 0.163, 0.208), over(upper, 0.0, 0.426), over(held, 0.037, 0.0),
+                     eyelet(free, {-0.106, -0.145, 0}, 0.263), twice});
+  ring.closed = true;
+  m.cables.push_back(ring);
+  Simulation s = test::start(m);
+  for (int step = 0; step < 20; ++step) {
+    ASSERT_TRUE(s.world.step().ok());
+    const Certificate certificate = *s.certificate();
+    const CertificateItem* friction = certificate.find(CertificateItem::Kind::friction);
+    ASSERT_NE(friction, nullptr);
+    EXPECT_LT(friction->relative, 1e-3) << friction->sentence();
+  }
+}
+
 }  // namespace
 }  // namespace sheave::sliding_run
