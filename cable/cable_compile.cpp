@@ -134,6 +134,7 @@ void CableCompiler::make_room() {
   s.end_strains_.assign(spans, -1.0);
   s.multipliers_.resize(spans);
   s.start_values_.resize(spans);
+  s.run_work_.means.resize(s.links_.size());
   s.start_tensions_.resize(spans);
   s.given_.pulls.resize(spans);
   s.is_affine_.resize(spans);

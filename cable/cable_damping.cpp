@@ -33,6 +33,12 @@
 // dampers. The sum, and with it the force, has the law with g_i in any case. Then the x_i so found
 // do not add up to X with that F; so they are those of the F for which they do.
 //
+// Whether a link with friction holds is asked of the means of both ends, though, and where a span
+// began with another strain, because the link held, the ratio at the end can come about by sliding
+// back alone while the mean asks for sliding on. Then the run slides by the law itself, with
+// g_i - 1/2 < 0: what passes makes the mean what the link carries. It goes beyond the ratio, so that
+// the link holds in the next substep.
+//
 // A span that is slack at the start, x0 < 0, has a damper that begins where it is taut: x0 = 0.
 // Where no span of a run has a tension each comes out of its stretch at the speed that its damper
 // allows, x_i = x0_i g_i / (1 + g_i), and takes what it needs for that from slack ones.
@@ -58,14 +64,25 @@ double spun_off(const Substep& substep, const LinkGeometry& link, const Row& row
 
 }  // namespace
 
+bool CableSystem::by_means(Run run) const {
+  if (!knows_start_) return false;
+  const CompiledCable& cable = cables_[at(spans_[at(run.first)].cable)];
+  for (int i = 1, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+    if (run_work_.means[at(spans_[at(k)].second)] != 0) return true;
+  }
+  return false;
+}
+
 CableSystem::SpanDamping CableSystem::damping_of(const Substep& substep, const CompiledCable& cable,
-                                                 int span, const Row& row) const {
+                                                 bool means, int span, const Row& row) const {
   SpanDamping damping;
-  if (!(cable.damping > 0.0) || substep.at_rest || !(row.compliance > 0.0)) return damping;
+  if (!(cable.damping > 0.0) && !means) return damping;
+  if (substep.at_rest || !(row.compliance > 0.0)) return damping;
   damping.share = row.compliance * cable.damping / substep.h;
   double start = row.value;
   if (knows_start_) {
-    damping.share = std::max(damping.share - 0.5, 0.0);
+    damping.share -= 0.5;
+    if (!means) damping.share = std::max(damping.share, 0.0);
     const auto [value, compliance] = start_values_[at(span)];
     // A material's strain is the same, whatever the length is at either end.
     start = compliance > 0.0 ? value * (row.compliance / compliance) : value;

@@ -182,8 +182,12 @@ double CableSystem::grip(const Substep& substep, std::size_t piece) {
   Piece& before = pieces_[piece];
   if (std::isnan(before.grip)) {
     const int outgoing = pieces_[piece + 1].run.first;
-    before.grip = friction_exponent(substep, before.link, geometry_of(substep, before.last),
-                                    geometry_of(substep, outgoing));
+    // The positions of `rattle` know what slides by the angles of the start (linearise_run()).
+    const bool swept = sweeps_[at(spans_[at(outgoing)].cable)] > 0;
+    before.grip = knows_start_ && !swept && kept_slip_.empty()
+                      ? start_exponents_[at(before.link)]
+                      : friction_exponent(substep, before.link, geometry_of(substep, before.last),
+                                          geometry_of(substep, outgoing));
   }
   return before.grip;
 }
@@ -373,6 +377,14 @@ void CableSystem::update_slip(const Substep& substep, const CompiledCable& cable
   slip_ = pending_slip_;
 }
 
+bool CableSystem::may_slide_by_means(const CompiledCable& cable, int link) {
+  const bool elastic = cable.compliance > 0.0 || cable.inverse_stiffness > 0.0;
+  if (!knows_start_ || !elastic || run_work_.means[at(link)] != 0) return false;
+  run_work_.means[at(link)] = 1;
+  slip_changes_.means = true;
+  return true;
+}
+
 void CableSystem::look_at_links(const Substep& substep, const CompiledCable& cable) {
   // Links that slide: has the cable moved with the pull, and by more than rounding?
   const double rounding = cable_parts::length_rounding * substep.bodies.scale();
@@ -386,11 +398,12 @@ void CableSystem::look_at_links(const Substep& substep, const CompiledCable& cab
       int& slip = pending_slip_[at(link)];
       if (links_[at(link)].frictionless() || slip == 0) continue;
       if (passed * slip > rounding) continue;
+      if (may_slide_by_means(cable, link)) continue;
       // One that does not hold either, but over which nothing passes, is at its bound.
       if (passed * slip >= -rounding && flips_[at(link)] >= resting_flips) continue;
       if (!may_change(link)) continue;
       slip_changes_.done = true;
-      slip = 0;
+      slip = run_work_.means[at(link)] = 0;
       ++flips_[at(link)];
     }
   });
@@ -439,6 +452,7 @@ bool CableSystem::revise(Substep& substep) {
     const auto begin = slip_.begin() + cable.first_link;
     revised_.assign(begin, begin + cable.link_count);
     update_slip(substep, cable);
+    changed = changed || slip_changes_.means;
     changed = changed || !std::equal(revised_.begin(), revised_.end(), begin);
     changed = has_other_given(substep, cable) || changed;
   }

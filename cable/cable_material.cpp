@@ -162,11 +162,12 @@ std::optional<double> CableSystem::end_strain(const Substep& substep, const Comp
   run_work_.weights.resize(std::max(run_work_.weights.size(), at(run.count)));
   double heaviest = 0.0;
   Row row;
+  const bool means = by_means(run);
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     row.clear();
     StretchedSpan& span = run_work_.stretched[at(i)];
     evaluate(substep, k, row, &span);
-    span.damping = damping_of(substep, cable, k, row);
+    span.damping = damping_of(substep, cable, means, k, row);
     run_work_.weights[at(i)] = multipliers_[at(k)];
     heaviest = std::max(heaviest, multipliers_[at(k)]);
   }

@@ -95,6 +95,7 @@ struct SlipChanges {
   bool single = false;
   bool done = false;
   bool refused = false;
+  bool means = false;  ///< a link slides by the means of strains from now on
 };
 
 /// With what open runs turn wheels between their spans: cable/cable_held.cpp.
@@ -236,6 +237,7 @@ struct RunWork {
   std::vector<RowTerm> gradient;  ///< per body; `body` is not used
   std::vector<double> spare, lengths, tensions;
   std::vector<char> rests;  ///< per link of the cable: nothing has passed over it
+  std::vector<char> means;  ///< per link: in this substep it slides by the means of strains
 };
 
 }  // namespace sheave::cable_parts

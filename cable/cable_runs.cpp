@@ -153,12 +153,13 @@ double CableSystem::sweep_runs(Substep& substep, int cable_index) {
 
 double CableSystem::evaluate_run(const Substep& substep, const CompiledCable& cable, Run run) {
   double heaviest = 0.0;
+  const bool means = by_means(run);
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     Row& row = run_work_.rows[at(i)];
     row.clear();
     StretchedSpan& stretched = run_work_.stretched[at(i)];
     run_work_.spans[at(i)] = evaluate(substep, k, row, &stretched);
-    stretched.damping = damping_of(substep, cable, k, row);
+    stretched.damping = damping_of(substep, cable, means, k, row);
     damp_row(cable, nullptr, stretched.damping, row);
     for (const RowTerm& term : row.active_terms()) {
       RowTerm& sum = run_work_.gradient[at(term.body)];
@@ -298,6 +299,7 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
   const bool at_start = substep.time == substep.start.time;
   const bool strains = run.count > 1 && strains_runs(cable) && !at_start;
   if (strains) run_work_.stretched.resize(at(run.count));
+  const bool means = strains && by_means(run);
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     Row& row = rows.emplace_back();
     const SpanGeometry span =
@@ -307,10 +309,10 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     if (open) row.upper = 0.0;
     row.active = start_tensions_[at(k)] > 0.0;
     row.tied = i > 0;
-    if (cable.damping > 0.0) {
-      if (at_start) start_values_[at(k)] = {row.value, row.compliance};
+    if (at_start) start_values_[at(k)] = {row.value, row.compliance};
+    if (cable.damping > 0.0 || means) {
       if (run.count > 1 && !at_start) {
-        const SpanDamping damping = damping_of(substep, cable, k, row);
+        const SpanDamping damping = damping_of(substep, cable, means, k, row);
         if (strains) run_work_.stretched[at(i)].damping = damping;
         damp_row(cable, nullptr, damping, row);
       }
@@ -355,6 +357,7 @@ bool CableSystem::shorten_run(const Substep& substep, const CompiledCable& cable
   const double inverse_square = 1.0 / (substep.h * substep.h);
   bool taut = false;
   Row row;
+  const bool means = by_means(run);
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     row.clear();
     const SpanGeometry span = evaluate(substep, k, row);
@@ -362,7 +365,7 @@ bool CableSystem::shorten_run(const Substep& substep, const CompiledCable& cable
     taut = taut || run_work_.tensions.back() > 0.0;
     run_work_.spare.push_back(rest_length_of(cable, row, span.length));
     run_work_.lengths.push_back(span.length);
-    run_work_.dampings.push_back(damping_of(substep, cable, k, row));
+    run_work_.dampings.push_back(damping_of(substep, cable, means, k, row));
   }
   if (taut) {
     shorten_by_strain(cable, run_work_.spare, run_work_.tensions, run_work_.dampings,

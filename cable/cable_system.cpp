@@ -52,6 +52,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
   std::fill(sweeps_.begin(), sweeps_.end(), 0);
   std::fill(flips_.begin(), flips_.end(), 0);
+  std::fill(run_work_.means.begin(), run_work_.means.end(), 0);
   if (driven_) begin_drives(state);
   for (std::size_t i = 0; i < links_.size(); ++i) {
     slip_[i] = pending_slip_[i] = static_cast<int>(state.integers[i]);

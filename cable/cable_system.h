@@ -227,6 +227,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   void update_slip(const Substep& substep, const CompiledCable& cable);
   void look_at_links(const Substep& substep, const CompiledCable& cable);
   [[nodiscard]] bool may_change(int link);
+  [[nodiscard]] bool may_slide_by_means(const CompiledCable& cable, int link);
   /// Makes links slide that stick and do not hold.
   void release_links(const Substep& substep, const CompiledCable& cable);
   // Tensions that no body decides: cable/cable_held.cpp.
@@ -252,9 +253,11 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
                                 SpanTransport& transport) const;
   // Dampers of spans that share a tension: cable/cable_damping.cpp.
   using SpanDamping = cable_parts::SpanDamping;
+  /// Whether the run slides by the means of its strains.
+  [[nodiscard]] bool by_means(Run run) const;
   /// Of a span whose row by itself is `row`; none where nothing is damped.
-  [[nodiscard]] SpanDamping damping_of(const Substep& substep, const CompiledCable& cable, int span,
-                                       const Row& row) const;
+  [[nodiscard]] SpanDamping damping_of(const Substep& substep, const CompiledCable& cable,
+                                       bool means, int span, const Row& row) const;
   /// Lets the damper of a row of a run count from the start of the substep.
   static void damp_row(const CompiledCable& cable, const StretchedSpan* material,
                        const SpanDamping& damping, Row& row);
@@ -273,13 +276,11 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
                                    double length, FeatureState& next);
   [[nodiscard]] StoredStrain stored_strain(const FeatureState& own, int link) const;
   void save_strain(const StoredStrain& stored, int link, FeatureState& own) const;
-  /// Whether the spans of a run have one strain (times their weights), which its rows and finish()
-  /// find together.
+  /// Whether the spans of a run have one strain (times their weights), found for all together.
   [[nodiscard]] static bool strains_runs(const CompiledCable& cable) {
     return cable.inverse_stiffness > 0.0 && !cable.frozen;
   }
-  /// Rest length of a span of a material at the end of the substep [m], before anything passes its
-  /// links, if it has `strain` then.
+  /// Rest length of a material's span with `strain` at the end [m], before anything passes its links.
   [[nodiscard]] static double rest_length_at(const StretchedSpan& span, double strain);
   /// The strain e of a run whose spans end with what their dampers make of weight x e each; 0 if it
   /// is slack, none if it is used up.
@@ -293,8 +294,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   /// the spans in run_work_.weights and run_work_.stretched. None if its spans keep strains of their own.
   std::optional<double> end_strain(const Substep& substep, const CompiledCable& cable, Run run);
   void keep_end_strains(const Substep& substep);
-  /// Lets the link's strain follow a stored length that has changed at `end`; what is new has
-  /// `strain`.
+  /// Lets the link's strain follow a stored length that has changed at `end`, by what has `strain`.
   void fit_strain(int link, StoredStrain::End end, double strain, FeatureState& own) const;
   void keep_strains(FeatureState& next);
   /// Length of the stored cable as it lies there, stretched [m].

@@ -59,7 +59,7 @@ class EnergyCheck {
     if (bounced.flow > 0.0) {
       add(std::max(bounced.energy, 0.0), bounced.flow, [] { return std::string("the bounces"); });
     }
-    findings_.note(Kind::energy, "J", std::abs(sum_), std::max(flow_, floor_), 0.0,
+    findings_.note(Kind::energy, "J", std::abs(sum_), std::max(flow_ + within_joints_, floor_), 0.0,
                    [] { return std::string("all together"); });
   }
 
@@ -200,6 +200,8 @@ class EnergyCheck {
 
   void check_joint(const JointEvidence& joint) {
     const JointWork work = work_of(e_, joint);
+    // What a drive does against a lock of the same joint passes through no body.
+    within_joints_ += work.flow;
     add(work.unexplained, work.flow, [&] {
       return std::string(joint.definition->type()) + " \"" + joint.definition->name + "\"";
     });
@@ -234,6 +236,7 @@ class EnergyCheck {
   double kinetic_ = 0.0;
   double weight_ = 0.0;
   double flow_ = 0.0;
+  double within_joints_ = 0.0;
   double level_ = 0.0;
   double floor_ = 0.0;
   double sum_ = 0.0;

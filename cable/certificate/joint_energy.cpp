@@ -78,9 +78,8 @@ class JointWorker {
   [[nodiscard]] Lock tilt(End when) const {
     const Vector3 own = axis_at(when);
     const Vector3 other = frame_.turned_by(e_.moments[at(when)], frame_.body_b) * frame_.axis_b;
-    const Vector3& torque = joint_.acting[at(when)].torque;
-    const double cosine = own.dot(other);
-    return {own.cross(other), (torque - own * own.dot(torque)) / cosine};
+    const Vector3 held = without_twist(joint_.acting[at(when)].torque, own, other);
+    return {own.cross(other), held / own.dot(other)};
   }
   /// By twice the sine of half the angle of the turn.
   [[nodiscard]] Lock turn(End when) const {

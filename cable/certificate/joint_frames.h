@@ -69,4 +69,12 @@ struct CoordinateSettings {
 };
 [[nodiscard]] std::vector<CoordinateSettings> coordinates_of(const JointDef& joint);
 
+/// The part of a torque that holds the axes u of A and w of B together, which is across u. What
+/// acts along the angle about them, the twist of B against A beside the least turn from u to w, is
+/// a torque along (u + w) / (1 + u . w), the gradient of that angle.
+[[nodiscard]] inline Vector3 without_twist(const Vector3& torque, const Vector3& u,
+                                           const Vector3& w) {
+  return torque - u.dot(torque) / (1.0 + u.dot(w)) * (u + w);
+}
+
 }  // namespace sheave::certify

@@ -146,8 +146,13 @@ class JointCheck {
       };
       Vector3 open = tilt(e_.moments[last_end]);
       if (b > 0.0) {
-        const Vector3 axis = axis_of(e_.moments[last_end]);
-        open = ruled(tilt) + b * (torque_ - axis * axis.dot(torque_));
+        Vector3 held = Vector3::Zero();
+        for (const End when : {first_end, last_end}) {
+          const Moment& moment = e_.moments[at(when)];
+          held +=
+              without_twist(joint_.acting[at(when)].torque, axis_of(moment), other_axis(moment));
+        }
+        open = ruled(tilt) + b * held;
       }
       note(Kind::joint, "rad", open.norm(), 1.0, rounding);
     }
