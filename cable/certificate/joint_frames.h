@@ -74,7 +74,8 @@ struct CoordinateSettings {
 /// a torque along (u + w) / (1 + u . w), the gradient of that angle.
 [[nodiscard]] inline Vector3 without_twist(const Vector3& torque, const Vector3& u,
                                            const Vector3& w) {
-  return torque - u.dot(torque) / (1.0 + u.dot(w)) * (u + w);
+  const double mean = 1.0 + u.dot(w);
+  return torque - u.dot(torque) * (mean > 1e-6 ? Vector3((u + w) / mean) : u);
 }
 
 }  // namespace sheave::certify

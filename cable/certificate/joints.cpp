@@ -317,9 +317,9 @@ class JointCheck {
          std::max(now.angle ? 1.0 : size_, most), slop);
   }
 
-  /// Speed along a translation as its damper sees it: of `xpbd` what its force at the end works
-  /// against. Where the joint turns about something far away that is of another second order than
-  /// `moved`, the change of the coordinate.
+  /// Speed along a translation as a damper sees it that is one with a spring: of `xpbd` what its
+  /// force at the end works against. Where the joint turns about something far away that is of
+  /// another second order than `moved`, the change of the coordinate.
   [[nodiscard]] double seen_by_damper(int along, double moved) const {
     if (e_.rattle || (along != 1 && along != 3)) return moved;
     const Moment& moment = e_.moments[last_end];
@@ -356,7 +356,8 @@ class JointCheck {
     const double mean = e_.rattle ? 0.5 * (now.value + before.value) : now.value;
     const double spring =
         settings.stiffness > 0.0 ? -settings.stiffness * (mean - settings.rest) : 0.0;
-    const double slowed = damping > 0.0 ? seen_by_damper(entry.along, moved) : 0.0;
+    const double slowed =
+        damping > 0.0 && settings.stiffness > 0.0 ? seen_by_damper(entry.along, moved) : moved;
     const double expected = now.drive_force + spring - damping * slowed;
     const double rest = acting - expected;
     // As near as rows count as closed (engine/solvers/row_velocities.cpp).
