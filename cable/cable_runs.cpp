@@ -306,6 +306,7 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
         evaluate(substep, k, row, strains ? &run_work_.stretched[at(i)] : nullptr);
     if (at_start) start_without_feed(k, row);
     row.index = k;
+    row.idle = open;
     if (open) row.upper = 0.0;
     row.active = start_tensions_[at(k)] > 0.0;
     row.tied = i > 0;

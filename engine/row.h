@@ -123,6 +123,9 @@ struct Row {
   /// Whether its value changes by its gradient, and by how that turns as `curved` tells, and by
   /// nothing else.
   bool told = false;
+  /// Whether no body that could yield to it takes part, and its multiplier, which pulls and would
+  /// do nothing, is kept at 0.
+  bool idle = false;
   double weight = 1.0;        ///< > 0
   double start_weight = 1.0;  ///< the same at the start of the substep; `rattle` needs it
   /// Null, or what this is a copy of (engine/row_list.h): the same bodies, gradient and weights as
@@ -135,7 +138,7 @@ struct Row {
     index = pressed_by = shares = 0;
     source = nullptr;
     friction = 0.0;
-    active = tied = curved = told = false;
+    active = tied = curved = told = idle = false;
     turning = 0.0;
     weight = start_weight = 1.0;
     softness = load_share = 0.0;

@@ -324,6 +324,14 @@ void append_solver_warnings(const RunStatistics& statistics, std::vector<Warning
         statistics.exhausted == 1 ? "was" : "were");
     warnings.push_back({"exhausted", "", std::move(message)});
   }
+  if (statistics.impossible > 0) {
+    std::string message = fmt::format(
+        "in {} {} prescribed motion asked for what nothing can give, by up to {:.3g} m or rad: a "
+        "rigid cable or a joint has no body to move between bodies that move as they are told",
+        statistics.impossible, statistics.impossible == 1 ? "substep" : "substeps",
+        statistics.most_impossible);
+    warnings.push_back({"impossible", "", std::move(message)});
+  }
   if (statistics.unconverged > 0) {
     std::string message = fmt::format(
         "{} {} did not converge, in however small parts: constraints that contradict each other? "

@@ -43,6 +43,7 @@ RunJson statistics(const RunStatistics& statistics) {
           {"solver_fallbacks", statistics.solver_fallbacks},
           {"redundant_rows", statistics.redundant_rows},
           {"compromises", statistics.compromises},
+          {"impossible", statistics.impossible},
           {"integrator_fallbacks", statistics.integrator_fallbacks},
           {"cut_substeps", statistics.cut_substeps},
           {"substep_parts", statistics.substep_parts},

@@ -88,6 +88,7 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   if (found) {
     substep.statistics.rows = positions_.row_count();
     substep.statistics.last_correction = std::max(substep.statistics.last_correction, violated);
+    positions_.count_impossible(substep);
   }
   return found;
 }

@@ -91,6 +91,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
   if (substep.failed) return;
   substep.statistics.rows = system_.row_count();
   substep.statistics.last_correction = std::max(substep.statistics.last_correction, violated);
+  system_.count_impossible(substep);
 }
 
 }  // namespace sheave

@@ -127,6 +127,11 @@ class RowSystem {
   /// The largest violation [m or rad] of what the problem asks for, before it is solved, as far as
   /// bounds let unknowns make up for it; infinite if a row's value is not finite.
   [[nodiscard]] double violation() const;
+  /// The largest violation [m or rad], above `least`, of rows that no unknown moves: prescribed
+  /// motion alone decides them. violation() leaves them out.
+  [[nodiscard]] double unyielding(double least) const;
+  /// Counts them, as what the substep ends with.
+  void count_impossible(Substep& substep) const;
   /// Moves the bodies to where the multipliers put them along the gradients of the last
   /// linearise(), which was not from here: the next round would, if its multipliers did not change.
   /// violation() is that of this place; it does not see how far across the rows it is from where

@@ -9,6 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/links/attachment.h"
+#include "cable/links/pinhole.h"
+#include "cable/simulation.h"
 #include "engine/joint_report.h"
 #include "engine/joints/gear.h"
 #include "engine/joints/hinge.h"
@@ -157,6 +160,45 @@ TEST_P(Contradiction, TwoDrivesAndAGearThatDoesNotFit) {
   for (const BodyId body : {u, v}) EXPECT_LE(world.angular_velocity(body).norm(), 3.0 + 1e-9);
   if (!direct()) return;
   EXPECT_NEAR(world.angular_velocity(u).z() + world.angular_velocity(v).z(), 0.0, 1e-3);
+}
+
+// A rope of 1 m from the world to a body that moves away as it is told lacks v t, whatever else is on
+// it; with it slack, or with a body between that can yield, nothing is impossible.
+TEST_P(Contradiction, WhatMotionAsToldTearsIsCounted) {
+  if (!direct()) return;  // sweeps do not look for it
+  constexpr double speed = 0.5;
+  for (const double friction : {0.0, 0.3}) {
+    for (const bool yields : {false, true}) {
+      for (const double way : {speed, -speed}) {
+        Model model;
+        model.step = step_settings(h, 20);
+        BodyDef led = test::lump("led", Vector3::UnitX(), 1.0);
+        led.mobility = Mobility::kinematic;
+        led.velocity = {way, 0.0, 0.0};
+        const BodyId drawn = model.add(std::move(led));
+        const BodyId weight = model.add(test::lump("weight", {3.0, 0.0, 0.0}, 1.0));
+        CableDef rope;
+        rope.name = "rope";
+        const auto eyelet = std::make_shared<PinholeLink>();
+        eyelet->body = BodyId::world();
+        eyelet->point = {0.5, 0.0, 0.0};
+        eyelet->friction = friction;
+        const BodyId end = yields ? weight : BodyId::world();
+        rope.links = {test::attach(end), eyelet, test::attach(drawn)};
+        auto s = Simulation::create(model, {rope});
+        ASSERT_TRUE(s.ok());
+        const bool torn = way > 0.0 && !yields;
+        for (int i = 1; i <= 10; ++i) {
+          const StepReport report = s->world.step();
+          ASSERT_TRUE(report.ok());
+          EXPECT_EQ(report.statistics.impossible, torn ? 1 : 0);
+          EXPECT_EQ(report.statistics.unconverged, 0);
+          // A sum of some ten lengths of 1 m.
+          EXPECT_NEAR(report.statistics.most_impossible, torn ? way * h * i : 0.0, 1e-14);
+        }
+      }
+    }
+  }
 }
 
 TEST(JointErrors, TellHowFarAnchorsAndAxesAreApart) {

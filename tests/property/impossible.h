@@ -10,4 +10,9 @@ namespace sheave::test {
 /// one place, bodies with half of them beneath a floor.
 [[nodiscard]] bool asks_the_impossible(const Machine& machine);
 
+/// Whether it asks for the impossible as soon as what prescribes motion draws cable that is not
+/// there: whether a rigid cable runs from where it is held to where it is held again by nothing but
+/// bodies that move as they are told, or by one body alone, and something draws there.
+[[nodiscard]] bool can_ask_the_impossible(const Machine& machine);
+
 }  // namespace sheave::test
