@@ -162,8 +162,8 @@ TEST_P(Contradiction, TwoDrivesAndAGearThatDoesNotFit) {
   EXPECT_NEAR(world.angular_velocity(u).z() + world.angular_velocity(v).z(), 0.0, 1e-3);
 }
 
-// A rope of 1 m from the world to a body that moves away as it is told lacks v t, whatever else is on
-// it; with it slack, or with a body between that can yield, nothing is impossible.
+// A rope of 1 m from the world to a body that moves away as it is told lacks v t, whatever is on
+// it; slack, or with a body at its other end that can yield, it asks for nothing impossible.
 TEST_P(Contradiction, WhatMotionAsToldTearsIsCounted) {
   if (!direct()) return;  // sweeps do not look for it
   constexpr double speed = 0.5;
