@@ -403,7 +403,8 @@ void CableSystem::look_at_links(const Substep& substep, const CompiledCable& cab
       if (passed * slip >= -rounding && flips_[at(link)] >= resting_flips) continue;
       if (!may_change(link)) continue;
       slip_changes_.done = true;
-      slip = run_work_.means[at(link)] = 0;
+      slip = 0;
+      run_work_.means[at(link)] = 0;
       ++flips_[at(link)];
     }
   });

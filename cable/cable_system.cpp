@@ -25,6 +25,13 @@ void keep_places(const Substep& substep, const LinkGeometry& first, const LinkGe
   reference.second_point = own_point(second.body, span.end);
 }
 
+/// As long as no span has to follow.
+void freeze_where_asked(std::vector<CompiledCable>& cables) {
+  for (CompiledCable& cable : cables) {
+    cable.frozen = cable.tangent_update == TangentUpdate::substep;
+  }
+}
+
 /// Whether the attachment of a span cannot keep its place on a link for a substep. Where the span
 /// leans to the link's plane it would do work with the arm r cos(lean) while the rim takes on cable
 /// with the arm r, at any step size; below 1e-6 that is less than rounding, 5e-13 of it. On an
@@ -64,9 +71,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     stored_arcs_[i] = stored_arc(state, link);
     stored_[at(strain_places_[i])] = stored_strain(state, link);
   }
-  for (CompiledCable& cable : cables_) {
-    cable.frozen = cable.tangent_update == TangentUpdate::substep;
-  }
+  freeze_where_asked(cables_);
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const SpanSetup& setup = spans_[k];
     if (!setup.active) continue;

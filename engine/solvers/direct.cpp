@@ -48,8 +48,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
     if (round > 0 && !revised && violated <= enough && (adding_up || arrives(substep, astray))) {
       break;
     }
-    // Rows that nothing can satisfy, between driven bodies, stay violated however many rounds there
-    // are.
+    // Rows between driven bodies that nothing can satisfy stay violated in every round.
     const bool settled = adding_up || compromise;
     if (round > 2 && settled && !revised && violated > stagnation * before) break;
     if (round == 0) first = violated;
