@@ -280,7 +280,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] static bool strains_runs(const CompiledCable& cable) {
     return cable.inverse_stiffness > 0.0 && !cable.frozen;
   }
-  /// Rest length of a material's span with `strain` at the end [m], before anything passes its links.
+  /// Rest length of a material's span with `strain` at the end [m], before anything passes links.
   [[nodiscard]] static double rest_length_at(const StretchedSpan& span, double strain);
   /// The strain e of a run whose spans end with what their dampers make of weight x e each; 0 if it
   /// is slack, none if it is used up.

@@ -28,8 +28,8 @@ struct StepStatistics {
   int redundant_rows = 0;  ///< the most in one round
   /// Rounds in which rows contradicted each other (two drives of one coordinate) and all gave way.
   std::int64_t compromises = 0;
-  /// With `direct`: substeps, or parts, in which rows were off that nothing can move: prescribed motion asks for
-  /// what cannot be (a rigid cable between two bodies that are driven apart).
+  /// With `direct`: substeps, or parts, in which rows were off that nothing can move: prescribed
+  /// motion asks for what cannot be (a rigid cable between two bodies that are driven apart).
   std::int64_t impossible = 0;
   double most_impossible = 0.0;  ///< by how much the worst of them was off [m or rad]
   // Of contacts between bodies.

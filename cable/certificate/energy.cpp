@@ -120,7 +120,8 @@ class EnergyCheck {
     return span.tension() * e_.h * speed;
   }
 
-  /// What it works where its ends move, whatever their direction.
+  /// What the span would work if its ends moved along it at their speeds: what frozen attachments
+  /// are off by goes with how far their bodies move and turn, not with how they pull.
   [[nodiscard]] double flow_beside(const SpanEvidence& span) const {
     double speed = 0.0;
     for (const End when : {first_end, last_end}) {
