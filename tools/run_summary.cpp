@@ -132,8 +132,8 @@ void append_cable_warnings(const CableSystem& cables, std::vector<Warning>& warn
 /// what it was is none: there the forces are right. Sweeps that do not converge act like a spring,
 /// so that the excess may well come and go. Changes by less than 1e-7 of the cable are of no
 /// interest.
-void append_stretch_warnings(const Simulation& simulation, const RunMonitor& monitor,
-                             std::vector<Warning>& warnings) {
+void append_stretch_warnings(const Simulation& simulation, const RunStatistics& statistics,
+                             const RunMonitor& monitor, std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.05;
   constexpr double length_limit = 0.05;
   constexpr double negligible_share = 1e-7;
@@ -144,10 +144,13 @@ void append_stretch_warnings(const Simulation& simulation, const RunMonitor& mon
     const CableCourse& course = monitor.cables()[i];
     if (course.excess > length_limit * course.length) {
       std::string name(reports[i].name);
-      std::string message = fmt::format(
-          "cable {} is {:.3g} m longer than it can be at the end: the solver did not converge; "
-          "{} may avoid that",
-          name, course.excess, way_out);
+      // No solver can help where nothing gives way: the warning "impossible" has what it is.
+      const std::string cause =
+          statistics.impossible > 0
+              ? "what moves as it is told has drawn it apart, or the solver did not converge"
+              : fmt::format("the solver did not converge; {} may avoid that", way_out);
+      std::string message = fmt::format("cable {} is {:.3g} m longer than it can be at the end: {}",
+                                        name, course.excess, cause);
       warnings.push_back({"stretched", std::move(name), std::move(message)});
       continue;
     }
@@ -326,8 +329,10 @@ void append_solver_warnings(const RunStatistics& statistics, std::vector<Warning
   }
   if (statistics.impossible > 0) {
     std::string message = fmt::format(
-        "in {} {} prescribed motion asked for what nothing can give, by up to {:.3g} m or rad: a "
-        "rigid cable or a joint has no body to move between bodies that move as they are told",
+        "in {} {} bodies that move as they are told asked for what cannot be, by up to {:.3g} m or "
+        "rad: a rigid cable or a joint between them has nothing else that it could move; let one "
+        "of "
+        "them yield, or give the cable an axial_stiffness",
         statistics.impossible, statistics.impossible == 1 ? "substep" : "substeps",
         statistics.most_impossible);
     warnings.push_back({"impossible", "", std::move(message)});
@@ -391,7 +396,7 @@ std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simu
   if (simulation.cables != nullptr) {
     append_cable_warnings(*simulation.cables, warnings);
     append_shortage_warnings(*simulation.cables, simulation.world.bodies(), warnings);
-    append_stretch_warnings(simulation, monitor, warnings);
+    append_stretch_warnings(simulation, statistics, monitor, warnings);
   }
   append_joint_warnings(simulation, statistics, monitor, warnings);
   append_damping_warning(scene.model.step, statistics, monitor, warnings);

@@ -181,5 +181,22 @@ TEST(Warnings, HingesThatContradictEachOtherAreAWarning) {
   EXPECT_EQ(warned({scene, "--set", "/bodies/0/velocity=[0, 0, 0]"}), "");
 }
 
+// The truck goes 1 m/s x 0.2 s beyond the end of its rope, and nothing else is there that could give.
+TEST(Warnings, ARopeTornBetweenWhatMovesAsItIsToldIsAWarning) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("truck.json", R"json({
+    "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 0.2,
+    "bodies": [
+      {"name": "truck", "mobility": "kinematic", "position": [1, 0, 0], "velocity": [1, 0, 0]}],
+    "cables": [{"name": "rope", "links": [
+      {"type": "attachment", "body": "world"}, {"type": "attachment", "body": "truck"}]}]
+  })json");
+  EXPECT_EQ(warned({scene}), "stretched impossible");
+  const json warnings = warnings_of({scene});
+  EXPECT_THAT(warnings[0]["message"].get<std::string>(), HasSubstr("0.2 m longer"));
+  EXPECT_THAT(warnings[1]["message"].get<std::string>(), HasSubstr("by up to 0.2 m"));
+  EXPECT_EQ(warned({scene, "--set", "/bodies/0/velocity=[-1, 0, 0]"}), "");
+}
+
 }  // namespace
 }  // namespace sheave::test
