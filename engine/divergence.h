@@ -9,7 +9,9 @@
 
 namespace sheave {
 
+class BodySet;
 class ConstraintBatch;
+struct State;
 struct Substep;
 
 /// A state that no longer means anything: not finite, or out of all proportion to the scene.
@@ -34,5 +36,11 @@ struct Runaway {
 /// is not finite or has run away, or else its first feature.
 [[nodiscard]] std::optional<Divergence> find_divergence(
     const Substep& substep, std::span<const std::unique_ptr<ConstraintBatch>> features);
+
+/// Which number of a state that has been read or made by hand is not finite, as a sentence; empty
+/// if all are. Those of features are numbered from 0.
+[[nodiscard]] std::string infinite_number(
+    const State& state, const BodySet& bodies,
+    std::span<const std::unique_ptr<ConstraintBatch>> features);
 
 }  // namespace sheave

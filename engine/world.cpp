@@ -223,6 +223,8 @@ Errors World::restore(const State& state) {
   const std::string fault = ControlCheck(content_->model, *content_->bodies, content_->joints)
                                 .fault_of(state.controls, content_->features);
   if (!fault.empty()) return {{"", "the state does not belong to this world: " + fault}};
+  const std::string infinite = infinite_number(state, *content_->bodies, content_->features);
+  if (!infinite.empty()) return {{"", "no world can go on from the state: " + infinite}};
   content_->state = state;
   content_->driver.forget();
   content_->substep.next = state;

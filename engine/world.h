@@ -176,7 +176,7 @@ class World {
   void keep_in_place();
 
   /// Goes back (or ahead) to a state of this world; an error if its shape does not fit, or its
-  /// controls.
+  /// controls, or if a number is not finite.
   [[nodiscard]] Errors restore(const State& state);
 
   /// Nothing at time 0, after restore() and after a step that was stopped, until the next step.

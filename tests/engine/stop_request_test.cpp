@@ -209,14 +209,14 @@ TEST(DiscardedMotion, OfAStoppedStepLeavesNoEvents) {
   EXPECT_EQ(s.cables->events().size(), 1U);
 }
 
-TEST(WorkLimit, NumbersThatAreNotFiniteEndTheRounds) {
+TEST(WorkLimit, NumbersThatOverflowEndTheRounds) {
   for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
     test::Machine machine = test::Atwood{}.machine();
     machine.model.step = StepSettings{};
     machine.model.step.integrator = integrator;
     Simulation s = test::start(machine);
     State state = s.world.state();
-    state.bodies[1].velocity.y() = std::numeric_limits<double>::quiet_NaN();
+    state.bodies[1].velocity.y() = std::numeric_limits<double>::max();
     ASSERT_TRUE(s.world.restore(state).empty());
     const StepReport report = s.world.step();
     ASSERT_TRUE(report.divergence.has_value());
@@ -226,10 +226,10 @@ TEST(WorkLimit, NumbersThatAreNotFiniteEndTheRounds) {
   }
   // Sweeps, of which there are as many as were asked for, end soon.
   test::Machine machine = test::Atwood{}.machine();
-  machine.model.step = test::settings(0.01, 1, 1000000);
+  machine.model.step = test::settings(10.0, 1, 1000000);
   Simulation s = test::start(machine);
   State state = s.world.state();
-  state.bodies[1].velocity.y() = std::numeric_limits<double>::quiet_NaN();
+  state.bodies[1].velocity.y() = std::numeric_limits<double>::max();
   ASSERT_TRUE(s.world.restore(state).empty());
   NthTime never;
   EXPECT_TRUE(s.world.step(never.request()).divergence.has_value());
