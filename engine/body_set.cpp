@@ -7,6 +7,7 @@
 #include "engine/body_set.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -141,6 +142,18 @@ double scene_scale(const std::vector<BodyDef>& bodies) {
   return scale > 0.0 ? scale : 1.0;
 }
 
+/// How far a body's shapes reach; without any, its radius of gyration; without a mass, `scale`.
+double size_of_body(const BodyProperties& body, const BodyDef& def, double scale) {
+  double size = 0.0;
+  for (const PlacedShape& placed : def.shapes) {
+    size = std::max(size, placed.position.norm() + placed.shape->half_extent().norm());
+  }
+  if (size == 0.0 && body.mass > 0.0) {
+    size = std::sqrt(std::max(body.inertia.trace() / 3.0, body.axis_inertia) / body.mass);
+  }
+  return size > 0.0 ? std::min(size, scale) : scale;
+}
+
 }  // namespace
 
 Result<BodySet> BodySet::create(const Model& model) {
@@ -159,9 +172,13 @@ Result<BodySet> BodySet::create(const Model& model) {
     if (body.mount >= 0) body.mount_position -= set.properties_[at(body.mount)].center_of_mass;
     finish_body(body, model.bodies[at(i)]);
   }
+  set.scale_ = scene_scale(model.bodies);
+  for (int i = 0; i < set.count(); ++i) {
+    BodyProperties& body = set.properties_[at(i)];
+    body.size = size_of_body(body, model.bodies[at(i)], set.scale_);
+  }
   set.properties_.emplace_back();  // the world
   set.coordinates_ = Coordinates(set.properties_);
-  set.scale_ = scene_scale(model.bodies);
   return set;
 }
 

@@ -35,6 +35,8 @@ struct BodyProperties {
   /// Unit vector: planar normal, slider direction or axle, in the world frame; of a mounted rotor
   /// in its carrier's own frame.
   Vector3 axis = Vector3::UnitZ();
+  /// How far it reaches from its centre, about; what its turns are compared with lengths by [m], > 0.
+  double size = 1.0;
   double axis_inertia = 0.0;  ///< about the axis [kg m2]; planar bodies and rotors, 0: massless
   Vector3 mount_position = Vector3::Zero();  ///< centre of a mounted rotor, carrier's own frame [m]
   Quaternion start_orientation = Quaternion::Identity();  ///< at angle 0; relative to the carrier

@@ -126,6 +126,9 @@ struct Row {
   /// Whether no body that could yield to it takes part, and its multiplier, which pulls and would
   /// do nothing, is kept at 0.
   bool idle = false;
+  /// What a unit of C moves, about [m]: 1 m of lengths, the size of the bodies of angles. Compares
+  /// what rows of either kind are off by.
+  double lever = 1.0;
   double weight = 1.0;        ///< > 0
   double start_weight = 1.0;  ///< the same at the start of the substep; `rattle` needs it
   /// Null, or what this is a copy of (engine/row_list.h): the same bodies, gradient and weights as
@@ -140,7 +143,7 @@ struct Row {
     friction = 0.0;
     active = tied = curved = told = idle = false;
     turning = 0.0;
-    weight = start_weight = 1.0;
+    weight = start_weight = lever = 1.0;
     softness = load_share = 0.0;
     rebound_speed = unbounded;
     value = rate = compliance = damping = past = 0.0;

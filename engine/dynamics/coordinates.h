@@ -164,7 +164,24 @@ struct BodyFreedom {
   return Vector3::Zero();
 }
 
-/// The degrees of freedom of all bodies. Follow from their mobilities alone, once and for all.
+/// Whether number `i` of a body's degrees of freedom is a rotation.
+[[nodiscard]] constexpr bool is_rotation(Freedom kind, int i) {
+  switch (kind) {
+    case Freedom::angle:
+    case Freedom::turn:
+      return true;
+    case Freedom::plane:
+      return i == 2;
+    case Freedom::space:
+      return i >= 3;
+    case Freedom::none:
+    case Freedom::line:
+      break;
+  }
+  return false;
+}
+
+/// The degrees of freedom of all bodies. Follow from their mobilities and sizes, once and for all.
 class Coordinates {
  public:
   Coordinates() = default;
@@ -177,6 +194,8 @@ class Coordinates {
   [[nodiscard]] const BodyFreedom& operator[](int body) const {
     return freedoms_[static_cast<std::size_t>(body)];
   }
+  /// What a unit of each moves [m]: 1 m along a line, the body's size about an axis.
+  [[nodiscard]] std::span<const double> levers() const { return levers_; }
   /// Those of all bodies that have any.
   [[nodiscard]] std::span<const BodyFreedom> movable() const { return movable_; }
 
@@ -184,6 +203,7 @@ class Coordinates {
   int count_ = 1;
   std::vector<BodyFreedom> freedoms_;
   std::vector<BodyFreedom> movable_;
+  std::vector<double> levers_;
 };
 
 }  // namespace sheave

@@ -120,6 +120,7 @@ class MountedDrives final : public ConstraintBatch {
     const Vector3 axle = rotated(carrier.orientation, body.axis);
     const double start = substep.start.bodies[at(rotor)].angle;
     const double turned = dot(axle, substep.moving[at(rotor)].turn - carrier.turn);
+    row.lever = body.size;
     row.add(rotor, Vector3::Zero(), axle);
     row.add(body.mount, Vector3::Zero(), -axle);
     Demand& demand = demands_[index];

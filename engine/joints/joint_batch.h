@@ -60,6 +60,9 @@ class JointBatch final : public JointFeature {
       row += joint.lock_count + joint.effect_count;
       if (joint.first_coordinate >= 0) coordinate += coordinate_count;
       joint.exact = joints[j].exact;
+      const double sizes =
+          std::max(size_of(bodies, definition.body_a), size_of(bodies, definition.body_b));
+      joint.size = sizes > 0.0 ? sizes : bodies.scale();
       joint.restricted = !joint.exact && (is_restricted(bodies, definition.body_a) ||
                                           is_restricted(bodies, definition.body_b));
       joint.has_rotor = bodies[bodies.index(definition.body_a)].mount >= 0 ||
@@ -272,6 +275,7 @@ class JointBatch final : public JointFeature {
     int lock_count = 0;
     int first_acting = 0;  // of its rows
     bool exact = false;    // as JointParts
+    double size = 1.0;     // of the larger of its bodies
   };
   /// A coordinate as it is now, which all that acts along it asks for.
   struct Measured {
@@ -288,6 +292,14 @@ class JointBatch final : public JointFeature {
     const Joint& joint = joints_[index];
     return {index, joint.first_row, joint.lock_count + joint.effect_count, joint.first_coordinate,
             coordinate_count};
+  }
+  /// Of a body that rows can move, otherwise 0.
+  static double size_of(const BodySet& bodies, BodyId body) {
+    if (body.is_world()) return 0.0;
+    const BodyProperties& properties = bodies[bodies.index(body)];
+    const Mobility mobility = properties.mobility;
+    const bool moves = mobility != Mobility::fixed && mobility != Mobility::kinematic;
+    return moves ? properties.size : 0.0;
   }
   static bool is_restricted(const BodySet& bodies, BodyId body) {
     if (body.is_world()) return false;
@@ -411,6 +423,8 @@ class JointBatch final : public JointFeature {
   void complete(const Substep& substep, const Joint& joint, Row& row) const {
     if (joint.restricted) drop_rounding(row, substep.moving);
     row.active = acted_[at(row.index)] != 0;
+    // Without a force it is a row of angles.
+    if (!row.curved) row.lever = joint.size;
     // What is pressed together finds its bound from round to round.
     row.told = joint.exact && row.friction == 0.0;
   }

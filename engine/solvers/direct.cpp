@@ -70,7 +70,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
     const bool swings = system_.swing() > least_swing;
     const bool done = !compromise && !swings && leaves_nothing(substep);
     const bool goes_on = !done && round + 1 < substep.iterations;
-    if (!compromise && goes_on && (round > 0 || swings)) system_.bend(substep, enough);
+    if (!compromise && goes_on && (round > 0 || swings)) system_.bend(substep, 0.1 * enough);
     system_.apply(substep, features);
     revised = false;
     // What the last round finds would have no round to act in; the features decide it for the next

@@ -9,9 +9,13 @@
 
 namespace sheave {
 
-double RowSystem::astray() const {
+double RowSystem::astray() const { return longest(motion_); }
+
+double RowSystem::longest(std::span<const double> motion) const {
   double most = 0.0;
-  for (const double motion : motion_) most = std::max(most, std::abs(motion));
+  for (std::size_t d = 0; d < motion.size(); ++d) {
+    most = std::max(most, std::abs(motion[d]) * levers_[d]);
+  }
   return most;
 }
 
@@ -38,9 +42,7 @@ double RowSystem::remainder(const Substep& substep) {
                        turned, second_order_)) {
     return std::numeric_limits<double>::infinity();
   }
-  double most = curvature_.largest(second_order_);
-  for (const double motion : turned) most = std::max(most, std::abs(motion));
-  return most;
+  return std::max(curvature_.largest(second_order_), longest(turned));
 }
 
 void RowSystem::begin_bending() {
@@ -85,7 +87,8 @@ double RowSystem::follow_pressure(bool first) {
     const double used = std::abs(unknown(g));
     // Where friction does not use what it has, having more or less changes nothing.
     if (used >= (1.0 - 1e-9) * rubbing.bound || used > next) {
-      moved = std::max(moved, std::abs(next - rubbing.bound) * slots_.yield(rubbing.row));
+      moved = std::max(moved,
+                       std::abs(next - rubbing.bound) * slots_.yield(rubbing.row) * rows_[i].lever);
     }
     rubbing.off = off;
     rubbing.last_wanted = rubbing.wanted;
@@ -112,7 +115,7 @@ double RowSystem::turn_forces(const Substep& substep, bool& straight) {
   }
   double change = 0.0;
   for (std::size_t d = 0; d < motion_.size(); ++d) {
-    change = std::max(change, std::abs(motion_[d] - bend_[d]));
+    change = std::max(change, std::abs(motion_[d] - bend_[d]) * levers_[d]);
   }
   return change;
 }

@@ -51,7 +51,7 @@ double RowSystem::energy_gain(const Substep& substep) const {
                        (std::isfinite(row.lower) && std::isfinite(row.upper));
     const double force = previous_[i] / (h * h);
     made -= force * (gives ? moved : -driven);
-    rounding += std::abs(force) * change_rounding * substep.bodies.scale();
+    rounding += std::abs(force) * change_rounding * substep.bodies.scale() / row.lever;
   }
   return made > rounding ? made / kinetic : 0.0;
 }
@@ -79,12 +79,12 @@ double RowSystem::work_error(const Substep& substep, const RowSystem& positions)
       const bool bounded = std::isfinite(row.lower) && std::isfinite(row.upper);
       const Row& start = positions.start_rows_[at(positions.start_places_[f][at(row.index)])];
       if (group.elastic || row.rate != 0.0 || start.rate != 0.0 || bounded) continue;
-      rounding += (std::abs(first) + std::abs(second)) * noise;
+      rounding += (std::abs(first) + std::abs(second)) * noise / row.lever;
       // What a row was off by at the start, and what spans that share an unknown pass on to each
       // other, is no work.
       const double change = row.value - start.value;
       const double turned = substep_change(start, substep.moving) - change;
-      if (std::abs(turned) <= noise) continue;  // and so by the other gradient
+      if (std::abs(turned) * row.lever <= noise) continue;  // and so by the other gradient
       const double work =
           0.5 * (first * turned + second * (substep_change(row, substep.moving) - change));
       // A row that closes takes energy, and so do rows that share an unknown with friction between

@@ -145,7 +145,8 @@ double RowSystem::excess_friction() const {
     }
     const double bound = bound_share_ * rows_[first].upper;
     if (!(square > bound * bound)) continue;
-    most = std::max(most, (std::sqrt(square) - bound) * slots_.yield(friction.first_row));
+    most = std::max(
+        most, (std::sqrt(square) - bound) * slots_.yield(friction.first_row) * rows_[first].lever);
   }
   return most;
 }

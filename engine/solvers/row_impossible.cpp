@@ -12,7 +12,7 @@ double RowSystem::unyielding(double least) const {
   double worst = 0.0;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const double r = problem_.constant[g];
-    const double off = std::abs(r) / groups_[g].scale;
+    const double off = std::abs(r) * groups_[g].lever / groups_[g].scale;
     if (!(off > std::max(worst, least))) continue;
     // An idle row may not push and does not pull because that would be in vain.
     const bool wanted = rows_[at(groups_[g].first_row)].idle

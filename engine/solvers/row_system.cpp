@@ -111,6 +111,7 @@ bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool f
 void RowSystem::fill_slots(const Substep& substep) {
   assembled_ = false;
   const Coordinates& coordinates = substep.bodies.coordinates();
+  levers_ = coordinates.levers();
   if (slots_.find_pattern(coordinates, rows_)) {
     active_set_.analyse(slots_.unknown_count(), slots_.entries());
   }
@@ -127,7 +128,7 @@ void RowSystem::make_groups() {
   told_ = has_all_rows_;
   for (std::size_t i = 0; i < rows; ++i) {
     const Row& row = rows_[i];
-    if (!row.tied) groups_[n++] = {static_cast<int>(i), 0, 0.0, 1.0, false};
+    if (!row.tied) groups_[n++] = {static_cast<int>(i), 0, 0.0, 1.0, false, row.lever};
     Group& group = groups_[n - 1];
     ++group.row_count;
     group.elastic = group.elastic || row.compliance > 0.0;
@@ -151,7 +152,7 @@ void RowSystem::make_groups() {
 
 bool RowSystem::is_pushed(const Row& row, double value) const {
   // A cable that is just taut counts, or a long one at rest would be found taut span by span.
-  return (std::isfinite(row.lower) ? value : -value) <= problem_.rounding;
+  return (std::isfinite(row.lower) ? value : -value) * row.lever <= problem_.rounding;
 }
 
 void RowSystem::set_bounds(std::size_t g, bool pushed, bool active) {
@@ -352,11 +353,14 @@ double RowSystem::violation() const {
     const double room = r > 0.0 ? -problem_.lower[g] : problem_.upper[g];
     // Beyond its bounds, which have moved since it was found, an unknown moves what it must not.
     const double excess = std::max(problem_.lower[g], -problem_.upper[g]);
-    if (excess > 0.0) worst = std::max(worst, excess * yield(g) / groups_[g].scale);
+    if (excess > 0.0) {
+      worst = std::max(worst, excess * yield(g) * groups_[g].lever / groups_[g].scale);
+    }
     if (!(room > 0.0)) continue;
-    double off = std::abs(r);
+    const double lever = groups_[g].lever;
+    double off = std::abs(r) * lever;
     if (!(off > worst * groups_[g].scale)) continue;
-    if (std::isfinite(room)) off = std::min(off, room * yield(g));
+    if (std::isfinite(room)) off = std::min(off, room * yield(g) * lever);
     // What nothing can yield to no further round mends, nor a shorter substep.
     if (off > worst * groups_[g].scale && yield(g) > 0.0) worst = off / groups_[g].scale;
   }

@@ -182,6 +182,7 @@ class RowSystem {
     double multiplier = 0.0;  ///< l
     double scale = 1.0;       ///< S
     bool elastic = false;     ///< at least one of the rows has a compliance
+    double lever = 1.0;       ///< Row::lever of its rows
   };
   /// Where a body is predicted to be.
   struct Pose {
@@ -212,6 +213,8 @@ class RowSystem {
   void recall_sides();
   /// What a unit of the group's unknown makes of its own value.
   [[nodiscard]] double yield(std::size_t group) const;
+  /// The largest of a motion along the degrees of freedom, by what it moves [m].
+  [[nodiscard]] double longest(std::span<const double> motion) const;
   void remember_origin(const Substep& substep);
   void settle(const Substep& substep);
   void assemble();
@@ -292,6 +295,7 @@ class RowSystem {
   std::vector<double> previous_;   ///< per row its multiplier
   RowList start_rows_;
   RowSlots start_slots_;
+  std::span<const double> levers_;  ///< what a unit of each degree of freedom moves [m]
   /// Per feature and index of multiplier: the row at the start, -1 if there was none.
   std::vector<std::vector<int>> start_places_;
   std::vector<double> start_values_;  ///< per row

@@ -55,7 +55,7 @@ void RowSystem::pose_velocities(const Substep& substep, const RowSystem& positio
       problem_.diagonal[g] += rows_[at(i)].weight * rows_[at(i)].softness;
     }
     const bool acts = !group.elastic && !(rate < -first.rebound_speed) &&
-                      (group.multiplier != 0.0 || std::abs(value) <= closed ||
+                      (group.multiplier != 0.0 || std::abs(value) * first.lever <= closed ||
                        (std::isfinite(first.lower) && value < 0.0) ||
                        (std::isfinite(first.upper) && value > 0.0));
     const bool bilateral = !std::isfinite(first.lower) && !std::isfinite(first.upper);
