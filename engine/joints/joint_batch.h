@@ -420,11 +420,21 @@ class JointBatch final : public JointFeature {
     for (Row* row : {&first, &second}) complete(substep, joint, *row);
     return 2;
   }
+  [[nodiscard]] bool is_of_angles(const Joint& joint, const Row& row) const {
+    const int i = row.index - joint.first_row;
+    if (i < joint.lock_count) return !row.curved;  // without a force
+    const JointEffect& acting = effect(joint, i);
+    if constexpr (coordinate_count == 0) {
+      return false;
+    } else {
+      const int told = acting.second >= 0 ? acting.second : acting.coordinate;
+      return Kernel::coordinates[at(told)].angle;
+    }
+  }
   void complete(const Substep& substep, const Joint& joint, Row& row) const {
     if (joint.restricted) drop_rounding(row, substep.moving);
     row.active = acted_[at(row.index)] != 0;
-    // Without a force it is a row of angles.
-    if (!row.curved) row.lever = joint.size;
+    if (is_of_angles(joint, row)) row.lever = joint.size;
     // What is pressed together finds its bound from round to round.
     row.told = joint.exact && row.friction == 0.0;
   }
