@@ -1,6 +1,7 @@
 #include "engine/solvers/sparse_factor.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include <Eigen/OrderingMethods>
@@ -172,7 +173,7 @@ void SparseFactor::factor_chain(std::span<const double> diagonal, std::span<cons
         pivot -= factor_[at(k)] * y;
       }
     }
-    keep_pivot(k, pivot, full);
+    keep_pivot(k, pivot, full, diagonal);
   }
 }
 
@@ -219,9 +220,44 @@ void SparseFactor::solve_chain(std::span<double> x) const {
   }
 }
 
-void SparseFactor::keep_pivot(int k, double pivot, double full) {
+double SparseFactor::weight_of(int k, std::span<const double> below,
+                               std::span<const double> diagonal) {
+  const auto size = [&](int i) { return std::sqrt(diagonal[at(unknown_[at(i)])]); };
+  double sum = size(k);
+  if (chain_) {
+    double z = 1.0;
+    for (int i = k; i > 0 && z != 0.0; --i) {
+      z = inverse_pivot_[at(i) - 1] > 0.0 ? -below[at(i)] * z : 0.0;
+      sum += std::abs(z) * size(i - 1);
+    }
+    return sum;
+  }
+  // L^T z = -(row k of L), over the columns in which that has entries.
+  null_vector_.resize(unknown_.size());
+  for (int p = row_start_[at(k)]; p < row_start_[at(k) + 1]; ++p) {
+    null_vector_[at(below_[at(p)].column)] = 0.0;
+  }
+  for (int p = row_start_[at(k) + 1]; p-- > row_start_[at(k)];) {
+    const auto [column, place] = below_[at(p)];
+    double z = -below[at(place)];
+    for (int q = factor_start_[at(column)]; q < place; ++q) {
+      z -= below[at(q)] * null_vector_[at(row_of_[at(q)])];
+    }
+    if (!(inverse_pivot_[at(column)] > 0.0)) z = 0.0;
+    null_vector_[at(column)] = z;
+    sum += std::abs(z) * size(column);
+  }
+  return sum;
+}
+
+void SparseFactor::keep_pivot(int k, double pivot, double full, std::span<const double> diagonal) {
   // Written so that NaN is dropped, too.
-  const bool kept = pivot > dropped_pivot * full;
+  bool kept = pivot > dropped_pivot * full;
+  if (kept && pivot < small_pivot * full) {
+    const double first = weight_of(k, factor_, diagonal);
+    const double second = symmetric_ ? first : weight_of(k, upper_, diagonal);
+    kept = pivot > dropped_noise * first * second;
+  }
   if (!kept) ++dropped_;
   inverse_pivot_[at(k)] = kept ? 1.0 / pivot : 0.0;
 }
@@ -251,7 +287,7 @@ void SparseFactor::factor(std::span<const double> diagonal, std::span<const doub
       pivot -= entry * y;
       factor[below->place] = entry;
     }
-    keep_pivot(static_cast<int>(k), pivot, full);
+    keep_pivot(static_cast<int>(k), pivot, full, diagonal);
   }
 }
 
@@ -292,7 +328,7 @@ void SparseFactor::factor(std::span<const double> diagonal, std::span<const doub
       factor[below->place] = z * inverse;
       upper[below->place] = y * inverse;
     }
-    keep_pivot(static_cast<int>(k), pivot, full);
+    keep_pivot(static_cast<int>(k), pivot, full, diagonal);
   }
 }
 

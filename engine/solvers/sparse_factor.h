@@ -14,6 +14,13 @@
 // freedom. Their pivots are what rounding leaves of zero. A pivot below `dropped_pivot` times the
 // diagonal entry it started from is left out: that unknown stays 0, and the others satisfy its
 // equation too, if it can be satisfied.
+//
+// Rounding leaves more where rows that are nearly redundant come before. A pivot is z^T A z, with
+// z_k = 1 and the others such that rows before k have A z = 0, and the factors are those of a
+// matrix whose entries are off by some eps sqrt(a_ii a_jj) (Higham, "Accuracy and Stability of
+// Numerical Algorithms", 2002, theorem 10.3), so the pivot is off by eps (sum |z_i| sqrt(a_ii))^2.
+// Small pivots are compared with that, too: one of rounding makes forces without any measure,
+// between walls even without moving anything.
 
 #include <span>
 #include <utility>
@@ -26,6 +33,10 @@ class SparseFactor {
   /// Relative size of a pivot that counts as 0. Rounding leaves some 1e-16 of the diagonal; a wheel
   /// of 1e-12 kg m2 in a cable between kilograms still has 1e-10.
   static constexpr double dropped_pivot = 1e-14;
+  /// The same relative to (sum |z_i| sqrt(a_ii))^2: some eps, for the entries are rounded, too.
+  static constexpr double dropped_noise = 1e-15;
+  /// Relative size of a pivot below which that sum is found.
+  static constexpr double small_pivot = 1e-7;
 
   /// Prepares for n x n matrices whose entries off the diagonal are at `entries`, (row, column)
   /// with row != column, each pair once in either order. Chooses the order of elimination; all
@@ -78,7 +89,10 @@ class SparseFactor {
   void solve_chain(std::span<double> x) const;
   [[nodiscard]] bool is_chain() const;
   /// Takes the pivot of row k, or drops it.
-  void keep_pivot(int k, double pivot, double full);
+  void keep_pivot(int k, double pivot, double full, std::span<const double> diagonal);
+  /// The sum of |z_i| sqrt(a_ii) of row k, with the factors `below` of L or U.
+  [[nodiscard]] double weight_of(int k, std::span<const double> below,
+                                 std::span<const double> diagonal);
 
   int size_ = 0;
   int dropped_ = 0;
@@ -107,6 +121,7 @@ class SparseFactor {
   // Scratch.
   std::vector<double> work_;
   std::vector<double> lower_work_;
+  std::vector<double> null_vector_;
   std::vector<int> path_;
   std::vector<int> mark_;
 };
