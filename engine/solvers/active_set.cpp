@@ -247,6 +247,13 @@ void ActiveSetSolver::find_residuals(const ComplementarityProblem& problem) {
   }
 }
 
+void ActiveSetSolver::forgive_redundant(ComplementarityProblem& problem) const {
+  for (int j = 0; j < problem.size; ++j) {
+    if (problem.free[at(j)] != 1 || !factor_.is_dropped(j)) continue;
+    problem.constant[at(j)] -= residual_[at(j)];
+  }
+}
+
 int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem) {
   if (dropped_ == 0) return -1;
   // Residuals of redundant rows that agree are rounding, more than that of a row of its own; what

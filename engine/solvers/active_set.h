@@ -66,6 +66,9 @@ class ActiveSetSolver {
   /// grown by `change`, and bounds may have moved. False if
   /// these are not the right sets now; the solution is then still the last one.
   bool refine(const ComplementarityProblem& problem, std::span<const double> change);
+  /// Takes from the constants of redundant rows what the last solve() has left of them, which is
+  /// rounding. Where such rows are to find forces of their own next, these would be without measure.
+  void forgive_redundant(ComplementarityProblem& problem) const;
   /// Whether in the last solve() some free rows contradicted each other.
   [[nodiscard]] bool contradicts() const { return contradicts_; }
 

@@ -381,7 +381,10 @@ bool RowSystem::solve(Substep& substep, bool compromise) {
   assemble();
   bool solved = solve_assembled(substep, compromise);
   shares_load_ = solved && active_set_.dropped() > 0 && !active_set_.contradicts() && share_load();
-  if (shares_load_) solved = solve_assembled(substep, compromise);
+  if (shares_load_) {
+    active_set_.forgive_redundant(problem_);
+    solved = solve_assembled(substep, compromise);
+  }
   StepStatistics& statistics = substep.statistics;
   ++statistics.rounds;
   statistics.row_solves += static_cast<std::int64_t>(rows_.size());
