@@ -98,8 +98,11 @@ bool CableSystem::comes_off(const Substep& substep, int span, int link,
                             const FeatureState& next) const {
   const double stored = stored_arc(next, link);
   const LinkGeometry& wheel = links_[at(link)];
+  if (!wheel.outline) return stored < 0.0;
   const bool in_space = spans_[at(span)].kind == SpanKind::spatial;
-  if (!wheel.outline || (stored < 0.0 && !in_space)) return stored < 0.0;
+  // What comes onto a corner and goes again is edges, whose sum is rounded.
+  constexpr double rounding = 1e-9;
+  if (stored < -rounding * wheel.perimeter() && !in_space) return true;
   // At a corner there is no length, but an angle. (In space the length is not quite that of the
   // edges, either.)
   if (stored > 0.5 * wheel.perimeter()) return false;

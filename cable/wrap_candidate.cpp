@@ -72,8 +72,9 @@ std::optional<WrapPlane> wrap_plane(const Substep& substep, const WrapCandidate&
                                     const SpanGeometry& span) {
   const Quaternion orientation = substep.orientation(candidate.body);
   const Vector3 center = substep.point(candidate.body, candidate.center) - span.start;
-  const Vector3 moment = cross(span.direction, center);
-  if (!(moment.norm() > 0.0)) return std::nullopt;
+  Vector3 moment = cross(span.direction, center);
+  // Through the centre: on no side of it, and in every plane through it.
+  if (!(moment.norm() > 0.0)) moment = any_perpendicular(span.direction);
   if (candidate.axes.empty()) {
     return WrapPlane{candidate.center, orientation.conjugate() * moment.normalized()};
   }

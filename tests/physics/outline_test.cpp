@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "engine/constraint_batch.h"
 #include "engine/shapes/prism.h"
 #include "tests/support/builders.h"
@@ -219,6 +220,44 @@ TEST(Outline, ManyTurnsOfAPolygonMoveTheirPerimeters) {
                 0.01 * perimeter)
         << turns_per_step;
   }
+}
+
+// What comes onto a corner and goes again is edges, whose sum may be -1e-17 m at the last corner.
+// The cable is still bent round that.
+TEST(Outline, ACableStaysOnItsLastCornerAsLongAsItIsBent) {
+  int bent = 0;
+  for (int i = 0; i < 40; ++i) {
+    const double size = 1.0 + 0.0137 * i;
+    test::Machine m;
+    m.model.gravity = Vector3::Zero();
+    m.model.step = test::settings(0.02, 1, 20);
+    const auto end = [&](double x) {
+      BodyDef body = test::lump(x < 0.0 ? "a" : "b", {size * x, -0.6 * size, 0.0}, 1.0);
+      body.mobility = Mobility::planar;
+      body.axis = Vector3::UnitZ();
+      body.velocity = {0.0, 0.6 * size, 0.0};
+      return m.model.add(body);
+    };
+    BodyDef post = polygon("post", 8, 0.2 * size, Vector3::Zero(), 1.0);
+    post.mobility = Mobility::planar;
+    const BodyId a = end(-1.0);
+    const BodyId b = end(1.0);
+    m.cables.push_back(cable("rope", {attach(a), roll(m.model.add(post), right), attach(b)}));
+    m.cables[0].compliance = 1e-3;
+    Simulation s = test::start(m);
+    // From three corners or more to the uppermost, over which the spans end 0.2 to either side.
+    const CableReport before = s.cable_reports()[0];
+    EXPECT_GT(before.links[1].stored_length, 0.2 * size);
+    test::run(s.world, 1.0);
+    const CableReport after = s.cable_reports()[0];
+    ASSERT_EQ(after.spans.size(), 2U) << size;
+    EXPECT_TRUE(after.links[1].touched) << size;
+    EXPECT_TRUE(s.cables->events().empty()) << size;
+    // A few edges, each rounded to the grain of lengths, 2^-48 m here.
+    EXPECT_NEAR(after.links[1].stored_length, 0.0, 4.0 * std::ldexp(1.0, -48));
+    bent += after.links[1].touched ? 1 : 0;
+  }
+  EXPECT_EQ(bent, 40);
 }
 
 }  // namespace

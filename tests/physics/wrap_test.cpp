@@ -329,6 +329,18 @@ TEST(Wrap, ACableThatStartsInABodyIsAnError) {
             std::string::npos);
 }
 
+// On no side of it, in no plane that follows from the span.
+TEST(Wrap, ACableThroughTheMiddleOfABodyIsAnErrorToo) {
+  for (const auto& shape : {cylinder(0.2), ball(0.2), box({0.3, 0.3, 0.3})}) {
+    const test::Machine m =
+        drawn_cable(Vector3::Zero(), {obstacle("post", shape, Vector3::Zero())});
+    const Result<Simulation> s = Simulation::create(m.model, m.cables);
+    ASSERT_FALSE(s.ok());
+    EXPECT_NE(s.errors()[0].message.find("runs through the wrappable body \"post\""),
+              std::string::npos);
+  }
+}
+
 TEST(Wrap, AStateWithWrapsCanBeRestored) {
   test::Machine m = drawn_cable(Vector3::Zero(), {obstacle("post", cylinder(0.2), {0.0, 0.3, 0.0}),
                                                   obstacle("ball", ball(0.1), {0.3, -0.3, 0.0})});
