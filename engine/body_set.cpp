@@ -123,22 +123,23 @@ bool moves_by_itself(const BodyDef& body) {
   return !is_zero(body.velocity) || !is_zero(body.angular_velocity) || !is_zero(body.oscillation);
 }
 
-/// Diagonal of the box round all bodies.
+/// Diameter of the sphere round all bodies about the mean of their places: the same in whatever
+/// direction the scene is turned, or solvers would end their rounds elsewhere there.
 double scene_scale(const std::vector<BodyDef>& bodies) {
-  Eigen::AlignedBox3d box;
+  Vector3 center = Vector3::Zero();
+  for (const BodyDef& body : bodies) center += body.position / static_cast<double>(bodies.size());
+  double radius = 0.0;
   double largest = 0.0;
   for (const BodyDef& body : bodies) {
-    box.extend(Eigen::Vector3d(body.position));
+    radius = std::max(radius, (body.position - center).norm());
     for (const PlacedShape& placed : body.shapes) {
-      const double radius = placed.shape->half_extent().norm();
-      largest = std::max(largest, 2.0 * radius);
-      const Eigen::Vector3d center = body.position + body.orientation * placed.position;
-      box.extend(Eigen::Vector3d(center.array() - radius));
-      box.extend(Eigen::Vector3d(center.array() + radius));
+      const double own = placed.shape->half_extent().norm();
+      const Vector3 place = body.position + body.orientation * placed.position;
+      largest = std::max(largest, own);
+      radius = std::max(radius, (place - center).norm() + own);
     }
   }
-  const double diagonal = box.isEmpty() ? 0.0 : box.diagonal().norm();
-  const double scale = std::max(diagonal, largest);
+  const double scale = 2.0 * std::max(radius, largest);
   return scale > 0.0 ? scale : 1.0;
 }
 
