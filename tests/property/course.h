@@ -6,7 +6,9 @@
 // changed by about as much, are run beside it. What they differ by from the machine, times a safety
 // factor of 30 (random changes miss the worst direction; each substep rounds anew), is what the
 // other run may differ by. Once twins differ by 1e-4 of the machine's size nothing can be said any
-// more.
+// more. Nor where a run tells that rows contradict each other or that a substep has not converged
+// (what it does then depends on the order of rows), or where a joint that can break is one of more
+// than hold a body: which of them has how much of the load is open.
 
 #include <functional>
 #include <vector>
@@ -25,6 +27,7 @@ struct Course {
   std::vector<Moment> moments;  ///< after each step
   bool failed = false;          ///< it diverged after them
   bool lost = false;            ///< a span had no tangent after them
+  bool told = false;            ///< it told that what came after them depends on the order of rows
 };
 [[nodiscard]] Course follow(const Machine& machine, int steps);
 

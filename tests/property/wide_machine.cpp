@@ -164,6 +164,7 @@ class Widener {
     const auto spans = simulation->cable_reports()[0].spans;
     const SpanReport& span =
         spans[static_cast<std::size_t>(random_.below(static_cast<int>(spans.size())))];
+    if (!(span.length > 0.0)) return;  // of a link that is lifted
     BodyDef body = lump("obstacle", 0.5 * (span.start + span.end), random_.between(0.5, 2.0));
     const Vector3 along = span.end - span.start;
     const Vector3 side = along.cross(Vector3::UnitZ()).normalized();
