@@ -315,6 +315,14 @@ class MomentumCheck {
     return 0.1 * size * e_.balances[at(i)].largest_force;
   }
 
+  /// What turns a body are lengths that are rounded like all places of the scene: how many times
+  /// its own size these are.
+  [[nodiscard]] double rounded_turns(int i) const {
+    const double size = e_.size_of(i);
+    if (!(size > 0.0)) return 0.0;
+    return (e_.end.bodies[at(i)].position.norm() + e_.bodies.scale()) / size;
+  }
+
   double check_spin(int i) {
     const double h = e_.h;
     const BodyProperties& body = e_.bodies[i];
@@ -339,7 +347,8 @@ class MomentumCheck {
         std::max({e_.balances[at(i)].largest_torque, lever(i), driven,
                   e_.load_torque(i, last_end).norm(), inertia * std::abs(std::abs(s1) - s0) / h});
     const double eps =
-        rounding * inertia * ((1.0 + std::abs(to.angle)) / (h * h) + (std::abs(s1) + s0) / h);
+        rounding * inertia *
+        ((1.0 + std::abs(to.angle) + rounded_turns(i)) / (h * h) + (std::abs(s1) + s0) / h);
     findings_.note(CertificateItem::Kind::angular_momentum, "N m",
                    std::max(std::abs(missing), std::abs(placed)), largest, eps,
                    [&] { return e_.body_name(i); });
@@ -367,7 +376,7 @@ class MomentumCheck {
         std::max({e_.balances[at(i)].largest_torque, lever(i), gyroscopic,
                   e_.load_torque(i, last_end).norm(),
                   torque_of(to.angular_velocity - from.angular_velocity).norm() / h});
-    const double eps = rounding * moment * (1.0 / (h * h) + speed / h);
+    const double eps = rounding * moment * ((1.0 + rounded_turns(i)) / (h * h) + speed / h);
     findings_.note(CertificateItem::Kind::angular_momentum, "N m",
                    std::max(missing.norm(), bounces_ ? 0.0 : placed.norm()), largest, eps,
                    [&] { return e_.body_name(i); });
