@@ -222,13 +222,12 @@ void SparseFactor::solve_chain(std::span<double> x) const {
 
 double SparseFactor::weight_of(int k, std::span<const double> below,
                                std::span<const double> diagonal) {
-  const auto size = [&](int i) { return std::sqrt(diagonal[at(unknown_[at(i)])]); };
-  double sum = size(k);
+  double sum = diagonal[at(unknown_[at(k)])];
   if (chain_) {
     double z = 1.0;
     for (int i = k; i > 0 && z != 0.0; --i) {
       z = inverse_pivot_[at(i) - 1] > 0.0 ? -below[at(i)] * z : 0.0;
-      sum += std::abs(z) * size(i - 1);
+      sum += z * z * diagonal[at(unknown_[at(i) - 1])];
     }
     return sum;
   }
@@ -245,7 +244,7 @@ double SparseFactor::weight_of(int k, std::span<const double> below,
     }
     if (!(inverse_pivot_[at(column)] > 0.0)) z = 0.0;
     null_vector_[at(column)] = z;
-    sum += std::abs(z) * size(column);
+    sum += z * z * diagonal[at(unknown_[at(column)])];
   }
   return sum;
 }
@@ -256,7 +255,7 @@ void SparseFactor::keep_pivot(int k, double pivot, double full, std::span<const 
   if (kept && pivot < small_pivot * full) {
     const double first = weight_of(k, factor_, diagonal);
     const double second = symmetric_ ? first : weight_of(k, upper_, diagonal);
-    kept = pivot > dropped_noise * first * second;
+    kept = pivot > dropped_noise * std::sqrt(first * second);
   }
   if (!kept) ++dropped_;
   inverse_pivot_[at(k)] = kept ? 1.0 / pivot : 0.0;

@@ -18,9 +18,10 @@
 // Rounding leaves more where rows that are nearly redundant come before. A pivot is z^T A z, with
 // z_k = 1 and the others such that rows before k have A z = 0, and the factors are those of a
 // matrix whose entries are off by some eps sqrt(a_ii a_jj) (Higham, "Accuracy and Stability of
-// Numerical Algorithms", 2002, theorem 10.3), so the pivot is off by eps (sum |z_i| sqrt(a_ii))^2.
-// Small pivots are compared with that, too: one of rounding makes forces without any measure,
-// between walls even without moving anything.
+// Numerical Algorithms", 2002, theorem 10.3). Where these are as likely up as down the pivot is off
+// by eps times the sum of z_i^2 a_ii; in machines with rows that all but depend on each other
+// pivots scatter up to 4e-16 of that. Small pivots are compared with it, too: one of rounding makes
+// forces without any measure, between walls even without moving anything.
 
 #include <span>
 #include <utility>
@@ -33,7 +34,7 @@ class SparseFactor {
   /// Relative size of a pivot that counts as 0. Rounding leaves some 1e-16 of the diagonal; a wheel
   /// of 1e-12 kg m2 in a cable between kilograms still has 1e-10.
   static constexpr double dropped_pivot = 1e-14;
-  /// The same relative to (sum |z_i| sqrt(a_ii))^2: some eps, for the entries are rounded, too.
+  /// The same relative to the sum of z_i^2 a_ii.
   static constexpr double dropped_noise = 1e-15;
   /// Relative size of a pivot below which that sum is found.
   static constexpr double small_pivot = 1e-7;
@@ -90,7 +91,7 @@ class SparseFactor {
   [[nodiscard]] bool is_chain() const;
   /// Takes the pivot of row k, or drops it.
   void keep_pivot(int k, double pivot, double full, std::span<const double> diagonal);
-  /// The sum of |z_i| sqrt(a_ii) of row k, with the factors `below` of L or U.
+  /// The sum of z_i^2 a_ii of row k, with the factors `below` of L or U.
   [[nodiscard]] double weight_of(int k, std::span<const double> below,
                                  std::span<const double> diagonal);
 

@@ -197,5 +197,46 @@ TEST(SparseFactor, KeepsWhatIsOnlyNearlyRedundant) {
   EXPECT_NEAR(x[1], 2.0 / 3.0, 1e-5);
 }
 
+// Rows a, a + d, and b, which is a combination of these: with d of 1e-3 of a the second pivot is
+// 1e-6, and a z of 1e3 makes of its rounding what is left of the third, 1e-16 z^2. Kept it would
+// be a yield, and rounding of the right-hand side a force.
+TEST(SparseFactor, LeavesOutWhatIsRedundantBehindWhatNearlyIs) {
+  std::mt19937 generator(3);
+  std::uniform_real_distribution<double> value(-1.0, 1.0);
+  const auto random = [&](int n) -> Eigen::VectorXd {
+    return Eigen::VectorXd::NullaryExpr(n, [&](Eigen::Index) { return value(generator); });
+  };
+  int above = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    Eigen::MatrixXd rows(3, 5);
+    const double apart = std::pow(10.0, -3.0 + 0.7 * value(generator));
+    rows.row(0) = random(5).transpose();
+    rows.row(1) = rows.row(0) + apart * random(5).transpose();
+    rows.row(2) = (rows.row(1) - rows.row(0)) / apart + value(generator) * rows.row(0);
+    const SparseMatrix a(rows * rows.transpose());
+    // The third is the last to be eliminated, and all three are one block.
+    for (const bool symmetric : {true, false}) {
+      SparseFactor factor;
+      factor.analyse(3, a.entries);
+      if (symmetric) {
+        factor.factor(a.diagonal, a.values);
+      } else {
+        factor.factor(a.diagonal, a.values, a.values);
+      }
+      EXPECT_EQ(factor.dropped(), 1) << trial;
+      // A motion x of which rounding is 1e-16 asks for forces of that over the smallest pivot.
+      const Eigen::VectorXd b = rows * random(5);
+      std::vector<double> x(b.data(), b.data() + 3);
+      factor.solve(x);
+      const double largest = std::max({std::abs(x[0]), std::abs(x[1]), std::abs(x[2])});
+      EXPECT_LT(largest, 100.0 / (apart * apart)) << trial;
+    }
+    const Eigen::LDLT<Eigen::MatrixXd> exact(a.dense);
+    above += exact.vectorD().cwiseAbs().minCoeff() > SparseFactor::dropped_pivot ? 1 : 0;
+  }
+  // That has not been found by the pivots alone.
+  EXPECT_GT(above, 20);
+}
+
 }  // namespace
 }  // namespace sheave
