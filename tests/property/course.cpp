@@ -36,7 +36,9 @@ void append_tensions(const CableReport& report, Moment& moment) {
   const CableReport whole = report.with_wraps_in_place();
   std::vector<double>& tensions = moment.tensions.emplace_back();
   for (std::size_t k = 0; k < whole.spans.size(); ++k) {
-    if (whole.links[k].touched) tensions.push_back(whole.spans[k].tension);
+    // Where a link is lifted one of the spans beside it is there no more.
+    const SpanReport& span = whole.spans[k];
+    if (span.length > 0.0 || span.rest_length > 0.0) tensions.push_back(span.tension);
   }
   if (report.closed) std::sort(tensions.begin(), tensions.end());
 }
@@ -208,8 +210,8 @@ Finding alike(const Machine& machine, const Machine& other, const Retold& retold
     twins.add(noise * (k % 3 == 0 ? 1.0 : k % 3 == 1 ? 10.0 : 100.0), 1000 * seed + k);
     finding = judged(difference, twins, noise);
   }
-  const bool ends_apart = !course.told && !told.told &&
-                          (course.failed != told.failed || course.lost != told.lost);
+  const bool ends_apart =
+      !course.told && !told.told && (course.failed != told.failed || course.lost != told.lost);
   if (finding.holds() && ends_apart && twins.apart_so_far().size() == course.moments.size() &&
       (twins.apart_so_far().empty() || twins.apart_so_far().back().motion < hopeless)) {
     finding = {true, 1.0, 0.0, "one fails, the other does not"};
