@@ -57,7 +57,7 @@ void ActiveSetSolver::relax(const ComplementarityProblem& problem, int sweeps, W
 
 bool ActiveSetSolver::solve(ComplementarityProblem& problem, bool compromise, WorkLimit* work) {
   changes_ = dropped_ = factorisations_ = 0;
-  contradicts_ = false;
+  contradicts_ = gave_way_ = false;
   Course course{problem.size + 1, patience, false};
   const int most_tries = 50 + 2 * problem.size;
   for (int tries = 0; tries < most_tries; ++tries) {
@@ -98,6 +98,7 @@ bool ActiveSetSolver::attempt(ComplementarityProblem& problem, bool compromise, 
     // Violations that go round because of it have no end either.
     if (contradicts_ && (compromise || !violated_.empty())) {
       course = {problem.size + 1, patience, true};
+      gave_way_ = true;
       return false;
     }
   }

@@ -68,6 +68,8 @@ class ActiveSetSolver {
   bool refine(const ComplementarityProblem& problem, std::span<const double> change);
   /// Whether in the last solve() some free rows contradicted each other.
   [[nodiscard]] bool contradicts() const { return contradicts_; }
+  /// Whether these have given way.
+  [[nodiscard]] bool gave_way() const { return gave_way_; }
 
  private:
   /// What decides how the tries go on, with the set that is tried.
@@ -131,6 +133,7 @@ class ActiveSetSolver {
   int factorisations_ = 0;
   int dropped_ = 0;
   bool contradicts_ = false;
+  bool gave_way_ = false;
 };
 
 }  // namespace sheave

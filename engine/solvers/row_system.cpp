@@ -353,7 +353,7 @@ bool RowSystem::solve(Substep& substep, bool compromise) {
   StepStatistics& statistics = substep.statistics;
   ++statistics.rounds;
   statistics.row_solves += static_cast<std::int64_t>(rows_.size());
-  if (compromise && active_set_.contradicts()) ++statistics.compromises;
+  if (active_set_.gave_way()) ++statistics.compromises;
   return solved;
 }
 

@@ -276,8 +276,12 @@ TEST(ActiveSet, FindsTheBoundOfFrictionThatALockHolds) {
       EXPECT_LE(std::abs(x), most * (1.0 + 1e-12));
       EXPECT_NEAR(lever * (x + lever * y - 1e-5), 0.0, slop);
       const double r = x + lever * y - 1e-5 + d;
-      if (x > -most) EXPECT_LE(r, slop) << d << ' ' << lever;
-      if (x < most) EXPECT_GE(r, -slop) << d << ' ' << lever;
+      if (x > -most) {
+        EXPECT_LE(r, slop) << d << ' ' << lever;
+      }
+      if (x < most) {
+        EXPECT_GE(r, -slop) << d << ' ' << lever;
+      }
     }
   }
 }
