@@ -94,7 +94,9 @@ void DirectSolver::solve(Substep& substep, Features features) {
 }
 
 bool DirectSolver::runs_away(const Substep& substep, double violated, double first) {
-  return !(violated <= std::max(growth * first, substep.bodies.scale()));
+  // What whips past a light body goes some sizes of the scene too far in a round, and finds back.
+  constexpr double away = 1e3;
+  return !(violated <= std::max(growth * first, away * substep.bodies.scale()));
 }
 
 void DirectSolver::end_rounds(Substep& substep, const Course& course) {

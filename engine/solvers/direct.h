@@ -53,8 +53,7 @@ class DirectSolver {
 
   void solve(Substep& substep, Features features);
 
-  /// Whether rounds have moved bodies farther away than the scene is large, by no wide swing: their
-  /// rows nearly depend on each other.
+  /// Whether rounds have moved bodies out of all measure: their rows nearly depend on each other.
   [[nodiscard]] static bool runs_away(const Substep& substep, double violated, double first);
 
  private:

@@ -95,8 +95,10 @@ TEST_P(LockedCoordinate, BodyThatCannotMoveAndBeginsTurning) {
     EXPECT_TRUE(certificate.clean(1e-5)) << certificate.worst()->sentence();
     EXPECT_LT(s.world.angular_velocity(turning).norm(), 1e-6);
   }
-  const double asked = 0.5 * s.world.state().time / 0.2;
-  EXPECT_NEAR(joint_reports(s.world)[1].coordinates[0].drive_force, asked / 1e-3, 1.0);
+  // `rattle` tells the mean over the substep.
+  const double lag = GetParam() == IntegratorKind::rattle ? 0.001 : 0.0;
+  const double asked = 0.5 * (s.world.state().time - lag) / 0.2;
+  EXPECT_NEAR(joint_reports(s.world)[1].coordinates[0].drive_force, asked / 1e-3, 1e-6);
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, LockedCoordinate,
