@@ -252,8 +252,12 @@ inline double solve_row(const Row& row, double h, double& multiplier,
     w *= 1.0 + gamma;
   }
   const double denominator = w + scaled_compliance;
-  // Nothing that could move; a spring between driven bodies has its force all the same.
-  if (!(denominator > 0.0)) return 0.0;
+  // Nothing that could move; a spring between driven bodies has its force all the same, and so has
+  // what is given, against what holds.
+  if (!(denominator > 0.0)) {
+    if (row.lower == row.upper) multiplier = row.lower;
+    return 0.0;
+  }
   double next = multiplier - error / denominator;
   if (next < row.lower) next = row.lower;
   if (next > row.upper) next = row.upper;

@@ -5,7 +5,8 @@
 // friction and other forces have done before is theirs. Bodies also are not where v- has led them:
 // at the acceleration a by all that is no contact they have been put d = x1 - x0 - h v- elsewhere,
 // out of what they had cut into, too. That costs -m a . d, along the normals of their contacts.
-// (Across them it is friction that holds them.)
+// (Across them it is friction that holds them.) Newton's law of the normal velocities and friction
+// together take energy, if any: what friction takes may turn a body so that its normal force works.
 //
 // Velocities of `xpbd` are means over a substep, a h / 2 behind those at its end, and with those
 // energy is kept in free fall: (v- + v+) / 2 has a h / 2 more. What leaves the surface at w < a h
@@ -143,15 +144,17 @@ Bounced BounceCheck::sum() const {
   for (const ContactEvidence& contact : e_.contacts) {
     const double push = e_.h * contact.press[last_end];
     if (!bounces(contact) || !(push > 0.0)) continue;
-    const auto towards = [&](const auto& velocity_of) {
-      return contact.normal.dot(velocity_of(contact.body_a, contact.point_a[last_end]) -
-                                velocity_of(contact.body_b, contact.point_b[last_end]));
-    };
-    const double after = towards(
-        [&](int body, const Vector3& point) { return e_.moments[last_end].velocity(body, point); });
-    const double before =
-        towards([&](int body, const Vector3& point) { return without(body, point); });
-    bounced.energy += 0.5 * push * (before + after);
+    const Vector3& at_a = contact.point_a[last_end];
+    const Vector3& at_b = contact.point_b[last_end];
+    const Moment& now = e_.moments[last_end];
+    const Vector3 parting = now.velocity(contact.body_a, at_a) - now.velocity(contact.body_b, at_b);
+    const Vector3 meeting = without(contact.body_a, at_a) - without(contact.body_b, at_b);
+    const double after = contact.normal.dot(parting);
+    const double before = contact.normal.dot(meeting);
+    // Friction may turn a body so that the normal force works on it, by no more than it takes.
+    const double worked = 0.5 * push * (before + after);
+    const double rubbed = 0.5 * e_.h * contact.drag[last_end].dot(meeting + parting);
+    bounced.energy += worked > 0.0 ? std::max(worked + std::min(rubbed, 0.0), 0.0) : worked;
     for (const auto& [body, sense] : {std::pair{contact.body_a, 1.0}, {contact.body_b, -1.0}}) {
       if (body == e_.bodies.count()) continue;
       const double a = sense * contact.normal.dot(acceleration(leader(body)));

@@ -133,6 +133,7 @@ struct ContactEvidence {
   std::array<Vector3, 2> point_b;
   std::array<double, 2> press{};
   std::array<Vector3, 2> drag;
+  Vector3 slip = Vector3::Zero();  ///< way of A's surface over B's, and along the normal [m]
   std::array<double, 2> gap{};
   bool sticks = false;
   const ColliderDef* collider_a = nullptr;

@@ -124,6 +124,11 @@ void Evidence::collect_contacts(const LastSubstep& last, std::size_t feature) {
       contact.gap[at(when)] =
           report.normal.dot(contact.point_a[at(when)] - contact.point_b[at(when)]);
     }
+    // What is round does not take its lowest point along.
+    const Vector3 rolled = radius_a * turn_of(contact.body_a) + radius_b * turn_of(contact.body_b);
+    contact.slip = contact.point_a[last_end] - contact.point_a[first_end] -
+                   (contact.point_b[last_end] - contact.point_b[first_end]) -
+                   rolled.cross(contact.normal);
     contact.press = {0.0, report.normal_force};
     contact.drag = {Vector3::Zero(), report.friction_force};
     if (halves) {

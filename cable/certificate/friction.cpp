@@ -66,17 +66,22 @@ void check_contact(const Evidence& evidence, const ContactEvidence& contact, Fin
   };
   findings.note(Kind::friction, "N", std::max(drag.norm() - bound, 0.0), scale, 1e-7 * scale, name);
   if (contact.sticks) return;
-  // What slides is dragged against its sliding.
+  // What slides is dragged against its sliding: by its way, and where other contacts bounce, whose
+  // velocities are not those of the way, by either.
   const Moment& now = evidence.moments[last_end];
-  const Vector3 velocity = now.velocity(contact.body_a, contact.point_a[last_end]) -
-                           now.velocity(contact.body_b, contact.point_b[last_end]);
-  const Vector3 along = velocity - contact.normal * contact.normal.dot(velocity);
-  const double speed = along.norm();
+  const Vector3& at_a = contact.point_a[last_end];
+  const Vector3& at_b = contact.point_b[last_end];
   const double crawl =
       evidence.h * evidence.gravity.norm() + 1e-6 * evidence.bodies.scale() / evidence.h;
-  const double forwards = speed > 0.0 ? drag.dot(along) / speed : 0.0;
-  findings.note(Kind::friction, "N", std::max(forwards, 0.0) * speed / (speed + crawl), scale,
-                1e-7 * scale, name);
+  const auto forwards_by = [&](const Vector3& velocity) {
+    const Vector3 along = velocity - contact.normal * contact.normal.dot(velocity);
+    const double speed = along.norm();
+    return speed > 0.0 ? std::max(drag.dot(along), 0.0) / (speed + crawl) : 0.0;
+  };
+  const double forwards =
+      std::min(forwards_by(now.velocity(contact.body_a, at_a) - now.velocity(contact.body_b, at_b)),
+               forwards_by(contact.slip / evidence.h));
+  findings.note(Kind::friction, "N", forwards, scale, 1e-7 * scale, name);
 }
 
 }  // namespace

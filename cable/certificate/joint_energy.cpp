@@ -12,6 +12,7 @@
 #include "cable/certificate/joint_energy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cable/certificate/joint_frames.h"
@@ -26,7 +27,11 @@ class JointWorker {
       : e_(evidence), joint_(joint), frame_(frame_of(evidence.bodies, joint)) {}
 
   JointWork sum() {
-    if (frame_.kind.coupling || frame_.kind.distance) return work_;
+    if (frame_.kind.coupling) return work_;
+    if (frame_.kind.distance) {
+      rod();
+      return work_;
+    }
     add_flow();
     lock(frame_.compliance, [&](End when) { return point(when); });
     if (frame_.kind.parallel) {
@@ -57,6 +62,50 @@ class JointWorker {
     const double taken = ruled.dot(opened) / compliance;
     work_.unexplained += taken;
     work_.flow = std::max(work_.flow, std::abs(taken));
+  }
+
+  /// Of a distance, with what its damper takes. A string is one while it pulls; a rigid one while it
+  /// is stretched: what comes taut has stopped what pulled at it.
+  void rod() {
+    const bool any = frame_.lower != 0.0 && frame_.upper != 0.0;
+    // What acts along the extension besides is not told apart from the rod.
+    if (any || coordinates_of(*joint_.definition).front().settings->acts()) return;
+    add_flow();
+    const bool elastic = frame_.compliance > 0.0;
+    const bool one_sided = frame_.lower != 0.0 || frame_.upper != 0.0;
+    std::array<double, 2> stretch{};
+    double push = 0.0;
+    for (const End when : {first_end, last_end}) {
+      const Moment& now = e_.moments[at(when)];
+      const Vector3 apart = frame_.anchor_b(now) - frame_.anchor_a(now);
+      double& own = stretch[at(when)];
+      own = apart.norm() - frame_.length;
+      push += joint_.acting[at(when)].force.dot(apart.normalized());
+      if (elastic && when == last_end) continue;
+      if (frame_.lower != 0.0) own = std::max(own, 0.0);
+      if (frame_.upper != 0.0) own = std::min(own, 0.0);
+    }
+    if (one_sided && push == 0.0) return;
+    const double opened = stretch[last_end] - stretch[first_end];
+    work_.unexplained += push * opened;
+    if (!elastic) return;
+    const double ruled =
+        e_.rattle ? 0.5 * (stretch[first_end] + stretch[last_end]) : stretch[last_end];
+    // A damper of `xpbd` sees what its force at the end works against.
+    const bool was_free = one_sided && stretch[first_end] == 0.0;
+    const double seen = e_.rattle || was_free ? opened : linear_opening();
+    const double taken = (ruled / frame_.compliance + frame_.damping / e_.h * seen) * opened;
+    work_.unexplained += taken;
+    work_.flow = std::max(work_.flow, std::abs(taken));
+  }
+
+  [[nodiscard]] double linear_opening() const {
+    const Vector3 at_a = frame_.anchor_a(e_.moments[last_end]);
+    const Vector3 at_b = frame_.anchor_b(e_.moments[last_end]);
+    return (at_b - at_a)
+        .normalized()
+        .dot(e_.displacement(frame_.body_b, at_b, last_end) -
+             e_.displacement(frame_.body_a, at_a, last_end));
   }
 
   [[nodiscard]] Vector3 axis_at(End when) const {

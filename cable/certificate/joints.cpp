@@ -332,6 +332,13 @@ class JointCheck {
            e_.h;
   }
 
+  /// A speed far below which nothing is known to slip: a millionth of its size in the time that has
+  /// passed, and a hundred times what rounds may leave of a row that holds in each substep.
+  [[nodiscard]] double crawl_of(bool angle) const {
+    const double passed = 1e-6 * (angle ? 1.0 : size_) / std::max(e_.end.time, e_.h);
+    return passed + 1e-8 * e_.bodies.scale() / e_.h;
+  }
+
   /// What acts along a coordinate is its drive, its spring and its damper, friction as far as it
   /// goes, and stops that push.
   void check_law(std::size_t k, const CoordinateSettings& entry) {
@@ -384,7 +391,7 @@ class JointCheck {
     // Dry friction takes energy: all of it, against what moves.
     if (settings.friction > 0.0 && !stopped) {
       const double speed = std::abs(moved);
-      const double crawl = 1e-6 * (now.angle ? 1.0 : size_) / std::max(e_.end.time, e_.h);
+      const double crawl = crawl_of(now.angle);
       const double weight = speed / (speed + crawl);
       const double along = moved > 0.0 ? rest : -rest;
       // At its bound where it slips: rest = -friction sign(moved).
@@ -422,7 +429,7 @@ class JointCheck {
       moved -= normal * normal.dot(moved);
     }
     const double speed = moved.norm();
-    const double crawl = 1e-6 * (ball != nullptr ? 1.0 : size_) / std::max(e_.end.time, e_.h);
+    const double crawl = crawl_of(ball != nullptr);
     const double along = speed > 0.0 ? friction.dot(moved) / speed : 0.0;
     note(Kind::friction, unit, std::max(along, 0.0) * speed / (speed + crawl), scale, slop);
   }

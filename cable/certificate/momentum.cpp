@@ -380,8 +380,24 @@ class MomentumCheck {
     findings_.note(CertificateItem::Kind::angular_momentum, "N m",
                    std::max(missing.norm(), bounces_ ? 0.0 : placed.norm()), largest, eps,
                    [&] { return e_.body_name(i); });
-    if (missing.norm() <= eps) return 0.0;
-    return h * missing.dot(0.5 * (from.angular_velocity + to.angular_velocity));
+    const double beside = bounces_ ? turned_beside(i, replay) : 0.0;
+    if (missing.norm() <= eps) return beside;
+    return beside + h * missing.dot(0.5 * (from.angular_velocity + to.angular_velocity));
+  }
+
+  /// What it makes of the energy of its spin that a body has been put elsewhere than this leads, as
+  /// out of what it had cut into. A bounce, whose velocity is not that of its way, may be off by
+  /// what the velocity changes by.
+  [[nodiscard]] double turned_beside(int i, const Replay& replay) const {
+    const BodyState& from = e_.start.bodies[at(i)];
+    const BodyState& to = e_.end.bodies[at(i)];
+    const double off = difference(to.orientation, replay.orientation).norm();
+    if (off <= e_.h * (to.angular_velocity - from.angular_velocity).norm()) return 0.0;
+    const auto energy = [&](const Quaternion& orientation) {
+      const Vector3 own = orientation.conjugate() * to.angular_velocity;
+      return 0.5 * own.dot(e_.bodies[i].inertia * own);
+    };
+    return energy(to.orientation) - energy(replay.orientation);
   }
 
   /// Whether cable loses tension on the wheel, whose bearing then brakes it.

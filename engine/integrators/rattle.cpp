@@ -41,7 +41,8 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   // Newton's last round leaves far less than it found. A sweep leaves a share, which is a force
   // still, so when what the features decide is settled, sweeps go on to rounding.
   constexpr double rounding = 1e-15;
-  const double done = solver_ == SolverKind::direct ? enough : rounding * substep.bodies.scale();
+  const bool direct = solver_ == SolverKind::direct;
+  const double done = direct ? enough : rounding * substep.bodies.scale();
   // Here only values bend, by the square of the turn; what the first round leaves of less than this
   // the second one mends.
   constexpr double least_swing = 1e-4;  // [rad]
@@ -49,6 +50,7 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   double violated = 0.0;
   bool revised = false;
   bool settled = false;
+  bool at_start = false;
   // One linearisation more than rounds: whether x1 is a solution or the substep must be left to
   // xpbd is decided by what the last round has left, which only the rows at x1 tell. The velocities
   // need these rows, too.
@@ -56,11 +58,15 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   for (int round = 0; round <= substep.iterations; ++round) {
     if (!positions_.linearise(substep, features, RowSystem::Rule::midpoint, false)) return false;
     violated = positions_.violation();
-    if (!std::isfinite(violated)) return false;
     if (round == 0) first = violated;
+    if (!at_start && direct && DirectSolver::runs_away(substep, violated, first)) {
+      at_start = true;
+      violated = positions_.begin_at_start(substep, features, RowSystem::Rule::midpoint);
+    }
+    if (!std::isfinite(violated)) return false;
     settled = settled || (round > 0 && !revised && violated <= enough);
     if ((settled && violated <= done) || round == substep.iterations) break;
-    if (solver_ == SolverKind::direct) {
+    if (direct) {
       // What rows ask for that contradict each other no round finds; xpbd makes them give way.
       if (round > 2 && positions_.contradicts()) return false;
       if (!positions_.solve(substep)) return false;
@@ -78,7 +84,7 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   // swung so far that no multipliers along the gradients of the start reach a solution, it comes
   // near one and stays there.
   constexpr double nearly = 1e-3;
-  const double left = solver_ == SolverKind::direct ? nearly * first : first;
+  const double left = direct ? nearly * first : first;
   // Sweeps that leave much of what is no small share of the scene are no slow convergence either:
   // rows contradict each other, and each integrator would move the bodies to a compromise of its
   // own, to and fro.

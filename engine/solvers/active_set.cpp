@@ -57,7 +57,7 @@ void ActiveSetSolver::relax(const ComplementarityProblem& problem, int sweeps, W
 
 bool ActiveSetSolver::solve(ComplementarityProblem& problem, bool compromise, WorkLimit* work) {
   changes_ = dropped_ = factorisations_ = 0;
-  contradicts_ = false;
+  contradicts_ = gave_way_ = false;
   Course course{problem.size + 1, patience, false};
   const int most_tries = 50 + 2 * problem.size;
   for (int tries = 0; tries < most_tries; ++tries) {
@@ -86,16 +86,19 @@ bool ActiveSetSolver::attempt(ComplementarityProblem& problem, bool compromise, 
   // wrong bound.
   if (!course.yields && (violated_.empty() || course.left < 0)) {
     contradicts_ = false;
-    const int blocking = blocking_unknown(problem);
+    const int blocking = blocking_unknown(problem, !violated_.empty());
     if (blocking >= 0) {
       problem.free[at(blocking)] = blocked_above_ ? ComplementarityProblem::at_upper : 0;
       ++changes_;
       course.fewest = problem.size + 1;
       return false;
     }
+    if (!violated_.empty() && !contradicts_ && takes_back_share(problem)) return true;
     if (violated_.empty() && (!compromise || !contradicts_)) return true;
-    if (compromise && contradicts_) {
+    // Violations that go round because of it have no end either.
+    if (contradicts_ && (compromise || !violated_.empty())) {
       course = {problem.size + 1, patience, true};
+      gave_way_ = true;
       return false;
     }
   }
@@ -254,7 +257,7 @@ void ActiveSetSolver::forgive_redundant(ComplementarityProblem& problem) const {
   }
 }
 
-int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem) {
+int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem, bool going_round) {
   if (dropped_ == 0) return -1;
   // Residuals of redundant rows that agree are rounding, more than that of a row of its own; what
   // is overlooked here is larger against the constants of the next round.
@@ -263,24 +266,52 @@ int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem) {
   for (const double constant : problem.constant) largest = std::max(largest, std::abs(constant));
   for (int j = 0; j < problem.size; ++j) {
     if (problem.free[at(j)] != 1 || !factor_.is_dropped(j)) continue;
-    if (!(std::abs(residual_[at(j)]) > problem.rounding + agreement * largest)) continue;
-    // A z = 0 with z_j = 1; rows that are not free have the equation z = 0.
-    null_vector_.assign(at(problem.size), 0.0);
-    for (int p = neighbour_start_[at(j)]; p < neighbour_start_[at(j) + 1]; ++p) {
-      const Neighbour& neighbour = neighbours_[at(p)];
-      if (problem.free[at(neighbour.other)] != 1) continue;
-      // Of column j: the entry's place in row j is (j, other), its mirror image (other, j).
-      const bool below = !neighbour.transposed && !problem.symmetric;
-      const std::vector<double>& values = below ? problem.lower_values : problem.values;
-      null_vector_[at(neighbour.other)] = -values[at(neighbour.entry)];
-    }
-    factor_.solve(null_vector_);
-    null_vector_[at(j)] = 1.0;
+    // Unless it is what keeps violations going round: of friction whose coordinate locks hold, the
+    // residual at a bound tells, however small, that it is the other bound.
+    const double negligible =
+        going_round ? noise(problem, at(j)) : problem.rounding + agreement * largest;
+    if (!(std::abs(residual_[at(j)]) > negligible)) continue;
+    find_null_vector(problem, j);
     const int blocking = first_blocked(problem, j, residual_[at(j)] < 0.0 ? 1.0 : -1.0);
     if (blocking >= 0) return blocking;
     contradicts_ = true;
   }
   return -1;
+}
+
+void ActiveSetSolver::find_null_vector(const ComplementarityProblem& problem, int redundant) {
+  // A z = 0 with z_j = 1; rows that are not free have the equation z = 0.
+  const std::size_t j = at(redundant);
+  null_vector_.assign(at(problem.size), 0.0);
+  for (int p = neighbour_start_[j]; p < neighbour_start_[j + 1]; ++p) {
+    const Neighbour& neighbour = neighbours_[at(p)];
+    if (problem.free[at(neighbour.other)] != 1) continue;
+    // Of column j: the entry's place in row j is (j, other), its mirror image (other, j).
+    const bool below = !neighbour.transposed && !problem.symmetric;
+    const std::vector<double>& values = below ? problem.lower_values : problem.values;
+    null_vector_[at(neighbour.other)] = -values[at(neighbour.entry)];
+  }
+  factor_.solve(null_vector_);
+  null_vector_[j] = 1.0;
+}
+
+bool ActiveSetSolver::takes_back_share(const ComplementarityProblem& problem) {
+  constexpr double still = 1e-9;
+  for (int j = 0; j < problem.size && dropped_ > 0; ++j) {
+    if (problem.free[at(j)] != 1 || !factor_.is_dropped(j)) continue;
+    find_null_vector(problem, j);
+    for (const int i : violated_) {
+      const double rate = null_vector_[at(i)];
+      if (problem.free[at(i)] != 1 || !(std::abs(rate) > still)) continue;
+      const double bound = std::clamp(solution_[at(i)], problem.lower[at(i)], problem.upper[at(i)]);
+      const double way = (bound - solution_[at(i)]) / rate;
+      for (std::size_t k = 0; k < solution_.size(); ++k) solution_[k] += way * null_vector_[k];
+      solution_[at(i)] = bound;
+    }
+    mark_violations(problem);
+    if (violated_.empty()) return true;
+  }
+  return false;
 }
 
 int ActiveSetSolver::first_blocked(const ComplementarityProblem& problem, int redundant,

@@ -71,6 +71,8 @@ class ActiveSetSolver {
   void forgive_redundant(ComplementarityProblem& problem) const;
   /// Whether in the last solve() some free rows contradicted each other.
   [[nodiscard]] bool contradicts() const { return contradicts_; }
+  /// Whether these have given way.
+  [[nodiscard]] bool gave_way() const { return gave_way_; }
 
  private:
   /// What decides how the tries go on, with the set that is tried.
@@ -100,8 +102,13 @@ class ActiveSetSolver {
   /// What rounding leaves of row i's equation [unit of c].
   [[nodiscard]] double noise(const ComplementarityProblem& problem, std::size_t i) const;
   /// The free unknown that has to go to its bound so that a redundant one is satisfied; -1: there
-  /// is none.
-  [[nodiscard]] int blocking_unknown(const ComplementarityProblem& problem);
+  /// is none. `going_round`: violations do.
+  [[nodiscard]] int blocking_unknown(const ComplementarityProblem& problem, bool going_round);
+  /// z with A z = 0 of a redundant unknown, into null_vector_.
+  void find_null_vector(const ComplementarityProblem& problem, int redundant);
+  /// Where violations go round and redundant rows agree with the others: takes from unknowns beyond
+  /// their bounds what redundant ones, left out, have left to them. Whether that is a solution.
+  [[nodiscard]] bool takes_back_share(const ComplementarityProblem& problem);
   [[nodiscard]] int first_blocked(const ComplementarityProblem& problem, int redundant,
                                   double direction);
 
@@ -129,6 +136,7 @@ class ActiveSetSolver {
   int factorisations_ = 0;
   int dropped_ = 0;
   bool contradicts_ = false;
+  bool gave_way_ = false;
 };
 
 }  // namespace sheave

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace sheave {
 
@@ -38,8 +39,10 @@ void DirectSolver::solve(Substep& substep, Features features) {
   double first = 0.0;
   double astray = std::numeric_limits<double>::infinity();
   bool revised = false;
+  bool renewed = false;  // the last round was the first one with other rows
   bool adding_up = false;
   bool compromise = false;
+  bool at_start = false;
   system_.move_on(substep);
   for (int round = 0; round < substep.iterations; ++round) {
     before = violated;
@@ -50,8 +53,14 @@ void DirectSolver::solve(Substep& substep, Features features) {
     }
     // Rows between driven bodies that nothing can satisfy stay violated in every round.
     const bool settled = adding_up || compromise;
-    if (round > 2 && settled && !revised && violated > stagnation * before) break;
+    const bool stays = !revised && !renewed;
+    if (round > 2 && settled && stays && violated > stagnation * before) break;
     if (round == 0) first = violated;
+    if (!at_start && !adding_up && runs_away(substep, violated, first)) {
+      at_start = true;
+      before = std::numeric_limits<double>::infinity();
+      violated = first = system_.begin_at_start(substep, features, RowSystem::Rule::backward);
+    }
     const bool lost = !(violated <= growth * first);
     const bool finite = std::isfinite(violated);
     // Once, corrections that are added up from the prediction may come right.
@@ -72,7 +81,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
     const bool goes_on = !done && round + 1 < substep.iterations;
     if (!compromise && goes_on && (round > 0 || swings)) system_.bend(substep, 0.1 * enough);
     system_.apply(substep, features);
-    revised = false;
+    renewed = std::exchange(revised, false);
     // What the last round finds would have no round to act in; the features decide it for the next
     // substep.
     if (round + 1 == substep.iterations) break;
@@ -81,6 +90,18 @@ void DirectSolver::solve(Substep& substep, Features features) {
     violated = 0.0;
     break;
   }
+  end_rounds(substep, {violated, before, first, adding_up});
+}
+
+bool DirectSolver::runs_away(const Substep& substep, double violated, double first) {
+  // What whips past a light body goes some sizes of the scene too far in a round, and finds back.
+  constexpr double away = 1e3;
+  return !(violated <= std::max(growth * first, away * substep.bodies.scale()));
+}
+
+void DirectSolver::end_rounds(Substep& substep, const Course& course) {
+  const auto& [violated, before, first, adding_up] = course;
+  const double enough = tolerance * substep.bodies.scale();
   // Two rounds do not tell whether more of them would converge: so few were asked for.
   const bool tried = adding_up || substep.iterations > 2;
   const bool near = violated <= std::max(enough, nearly * first) || violated <= slow * before;

@@ -53,7 +53,21 @@ class DirectSolver {
 
   void solve(Substep& substep, Features features);
 
+  /// Whether rounds have moved bodies out of all measure: their rows nearly depend on each other.
+  [[nodiscard]] static bool runs_away(const Substep& substep, double violated, double first);
+
  private:
+  /// What rounds have come to: the violation that is left, that of the round before and of the
+  /// first one, and whether corrections were added up.
+  struct Course {
+    double violated = 0.0;
+    double before = 0.0;
+    double first = 0.0;
+    bool adding_up = false;
+  };
+  /// Whether the substep has failed, and what is counted if not.
+  void end_rounds(Substep& substep, const Course& course);
+
   /// No active set was found: leaves the substep to Gauss-Seidel, if it has to make do. `at_once`:
   /// in the first round.
   void give_up(Substep& substep, Features features, bool at_once);

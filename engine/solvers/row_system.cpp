@@ -258,34 +258,6 @@ void RowSystem::remember_origin(const Substep& substep) {
   }
 }
 
-void RowSystem::move_on(Substep& substep) {
-  double square = 0.0;
-  begin_rounds();
-  remember_origin(substep);
-  for (int i = 0; i < substep.bodies.count(); ++i) {
-    const BodyState& start = substep.start.bodies[at(i)];
-    MovingBody& body = substep.moving[at(i)];
-    if (body.translates) body.position = sum(body.start_position, substep.h, start.velocity);
-    if (!body.rotates) continue;
-    const Vector3 turn = substep.h * start.angular_velocity;
-    if (body.translates) square = std::max(square, dot(turn, turn));
-    body.rotate(turn - body.turn);
-  }
-  swing_ = std::sqrt(square);
-}
-
-void RowSystem::start_again(Substep& substep, Features features) {
-  begin_rounds();
-  for (const auto& feature : features) {
-    std::fill(feature->multipliers().begin(), feature->multipliers().end(), 0.0);
-  }
-  for (std::size_t b = 0; b < origin_.size(); ++b) {
-    MovingBody& body = substep.moving[b];
-    if (body.translates) body.position = origin_[b].position;
-    if (body.rotates) body.rotate(origin_[b].turn - body.turn);
-  }
-}
-
 void RowSystem::linearise_among_others(Substep& substep, Features features, bool first_round) {
   if (first_round) begin_rounds();
   if (!first_round) {
@@ -388,7 +360,7 @@ bool RowSystem::solve(Substep& substep, bool compromise) {
   StepStatistics& statistics = substep.statistics;
   ++statistics.rounds;
   statistics.row_solves += static_cast<std::int64_t>(rows_.size());
-  if (compromise && active_set_.contradicts()) ++statistics.compromises;
+  if (active_set_.gave_way()) ++statistics.compromises;
   return solved;
 }
 

@@ -101,6 +101,11 @@ class RowSystem {
   [[nodiscard]] double energy_gain(const Substep& substep) const;
   /// Keeps the predicted positions, before the first round from here.
   void begin_adding_up() { prediction_ = origin_; }
+  /// Puts bodies back to where they are at the start of the substep, with multipliers of 0, and
+  /// returns the violation there: for rounds that have run away. Rows are met at the start, so that
+  /// those that depend on each other do so exactly; where bodies that nothing lets move would be if
+  /// they went on, that is so but for the square of the way, and forces are beyond all measure.
+  double begin_at_start(Substep& substep, Features features, Rule rule);
   /// Puts bodies back to what move_on() has kept, with multipliers of 0.
   void start_again(Substep& substep, Features features);
   /// The problem at the current positions, of features among others that have moved the bodies,

@@ -250,5 +250,41 @@ TEST(ActiveSet, RowsThatContradictEachOtherAllGiveWay) {
   }
 }
 
+// Friction, bounded, of a coordinate that a lock holds: A is of rank one. With both free the lock
+// is left out as redundant, and friction bears its load, more than it can. What the two rows want
+// differs by d: at one of its bounds friction wants to move by d against what it does there, at the
+// other it is content, however small d is.
+TEST(ActiveSet, FindsTheBoundOfFrictionThatALockHolds) {
+  for (const double d : {1e-3, 1e-11, -1e-11, 2.7e-14, -2.7e-14}) {
+    for (const double lever : {1.0, 0.0025}) {
+      constexpr double most = 1e-6;
+      ComplementarityProblem p;
+      p.size = 2;
+      p.diagonal = {1.0, lever * lever};
+      p.values = {lever};
+      p.constant = {-1e-5 + d, -1e-5 * lever};
+      p.rounding = 2e-14;
+      p.lower = {-most, -no_bound};
+      p.upper = {most, no_bound};
+      p.free = {1, 1};
+      ActiveSetSolver solver;
+      solver.analyse(2, std::vector<std::pair<int, int>>{{0, 1}});
+      ASSERT_TRUE(solver.solve(p)) << d << ' ' << lever;
+      const double x = solver.solution()[0];
+      const double y = solver.solution()[1];
+      constexpr double slop = 3e-14;
+      EXPECT_LE(std::abs(x), most * (1.0 + 1e-12));
+      EXPECT_NEAR(lever * (x + lever * y - 1e-5), 0.0, slop);
+      const double r = x + lever * y - 1e-5 + d;
+      if (x > -most) {
+        EXPECT_LE(r, slop) << d << ' ' << lever;
+      }
+      if (x < most) {
+        EXPECT_GE(r, -slop) << d << ' ' << lever;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace sheave
