@@ -44,6 +44,7 @@ RunJson statistics(const RunStatistics& statistics) {
           {"redundant_rows", statistics.redundant_rows},
           {"compromises", statistics.compromises},
           {"impossible", statistics.impossible},
+          {"dead_ends", statistics.dead_ends},
           {"integrator_fallbacks", statistics.integrator_fallbacks},
           {"cut_substeps", statistics.cut_substeps},
           {"substep_parts", statistics.substep_parts},

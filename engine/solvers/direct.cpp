@@ -6,15 +6,32 @@
 
 namespace sheave {
 
-void DirectSolver::give_up(Substep& substep, Features features, bool at_once) {
+void DirectSolver::give_up(Substep& substep, Features features, bool adding_up) {
   if (substep.resort != Resort::anything || substep.work.stopped()) {
     substep.failed = true;
     return;
   }
+  if (make_do(substep, features, adding_up)) return;
   substep.statistics.rows = system_.row_count();
   ++substep.statistics.solver_fallbacks;
-  if (at_once) system_.start_again(substep, features);
+  system_.begin_lessening(substep, features);
   sweeps_.solve(substep, features);
+}
+
+bool DirectSolver::make_do(Substep& substep, Features features, bool adding_up) {
+  if (!adding_up) system_.begin_adding_up();
+  const LeastViolation::Outcome outcome = least_.find(substep, features, system_);
+  if (outcome == LeastViolation::Outcome::failed) return false;
+  StepStatistics& statistics = substep.statistics;
+  const double violated = system_.violation();
+  statistics.rows = system_.row_count();
+  statistics.last_correction = std::max(statistics.last_correction, violated);
+  system_.count_impossible(substep);
+  if (outcome == LeastViolation::Outcome::dead_end) {
+    ++statistics.dead_ends;
+    statistics.most_impossible = std::max(statistics.most_impossible, violated);
+  }
+  return true;
 }
 
 bool DirectSolver::arrives(Substep& substep, double& astray) const {
@@ -66,7 +83,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
       if (lost) system_.start_again(substep, features);
       system_.linearise(substep, features, RowSystem::Rule::backward, true);
     }
-    if (!system_.solve(substep, compromise)) return give_up(substep, features, round == 0);
+    if (!system_.solve(substep, compromise)) return give_up(substep, features, adding_up);
     const bool swings = system_.swing() > least_swing;
     const bool done = !compromise && !swings && leaves_nothing(substep);
     const bool goes_on = !done && round + 1 < substep.iterations;
@@ -88,6 +105,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
                     (adding_up && violated <= enough && system_.energy_gain(substep) > unresolved);
   substep.failed = lost && substep.resort != Resort::anything;
   if (substep.failed) return;
+  if (lost && make_do(substep, features, adding_up)) return;
   substep.statistics.rows = system_.row_count();
   substep.statistics.last_correction = std::max(substep.statistics.last_correction, violated);
   system_.count_impossible(substep);
