@@ -120,13 +120,17 @@ LeastViolation::Place LeastViolation::descend_and_revise(Substep& substep, Featu
   return place;
 }
 
-bool LeastViolation::escapes(Substep& substep, Features features, RowSystem& system, double least) {
-  constexpr double less = 0.99;
+bool LeastViolation::is_stationary(const Substep& substep, const Place& place) {
+  const double scale = substep.bodies.scale();
+  return place.way_out > scale && place.violation > gap * scale;
+}
+
+bool LeastViolation::escapes(Substep& substep, Features features, RowSystem& system) {
   for (const Start start : {Start::of_substep, Start::to_one_side, Start::to_the_other}) {
     if (start != Start::of_substep) go_back(substep, features, result_);
     begin_at(start, substep, features);
     const Place other = descend(substep, features, system);
-    if (other.met || other.misfit < less * least) return true;
+    if (other.met || !is_stationary(substep, other)) return true;
     // A search that has been cut short has found nothing out.
     if (substep.work.exhausted() || substep.work.stopped()) return true;
   }
@@ -135,16 +139,14 @@ bool LeastViolation::escapes(Substep& substep, Features features, RowSystem& sys
 
 LeastViolation::Outcome LeastViolation::find(Substep& substep, Features features,
                                              RowSystem& system) {
-  const double scale = substep.bodies.scale();
   system.begin_lessening(substep, features);
   bool settled = false;
   const Place found = descend_and_revise(substep, features, system, settled);
   if (!found.solved && !found.met) return Outcome::failed;
   if (found.met && settled) return Outcome::met;
-  const bool stationary = found.way_out > scale && found.violation > gap * scale;
-  if (!settled || !stationary) return Outcome::unresolved;
+  if (!settled || !is_stationary(substep, found)) return Outcome::unresolved;
   keep(substep, features, result_);
-  const bool escaped = escapes(substep, features, system, found.misfit);
+  const bool escaped = escapes(substep, features, system);
   go_back(substep, features, result_);
   system.linearise(substep, features, RowSystem::Rule::backward, true);
   return escaped ? Outcome::unresolved : Outcome::dead_end;
