@@ -112,6 +112,9 @@ LeastViolation::Place LeastViolation::descend_and_revise(Substep& substep, Featu
   Place place;
   settled = false;
   for (int i = 0; i < most_revisions && !settled; ++i) {
+    // Forces that nearly hold each other in balance are large where the misfit is least: among
+    // other rows they would do so no longer.
+    system.begin_lessening(substep, features);
     place = descend(substep, features, system);
     if (!place.solved || substep.work.stopped()) return place;
     settled = true;
@@ -139,7 +142,6 @@ bool LeastViolation::escapes(Substep& substep, Features features, RowSystem& sys
 
 LeastViolation::Outcome LeastViolation::find(Substep& substep, Features features,
                                              RowSystem& system) {
-  system.begin_lessening(substep, features);
   bool settled = false;
   const Place found = descend_and_revise(substep, features, system, settled);
   if (!found.solved && !found.met) return Outcome::failed;
