@@ -18,12 +18,26 @@ constexpr double gap = 1e-9;
 /// A way out of so many sizes of the scene is none, and no further rounds are needed to see it.
 constexpr double far = 1e3;
 
+/// Of the scene's size, and rad: rounds that move more than this do not find what is near.
+constexpr double longest_way = 0.1;
+
 enum class Start { of_substep, to_one_side, to_the_other };
 
 /// A number from -1 to 1 that has nothing to do with the machine.
 double anything(std::uint32_t& seed) {
   seed = seed * 1664525U + 1013904223U;
   return static_cast<double>(seed) / 2147483648.0 - 1.0;
+}
+
+/// The most that any body has moved from where it was, in shares of the scene's size, or turned.
+double way_from(const std::vector<MovingBody>& bodies, const Substep& substep) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const MovingBody& now = substep.moving[i];
+    most = std::max({most, (now.position - bodies[i].position).norm() / substep.bodies.scale(),
+                     (now.turn - bodies[i].turn).norm()});
+  }
+  return most;
 }
 
 void begin_at(Start start, Substep& substep, Features features) {
@@ -92,7 +106,7 @@ LeastViolation::Place LeastViolation::descend(Substep& substep, Features feature
       place.solved = true;
       system.apply(substep, features);
       const double now = look();
-      less = now < place.misfit;
+      less = now < place.misfit && way_from(round_.bodies, substep) < longest_way;
       if (less) {
         place.misfit = now;
         break;
