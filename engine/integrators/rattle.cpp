@@ -78,7 +78,8 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   // swung so far that no multipliers along the gradients of the start reach a solution, it comes
   // near one and stays there.
   constexpr double nearly = 1e-3;
-  const double left = solver_ == SolverKind::direct ? nearly * first : first;
+  const double most = std::min(first, substep.bodies.scale());
+  const double left = solver_ == SolverKind::direct ? nearly * most : first;
   // Sweeps that leave much of what is no small share of the scene are no slow convergence either:
   // rows contradict each other, and each integrator would move the bodies to a compromise of its
   // own, to and fro.

@@ -100,7 +100,9 @@ void DirectSolver::solve(Substep& substep, Features features) {
   }
   // Two rounds do not tell whether more of them would converge: so few were asked for.
   const bool tried = adding_up || substep.iterations > 2;
-  const bool near = violated <= std::max(enough, nearly * first) || violated <= slow * before;
+  // A prediction that is far out of the scene makes what is left no solution.
+  const double left = nearly * std::min(first, substep.bodies.scale());
+  const bool near = violated <= std::max(enough, left) || violated <= slow * before;
   const bool lost = (tried && !near) || !std::isfinite(violated) ||
                     (adding_up && violated <= enough && system_.energy_gain(substep) > unresolved);
   substep.failed = lost && substep.resort != Resort::anything;

@@ -100,10 +100,11 @@ LeastViolation::Place LeastViolation::descend(Substep& substep, Features feature
     if (place.met || place.way_out > far * scale) break;
     keep(substep, features, round_);
     bool less = false;
+    bool solved = false;
     for (; !less && damping < most_damping; damping *= 10.0) {
       if (substep.work.stopped()) return place;
       if (!system.solve_damped(substep, damping)) continue;
-      place.solved = true;
+      solved = true;
       system.apply(substep, features);
       const double now = look();
       less = now < place.misfit && way_from(round_.bodies, substep) < longest_way;
@@ -114,6 +115,7 @@ LeastViolation::Place LeastViolation::descend(Substep& substep, Features feature
       go_back(substep, features, round_);
       place.misfit = look();
     }
+    place.failed = round == 0 && !solved;
     if (!less) break;
     damping = std::max(0.1 * damping, least_damping);
   }
@@ -130,7 +132,7 @@ LeastViolation::Place LeastViolation::descend_and_revise(Substep& substep, Featu
     // other rows they would do so no longer.
     system.begin_lessening(substep, features);
     place = descend(substep, features, system);
-    if (!place.solved || substep.work.stopped()) return place;
+    if (place.failed || substep.work.stopped()) return place;
     settled = true;
     for (const auto& feature : features) settled = !feature->revise(substep) && settled;
   }
@@ -158,7 +160,7 @@ LeastViolation::Outcome LeastViolation::find(Substep& substep, Features features
                                              RowSystem& system) {
   bool settled = false;
   const Place found = descend_and_revise(substep, features, system, settled);
-  if (!found.solved && !found.met) return Outcome::failed;
+  if (found.failed) return Outcome::failed;
   if (found.met && settled) return Outcome::met;
   if (!settled || !is_stationary(substep, found)) return Outcome::unresolved;
   keep(substep, features, result_);

@@ -44,7 +44,7 @@ class LeastViolation {
     double misfit = 0.0;
     double violation = 0.0;
     double way_out = 0.0;
-    bool solved = false;
+    bool failed = false;  ///< no active set was found in the first round
     bool met = false;
   };
   struct Kept {
