@@ -6,6 +6,11 @@
 
 namespace sheave {
 
+double DirectSolver::left_at_most(const Substep& substep, double first) {
+  // A prediction that is far out of the scene makes what is left no solution.
+  return nearly * std::min(first, substep.bodies.scale());
+}
+
 void DirectSolver::give_up(Substep& substep, Features features, bool adding_up) {
   if (substep.resort != Resort::anything || substep.work.stopped()) {
     substep.failed = true;
@@ -100,10 +105,9 @@ void DirectSolver::solve(Substep& substep, Features features) {
   }
   // Two rounds do not tell whether more of them would converge: so few were asked for.
   const bool tried = adding_up || substep.iterations > 2;
-  // A prediction that is far out of the scene makes what is left no solution.
-  const double left = nearly * std::min(first, substep.bodies.scale());
-  const bool near = violated <= std::max(enough, left) || violated <= slow * before;
-  const bool lost = (tried && !near) || !std::isfinite(violated) ||
+  const bool near = violated <= enough || violated <= slow * before;
+  const bool lost = (tried && !near && violated > left_at_most(substep, first)) ||
+                    !std::isfinite(violated) ||
                     (adding_up && violated <= enough && system_.energy_gain(substep) > unresolved);
   substep.failed = lost && substep.resort != Resort::anything;
   if (substep.failed) return;

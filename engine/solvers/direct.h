@@ -55,6 +55,8 @@ class DirectSolver {
   void solve(Substep& substep, Features features);
 
  private:
+  /// What counts as near a solution, where the first round has found `first`.
+  [[nodiscard]] static double left_at_most(const Substep& substep, double first);
   /// No active set was found: makes do, or leaves the substep to Gauss-Seidel, if it has to.
   void give_up(Substep& substep, Features features, bool adding_up);
   /// Goes to where rows are violated least; false if it cannot.

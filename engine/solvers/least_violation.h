@@ -16,9 +16,9 @@
 // The rounds end where rows are met, or where the misfit is stationary: J^T (r / w) = 0. There the
 // forces -r / w along the rows cause no motion, so of the rates of now no motion mends their sum:
 // linearised, the rows contradict each other. Where, besides, descents from places around it and
-// from the start of the substep all end at such places, too, with what the features decide (links that slide) as
-// it is right for the forces found, nothing near satisfies the rows: the machine is asked for more
-// than there is.
+// from the start of the substep all end at such places, too, with what the features decide (links
+// that slide) as it is right for the forces found, nothing near satisfies the rows: the machine is
+// asked for more than there is.
 
 #include <vector>
 
@@ -57,7 +57,7 @@ class LeastViolation {
   Place descend(Substep& substep, Features features, RowSystem& system);
   /// The same with what the features decide.
   Place descend_and_revise(Substep& substep, Features features, RowSystem& system, bool& settled);
-  /// Whether rows are violated there that nothing of the scene's size would mend at the rates there.
+  /// Whether rows are violated there that no way of the scene's size mends at the rates there.
   [[nodiscard]] static bool is_stationary(const Substep& substep, const Place& place);
   /// Whether a descent from other places leads to where rows are met, or to no end.
   bool escapes(Substep& substep, Features features, RowSystem& system);

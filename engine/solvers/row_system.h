@@ -107,7 +107,8 @@ class RowSystem {
   /// rows weigh.
   void begin_lessening(Substep& substep, Features features);
   /// The sum of r^2 / w of what is violated, with the most that each unknown would have yielded
-  /// since then if all motion were along its gradients, w. To be called after linearise() from here.
+  /// since then if all motion were along its gradients, w. To be called after linearise() from
+  /// here.
   double misfit(const Substep& substep);
   /// Finds the unknowns of the problem whose rows yield by `damping` x w more. False if no active
   /// set was found; it may be called again with more damping.
