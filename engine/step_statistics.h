@@ -32,6 +32,9 @@ struct StepStatistics {
   /// motion asks for what cannot be (a rigid cable between two bodies that are driven apart).
   std::int64_t impossible = 0;
   double most_impossible = 0.0;  ///< by how much the worst of them was off [m or rad]
+  /// With `direct`: substeps at whose end nothing near satisfies all rows, though they do yield
+  /// (engine/solvers/least_violation.h); `most_impossible` is of these, too.
+  std::int64_t dead_ends = 0;
   // Of contacts between bodies.
   int contacts = 0;  ///< the most points in one substep, those about to touch among them
   double deepest_overlap = 0.0;           ///< [m]

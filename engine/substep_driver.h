@@ -39,7 +39,7 @@ class SubstepDriver {
   /// besides one per iteration that the settings allow, and those for each of the two last attempts
   /// at the whole.
   static constexpr std::int64_t most_factorisations = 4096;
-  static constexpr std::int64_t last_factorisations = 512;
+  static constexpr std::int64_t last_factorisations = 2048;
   /// So many of the smallest parts may be left to another integrator before larger ones are, too:
   /// it is no matter of time then.
   static constexpr int patience = 4;

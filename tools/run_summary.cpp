@@ -337,6 +337,15 @@ void append_solver_warnings(const RunStatistics& statistics, std::vector<Warning
         statistics.most_impossible);
     warnings.push_back({"impossible", "", std::move(message)});
   }
+  if (statistics.dead_ends > 0) {
+    std::string message = fmt::format(
+        "in {} {} no motion met all that cables, joints and drives ask for: as where a winch draws "
+        "a load beyond what it can reach, or a drive passes its dead centre; bodies were left "
+        "where the least is off, up to {:.3g} m or rad",
+        statistics.dead_ends, statistics.dead_ends == 1 ? "substep" : "substeps",
+        statistics.most_impossible);
+    warnings.push_back({"dead_end", "", std::move(message)});
+  }
   if (statistics.unconverged > 0) {
     std::string message = fmt::format(
         "{} {} did not converge, in however small parts: constraints that contradict each other? "

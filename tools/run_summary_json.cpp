@@ -45,6 +45,7 @@ RunJson statistics(const RunStatistics& statistics) {
           {"compromises", statistics.compromises},
           {"impossible", statistics.impossible},
           {"most_impossible", statistics.most_impossible},
+          {"dead_ends", statistics.dead_ends},
           {"integrator_fallbacks", statistics.integrator_fallbacks},
           {"cut_substeps", statistics.cut_substeps},
           {"substep_parts", statistics.substep_parts},

@@ -28,6 +28,7 @@ void accumulate(const StepStatistics& step, RunStatistics& total) {
   total.solver_fallbacks += step.solver_fallbacks;
   total.compromises += step.compromises;
   total.impossible += step.impossible;
+  total.dead_ends += step.dead_ends;
   total.most_impossible = std::max(total.most_impossible, step.most_impossible);
   total.redundant_rows = std::max(total.redundant_rows, step.redundant_rows);
   total.integrator_fallbacks += step.integrator_fallbacks;

@@ -31,6 +31,7 @@ struct RunStatistics {
   int redundant_rows = 0;                 ///< the most in one round
   std::int64_t compromises = 0;           ///< rounds in which rows contradicted each other
   std::int64_t impossible = 0;            ///< substeps with rows off that nothing can move
+  std::int64_t dead_ends = 0;             ///< substeps near which nothing satisfies all rows
   double most_impossible = 0.0;           ///< by how much [m or rad]
   std::int64_t integrator_fallbacks = 0;  ///< substeps of `rattle` left to `xpbd`
   std::int64_t cut_substeps = 0;          ///< done in smaller parts

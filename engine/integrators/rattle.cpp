@@ -36,6 +36,26 @@ void RattleSolver::begin(Substep& substep, Features features) {
   if (!features.empty()) positions_.remember_start(substep, features);
 }
 
+bool RattleSolver::found(Substep& substep, double violated, double first) const {
+  const double size = substep.bodies.scale();
+  // Gauss-Seidel need not have converged; Newton's method that has not is lost: where bodies have
+  // swung so far that no multipliers along the gradients of the start reach a solution, it comes
+  // near one and stays there.
+  constexpr double nearly = 1e-3;
+  const double left = solver_ == SolverKind::direct ? nearly * std::min(first, size) : first;
+  // Sweeps that leave much of what is no small share of the scene are no slow convergence either:
+  // rows contradict each other, and each integrator would move the bodies to a compromise of its
+  // own, to and fro.
+  constexpr double gross = 1e-3;
+  const bool torn = violated > 0.5 * first && violated > gross * size;
+  if (torn || violated > std::max(left, DirectSolver::tolerance * size)) return false;
+  StepStatistics& statistics = substep.statistics;
+  statistics.rows = positions_.row_count();
+  statistics.last_correction = std::max(statistics.last_correction, violated);
+  positions_.count_impossible(substep);
+  return true;
+}
+
 bool RattleSolver::try_positions(Substep& substep, Features features) {
   const double enough = DirectSolver::tolerance * substep.bodies.scale();
   // Newton's last round leaves far less than it found. A sweep leaves a share, which is a force
@@ -80,23 +100,7 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
     // After the last round, too: what it finds has the round of the velocities to act in.
     for (const auto& feature : features) revised = feature->revise(substep) || revised;
   }
-  // Gauss-Seidel need not have converged; Newton's method that has not is lost: where bodies have
-  // swung so far that no multipliers along the gradients of the start reach a solution, it comes
-  // near one and stays there.
-  constexpr double nearly = 1e-3;
-  const double left = direct ? nearly * first : first;
-  // Sweeps that leave much of what is no small share of the scene are no slow convergence either:
-  // rows contradict each other, and each integrator would move the bodies to a compromise of its
-  // own, to and fro.
-  constexpr double gross = 1e-3;
-  const bool torn = violated > 0.5 * first && violated > gross * substep.bodies.scale();
-  const bool found = !torn && violated <= std::max(left, enough);
-  if (found) {
-    substep.statistics.rows = positions_.row_count();
-    substep.statistics.last_correction = std::max(substep.statistics.last_correction, violated);
-    positions_.count_impossible(substep);
-  }
-  return found;
+  return found(substep, violated, first);
 }
 
 void RattleSolver::solve_positions(Substep& substep, Features features) {

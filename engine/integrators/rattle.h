@@ -44,6 +44,9 @@ class RattleSolver {
 
  private:
   [[nodiscard]] bool try_positions(Substep& substep, Features features);
+  /// Whether rounds that have left this violation, of what the first one found, are a solution;
+  /// counts it if so.
+  bool found(Substep& substep, double violated, double first) const;
 
   SolverKind solver_;
   RowSystem positions_;

@@ -7,15 +7,37 @@
 
 namespace sheave {
 
-void DirectSolver::give_up(Substep& substep, Features features, bool at_once) {
+double DirectSolver::left_at_most(const Substep& substep, double first) {
+  // A prediction that is far out of the scene makes what is left no solution.
+  return nearly * std::min(first, substep.bodies.scale());
+}
+
+void DirectSolver::give_up(Substep& substep, Features features, bool adding_up) {
   if (substep.resort != Resort::anything || substep.work.stopped()) {
     substep.failed = true;
     return;
   }
+  if (make_do(substep, features, adding_up)) return;
   substep.statistics.rows = system_.row_count();
   ++substep.statistics.solver_fallbacks;
-  if (at_once) system_.start_again(substep, features);
+  system_.begin_lessening(substep, features);
   sweeps_.solve(substep, features);
+}
+
+bool DirectSolver::make_do(Substep& substep, Features features, bool adding_up) {
+  if (!adding_up) system_.begin_adding_up();
+  const LeastViolation::Outcome outcome = least_.find(substep, features, system_);
+  if (outcome == LeastViolation::Outcome::failed) return false;
+  StepStatistics& statistics = substep.statistics;
+  const double violated = system_.violation();
+  statistics.rows = system_.row_count();
+  statistics.last_correction = std::max(statistics.last_correction, violated);
+  system_.count_impossible(substep);
+  if (outcome == LeastViolation::Outcome::dead_end) {
+    ++statistics.dead_ends;
+    statistics.most_impossible = std::max(statistics.most_impossible, violated);
+  }
+  return true;
 }
 
 bool DirectSolver::arrives(Substep& substep, double& astray) const {
@@ -75,7 +97,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
       if (lost) system_.start_again(substep, features);
       system_.linearise(substep, features, RowSystem::Rule::backward, true);
     }
-    if (!system_.solve(substep, compromise)) return give_up(substep, features, round == 0);
+    if (!system_.solve(substep, compromise)) return give_up(substep, features, adding_up);
     const bool swings = system_.swing() > least_swing;
     const bool done = !compromise && !swings && leaves_nothing(substep);
     const bool goes_on = !done && round + 1 < substep.iterations;
@@ -90,7 +112,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
     violated = 0.0;
     break;
   }
-  end_rounds(substep, {violated, before, first, adding_up});
+  end_rounds(substep, features, {violated, before, first, adding_up});
 }
 
 bool DirectSolver::runs_away(const Substep& substep, double violated, double first) {
@@ -99,16 +121,18 @@ bool DirectSolver::runs_away(const Substep& substep, double violated, double fir
   return !(violated <= std::max(growth * first, away * substep.bodies.scale()));
 }
 
-void DirectSolver::end_rounds(Substep& substep, const Course& course) {
+void DirectSolver::end_rounds(Substep& substep, Features features, const Course& course) {
   const auto& [violated, before, first, adding_up] = course;
   const double enough = tolerance * substep.bodies.scale();
   // Two rounds do not tell whether more of them would converge: so few were asked for.
   const bool tried = adding_up || substep.iterations > 2;
-  const bool near = violated <= std::max(enough, nearly * first) || violated <= slow * before;
-  const bool lost = (tried && !near) || !std::isfinite(violated) ||
+  const bool near = violated <= enough || violated <= slow * before;
+  const bool lost = (tried && !near && violated > left_at_most(substep, first)) ||
+                    !std::isfinite(violated) ||
                     (adding_up && violated <= enough && system_.energy_gain(substep) > unresolved);
   substep.failed = lost && substep.resort != Resort::anything;
   if (substep.failed) return;
+  if (lost && make_do(substep, features, adding_up)) return;
   substep.statistics.rows = system_.row_count();
   substep.statistics.last_correction = std::max(substep.statistics.last_correction, violated);
   system_.count_impossible(substep);

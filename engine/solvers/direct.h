@@ -7,8 +7,8 @@
 // multipliers and the gradients found last put the bodies, to which they are then moved, if that is
 // no more than `across` (rows do not tell how far it is across them: up to the root of the
 // tolerance), at the latest after `iterations` of them. Where they do not come near a solution, or
-// find no active set, the substep has failed; in one that has to make do, what the rounds leave is
-// kept, or Gauss-Seidel goes on, and is counted.
+// find no active set, the substep has failed; in one that has to make do, bodies go to where the
+// violation is least (engine/solvers/least_violation.h), or Gauss-Seidel goes on, and is counted.
 //
 // At first each round starts again from the prediction, with the gradients of the last one, so that
 // what rests has its static forces. Where bodies swing too far within a substep for that, the
@@ -16,6 +16,7 @@
 // heavy ball, whose links swing across it by more than a radian per substep.
 
 #include "engine/solvers/gauss_seidel.h"
+#include "engine/solvers/least_violation.h"
 #include "engine/solvers/row_system.h"
 
 namespace sheave {
@@ -66,11 +67,14 @@ class DirectSolver {
     bool adding_up = false;
   };
   /// Whether the substep has failed, and what is counted if not.
-  void end_rounds(Substep& substep, const Course& course);
+  void end_rounds(Substep& substep, Features features, const Course& course);
 
-  /// No active set was found: leaves the substep to Gauss-Seidel, if it has to make do. `at_once`:
-  /// in the first round.
-  void give_up(Substep& substep, Features features, bool at_once);
+  /// What counts as near a solution, where the first round has found `first`.
+  [[nodiscard]] static double left_at_most(const Substep& substep, double first);
+  /// No active set was found: makes do, or leaves the substep to Gauss-Seidel, if it has to.
+  void give_up(Substep& substep, Features features, bool adding_up);
+  /// Goes to where rows are violated least; false if it cannot.
+  bool make_do(Substep& substep, Features features, bool adding_up);
 
   /// Where rows are met: whether the bodies are there, too, to where they are then moved. `astray`
   /// is how far they were off when this was last asked, infinite at first, and becomes how far they
@@ -83,6 +87,7 @@ class DirectSolver {
 
   RowSystem system_;
   GaussSeidelSolver sweeps_;
+  LeastViolation least_;
 };
 
 }  // namespace sheave

@@ -106,6 +106,21 @@ class RowSystem {
   /// those that depend on each other do so exactly; where bodies that nothing lets move would be if
   /// they went on, that is so but for the square of the way, and forces are beyond all measure.
   double begin_at_start(Substep& substep, Features features, Rule rule);
+  // Rounds that lessen what rounds do not bring to nothing: engine/solvers/least_violation.h.
+
+  /// Puts bodies where begin_adding_up() has found them, with multipliers of 0, and forgets what
+  /// rows weigh.
+  void begin_lessening(Substep& substep, Features features);
+  /// The sum of r^2 / w of what is violated, with the most that each unknown would have yielded
+  /// since then if all motion were along its gradients, w. To be called after linearise() from
+  /// here.
+  double misfit(const Substep& substep);
+  /// Finds the unknowns of the problem whose rows yield by `damping` x w more. False if no active
+  /// set was found; it may be called again with more damping.
+  bool solve_damped(Substep& substep, double damping);
+  /// How far the machine would have to move [m or rad] for all rows to be met, if they went on to
+  /// change at the rates of now: at least so far. 0 where none are violated that cannot give.
+  [[nodiscard]] double way_out(const Substep& substep);
   /// Puts bodies back to what move_on() has kept, with multipliers of 0.
   void start_again(Substep& substep, Features features);
   /// The problem at the current positions, of features among others that have moved the bodies,
@@ -313,7 +328,11 @@ class RowSystem {
   bool knows_sides_ = false;
   std::vector<Pose> origin_;  ///< per body: where it moves from, in the first round its prediction
   std::vector<Pose> prediction_;  ///< per body, where corrections are added up
-  std::vector<Pose> placed_;      ///< per body: where the last round among others has left it
+  /// Per feature and index of multiplier: what it weighs since begin_lessening() [1/kg].
+  std::vector<std::vector<double>> weights_;
+  std::vector<double> weight_;  ///< per group
+  double damping_ = 0.0;        ///< of what the matrix has
+  std::vector<Pose> placed_;    ///< per body: where the last round among others has left it
   bool from_here_ = true;
   std::vector<double> motion_;  ///< per degree of freedom: displacement or turn, or their rates
   double swing_ = 0.0;

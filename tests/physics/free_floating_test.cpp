@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/body_set.h"
 #include "engine/joints/ball.h"
 #include "tests/support/builders.h"
 

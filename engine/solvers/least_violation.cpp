@@ -1,0 +1,173 @@
+#include "engine/solvers/least_violation.h"
+
+#include <algorithm>
+
+#include "engine/index.h"
+#include "engine/integrators/loads.h"
+#include "engine/solvers/direct.h"
+
+namespace sheave {
+namespace {
+
+constexpr int most_rounds = 200;
+constexpr double first_damping = 1e-3;
+constexpr double least_damping = 1e-9;
+constexpr double most_damping = 1e12;
+/// Of the scene's size: a gap that is more than what rounds leave.
+constexpr double gap = 1e-9;
+/// A way out of so many sizes of the scene is none, and no further rounds are needed to see it.
+constexpr double far = 1e3;
+
+/// Of the scene's size, and rad: rounds that move more than this do not find what is near.
+constexpr double longest_way = 0.1;
+
+enum class Start { of_substep, to_one_side, to_the_other };
+
+/// A number from -1 to 1 that has nothing to do with the machine.
+double anything(std::uint32_t& seed) {
+  seed = seed * 1664525U + 1013904223U;
+  return static_cast<double>(seed) / 2147483648.0 - 1.0;
+}
+
+/// The most that any body has moved from where it was, in shares of the scene's size, or turned.
+double way_from(const std::vector<MovingBody>& bodies, const Substep& substep) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const MovingBody& now = substep.moving[i];
+    most = std::max({most, (now.position - bodies[i].position).norm() / substep.bodies.scale(),
+                     (now.turn - bodies[i].turn).norm()});
+  }
+  return most;
+}
+
+void begin_at(Start start, Substep& substep, Features features) {
+  constexpr double aside = 1e-3;  // of the scene's size, and rad
+  const double side = start == Start::to_one_side ? aside : -aside;
+  std::uint32_t seed = 1;
+  for (int i = 0; i < substep.bodies.count(); ++i) {
+    MovingBody& body = substep.moving[at(i)];
+    const auto any = [&] { return Vector3(anything(seed), anything(seed), anything(seed)); };
+    if (start == Start::of_substep) {
+      if (body.translates) body.position = body.start_position;
+      if (body.rotates) body.rotate(-body.turn);
+      continue;
+    }
+    if (body.translates) {
+      body.position += allowed_velocity(substep.bodies[i], side * substep.bodies.scale() * any());
+    }
+    if (!body.rotates) continue;
+    const bool axial = !is_zero(body.axis);
+    body.rotate(axial ? Vector3(side * anything(seed) * body.axis) : Vector3(side * any()));
+  }
+  for (const auto& feature : features) {
+    std::fill(feature->multipliers().begin(), feature->multipliers().end(), 0.0);
+  }
+}
+
+}  // namespace
+
+void LeastViolation::keep(const Substep& substep, Features features, Kept& kept) {
+  kept.bodies = substep.moving;
+  kept.multipliers.resize(features.size());
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    const std::span<const double> from = features[f]->multipliers();
+    kept.multipliers[f].assign(from.begin(), from.end());
+  }
+}
+
+void LeastViolation::go_back(Substep& substep, Features features, const Kept& kept) {
+  substep.moving = kept.bodies;
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    std::copy(kept.multipliers[f].begin(), kept.multipliers[f].end(),
+              features[f]->multipliers().begin());
+  }
+}
+
+LeastViolation::Place LeastViolation::descend(Substep& substep, Features features,
+                                              RowSystem& system) {
+  const double scale = substep.bodies.scale();
+  const auto look = [&] {
+    system.linearise(substep, features, RowSystem::Rule::backward, true);
+    return system.misfit(substep);
+  };
+  Place place;
+  place.misfit = look();
+  double damping = first_damping;
+  for (int round = 0; round < most_rounds; ++round) {
+    place.violation = system.violation();
+    place.way_out = system.way_out(substep);
+    place.met = place.violation <= DirectSolver::tolerance * scale;
+    if (place.met || place.way_out > far * scale) break;
+    keep(substep, features, round_);
+    bool less = false;
+    bool solved = false;
+    for (; !less && damping < most_damping; damping *= 10.0) {
+      if (substep.work.stopped()) return place;
+      if (!system.solve_damped(substep, damping)) continue;
+      solved = true;
+      system.apply(substep, features);
+      const double now = look();
+      less = now < place.misfit && way_from(round_.bodies, substep) < longest_way;
+      if (less) {
+        place.misfit = now;
+        break;
+      }
+      go_back(substep, features, round_);
+      place.misfit = look();
+    }
+    place.failed = round == 0 && !solved;
+    if (!less) break;
+    damping = std::max(0.1 * damping, least_damping);
+  }
+  return place;
+}
+
+LeastViolation::Place LeastViolation::descend_and_revise(Substep& substep, Features features,
+                                                         RowSystem& system, bool& settled) {
+  constexpr int most_revisions = 8;
+  Place place;
+  settled = false;
+  for (int i = 0; i < most_revisions && !settled; ++i) {
+    // Forces that nearly hold each other in balance are large where the misfit is least: among
+    // other rows they would do so no longer.
+    system.begin_lessening(substep, features);
+    place = descend(substep, features, system);
+    if (place.failed || substep.work.stopped()) return place;
+    settled = true;
+    for (const auto& feature : features) settled = !feature->revise(substep) && settled;
+  }
+  return place;
+}
+
+bool LeastViolation::is_stationary(const Substep& substep, const Place& place) {
+  const double scale = substep.bodies.scale();
+  return place.way_out > scale && place.violation > gap * scale;
+}
+
+bool LeastViolation::escapes(Substep& substep, Features features, RowSystem& system) {
+  for (const Start start : {Start::of_substep, Start::to_one_side, Start::to_the_other}) {
+    if (start != Start::of_substep) go_back(substep, features, result_);
+    begin_at(start, substep, features);
+    const Place other = descend(substep, features, system);
+    if (other.met || !is_stationary(substep, other)) return true;
+    // A search that has been cut short has found nothing out.
+    if (substep.work.exhausted() || substep.work.stopped()) return true;
+  }
+  return false;
+}
+
+LeastViolation::Outcome LeastViolation::find(Substep& substep, Features features,
+                                             RowSystem& system) {
+  bool settled = false;
+  const Place found = descend_and_revise(substep, features, system, settled);
+  if (found.failed) return Outcome::failed;
+  if (found.met && settled) return Outcome::met;
+  if (!settled || !is_stationary(substep, found)) return Outcome::unresolved;
+  keep(substep, features, result_);
+  const bool escaped = escapes(substep, features, system);
+  go_back(substep, features, result_);
+  system.linearise(substep, features, RowSystem::Rule::backward, true);
+  return escaped ? Outcome::unresolved : Outcome::dead_end;
+}
+
+}  // namespace sheave

@@ -1,0 +1,104 @@
+// Machines that are led where no motion meets what they ask for, though their rows yield on the
+// way: bodies stay at the place that is least off, and runs tell
+// (engine/solvers/least_violation.h).
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "cable/links/pinhole.h"
+#include "cable/simulation.h"
+#include "engine/joints/distance.h"
+#include "tests/support/builders.h"
+#include "tests/support/combinations.h"
+
+namespace sheave {
+namespace {
+
+class DeadEnd : public test::ForEveryCombination {
+ protected:
+  static bool direct() { return GetParam().solver == SolverKind::direct; }
+  static constexpr double h = 1.0 / 240.0;
+};
+
+BodyDef load_on_rail(const Vector3& position) {
+  BodyDef load = test::lump("load", position, 1.0);
+  load.mobility = Mobility::slider;
+  load.axis = Vector3::UnitX();
+  return load;
+}
+
+BodyDef led(const Vector3& position, const Vector3& velocity) {
+  BodyDef body = test::lump("led", position, 1.0);
+  body.mobility = Mobility::kinematic;
+  body.velocity = velocity;
+  return body;
+}
+
+// A rope draws a load along a rail, through an eyelet 0.4 m above it, with the speed u: from 0.5 m
+// to 0.4 m its length beneath the eyelet gives the load's place, and after that no place does. The
+// nearest one is beneath the eyelet, where the rope lacks u t - 0.1 m.
+TEST_P(DeadEnd, ALoadStaysAtTheNearestPointOfItsRail) {
+  if (!direct()) return;  // sweeps do not look for it
+  constexpr double speed = 0.51;
+  constexpr double height = 0.4;
+  Model model;
+  model.step = step_settings(h, 50);
+  const BodyId load = model.add(load_on_rail({0.3, 0.0, 0.0}));
+  const BodyId end = model.add(led({0.0, 1.4, 0.0}, {0.0, speed, 0.0}));
+  const auto eyelet = std::make_shared<PinholeLink>();
+  eyelet->body = BodyId::world();
+  eyelet->point = {0.0, height, 0.0};
+  auto s = Simulation::create(
+      model, {test::cable("rope", {test::attach(load), eyelet, test::attach(end)})});
+  ASSERT_TRUE(s.ok());
+  for (int i = 1; i <= 96; ++i) {
+    const StepReport report = s->world.step();
+    ASSERT_TRUE(report.ok());
+    const double gap = speed * h * i - 0.1;
+    const double x = s->world.position(load).x();
+    if (gap < -1e-9) {
+      EXPECT_EQ(report.statistics.dead_ends, 0) << i;
+      EXPECT_NEAR(x, std::sqrt((height - gap) * (height - gap) - height * height), 1e-8) << i;
+    } else if (gap > 1e-9) {
+      EXPECT_EQ(report.statistics.dead_ends, 1) << i;
+      EXPECT_NEAR(report.statistics.most_impossible, gap, 1e-6) << i;
+      EXPECT_NEAR(x, 0.0, 1e-3) << i;
+    }
+  }
+  EXPECT_LT(s->world.velocity(load).norm(), 0.1);
+}
+
+// A rod of 0.4 m is pushed down on a load just beside its foot: where it stands upright is the
+// worst place, and the load gets out of its way.
+TEST_P(DeadEnd, ALoadThatCanYieldIsAtNone) {
+  if (!direct()) return;
+  constexpr double speed = 0.05;
+  constexpr double height = 0.4;
+  Model model;
+  model.step = step_settings(h, 50);
+  const BodyId load = model.add(load_on_rail({1e-3, 0.0, 0.0}));
+  const BodyId end = model.add(led({0.0, height, 0.0}, {0.0, -speed, 0.0}));
+  auto rod = std::make_shared<DistanceJoint>();
+  rod->name = "rod";
+  rod->body_a = load;
+  rod->body_b = end;
+  rod->anchor_a = {1e-3, 0.0, 0.0};
+  rod->anchor_b = {0.0, height, 0.0};
+  model.joints = {rod};
+  World world = test::start(model);
+  for (int i = 1; i <= 60; ++i) {
+    const StepReport report = world.step();
+    ASSERT_TRUE(report.ok());
+    EXPECT_EQ(report.statistics.dead_ends, 0) << i;
+    const double left = height - speed * h * i;
+    EXPECT_NEAR(std::abs(world.position(load).x()), std::sqrt(1e-6 + height * height - left * left),
+                1e-8);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, DeadEnd, testing::ValuesIn(test::combinations),
+                         test::combination_name);
+
+}  // namespace
+}  // namespace sheave
