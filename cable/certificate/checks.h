@@ -1,6 +1,8 @@
 #pragma once
 // The balances, each on its own.
 
+#include <array>
+
 #include "cable/certificate/evidence.h"
 #include "cable/certificate/findings.h"
 
@@ -22,11 +24,12 @@ void check_energy(const Evidence& evidence, const std::vector<double>& leaks, Fi
 /// Cable lengths: length.cpp.
 void check_lengths(const Evidence& evidence, Findings& findings);
 
-/// How far the rim of a wheel has passed the end of a span in the substep, by the poses alone [m]:
-/// what rolling gives to the span at its first end (sense -1) or its second (1). `reported` chooses
-/// among whole turns.
-[[nodiscard]] double rim_travel(const Evidence& evidence, const SpanSide& side, double sense,
-                                double reported);
+/// How far the rims at the ends of a span have passed them in the substep, by the poses alone [m]:
+/// what rolling gives to the span at its first end and its second. `rolled`, as in unrolled(),
+/// chooses among whole turns.
+[[nodiscard]] std::array<double, 2> rim_travels(const Evidence& evidence,
+                                                const CableEvidence& cable,
+                                                const SpanEvidence& span, double rolled);
 
 /// By how much the rest length that a span has gained by rolling, `rolled` [m], differs from what
 /// its rims have moved.
