@@ -36,4 +36,10 @@ void check_lengths(const Evidence& evidence, Findings& findings);
 [[nodiscard]] double unrolled(const Evidence& evidence, const CableEvidence& cable,
                               const SpanEvidence& span, double rolled);
 
+/// Of a material: the length whose strain changes by what stretches the span in the substep [m],
+/// its own and half of what has been wound on, A in cable/cable_material.cpp. On outlines what is
+/// wound on is no less than what is missing. `rolled` as in unrolled().
+[[nodiscard]] double spring_length(const Evidence& evidence, const CableEvidence& cable,
+                                   const SpanEvidence& span, double rolled);
+
 }  // namespace sheave::certify

@@ -239,6 +239,29 @@ double unrolled(const Evidence& evidence, const CableEvidence& cable, const Span
   return rolled - std::clamp(rolled, low, high);
 }
 
+double spring_length(const Evidence& evidence, const CableEvidence& cable, const SpanEvidence& span,
+                     double rolled) {
+  const auto strains = strains_of(span);
+  const double mean = 1.0 + 0.5 * (strains[0] + strains[1]);
+  double on = 0.0;
+  if (span.from.outlined || span.to.outlined) {
+    on = std::max(-rolled, 0.0) * mean;
+  } else {
+    const auto travels = rim_travels(evidence, cable, span, rolled);
+    for (const End at_end : {first_end, last_end}) {
+      const SpanSide& side = at_end == first_end ? span.from : span.to;
+      double travel = travels[at(at_end)];
+      if (massless_wheel(cable, side) != nullptr) {
+        travel -= passed_travel(evidence, side, at_end == first_end ? -1.0 : 1.0);
+      }
+      on += std::max(-travel, 0.0);
+    }
+  }
+  const double whole = span.rest_length[first_end] + span.fed + rolled + on / mean;
+  const double half = 0.5 * on / (1.0 + strains[0]);
+  return whole > 0.0 ? whole * (whole / (whole + half)) : whole;
+}
+
 void check_lengths(const Evidence& evidence, Findings& findings) {
   for (const CableEvidence& cable : evidence.cables) {
     check_cable(evidence, cable, findings);

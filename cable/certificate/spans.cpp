@@ -171,7 +171,11 @@ class SpanCheck {
     }
     const double pull = compliance_of(cable, rest_length) * span.tension();
     // What has passed has its own damper with it no sooner than in the next substep.
-    const double own_length = rest_length - passed;
+    double own_length = rest_length - passed;
+    if (e_.rattle && !cable_.frozen && cable.axial_stiffness && cable.damping > 0.0) {
+      own_length =
+          spring_length(e_, cable_, span, own_length - span.rest_length[first_end] - span.fed);
+    }
     const double share = compliance_of(cable, own_length) * cable.damping / e_.h;
     const double start = stretch_before(cable, span, stretch, rest_length, passed);
     sum.most = std::max({sum.most, std::abs(stretch), pull});
