@@ -287,6 +287,39 @@ TEST_P(SlidingRun, RubberRopesSlideToAndFro) {
   EXPECT_GT(turns, 4);
 }
 
+// Two springs over a rough hole in the ratio that it carries; weights without gravity let both of
+// them slacken within one substep. In the mean of it both together are slack and one of them is
+// stretched: where nothing pulls nothing is held, so that neither has a force, and nothing has to
+// slide for that.
+TEST(SlidingSprings, SlackenTogetherOverARoughHole) {
+  constexpr double stretch = 1e-3;
+  constexpr double way = 1.5e-3;
+  constexpr double friction = 0.5;
+  test::Machine m;
+  m.model.gravity = Vector3::Zero();
+  m.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
+  const double ratio = std::exp(friction * std::acos(-1.0));
+  for (const double length : {1.0, 2.0}) {
+    BodyDef weight = test::weight(length < 2.0 ? "near" : "far", {0, -length, 0}, 1.0);
+    weight.velocity = {0, way / m.model.step.dt, 0};
+    m.model.add(weight);
+  }
+  m.cables.push_back(
+      cable("rope", {attach({0}), eyelet(BodyId::world(), {0, 0, 0}, friction), attach({1})}));
+  m.cables[0].compliance = 1e-5;
+  m.cables[0].rest_lengths = {1.0 - stretch, 2.0 - stretch / ratio};
+  ASSERT_LT(stretch + stretch / ratio, way);
+  ASSERT_GT(2.0 * stretch, way);
+  Simulation s = test::start(m);
+  ASSERT_TRUE(s.world.step().ok());
+  const std::vector<CableReport> reports = s.cable_reports();
+  for (const SpanReport& span : reports[0].spans) EXPECT_EQ(span.tension, 0.0);
+  EXPECT_NEAR(s.world.velocity({0}).y(), way / m.model.step.dt, 1e-13);
+  EXPECT_NEAR(s.world.velocity({1}).y(), way / m.model.step.dt, 1e-13);
+  const Certificate certificate = *s.certificate();
+  EXPECT_TRUE(certificate.clean(1e-9)) << certificate.worst()->sentence();
+}
+
 // A ring over posts and rails, of which one is held by a joint: nothing but its links says what the
 // span to it carries. In the positions they go round for as often as they may; the impulses of
 // `rattle` have to be free to let them slide again.
