@@ -19,6 +19,9 @@ void check_body_drives(const Evidence& evidence, Findings& findings);
 void check_contacts(const Evidence& evidence, Findings& findings);
 /// Bounds and directions of friction: friction.cpp.
 void check_friction(const Evidence& evidence, Findings& findings);
+/// The tension that a link carries at most on one side while that of the other side is that of
+/// `held` [N], each part of it with the angle of its time.
+[[nodiscard]] double carried(const PassEvidence& pass, const SpanEvidence& held);
 /// What nothing explains; `leaks` as check_momentum() returns them: energy.cpp.
 void check_energy(const Evidence& evidence, const std::vector<double>& leaks, Findings& findings);
 /// Cable lengths: length.cpp.

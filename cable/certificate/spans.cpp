@@ -135,12 +135,17 @@ class SpanCheck {
     }
   }
 
-  /// Whether a link divides what shares a tension. One that nothing pulls at holds nothing: there
-  /// the spans on both sides have the law of their sum, as where cable slides.
+  /// Whether a link divides what shares a tension. With all the difference that it carries it need
+  /// not: the spans on both sides then have the law of their sum, as where cable slides, and none
+  /// that nothing pulls at are held.
   [[nodiscard]] bool holds(const PassEvidence& pass) const {
-    const bool pulls = cable_.spans[at(pass.before)].tension() > 0.0 ||
-                       cable_.spans[at(pass.after)].tension() > 0.0;
-    return pass.friction > 0.0 && pass.slip == 0.0 && pulls;
+    if (!(pass.friction > 0.0) || pass.slip != 0.0) return false;
+    const SpanEvidence& before = cable_.spans[at(pass.before)];
+    const SpanEvidence& after = cable_.spans[at(pass.after)];
+    const bool forwards = before.tension() < after.tension();
+    constexpr double at_bound = 1.0 - 1e-6;
+    return std::max(before.tension(), after.tension()) <
+           at_bound * carried(pass, forwards ? before : after);
   }
 
   void check_chain(const CableDef& cable, const std::vector<std::size_t>& chain) {
