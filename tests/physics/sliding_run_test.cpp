@@ -320,6 +320,65 @@ TEST(SlidingSprings, SlackenTogetherOverARoughHole) {
   EXPECT_TRUE(certificate.clean(1e-9)) << certificate.worst()->sentence();
 }
 
+// The same, but in the mean they pull: with the ratio that the hole carries. At the end both are
+// slack, and what is slack does not slide, however long the spans are.
+TEST(SlidingSprings, WhatIsSlackDoesNotSlide) {
+  constexpr double stretch = 1e-3;
+  constexpr double way = 1.1e-3;
+  constexpr double friction = 0.5;
+  const double ratio = std::exp(friction * std::acos(-1.0));
+  test::Machine m;
+  m.model.gravity = Vector3::Zero();
+  m.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
+  for (const double length : {0.1, 2.0}) {
+    BodyDef weight = test::weight(length < 2.0 ? "near" : "far", {0, -length, 0}, 1.0);
+    weight.velocity = {0, way / m.model.step.dt, 0};
+    m.model.add(weight);
+  }
+  m.cables.push_back(
+      cable("rope", {attach({0}), eyelet(BodyId::world(), {0, 0, 0}, friction), attach({1})}));
+  m.cables[0].compliance = 1.0;
+  m.cables[0].rest_lengths = {0.1 - stretch, 2.0 - stretch / ratio};
+  Simulation s = test::start(m);
+  ASSERT_TRUE(s.world.step().ok());
+  const std::vector<CableReport> reports = s.cable_reports();
+  const std::vector<double> pulls = tensions(reports[0]);
+  EXPECT_GT(pulls[1], 0.0);
+  EXPECT_NEAR(pulls[0], ratio * pulls[1], 1e-9 * pulls[0]);
+  EXPECT_EQ(reports[0].links[1].slip, 0.0);
+  for (const SpanReport& span : reports[0].spans) EXPECT_LT(span.length, span.rest_length);
+  const Certificate certificate = *s.certificate();
+  EXPECT_TRUE(certificate.clean(1e-6)) << certificate.worst()->sentence();
+}
+
+// A weight that flies past below the hole: the angle by which the rope is bent there changes within
+// the substep, and the springs, whose forces are the same in both halves of it, have the mean of
+// the ratios at its ends.
+TEST(SlidingSprings, HaveTheMeanOfTheRatiosOfBothEnds) {
+  constexpr double friction = 0.5;
+  test::Machine m;
+  m.model.gravity = Vector3::Zero();
+  m.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
+  BodyDef weight = test::lump("weight", {0, -2.0, 0}, 1.0);
+  weight.velocity = {60.0, 0, 0};
+  m.model.add(weight);
+  m.cables.push_back(cable("rope", {attach(BodyId::world(), {0, -1.0, 0}),
+                                    eyelet(BodyId::world(), {0, 0, 0}, friction), attach({0})}));
+  m.cables[0].compliance = 0.01;
+  m.cables[0].rest_lengths = {0.98, 1.8};
+  Simulation s = test::start(m);
+  ASSERT_TRUE(s.world.step().ok());
+  const double half_turn = std::acos(-1.0);
+  const Vector3 place = s.world.position({0});
+  const double bent = half_turn - std::atan2(place.x(), -place.y());
+  ASSERT_LT(bent, half_turn - 0.2);
+  const std::vector<double> pulls = tensions(s.cable_reports()[0]);
+  const double ratio = 0.5 * (std::exp(friction * half_turn) + std::exp(friction * bent));
+  EXPECT_NEAR(pulls[1], ratio * pulls[0], 1e-9 * pulls[1]);
+  const Certificate certificate = *s.certificate();
+  EXPECT_TRUE(certificate.clean(1e-6)) << certificate.worst()->sentence();
+}
+
 // A ring over posts and rails, of which one is held by a joint: nothing but its links says what the
 // span to it carries. In the positions they go round for as often as they may; the impulses of
 // `rattle` have to be free to let them slide again.
