@@ -428,5 +428,42 @@ TEST(SlidingRing, ImpulsesAskLinksAnewThatHaveGoneRound) {
   }
 }
 
+// A ring from a post over a smooth hole to a wheel on a hinge, which holds it in two ways at once:
+// nothing but friction says how they share the load. In the second half of a substep they share it
+// as in the first one, however small the arm of the one is beside that of the other.
+TEST(SlidingRing, BothHalvesShareTheLoadAlike) {
+  test::Machine m;
+  m.model.gravity = test::down;
+  m.model.step = test::direct_settings(IntegratorKind::rattle, 0.006777262727830335);
+  m.model.step.iterations = 100;
+  m.model.add(post("post", {0.6919768024381397, 0, 0}, 0.08016989741667983));
+  BodyDef swinging;
+  swinging.name = "swinging";
+  swinging.position = {-0.3203252210743784, -0.5548195578465556, 0};
+  swinging.mass = 0.8191626064024857;
+  swinging.shapes = {
+      {test::make<Cylinder>([](Cylinder& c) { c.radius = 0.15301414356288062, c.length = 0.1; })}};
+  const BodyId body = m.model.add(swinging);
+  auto hinge = std::make_shared<HingeJoint>();
+  hinge->name = "hinge";
+  hinge->body_b = body;
+  hinge->anchor = {-0.26827915273838876, -0.7087331747695156, 0};
+  hinge->axis = {0, 0, 1};
+  m.model.joints = {hinge};
+  CableDef ring =
+      cable("ring", {wrapped({0}, left, 0.144880817223291), eyelet(BodyId::world(), {0, 0, 0}, 0.0),
+                     wrapped(body, left, 0.37676939949640875)});
+  ring.closed = true;
+  m.cables.push_back(ring);
+  Simulation s = test::start(m);
+  for (int step = 0; step < 5; ++step) {
+    ASSERT_TRUE(s.world.step().ok());
+    const Certificate certificate = *s.certificate();
+    const CertificateItem* friction = certificate.find(CertificateItem::Kind::friction);
+    ASSERT_NE(friction, nullptr);
+    EXPECT_LT(friction->relative, 1e-3) << friction->sentence();
+  }
+}
+
 }  // namespace
 }  // namespace sheave::sliding_run
