@@ -182,12 +182,15 @@ double CableSystem::grip(const Substep& substep, std::size_t piece) {
   Piece& before = pieces_[piece];
   if (std::isnan(before.grip)) {
     const int outgoing = pieces_[piece + 1].run.first;
+    const CompiledCable& cable = cables_[at(spans_[at(outgoing)].cable)];
     // The positions of `rattle` know what slides by the angles of the start (linearise_run()).
-    const bool swept = sweeps_[at(spans_[at(outgoing)].cable)] > 0;
-    before.grip = knows_start_ && !swept && kept_slip_.empty()
-                      ? start_exponents_[at(before.link)]
-                      : friction_exponent(substep, before.link, geometry_of(substep, before.last),
-                                          geometry_of(substep, outgoing));
+    const bool by_start =
+        knows_start_ && sweeps_[at(spans_[at(outgoing)].cable)] == 0 && kept_slip_.empty();
+    const double start = start_exponents_[at(before.link)];
+    if (by_start && cable.is_rigid()) return before.grip = start;
+    before.grip = friction_exponent(substep, before.link, geometry_of(substep, before.last),
+                                    geometry_of(substep, outgoing));
+    if (by_start) before.grip = cable_parts::early_exponent(false, start, before.grip);
   }
   return before.grip;
 }

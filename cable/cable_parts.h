@@ -11,6 +11,7 @@
 #include "cable/cable.h"
 #include "cable/link_geometry.h"
 #include "cable/span_row.h"
+#include "engine/math/portable.h"
 #include "engine/substep.h"
 
 namespace sheave::cable_parts {
@@ -226,6 +227,13 @@ class KnownSpans {
 /// What rounding leaves of the length that a span lacks or has to spare, relative to the scene's
 /// size.
 inline constexpr double length_rounding = 1e-13;
+
+/// Friction times wrap angle of a link in the first half of a substep of `rattle`. The forces of
+/// springs are the same in both halves, so there it is the mean of the ratios of both ends.
+[[nodiscard]] inline double early_exponent(bool rigid, double start, double end) {
+  if (rigid || start == end) return start;
+  return start + portable::log(0.5 * (1.0 + portable::exp(end - start)));
+}
 
 /// Scratch of the rows of runs.
 struct RunWork {

@@ -63,19 +63,20 @@ void pull_slack(std::vector<double>& spare) {
 /// in the ratios of `tensions` [N]. Not those themselves: those of `rattle` are of the middle of
 /// the substep, or half of that in the course of its rounds. So all strains are those of s times
 /// what tensions say, with the s for which the sum of `rest_lengths` remains; none of them is below
-/// 0.
-void shorten_by_strain(const CompiledCable& cable, const std::vector<double>& rest_lengths,
+/// 0. False where friction is and nothing is stretched: what has pulled in the mean is slack at the
+/// end, and slack does not slide.
+bool shorten_by_strain(const CompiledCable& cable, const std::vector<double>& rest_lengths,
                        const std::vector<double>& tensions,
                        const std::vector<cable_parts::SpanDamping>& dampings,
                        std::vector<double>& lengths) {
-  if (cable.inverse_stiffness == 0.0 && cable.compliance == 0.0) return;
+  if (cable.is_rigid()) return true;
   double excess = 0.0;
   double whole = 0.0;
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     excess += lengths[i] - rest_lengths[i];
     whole += lengths[i];
   }
-  if (!(excess > 0.0)) return;
+  if (!(excess > 0.0)) return !cable.has_friction;
   const auto shortened = [&](std::size_t i, double s) {
     return cable.inverse_stiffness > 0.0
                ? lengths[i] / (1.0 + dampings[i].end(s * tensions[i] * cable.inverse_stiffness))
@@ -100,6 +101,7 @@ void shorten_by_strain(const CompiledCable& cable, const std::vector<double>& re
     s += left / slope;
   }
   for (std::size_t i = 0; i < lengths.size(); ++i) lengths[i] = shortened(i, s);
+  return true;
 }
 
 /// Makes the lengths of spans [m] the rest lengths with which springs that nothing pulls at come out
@@ -265,7 +267,7 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
 // links are judged by these. So they share the load as equal springs would.
 void CableSystem::share_load(const Substep& substep, const CompiledCable& cable, RowList& rows,
                              std::size_t start) {
-  if (cable.compliance > 0.0 || cable.inverse_stiffness > 0.0) return;
+  if (!cable.is_rigid()) return;
   // Far above SparseFactor::dropped_pivot; a round leaves this share of what the multipliers' change
   // moves a row by to the next one.
   constexpr double share = 1e-11;
@@ -311,18 +313,18 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     row.active = start_tensions_[at(k)] > 0.0;
     row.tied = i > 0;
     if (at_start) start_values_[at(k)] = {row.value, row.compliance};
-    if (cable.damping > 0.0 || means) {
-      if (run.count > 1 && !at_start) {
-        const SpanDamping damping = damping_of(substep, cable, means, k, row);
-        if (strains) run_work_.stretched[at(i)].damping = damping;
-        damp_row(cable, nullptr, damping, row);
-      }
+    if ((cable.damping > 0.0 || means) && run.count > 1 && !at_start) {
+      const SpanDamping damping = damping_of(substep, cable, means, k, row);
+      if (strains) run_work_.stretched[at(i)].damping = damping;
+      damp_row(cable, nullptr, damping, row);
     }
     const int link = spans_[at(k)].first;
     if (row.tied && !links_[at(link)].frictionless()) {
       const double exponent = friction_exponent(substep, link, last, span);
+      const double before = knows_start_ ? start_exponents_[at(link)] : exponent;
+      const double early = cable_parts::early_exponent(cable.is_rigid(), before, exponent);
       weights.now += slip_[at(link)] * exponent;
-      weights.start += slip_[at(link)] * (knows_start_ ? start_exponents_[at(link)] : exponent);
+      weights.start += slip_[at(link)] * early;
       heaviest.now = std::max(heaviest.now, weights.now);
       heaviest.start = std::max(heaviest.start, weights.start);
     }
@@ -369,8 +371,8 @@ bool CableSystem::shorten_run(const Substep& substep, const CompiledCable& cable
     run_work_.dampings.push_back(damping_of(substep, cable, means, k, row));
   }
   if (taut) {
-    shorten_by_strain(cable, run_work_.spare, run_work_.tensions, run_work_.dampings,
-                      run_work_.lengths);
+    taut = shorten_by_strain(cable, run_work_.spare, run_work_.tensions, run_work_.dampings,
+                             run_work_.lengths);
   } else if (cable.damping > 0.0) {
     shorten_without_pull(cable, run_work_.dampings, run_work_.lengths);
   }
@@ -389,7 +391,7 @@ bool CableSystem::stretch_run(const Substep& substep, const CompiledCable& cable
                                   ? rest_length_at(span, own)
                                   : rest_length_under(span.value, span.spring_length, span.length));
   }
-  return taut;
+  return taut && !(cable.has_friction && strain == 0.0);
 }
 
 const std::vector<double>& CableSystem::run_spare(const Substep& substep,

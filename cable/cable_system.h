@@ -191,7 +191,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   double weigh_run(const CompiledCable& cable, std::size_t count, double heaviest, double h);
   double solve_run(Substep& substep, const CompiledCable& cable, Run run);
   /// Into run_work_.spare the rest lengths before anything passes the links [m], into
-  /// run_work_.lengths those with the tensions; whether any has one.
+  /// run_work_.lengths those with the tensions; whether any has one at the end.
   bool shorten_run(const Substep& substep, const CompiledCable& cable, Run run);
   /// The same of a material.
   bool stretch_run(const Substep& substep, const CompiledCable& cable, Run run);

@@ -62,6 +62,7 @@ struct CompiledCable {
   double quantum = 0.0;
   std::vector<std::string_view> link_types;
 
+  [[nodiscard]] bool is_rigid() const { return compliance == 0.0 && inverse_stiffness == 0.0; }
   [[nodiscard]] int last_listed_link() const { return first_link + listed_links - 1; }
   /// The multiple of the quantum nearest to `length` [m].
   [[nodiscard]] double quantised(double length) const {

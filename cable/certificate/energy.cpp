@@ -150,8 +150,7 @@ class EnergyCheck {
     const double gained = rest_length - span.rest_length[first_end];
     const double rolled = gained - span.fed - passed_into(cable, static_cast<int>(k));
     // Cable that a rim passes is as long off it as on it.
-    const double first = rim_travel(e_, span.from, -1.0, rolled);
-    const double second = rim_travel(e_, span.to, 1.0, rolled - first);
+    const auto [first, second] = rim_travels(e_, cable, span, rolled);
     const double off = span.length[last_end] - acted - first - second;
     const double laid = span.length[last_end] - rest_length;
     add(stored(laid) - stored(laid - off), flow_beside(span), [&] { return span.name(); });
@@ -168,8 +167,8 @@ class EnergyCheck {
     const double rolled = gained - passed;
     double rims = rolled;
     if (!span.from.outlined && !span.to.outlined) {
-      rims = rim_travel(e_, span.from, -1.0, rolled);
-      rims += rim_travel(e_, span.to, 1.0, rolled - rims);
+      const auto [first, second] = rim_travels(e_, cable, span, rolled);
+      rims = first + second;
     }
     double unexplained = tension * rims;
     const double rest = span.rest_length[last_end];

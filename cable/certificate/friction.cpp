@@ -38,11 +38,7 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
   // Slipping: the side to which it goes pulls harder by all of the bound.
   const double pulling = pass.slip > 0.0 ? after : before;
   const SpanEvidence& held = cable.spans[at(pass.slip > 0.0 ? pass.before : pass.after)];
-  // Each part of the forces with the angle of its time.
-  double asked = 0.0;
-  for (const End when : {first_end, last_end}) {
-    asked += portable::exp(pass.friction * pass.wrap_angle[at(when)]) * held.force[at(when)];
-  }
+  const double asked = carried(pass, held);
   const double creep = 1e-7 * std::min(cable.free_length, evidence.bodies.scale());
   const double weight = std::abs(pass.slip) / (std::abs(pass.slip) + creep);
   findings.note(Kind::friction, "N", weight * std::max(asked - pulling, 0.0),
@@ -85,6 +81,14 @@ void check_contact(const Evidence& evidence, const ContactEvidence& contact, Fin
 }
 
 }  // namespace
+
+double carried(const PassEvidence& pass, const SpanEvidence& held) {
+  double most = 0.0;
+  for (const End when : {first_end, last_end}) {
+    most += portable::exp(pass.friction * pass.wrap_angle[at(when)]) * held.force[at(when)];
+  }
+  return most;
+}
 
 void check_friction(const Evidence& evidence, Findings& findings) {
   for (const CableEvidence& cable : evidence.cables) {

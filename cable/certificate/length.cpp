@@ -107,8 +107,7 @@ void check_spans_of(const Evidence& evidence, const CableEvidence& cable, Findin
       if (at(pass.before) == k) passed -= pass.slip;
     }
     const double rolled = span.rest_length[last_end] - span.rest_length[first_end] - passed;
-    const double first = rim_travel(evidence, span.from, -1.0, rolled);
-    const double second = rim_travel(evidence, span.to, 1.0, rolled - first);
+    const auto [first, second] = rim_travels(evidence, cable, span, rolled);
     // What moves is the scale; what is slower than a size in the run so far does not count.
     const double size = std::min(cable.free_length, evidence.bodies.scale());
     const double moved = std::max({std::abs(first), std::abs(second), std::abs(passed)});
@@ -118,16 +117,63 @@ void check_spans_of(const Evidence& evidence, const CableEvidence& cable, Findin
   }
 }
 
-/// Whether nothing resists the turning of the wheel at that end of a span.
-bool is_massless(const CableEvidence& cable, const SpanSide& side) {
-  return side.place >= 0 &&
-         std::any_of(cable.passes.begin(), cable.passes.end(), [&](const PassEvidence& pass) {
-           return pass.massless && pass.link == side.place;
-         });
+/// The massless wheel at that end of a span, over which cable passes to another; null: none.
+const PassEvidence* massless_wheel(const CableEvidence& cable, const SpanSide& side) {
+  for (const PassEvidence& pass : cable.passes) {
+    if (pass.massless && pass.link == side.place && side.place >= 0) return &pass;
+  }
+  return nullptr;
 }
 
-}  // namespace
+/// Turn of a wheel on an axle about the normal of its link [rad], given that about the axle.
+double about_normal(const Evidence& evidence, const SpanSide& side, double turn) {
+  const BodyProperties& wheel = evidence.bodies[side.body];
+  Vector3 axis = wheel.axis;
+  if (wheel.mount >= 0) axis = evidence.moments[first_end].orientation(wheel.mount) * axis;
+  return axis.dot(side.normal[first_end]) > 0.0 ? turn : -turn;
+}
 
+double turn_on_axle(const Evidence& evidence, int body) {
+  return evidence.end.bodies[at(body)].angle - evidence.start.bodies[at(body)].angle;
+}
+
+/// Of what the rim of a massless wheel has travelled what passing cable has turned it by [m]: all
+/// but what it goes on turning by as in the substep before.
+double passed_travel(const Evidence& evidence, const SpanSide& side, double sense) {
+  const BodyProperties& wheel = evidence.bodies[side.body];
+  Vector3 axis = wheel.axis;
+  if (wheel.mount >= 0) axis = evidence.moments[first_end].orientation(wheel.mount) * axis;
+  double goes_on = evidence.h * axis.dot(evidence.start.bodies[at(side.body)].angular_velocity);
+  if (wheel.mount >= 0) goes_on -= axis.dot(evidence.turn_of(wheel.mount));
+  const double turned = turn_on_axle(evidence, side.body) - goes_on;
+  return -sense * side.winding * side.radius[first_end] * about_normal(evidence, side, turned);
+}
+
+/// At either end of the substep.
+std::array<double, 2> strains_of(const SpanEvidence& span) {
+  std::array<double, 2> strains{};
+  for (const End when : {first_end, last_end}) {
+    if (span.rest_length[when] > 0.0) {
+      strains[at(when)] = std::max(span.length[when] / span.rest_length[when] - 1.0, 0.0);
+    }
+  }
+  return strains;
+}
+
+/// The least and the most that a span gains [m] by cable that turns a massless wheel by `passed`
+/// [m]: it has a strain between those of both sides at both ends of the substep.
+std::array<double, 2> gain_by_passing(const CableEvidence& cable, const PassEvidence& wheel,
+                                      double passed) {
+  const auto before = strains_of(cable.spans[at(wheel.before)]);
+  const auto after = strains_of(cable.spans[at(wheel.after)]);
+  const auto [least, most] = std::minmax({before[0], before[1], after[0], after[1]});
+  return {passed / (1.0 + (passed > 0.0 ? most : least)),
+          passed / (1.0 + (passed > 0.0 ? least : most))};
+}
+
+/// How far the rim of a wheel has passed the end of a span by the poses alone [m]: what rolling
+/// gives to the span at its first end (sense -1) or its second (1). `reported` chooses among whole
+/// turns.
 double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, double reported) {
   if (side.winding == 0 || !(side.radius[first_end] > 0.0)) return 0.0;
   const Moment& start = evidence.moments[first_end];
@@ -143,38 +189,77 @@ double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, 
   // Exact for layers, too: their radius grows in proportion to the angle.
   const double radius = 0.5 * (side.radius[first_end] + side.radius[last_end]);
   const double factor = sense * side.winding * radius;
-  const double turns = std::round((reported / factor - angle) / (2.0 * pi));
+  // A massless wheel may turn many times, and cable that is stretched tells less of it; but its
+  // angle counts them, and the contact goes round the axle by less than half a turn.
+  const bool counts = side.body < evidence.bodies.count() && evidence.bodies[side.body].massless();
+  const double nearly =
+      counts ? -about_normal(evidence, side, turn_on_axle(evidence, side.body)) : reported / factor;
+  const double turns = std::round((nearly - angle) / (2.0 * pi));
   return factor * (angle + 2.0 * pi * turns);
+}
+
+}  // namespace
+
+std::array<double, 2> rim_travels(const Evidence& evidence, const CableEvidence& cable,
+                                  const SpanEvidence& span, double rolled) {
+  const bool material = cable.definition->axial_stiffness.has_value();
+  const double arcs = material ? rolled * (1.0 + strains_of(span)[last_end]) : rolled;
+  const double first = rim_travel(evidence, span.from, -1.0, arcs);
+  return {first, rim_travel(evidence, span.to, 1.0, arcs - first)};
 }
 
 double unrolled(const Evidence& evidence, const CableEvidence& cable, const SpanEvidence& span,
                 double rolled) {
-  const double first = rim_travel(evidence, span.from, -1.0, rolled);
-  const double second = rim_travel(evidence, span.to, 1.0, rolled - first);
+  const auto [first, second] = rim_travels(evidence, cable, span, rolled);
   if (!cable.definition->axial_stiffness) return rolled - first - second;
   // What comes onto a rim has the strain of the span, what comes off it one with which some of it
-  // lies there. Over a massless wheel, where cable passes until both sides are strained alike, it is
-  // any that the span has had in the substep.
-  std::array<double, 2> strains{};
-  for (const End when : {first_end, last_end}) {
-    if (span.rest_length[when] > 0.0) {
-      strains[at(when)] = std::max(span.length[when] / span.rest_length[when] - 1.0, 0.0);
-    }
-  }
+  // lies there. A massless wheel does so, too, while it goes on turning as in the substep before;
+  // what it has turned by too much or too little then passes from span to span, and none of that is
+  // what has lain on it.
+  const auto strains = strains_of(span);
   const double strain = 0.5 * (strains[0] + strains[1]);
-  const auto [least, largest] = std::minmax(strains[0], strains[1]);
   double most = strain;
   for (const LinkReport& link : cable.start.links) most = std::max(most, link.most_strain);
   for (const WrapReport& wrap : cable.start.wraps) most = std::max(most, wrap.link.most_strain);
   double low = 0.0;
   double high = 0.0;
   for (const SpanSide* side : {&span.from, &span.to}) {
-    const double travel = side == &span.from ? first : second;
-    const bool passes = is_massless(cable, *side);
-    low += travel / (1.0 + (travel > 0.0 ? most : passes ? least : strain));
-    high += travel > 0.0 ? travel : travel / (1.0 + (passes ? largest : strain));
+    const bool begins = side == &span.from;
+    double travel = begins ? first : second;
+    if (const PassEvidence* wheel = massless_wheel(cable, *side)) {
+      const double passed = passed_travel(evidence, *side, begins ? -1.0 : 1.0);
+      const auto [least, largest] = gain_by_passing(cable, *wheel, passed);
+      low += least;
+      high += largest;
+      travel -= passed;
+    }
+    low += travel / (1.0 + (travel > 0.0 ? most : strain));
+    high += travel > 0.0 ? travel : travel / (1.0 + strain);
   }
   return rolled - std::clamp(rolled, low, high);
+}
+
+double spring_length(const Evidence& evidence, const CableEvidence& cable, const SpanEvidence& span,
+                     double rolled) {
+  const auto strains = strains_of(span);
+  const double mean = 1.0 + 0.5 * (strains[0] + strains[1]);
+  double on = 0.0;
+  if (span.from.outlined || span.to.outlined) {
+    on = std::max(-rolled, 0.0) * mean;
+  } else {
+    const auto travels = rim_travels(evidence, cable, span, rolled);
+    for (const End at_end : {first_end, last_end}) {
+      const SpanSide& side = at_end == first_end ? span.from : span.to;
+      double travel = travels[at(at_end)];
+      if (massless_wheel(cable, side) != nullptr) {
+        travel -= passed_travel(evidence, side, at_end == first_end ? -1.0 : 1.0);
+      }
+      on += std::max(-travel, 0.0);
+    }
+  }
+  const double whole = span.rest_length[first_end] + span.fed + rolled + on / mean;
+  const double half = 0.5 * on / (1.0 + strains[0]);
+  return whole > 0.0 ? whole * (whole / (whole + half)) : whole;
 }
 
 void check_lengths(const Evidence& evidence, Findings& findings) {

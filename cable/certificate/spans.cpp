@@ -122,8 +122,7 @@ class SpanCheck {
       done[k] = 1;
       for (std::size_t i = 0; i < chain.size(); ++i) {
         for (const PassEvidence& pass : cable_.passes) {
-          // A link that holds divides what shares a tension.
-          if (!pass.passes || (pass.friction > 0.0 && pass.slip == 0.0)) continue;
+          if (!pass.passes || holds(pass)) continue;
           for (const auto& [own, other] :
                {std::pair{pass.before, pass.after}, std::pair{pass.after, pass.before}}) {
             if (at(own) != chain[i] || done[at(other)] != 0) continue;
@@ -136,6 +135,19 @@ class SpanCheck {
     }
   }
 
+  /// Whether a link divides what shares a tension. With all the difference that it carries it need
+  /// not: the spans on both sides then have the law of their sum, as where cable slides, and none
+  /// that nothing pulls at are held.
+  [[nodiscard]] bool holds(const PassEvidence& pass) const {
+    if (!(pass.friction > 0.0) || pass.slip != 0.0) return false;
+    const SpanEvidence& before = cable_.spans[at(pass.before)];
+    const SpanEvidence& after = cable_.spans[at(pass.after)];
+    const bool forwards = before.tension() < after.tension();
+    constexpr double at_bound = 1.0 - 1e-6;
+    return std::max(before.tension(), after.tension()) <
+           at_bound * carried(pass, forwards ? before : after);
+  }
+
   void check_chain(const CableDef& cable, const std::vector<std::size_t>& chain) {
     ChainSum sum;
     for (const std::size_t k : chain) {
@@ -145,7 +157,9 @@ class SpanCheck {
     // A spring that was slack counts from 0.
     if (e_.rattle) sum.off += 0.5 * (std::max(sum.before, 0.0) - sum.before);
     const double given = sum.most_damped * sum.off;
-    const double off = sum.pulled == 0.0 ? std::max(given, 0.0) : std::abs(given);
+    double off = sum.pulled == 0.0 ? std::max(given, 0.0) : std::abs(given);
+    // What is slack as a whole leaves nothing stretched but what dampers hold.
+    if (sum.pulled == 0.0 && !(sum.now > 0.0)) off = std::max(off, sum.stretched);
     note(CertificateItem::Kind::span, "m", off, std::max(sum.most, 1e-6 * size_),
          rounding * 1e3 * e_.bodies.scale(), cable_.spans[chain.front()]);
   }
@@ -153,6 +167,8 @@ class SpanCheck {
   struct ChainSum {
     double off = 0.0;          ///< of the stretches, what no law says [m]
     double before = 0.0;       ///< stretches at the start that count as they are [m]
+    double now = 0.0;          ///< stretches at the end [m]
+    double stretched = 0.0;    ///< the most that a span has more of than its damper holds [m]
     double pulled = 0.0;       ///< [N]
     double most = 0.0;         ///< of stretches and what tensions stretch [m]
     double most_damped = 0.0;  ///< 1 + g
@@ -171,11 +187,17 @@ class SpanCheck {
     }
     const double pull = compliance_of(cable, rest_length) * span.tension();
     // What has passed has its own damper with it no sooner than in the next substep.
-    const double own_length = rest_length - passed;
+    double own_length = rest_length - passed;
+    if (e_.rattle && !cable_.frozen && cable.axial_stiffness && cable.damping > 0.0) {
+      own_length =
+          spring_length(e_, cable_, span, own_length - span.rest_length[first_end] - span.fed);
+    }
     const double share = compliance_of(cable, own_length) * cable.damping / e_.h;
     const double start = stretch_before(cable, span, stretch, rest_length, passed);
     sum.most = std::max({sum.most, std::abs(stretch), pull});
     sum.pulled += span.tension();
+    sum.now += stretch;
+    sum.stretched = std::max(sum.stretched, stretch - share / (1.0 + share) * std::max(start, 0.0));
     sum.most_damped = std::max(sum.most_damped, 1.0 + (e_.rattle ? 2.0 : 1.0) * share);
     if (!e_.rattle) {
       sum.off += stretch - (pull + share * start) / (1.0 + share);

@@ -69,7 +69,11 @@ void RowSystem::pose_velocities(const Substep& substep, const RowSystem& positio
     problem_.lower[g] = lower - group.multiplier;
     problem_.upper[g] = upper - group.multiplier;
   }
-  if (redundant) start_from_impulses();
+  if (!redundant) return;
+  start_from_impulses();
+  // At the end of the substep the rows may miss being redundant by rounding, and be solved by what
+  // that leaves.
+  share_load();
 }
 
 double RowSystem::whole_multiplier(double h, int row) const {
