@@ -220,9 +220,9 @@ TEST(WorkLimit, NumbersThatOverflowEndTheRounds) {
     ASSERT_TRUE(s.world.restore(state).empty());
     const StepReport report = s.world.step();
     ASSERT_TRUE(report.divergence.has_value());
-    // No attempt has a round that could be solved: the whole, halves down to 2^-17, and the whole
-    // once or twice more.
-    EXPECT_EQ(report.statistics.rounds, 0);
+    // An attempt has a round or two, from the start of the substep, where all is finite yet: the
+    // whole, halves down to 2^-17, and the whole once or twice more.
+    EXPECT_LE(report.statistics.rounds, 2 * (1 + 17 + 2));
   }
   // Sweeps, of which there are as many as were asked for, end soon.
   test::Machine machine = test::Atwood{}.machine();
