@@ -270,7 +270,7 @@ void CableSystem::share_load(const Substep& substep, const CompiledCable& cable,
   if (!cable.is_rigid()) return;
   // Far above SparseFactor::dropped_pivot; a round leaves this share of what the multipliers' change
   // moves a row by to the next one.
-  constexpr double share = 1e-11;
+  constexpr double share = 1e-9;
   RowResponse response;
   for (std::size_t i = start; i < rows.size(); ++i) {
     respond(rows[i], substep.moving, response);

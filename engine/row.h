@@ -56,7 +56,7 @@ struct MovingBody {
   /// follow from that sum, and rotations do not commute, so that sweeps which turn a slender body
   /// to and fro about several axes would leave a sum, and with it a velocity, where there is no
   /// motion. That feeds on itself.
-  void rotate(const Vector3& correction) {
+  [[gnu::always_inline]] void rotate(const Vector3& correction) {
     turn += correction;
     if (tracks_orientation) orientation = turned(free_orientation, turn - free_turn);
   }

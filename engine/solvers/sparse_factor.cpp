@@ -249,10 +249,10 @@ double SparseFactor::weight_of(int k, std::span<const double> below,
   return sum;
 }
 
-void SparseFactor::keep_pivot(int k, double pivot, double full, std::span<const double> diagonal) {
+void SparseFactor::judge_pivot(int k, double pivot, double full, std::span<const double> diagonal) {
   // Written so that NaN is dropped, too.
   bool kept = pivot > dropped_pivot * full;
-  if (kept && pivot < small_pivot * full) {
+  if (kept) {
     const double first = weight_of(k, factor_, diagonal);
     const double second = symmetric_ ? first : weight_of(k, upper_, diagonal);
     kept = pivot > dropped_noise * std::sqrt(first * second);

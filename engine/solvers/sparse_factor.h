@@ -90,7 +90,16 @@ class SparseFactor {
   void solve_chain(std::span<double> x) const;
   [[nodiscard]] bool is_chain() const;
   /// Takes the pivot of row k, or drops it.
-  void keep_pivot(int k, double pivot, double full, std::span<const double> diagonal);
+  [[gnu::always_inline]] void keep_pivot(int k, double pivot, double full,
+                                         std::span<const double> diagonal) {
+    if (pivot > small_pivot * full) {
+      inverse_pivot_[static_cast<std::size_t>(k)] = 1.0 / pivot;
+    } else {
+      judge_pivot(k, pivot, full, diagonal);
+    }
+  }
+  /// The same of one that may be rounding.
+  void judge_pivot(int k, double pivot, double full, std::span<const double> diagonal);
   /// The sum of z_i^2 a_ii of row k, with the factors `below` of L or U.
   [[nodiscard]] double weight_of(int k, std::span<const double> below,
                                  std::span<const double> diagonal);
