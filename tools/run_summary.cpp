@@ -144,9 +144,10 @@ void append_stretch_warnings(const Simulation& simulation, const RunStatistics& 
     const CableCourse& course = monitor.cables()[i];
     if (course.excess > length_limit * course.length) {
       std::string name(reports[i].name);
-      // No solver can help where nothing gives way: the warning "impossible" has what it is.
+      // No solver can help where nothing gives way: the warnings "impossible" and "dead_end" have
+      // what it is.
       const std::string cause =
-          statistics.impossible > 0
+          statistics.impossible + statistics.dead_ends > 0
               ? "what moves as it is told has drawn it apart, or the solver did not converge"
               : fmt::format("the solver did not converge; {} may avoid that", way_out);
       std::string message = fmt::format("cable {} is {:.3g} m longer than it can be at the end: {}",
@@ -291,42 +292,8 @@ void append_control_warning(const Simulation& simulation, std::vector<Warning>& 
                    refusals)});
 }
 
-/// What the solver and the integrator could not do as asked.
-void append_solver_warnings(const RunStatistics& statistics, std::vector<Warning>& warnings) {
-  if (statistics.solver_fallbacks > 0) {
-    std::string message = fmt::format(
-        "the direct solver did not find which rows act in {} {} and left {} to Gauss-Seidel "
-        "sweeps, so that precision is theirs there",
-        statistics.solver_fallbacks, statistics.solver_fallbacks == 1 ? "substep" : "substeps",
-        statistics.solver_fallbacks == 1 ? "it" : "them");
-    warnings.push_back({"solver_fallback", "", std::move(message)});
-  }
-  if (statistics.integrator_fallbacks > 0) {
-    std::string message = fmt::format(
-        "things moved too far for rattle in {} {}, or in the smallest part of one, which left {} "
-        "to "
-        "xpbd and its damping; more substeps avoid that",
-        statistics.integrator_fallbacks,
-        statistics.integrator_fallbacks == 1 ? "substep" : "substeps",
-        statistics.integrator_fallbacks == 1 ? "it" : "them");
-    warnings.push_back({"integrator_fallback", "", std::move(message)});
-  }
-  if (statistics.cut_substeps > 0) {
-    std::string message = fmt::format(
-        "{} {} did not converge as a whole and {} done in {} parts, with more work but no less "
-        "precision; more substeps avoid that",
-        statistics.cut_substeps, statistics.cut_substeps == 1 ? "substep" : "substeps",
-        statistics.cut_substeps == 1 ? "was" : "were", statistics.substep_parts);
-    warnings.push_back({"cut_substeps", "", std::move(message)});
-  }
-  if (statistics.exhausted > 0) {
-    std::string message = fmt::format(
-        "{} {} took all the rounds or factorisations that a substep may and {} done as a whole: "
-        "what moves there is hard to solve; more substeps may avoid that",
-        statistics.exhausted, statistics.exhausted == 1 ? "substep" : "substeps",
-        statistics.exhausted == 1 ? "was" : "were");
-    warnings.push_back({"exhausted", "", std::move(message)});
-  }
+/// What nothing could have done as asked.
+void append_impossible_warnings(const RunStatistics& statistics, std::vector<Warning>& warnings) {
   if (statistics.impossible > 0) {
     std::string message = fmt::format(
         "in {} {} bodies that move as they are told asked for what cannot be, by up to {:.3g} m or "
@@ -346,11 +313,51 @@ void append_solver_warnings(const RunStatistics& statistics, std::vector<Warning
         statistics.most_impossible);
     warnings.push_back({"dead_end", "", std::move(message)});
   }
-  if (statistics.unconverged > 0) {
+}
+
+/// What the solver and the integrator could not do as asked.
+void append_solver_warnings(const RunStatistics& statistics, std::vector<Warning>& warnings) {
+  // At a dead end neither could any other have done it.
+  const std::int64_t fallbacks = statistics.integrator_fallbacks - statistics.dead_ends;
+  const std::int64_t unconverged = statistics.unconverged - statistics.dead_ends;
+  if (statistics.solver_fallbacks > 0) {
+    std::string message = fmt::format(
+        "the direct solver did not find which rows act in {} {} and left {} to Gauss-Seidel "
+        "sweeps, so that precision is theirs there",
+        statistics.solver_fallbacks, statistics.solver_fallbacks == 1 ? "substep" : "substeps",
+        statistics.solver_fallbacks == 1 ? "it" : "them");
+    warnings.push_back({"solver_fallback", "", std::move(message)});
+  }
+  if (fallbacks > 0) {
+    std::string message = fmt::format(
+        "things moved too far for rattle in {} {}, or in the smallest part of one, which left {} "
+        "to "
+        "xpbd and its damping; more substeps avoid that",
+        fallbacks, fallbacks == 1 ? "substep" : "substeps", fallbacks == 1 ? "it" : "them");
+    warnings.push_back({"integrator_fallback", "", std::move(message)});
+  }
+  if (statistics.cut_substeps > 0) {
+    std::string message = fmt::format(
+        "{} {} did not converge as a whole and {} done in {} parts, with more work but no less "
+        "precision; more substeps avoid that",
+        statistics.cut_substeps, statistics.cut_substeps == 1 ? "substep" : "substeps",
+        statistics.cut_substeps == 1 ? "was" : "were", statistics.substep_parts);
+    warnings.push_back({"cut_substeps", "", std::move(message)});
+  }
+  if (statistics.exhausted > 0) {
+    std::string message = fmt::format(
+        "{} {} took all the rounds or factorisations that a substep may and {} done as a whole: "
+        "what moves there is hard to solve; more substeps may avoid that",
+        statistics.exhausted, statistics.exhausted == 1 ? "substep" : "substeps",
+        statistics.exhausted == 1 ? "was" : "were");
+    warnings.push_back({"exhausted", "", std::move(message)});
+  }
+  append_impossible_warnings(statistics, warnings);
+  if (unconverged > 0) {
     std::string message = fmt::format(
         "{} {} did not converge, in however small parts: constraints that contradict each other? "
         "What they left off has become velocity",
-        statistics.unconverged, statistics.unconverged == 1 ? "substep" : "substeps");
+        unconverged, unconverged == 1 ? "substep" : "substeps");
     warnings.push_back({"unconverged", "", std::move(message)});
   }
 }

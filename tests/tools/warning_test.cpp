@@ -198,5 +198,24 @@ TEST(Warnings, ARopeTornBetweenWhatMovesAsItIsToldIsAWarning) {
   EXPECT_EQ(warned({scene, "--set", "/bodies/0/velocity=[-1, 0, 0]"}), "");
 }
 
+// The rope beneath the eyelet has 0.5 m less 0.51 m/s x 0.4 s, and the rail is 0.4 m from it.
+TEST(Warnings, ALoadDrawnBeyondTheNearestPointOfItsRailIsAWarning) {
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("rail.json", R"json({
+    "format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 0.4, "step": {"dt": 0.004},
+    "bodies": [
+      {"name": "load", "mobility": "slider", "axis": [1, 0, 0], "position": [0.3, 0, 0], "mass": 1},
+      {"name": "winch", "mobility": "kinematic", "position": [0, 1.4, 0],
+       "velocity": [0, 0.51, 0]}],
+    "cables": [{"name": "rope", "links": [
+      {"type": "attachment", "body": "load"},
+      {"type": "pinhole", "body": "world", "point": [0, 0.4, 0]},
+      {"type": "attachment", "body": "winch"}]}]
+  })json");
+  EXPECT_EQ(warned({scene}), "stretched dead_end doubtful");
+  EXPECT_THAT(warnings_of({scene})[1]["message"].get<std::string>(), HasSubstr("up to 0.104 m"));
+  EXPECT_EQ(warned({scene, "--set", "/bodies/1/velocity=[0, 0.2, 0]"}), "");
+}
+
 }  // namespace
 }  // namespace sheave::test
