@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -123,23 +124,40 @@ bool moves_by_itself(const BodyDef& body) {
   return !is_zero(body.velocity) || !is_zero(body.angular_velocity) || !is_zero(body.oscillation);
 }
 
-/// Diameter of the sphere round all bodies about the mean of their places: the same in whatever
-/// direction the scene is turned, or solvers would end their rounds elsewhere there.
-double scene_scale(const std::vector<BodyDef>& bodies) {
-  Vector3 center = Vector3::Zero();
-  for (const BodyDef& body : bodies) center += body.position / static_cast<double>(bodies.size());
+struct Ball {
+  Vector3 center;
   double radius = 0.0;
+};
+
+/// From the point to the far side of the ball that is farthest away; which one that is.
+std::pair<double, const Ball*> farthest(const Vector3& from, const std::vector<Ball>& balls) {
+  std::pair<double, const Ball*> most{0.0, nullptr};
+  for (const Ball& ball : balls) {
+    const double distance = (ball.center - from).norm() + ball.radius;
+    if (most.second == nullptr || distance > most.first) most = {distance, &ball};
+  }
+  return most;
+}
+
+/// About the greatest distance within the scene: from the part farthest from the middle to the one
+/// farthest from that. The same in whatever direction the scene is turned, or solvers would end
+/// their rounds elsewhere there, and whatever else comes to be between these two.
+double scene_scale(const std::vector<BodyDef>& bodies) {
+  std::vector<Ball> balls;
+  Vector3 middle = Vector3::Zero();
   double largest = 0.0;
   for (const BodyDef& body : bodies) {
-    radius = std::max(radius, (body.position - center).norm());
+    middle += body.position / static_cast<double>(bodies.size());
+    balls.push_back({body.position});
     for (const PlacedShape& placed : body.shapes) {
-      const double own = placed.shape->half_extent().norm();
-      const Vector3 place = body.position + body.orientation * placed.position;
-      largest = std::max(largest, own);
-      radius = std::max(radius, (place - center).norm() + own);
+      const double radius = placed.shape->half_extent().norm();
+      balls.push_back({body.position + body.orientation * placed.position, radius});
+      largest = std::max(largest, 2.0 * radius);
     }
   }
-  const double scale = 2.0 * std::max(radius, largest);
+  const Ball* end = farthest(middle, balls).second;
+  if (end == nullptr) return 1.0;
+  const double scale = std::max(farthest(end->center, balls).first + end->radius, largest);
   return scale > 0.0 ? scale : 1.0;
 }
 

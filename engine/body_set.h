@@ -81,8 +81,8 @@ class BodySet {
   [[nodiscard]] const std::string& name(int index) const;
   [[nodiscard]] const Coordinates& coordinates() const { return coordinates_; }
   [[nodiscard]] const Vector3& gravity() const { return gravity_; }
-  /// Length [m] that "large" and "small" are measured by: the diameter of a sphere round all
-  /// bodies at time 0, about the mean of their places; 1 m if all that is a single point.
+  /// Length [m] that "large" and "small" are measured by: about the greatest distance within
+  /// the scene at time 0; 1 m if all that is a single point.
   [[nodiscard]] double scale() const { return scale_; }
 
   /// The state at time 0, without features.

@@ -149,9 +149,10 @@ TEST_F(Checks, unknown_quantities_fail) {
   EXPECT_FALSE(only().passed);
 }
 
+// A velocity is finite, and its square is not.
 TEST_F(Checks, infinite_values_fail_every_statistic) {
   for (int s = 0; s < static_cast<int>(statistic_names.size()); ++s) {
-    add("body.x", static_cast<Statistic>(s), 0.0).tolerance = 1e300;
+    add("energy.kinetic", static_cast<Statistic>(s), 0.0).tolerance = 1e300;
   }
   Simulation simulation = start(Machine{scene.model, {}});
   CheckRecorder recorder(scene, simulation);
@@ -161,7 +162,7 @@ TEST_F(Checks, infinite_values_fail_every_statistic) {
     recorder.record(simulation);
   }
   State state = simulation.world.state();
-  state.bodies[0].position.x() = std::nan("");
+  state.bodies[0].velocity.x() = 1e200;
   state.time = 2.0;
   ASSERT_TRUE(simulation.world.restore(state).empty());
   recorder.record(simulation);

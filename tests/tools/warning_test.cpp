@@ -212,7 +212,7 @@ TEST(Warnings, ALoadDrawnBeyondTheNearestPointOfItsRailIsAWarning) {
       {"type": "pinhole", "body": "world", "point": [0, 0.4, 0]},
       {"type": "attachment", "body": "winch"}]}]
   })json");
-  EXPECT_EQ(warned({scene}), "stretched dead_end doubtful");
+  EXPECT_EQ(warned({scene}), "stretched dead_end");
   EXPECT_THAT(warnings_of({scene})[1]["message"].get<std::string>(), HasSubstr("up to 0.104 m"));
   EXPECT_EQ(warned({scene, "--set", "/bodies/1/velocity=[0, 0.2, 0]"}), "");
 }
