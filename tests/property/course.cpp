@@ -35,9 +35,8 @@ double motion_apart(const Moment& a, const Moment& b, double dt, double size) {
 void append_tensions(const CableReport& report, Moment& moment) {
   const CableReport whole = report.with_wraps_in_place();
   std::vector<double>& tensions = moment.tensions.emplace_back();
-  for (std::size_t k = 0; k < whole.spans.size(); ++k) {
+  for (const SpanReport& span : whole.spans) {
     // Where a link is lifted one of the spans beside it is there no more.
-    const SpanReport& span = whole.spans[k];
     if (span.length > 0.0 || span.rest_length > 0.0) tensions.push_back(span.tension);
   }
   if (report.closed) std::sort(tensions.begin(), tensions.end());
