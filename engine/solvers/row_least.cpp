@@ -79,7 +79,7 @@ double RowSystem::way_out(const Substep& substep) {
     if (f == 0.0) continue;
     gap -= f * problem_.constant[g];
     norm += f * f * weight_[g];
-    lengths += f * f;
+    lengths += f * f / (groups_[g].lever * groups_[g].lever);
     for (int i = 0; i < groups_[g].row_count; ++i) {
       slots_.add_row(groups_[g].first_row + i, f, motion_.data());
     }

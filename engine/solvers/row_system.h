@@ -118,7 +118,7 @@ class RowSystem {
   /// Finds the unknowns of the problem whose rows yield by `damping` x w more. False if no active
   /// set was found; it may be called again with more damping.
   bool solve_damped(Substep& substep, double damping);
-  /// How far the machine would have to move [m or rad] for all rows to be met, if they went on to
+  /// How far the machine would have to move [m] for all rows to be met, if they went on to
   /// change at the rates of now: at least so far. 0 where none are violated that cannot give.
   [[nodiscard]] double way_out(const Substep& substep);
   /// Puts bodies back to what move_on() has kept, with multipliers of 0.
