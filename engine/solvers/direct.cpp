@@ -29,7 +29,9 @@ bool DirectSolver::make_do(Substep& substep, Features features, bool adding_up) 
   const LeastViolation::Outcome outcome = least_.find(substep, features, system_);
   if (outcome == LeastViolation::Outcome::failed) return false;
   StepStatistics& statistics = substep.statistics;
-  const double violated = system_.violation();
+  double violated = system_.violation();
+  double imbalance = 0.0;
+  if (outcome == LeastViolation::Outcome::met) confirm(substep, features, violated, imbalance);
   statistics.rows = system_.row_count();
   statistics.last_correction = std::max(statistics.last_correction, violated);
   system_.count_impossible(substep);
@@ -65,13 +67,15 @@ void DirectSolver::solve(Substep& substep, Features features) {
   bool adding_up = false;
   bool compromise = false;
   bool at_start = false;
+  double imbalance = 0.0;
   system_.move_on(substep);
   for (int round = 0; round < substep.iterations; ++round) {
     before = violated;
     system_.linearise(substep, features, RowSystem::Rule::backward, adding_up);
     violated = system_.violation();
-    if (round > 0 && !revised && violated <= enough && (adding_up || arrives(substep, astray))) {
-      break;
+    if (round > 0 && !revised && violated <= enough) {
+      if (adding_up) adding_up = !confirm(substep, features, violated, imbalance);
+      if (adding_up || arrives(substep, astray)) break;
     }
     // Rows between driven bodies that nothing can satisfy stay violated in every round.
     const bool settled = adding_up || compromise;
@@ -112,7 +116,35 @@ void DirectSolver::solve(Substep& substep, Features features) {
     violated = 0.0;
     break;
   }
-  end_rounds(substep, features, {violated, before, first, adding_up});
+  end_rounds(substep, features, {violated, before, first, imbalance, adding_up});
+}
+
+bool DirectSolver::confirm(Substep& substep, Features features, double& violated,
+                           double& imbalance) {
+  constexpr int most_rounds = 10;
+  const double enough = tolerance * substep.bodies.scale();
+  added_up_.keep(substep, features);
+  system_.end_adding_up();
+  bool revised = false;
+  for (int round = 0; round < most_rounds; ++round) {
+    const double before = violated;
+    system_.linearise(substep, features, RowSystem::Rule::backward, false);
+    violated = system_.violation();
+    if (round == 0) imbalance = system_.imbalance(substep);
+    const bool met = round > 0 && violated <= enough;
+    if (met && !revised && system_.astray() <= across * substep.bodies.scale()) return true;
+    const bool converges = round < 2 || met || violated <= slow * before;
+    if (!converges || !std::isfinite(violated)) break;
+    if (!system_.solve(substep, false) || system_.contradicts()) break;
+    system_.bend(substep, 0.1 * enough);
+    system_.apply(substep, features);
+    revised = false;
+    for (const auto& feature : features) revised = feature->revise(substep) || revised;
+  }
+  added_up_.go_back(substep, features);
+  system_.linearise(substep, features, RowSystem::Rule::backward, true);
+  violated = system_.violation();
+  return false;
 }
 
 bool DirectSolver::runs_away(const Substep& substep, double violated, double first) {
@@ -122,14 +154,15 @@ bool DirectSolver::runs_away(const Substep& substep, double violated, double fir
 }
 
 void DirectSolver::end_rounds(Substep& substep, Features features, const Course& course) {
-  const auto& [violated, before, first, adding_up] = course;
+  const auto& [violated, before, first, imbalance, adding_up] = course;
   const double enough = tolerance * substep.bodies.scale();
   // Two rounds do not tell whether more of them would converge: so few were asked for.
   const bool tried = adding_up || substep.iterations > 2;
   const bool near = violated <= enough || violated <= slow * before;
   const bool lost = (tried && !near && violated > left_at_most(substep, first)) ||
                     !std::isfinite(violated) ||
-                    (adding_up && violated <= enough && system_.energy_gain(substep) > unresolved);
+                    (adding_up && violated <= enough &&
+                     (imbalance > unbalanced || system_.energy_gain(substep) > unresolved));
   substep.failed = lost && substep.resort != Resort::anything;
   if (substep.failed) return;
   if (lost && make_do(substep, features, adding_up)) return;

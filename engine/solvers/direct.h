@@ -16,6 +16,7 @@
 // heavy ball, whose links swing across it by more than a radian per substep.
 
 #include "engine/solvers/gauss_seidel.h"
+#include "engine/solvers/kept_place.h"
 #include "engine/solvers/least_violation.h"
 #include "engine/solvers/row_system.h"
 
@@ -51,6 +52,9 @@ class DirectSolver {
   /// short swing. It makes no energy; what makes more than this share of the kinetic energy counts
   /// as no solution, either.
   static constexpr double unresolved = 1e-2;
+  /// Nor does what is off by more than this share of the forces on a body: a tenth of what a
+  /// certificate doubts.
+  static constexpr double unbalanced = 1e-3;
 
   void solve(Substep& substep, Features features);
 
@@ -59,11 +63,12 @@ class DirectSolver {
 
  private:
   /// What rounds have come to: the violation that is left, that of the round before and of the
-  /// first one, and whether corrections were added up.
+  /// first one, what forces are off by, and whether corrections were added up.
   struct Course {
     double violated = 0.0;
     double before = 0.0;
     double first = 0.0;
+    double imbalance = 0.0;
     bool adding_up = false;
   };
   /// Whether the substep has failed, and what is counted if not.
@@ -85,7 +90,14 @@ class DirectSolver {
   /// look at them would find what they have told.
   bool leaves_nothing(const Substep& substep);
 
+  /// Corrections that have been added up have moved bodies along the gradients of each round's
+  /// start, and what acts at the end would have moved them elsewhere. Goes on from there with rounds
+  /// that begin at the prediction, and goes back if they do not converge. Whether they have.
+  /// `imbalance` becomes what the forces were off by (RowSystem::imbalance()).
+  bool confirm(Substep& substep, Features features, double& violated, double& imbalance);
+
   RowSystem system_;
+  KeptPlace added_up_;
   GaussSeidelSolver sweeps_;
   LeastViolation least_;
 };

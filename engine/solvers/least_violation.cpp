@@ -66,23 +66,6 @@ void begin_at(Start start, Substep& substep, Features features) {
 
 }  // namespace
 
-void LeastViolation::keep(const Substep& substep, Features features, Kept& kept) {
-  kept.bodies = substep.moving;
-  kept.multipliers.resize(features.size());
-  for (std::size_t f = 0; f < features.size(); ++f) {
-    const std::span<const double> from = features[f]->multipliers();
-    kept.multipliers[f].assign(from.begin(), from.end());
-  }
-}
-
-void LeastViolation::go_back(Substep& substep, Features features, const Kept& kept) {
-  substep.moving = kept.bodies;
-  for (std::size_t f = 0; f < features.size(); ++f) {
-    std::copy(kept.multipliers[f].begin(), kept.multipliers[f].end(),
-              features[f]->multipliers().begin());
-  }
-}
-
 LeastViolation::Place LeastViolation::descend(Substep& substep, Features features,
                                               RowSystem& system) {
   const double scale = substep.bodies.scale();
@@ -98,7 +81,7 @@ LeastViolation::Place LeastViolation::descend(Substep& substep, Features feature
     place.way_out = system.way_out(substep);
     place.met = place.violation <= DirectSolver::tolerance * scale;
     if (place.met || place.way_out > far * scale) break;
-    keep(substep, features, round_);
+    round_.keep(substep, features);
     bool less = false;
     bool solved = false;
     for (; !less && damping < most_damping; damping *= 10.0) {
@@ -107,12 +90,12 @@ LeastViolation::Place LeastViolation::descend(Substep& substep, Features feature
       solved = true;
       system.apply(substep, features);
       const double now = look();
-      less = now < place.misfit && way_from(round_.bodies, substep) < longest_way;
+      less = now < place.misfit && way_from(round_.bodies(), substep) < longest_way;
       if (less) {
         place.misfit = now;
         break;
       }
-      go_back(substep, features, round_);
+      round_.go_back(substep, features);
       place.misfit = look();
     }
     place.failed = round == 0 && !solved;
@@ -146,7 +129,7 @@ bool LeastViolation::is_stationary(const Substep& substep, const Place& place) {
 
 bool LeastViolation::escapes(Substep& substep, Features features, RowSystem& system) {
   for (const Start start : {Start::of_substep, Start::to_one_side, Start::to_the_other}) {
-    if (start != Start::of_substep) go_back(substep, features, result_);
+    if (start != Start::of_substep) result_.go_back(substep, features);
     begin_at(start, substep, features);
     const Place other = descend(substep, features, system);
     if (other.met || !is_stationary(substep, other)) return true;
@@ -163,9 +146,9 @@ LeastViolation::Outcome LeastViolation::find(Substep& substep, Features features
   if (found.failed) return Outcome::failed;
   if (found.met && settled) return Outcome::met;
   if (!settled || !is_stationary(substep, found)) return Outcome::unresolved;
-  keep(substep, features, result_);
+  result_.keep(substep, features);
   const bool escaped = escapes(substep, features, system);
-  go_back(substep, features, result_);
+  result_.go_back(substep, features);
   system.linearise(substep, features, RowSystem::Rule::backward, true);
   return escaped ? Outcome::unresolved : Outcome::dead_end;
 }

@@ -20,8 +20,7 @@
 // that slide) as it is right for the forces found, nothing near satisfies the rows: the machine is
 // asked for more than there is.
 
-#include <vector>
-
+#include "engine/solvers/kept_place.h"
 #include "engine/solvers/row_system.h"
 
 namespace sheave {
@@ -47,12 +46,6 @@ class LeastViolation {
     bool failed = false;  ///< no active set was found in the first round
     bool met = false;
   };
-  struct Kept {
-    std::vector<MovingBody> bodies;
-    std::vector<std::vector<double>> multipliers;
-  };
-  static void keep(const Substep& substep, Features features, Kept& kept);
-  static void go_back(Substep& substep, Features features, const Kept& kept);
   /// Rounds from where the bodies are until the misfit is least.
   Place descend(Substep& substep, Features features, RowSystem& system);
   /// The same with what the features decide.
@@ -62,8 +55,8 @@ class LeastViolation {
   /// Whether a descent from other places leads to where rows are met, or to no end.
   bool escapes(Substep& substep, Features features, RowSystem& system);
 
-  Kept round_;
-  Kept result_;
+  KeptPlace round_;
+  KeptPlace result_;
 };
 
 }  // namespace sheave

@@ -18,6 +18,39 @@ constexpr double change_rounding = 1e-10;
 
 }  // namespace
 
+double RowSystem::imbalance(const Substep& substep) const {
+  /// Motions that a body would have if all rows pushed it the same way, and it were free to go it.
+  struct Push {
+    double way = 0.0;
+    double turn = 0.0;
+  };
+  std::vector<Push> pushes(substep.moving.size());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const double multiplier = std::abs(previous_[i]);
+    if (multiplier == 0.0) continue;
+    for (const RowTerm& term : rows_[i].active_terms()) {
+      if (term.body == substep.bodies.count()) continue;
+      const MovingBody& body = substep.moving[at(term.body)];
+      Push& push = pushes[at(term.body)];
+      push.way += multiplier * std::max(body.linear_yield * term.linear.norm(),
+                                        (body.inverse_mass * term.linear).norm());
+      push.turn += multiplier * std::max(body.angular_yield * term.angular.norm(),
+                                         (body.inverse_inertia * term.angular).norm());
+    }
+  }
+  double worst = 0.0;
+  for (const BodyFreedom& freedom : substep.bodies.coordinates().movable()) {
+    const MovingBody& body = substep.moving[at(freedom.body)];
+    const Push& push = pushes[at(freedom.body)];
+    const double* motion = &motion_[at(freedom.first)];
+    const double way = linear_motion(freedom, motion).norm();
+    const double turn = angular_motion(freedom, body, motion).norm();
+    if (way > worst * push.way) worst = way / push.way;
+    if (turn > worst * push.turn) worst = turn / push.turn;
+  }
+  return worst;
+}
+
 double RowSystem::energy_gain(const Substep& substep) const {
   const double h = substep.h;
   double made = 0.0;

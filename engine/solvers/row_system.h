@@ -49,7 +49,8 @@
 // the factors and evaluate no row; the bounds of friction, which follow pressures that depend on
 // them, are found with it. What is left is of second order. Where bodies swing too far for that,
 // corrections can be added up instead (`from_here`): Newton's method on C alone, which converges
-// however fast they swing, with gradients between those of x* and of the end.
+// however fast they swing, with gradients between those of x* and of the end. From there rounds with
+// those of the end alone mostly converge; DirectSolver::confirm().
 
 #include <memory>
 #include <span>
@@ -99,8 +100,14 @@ class RowSystem {
   /// kinetic energy; 0 where rounding hides it. Implicit Euler makes none. To be called after
   /// begin_adding_up().
   [[nodiscard]] double energy_gain(const Substep& substep) const;
+  /// What the multipliers would have to change by on a body, as a share of all that they do to it,
+  /// for it to be where it is: the worst of all bodies. To be called after linearise() that was not
+  /// from here, before solve().
+  [[nodiscard]] double imbalance(const Substep& substep) const;
   /// Keeps the predicted positions, before the first round from here.
   void begin_adding_up() { prediction_ = origin_; }
+  /// Rounds are again from what begin_adding_up() has kept.
+  void end_adding_up() { origin_ = prediction_; }
   /// Puts bodies back to where they are at the start of the substep, with multipliers of 0, and
   /// returns the violation there: for rounds that have run away. Rows are met at the start, so that
   /// those that depend on each other do so exactly; where bodies that nothing lets move would be if

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/body_set.h"
 #include "engine/joint_report.h"
 #include "engine/joints/hinge.h"
 #include "tests/support/builders.h"
