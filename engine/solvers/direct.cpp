@@ -58,16 +58,13 @@ bool DirectSolver::leaves_nothing(const Substep& substep) {
 
 void DirectSolver::solve(Substep& substep, Features features) {
   const double enough = tolerance * substep.bodies.scale();
-  double violated = 0.0;
-  double before = 0.0;
-  double first = 0.0;
+  Course course;
+  auto& [violated, before, first, imbalance, adding_up] = course;
   double astray = std::numeric_limits<double>::infinity();
   bool revised = false;
   bool renewed = false;  // the last round was the first one with other rows
-  bool adding_up = false;
   bool compromise = false;
   bool at_start = false;
-  double imbalance = 0.0;
   system_.move_on(substep);
   for (int round = 0; round < substep.iterations; ++round) {
     before = violated;
@@ -116,7 +113,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
     violated = 0.0;
     break;
   }
-  end_rounds(substep, features, {violated, before, first, imbalance, adding_up});
+  end_rounds(substep, features, course);
 }
 
 bool DirectSolver::confirm(Substep& substep, Features features, double& violated,

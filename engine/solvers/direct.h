@@ -91,8 +91,8 @@ class DirectSolver {
   bool leaves_nothing(const Substep& substep);
 
   /// Corrections that have been added up have moved bodies along the gradients of each round's
-  /// start, and what acts at the end would have moved them elsewhere. Goes on from there with rounds
-  /// that begin at the prediction, and goes back if they do not converge. Whether they have.
+  /// start, and what acts at the end would have moved them elsewhere. Goes on from there with
+  /// rounds that begin at the prediction, and goes back if they do not converge. Whether they have.
   /// `imbalance` becomes what the forces were off by (RowSystem::imbalance()).
   bool confirm(Substep& substep, Features features, double& violated, double& imbalance);
 

@@ -49,8 +49,8 @@
 // the factors and evaluate no row; the bounds of friction, which follow pressures that depend on
 // them, are found with it. What is left is of second order. Where bodies swing too far for that,
 // corrections can be added up instead (`from_here`): Newton's method on C alone, which converges
-// however fast they swing, with gradients between those of x* and of the end. From there rounds with
-// those of the end alone mostly converge; DirectSolver::confirm().
+// however fast they swing, with gradients between those of x* and of the end. From there rounds
+// with those of the end alone mostly converge, too (DirectSolver::confirm()).
 
 #include <memory>
 #include <span>
