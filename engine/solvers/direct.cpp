@@ -59,7 +59,7 @@ bool DirectSolver::leaves_nothing(const Substep& substep) {
 void DirectSolver::solve(Substep& substep, Features features) {
   const double enough = tolerance * substep.bodies.scale();
   Course course;
-  auto& [violated, before, first, imbalance, adding_up] = course;
+  auto& [violated, before, first, adding_up] = course;
   double astray = std::numeric_limits<double>::infinity();
   bool revised = false;
   bool renewed = false;  // the last round was the first one with other rows
@@ -70,9 +70,8 @@ void DirectSolver::solve(Substep& substep, Features features) {
     before = violated;
     system_.linearise(substep, features, RowSystem::Rule::backward, adding_up);
     violated = system_.violation();
-    if (round > 0 && !revised && violated <= enough) {
-      if (adding_up) adding_up = !confirm(substep, features, violated, imbalance);
-      if (adding_up || arrives(substep, astray)) break;
+    if (round > 0 && !revised && violated <= enough && (adding_up || arrives(substep, astray))) {
+      break;
     }
     // Rows between driven bodies that nothing can satisfy stay violated in every round.
     const bool settled = adding_up || compromise;
@@ -118,6 +117,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
 
 bool DirectSolver::confirm(Substep& substep, Features features, double& violated,
                            double& imbalance) {
+  if (system_.contradicts() || !std::isfinite(violated)) return false;
   constexpr int most_rounds = 10;
   const double enough = tolerance * substep.bodies.scale();
   added_up_.keep(substep, features);
@@ -129,7 +129,10 @@ bool DirectSolver::confirm(Substep& substep, Features features, double& violated
     violated = system_.violation();
     if (round == 0) imbalance = system_.imbalance(substep);
     const bool met = round > 0 && violated <= enough;
-    if (met && !revised && system_.astray() <= across * substep.bodies.scale()) return true;
+    if (met && !revised && system_.astray() <= across * substep.bodies.scale()) {
+      system_.follow_gradients(substep);
+      return true;
+    }
     const bool converges = round < 2 || met || violated <= slow * before;
     if (!converges || !std::isfinite(violated)) break;
     if (!system_.solve(substep, false) || system_.contradicts()) break;
@@ -150,8 +153,10 @@ bool DirectSolver::runs_away(const Substep& substep, double violated, double fir
   return !(violated <= std::max(growth * first, away * substep.bodies.scale()));
 }
 
-void DirectSolver::end_rounds(Substep& substep, Features features, const Course& course) {
-  const auto& [violated, before, first, imbalance, adding_up] = course;
+void DirectSolver::end_rounds(Substep& substep, Features features, Course course) {
+  auto& [violated, before, first, adding_up] = course;
+  double imbalance = 0.0;
+  if (adding_up) adding_up = !confirm(substep, features, violated, imbalance);
   const double enough = tolerance * substep.bodies.scale();
   // Two rounds do not tell whether more of them would converge: so few were asked for.
   const bool tried = adding_up || substep.iterations > 2;

@@ -63,16 +63,15 @@ class DirectSolver {
 
  private:
   /// What rounds have come to: the violation that is left, that of the round before and of the
-  /// first one, what forces are off by, and whether corrections were added up.
+  /// first one, and whether corrections were added up.
   struct Course {
     double violated = 0.0;
     double before = 0.0;
     double first = 0.0;
-    double imbalance = 0.0;
     bool adding_up = false;
   };
   /// Whether the substep has failed, and what is counted if not.
-  void end_rounds(Substep& substep, Features features, const Course& course);
+  void end_rounds(Substep& substep, Features features, Course course);
 
   /// What counts as near a solution, where the first round has found `first`.
   [[nodiscard]] static double left_at_most(const Substep& substep, double first);
