@@ -47,7 +47,7 @@ class DirectSolver {
 
   /// What is left of the violation that the first round found counts as no solution above this
   /// share.
-  static constexpr double nearly = 1e-3;
+  static constexpr double nearly = 1e-5;
   /// Corrections that have been added up can end far from implicit Euler, on another side of a
   /// short swing. It makes no energy; what makes more than this share of the kinetic energy counts
   /// as no solution, either.
