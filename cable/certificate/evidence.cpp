@@ -98,6 +98,8 @@ Evidence::Evidence(const Simulation& observed, const LastSubstep& last)
     largest_force = std::max(largest_force, balance.largest_force);
   }
   force_rounding = rounding_of_forces();
+  // Spans that depend on each other share a load as if each yielded by 1e-9 of what it moves.
+  shared_rounding = std::numeric_limits<double>::epsilon() / 1e-9 * largest_force;
 }
 
 double Evidence::rounding_of_forces() const {

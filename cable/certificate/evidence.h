@@ -185,6 +185,8 @@ class Evidence {
   /// What no force is told apart from nothing by: the rounding of positions, as a force that moves
   /// all bodies by it within the substep [N].
   double force_rounding = 0.0;
+  /// The same of a tension that spans share which depend on each other [N].
+  double shared_rounding = 0.0;
 
   /// Radius of the ball about the centre of mass that contains the body, or that of gyration
   /// without a shape [m].

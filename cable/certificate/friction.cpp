@@ -27,8 +27,9 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
   const double low = std::min(before, after);
   // Tensions that are nothing beside those of the cable, or beside rounding, have no ratio that
   // would count.
-  const double scale = std::max(high, 1e-3 * largest);
-  const double rounding = std::max(1e-9 * scale, bound * evidence.force_rounding);
+  const double scale = std::max({high, 1e-3 * largest, evidence.force_rounding});
+  const double rounding =
+      std::max({1e-9 * scale, bound * evidence.force_rounding, evidence.shared_rounding});
   const auto name = [&] {
     return (pass.link < 0 ? std::string("a wrap") : "link " + std::to_string(pass.link)) +
            " of \"" + std::string(pass.cable) + "\"";

@@ -33,12 +33,16 @@ class JointWorker {
       return work_;
     }
     add_flow();
-    lock(frame_.compliance, [&](End when) { return point(when); });
+    // At either end a gap of what the solver takes for none.
+    const double gap = 2e-10 * e_.bodies.scale();
+    const double size = std::max(e_.size_of(frame_.body_a), e_.size_of(frame_.body_b));
+    const double angle = size > 0.0 ? gap / size : 0.0;
+    lock(frame_.compliance, gap, [&](End when) { return point(when); });
     if (frame_.kind.parallel) {
-      lock(frame_.angular_compliance, [&](End when) { return tilt(when); });
+      lock(frame_.angular_compliance, angle, [&](End when) { return tilt(when); });
     }
     if (frame_.kind.no_turn) {
-      lock(frame_.angular_compliance, [&](End when) { return turn(when); });
+      lock(frame_.angular_compliance, angle, [&](End when) { return turn(when); });
     }
     resist();
     return work_;
@@ -52,12 +56,15 @@ class JointWorker {
   };
 
   template <class LockAt>
-  void lock(double compliance, const LockAt& lock_at) {
+  void lock(double compliance, double gap, const LockAt& lock_at) {
     const Lock first = lock_at(first_end);
     const Lock last = lock_at(last_end);
     const Vector3 opened = last.value - first.value;
     work_.unexplained += (first.effort + last.effort).dot(opened);
-    if (!(compliance > 0.0)) return;
+    if (!(compliance > 0.0)) {
+      work_.rounding += gap * (first.effort + last.effort).norm();
+      return;
+    }
     const Vector3 ruled = e_.rattle ? Vector3(0.5 * (first.value + last.value)) : last.value;
     const double taken = ruled.dot(opened) / compliance;
     work_.unexplained += taken;

@@ -310,6 +310,8 @@ class RowSystem {
   void pose_velocities(const Substep& substep, const RowSystem& positions);
   /// Multiplier of a row for the forces of both halves of the substep.
   [[nodiscard]] double whole_multiplier(double h, int row) const;
+  /// Of a group, within its bounds [N s].
+  [[nodiscard]] double impulse_of(std::size_t group) const;
   /// Counts the impulses in the groups' multipliers as given: the unknowns are what is added to
   /// them.
   void start_from_impulses();

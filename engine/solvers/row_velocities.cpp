@@ -76,12 +76,17 @@ void RowSystem::pose_velocities(const Substep& substep, const RowSystem& positio
   share_load();
 }
 
+double RowSystem::impulse_of(std::size_t g) const {
+  const double change = active_set_.solution()[g];
+  // What is free may be found beyond its bound by rounding.
+  return groups_[g].multiplier + std::clamp(change, problem_.lower[g], problem_.upper[g]);
+}
+
 double RowSystem::whole_multiplier(double h, int row) const {
   const auto i = at(row);
   const Group& group = groups_[at(group_of_[i])];
   if (group.elastic) return 2.0 * previous_[i];
-  const double impulse = group.multiplier + active_set_.solution()[at(group_of_[i])];
-  return previous_[i] + h * rows_[i].weight * impulse;
+  return previous_[i] + h * rows_[i].weight * impulse_of(at(group_of_[i]));
 }
 
 bool RowSystem::revise_impulses(Substep& substep, Features features, const RowSystem& positions) {
@@ -201,7 +206,6 @@ void RowSystem::move_velocities(Substep& substep) {
 
 void RowSystem::apply_impulses(Substep& substep, Features features) {
   motion_.assign(at(substep.bodies.coordinates().count()), 0.0);
-  const std::span<const double> impulses = active_set_.solution();
   substep.late_forces.resize(features.size());
   for (std::size_t f = 0; f < features.size(); ++f) {
     const std::span<double> multipliers = features[f]->multipliers();
@@ -211,8 +215,7 @@ void RowSystem::apply_impulses(Substep& substep, Features features) {
       const auto i = at(r);
       const Group& group = groups_[at(group_of_[i])];
       const double impulse =
-          group.elastic ? previous_[i] / substep.h
-                        : rows_[i].weight * (group.multiplier + impulses[at(group_of_[i])]);
+          group.elastic ? previous_[i] / substep.h : rows_[i].weight * impulse_of(at(group_of_[i]));
       multipliers[at(rows_[i].index)] = previous_[i] + substep.h * impulse;
       late[at(rows_[i].index)] = impulse / substep.h;
       if (!group.elastic) slots_.add_row(r, impulse, motion_.data());
