@@ -161,6 +161,15 @@ void retell(const Retold& retold, Course& course, const Machine& machine) {
   }
 }
 
+/// Where in either of them rows depend on each other.
+void forget_shared_loads(Course& a, Course& b) {
+  for (std::size_t i = 0; i < std::min(a.moments.size(), b.moments.size()); ++i) {
+    if (!a.moments[i].redundant && !b.moments[i].redundant) continue;
+    a.moments[i].tensions.clear();
+    b.moments[i].tensions.clear();
+  }
+}
+
 }  // namespace
 
 Course follow(const Machine& machine, int steps) {
@@ -185,6 +194,7 @@ Course follow(const Machine& machine, int steps) {
     }
     Moment& moment = course.moments.emplace_back();
     moment.bodies = s.world.state().bodies;
+    moment.redundant = done.redundant_rows > 0;
     for (const CableReport& cable : s.cable_reports()) append_tensions(cable, moment);
   }
   return course;
@@ -198,7 +208,9 @@ Finding alike(const Machine& machine, const Machine& other, const Retold& retold
   const double size = start(machine).world.bodies().scale() + 1.0;
   const double weight = weight_of(machine);
   const double dt = machine.model.step.dt;
-  const auto difference = apart(course, told, dt, size, weight);
+  Course own = course;
+  if (!retold.compares_shared_loads) forget_shared_loads(own, told);
+  const auto difference = apart(own, told, dt, size, weight);
   Twins twins(machine, course, size, weight);
   for (std::uint64_t k = 0; k < 2; ++k) twins.add(noise, 1000 * seed + k);
   if (noise > 1e-14) twins.add(beside_a_landmark(machine, size));

@@ -21,6 +21,8 @@ namespace sheave::test {
 struct Moment {
   std::vector<BodyState> bodies;
   std::vector<std::vector<double>> tensions;  ///< of each cable, its spans in order [N]
+  /// Some rows depended on each other: which of them carries how much is open.
+  bool redundant = false;
 };
 
 struct Course {
@@ -43,6 +45,9 @@ struct Retold {
   std::function<BodyState(BodyState)> body = [](BodyState b) { return b; };
   double tension = 1.0;            ///< factor
   bool tensions_reversed = false;  ///< spans of each cable are counted from the other end
+  /// What impacts leave in spans that hold each other within the cones of their links depends on the
+  /// order of rows: tensions are compared where no rows depend on each other.
+  bool compares_shared_loads = true;
 };
 
 /// Whether two machines move alike. `noise`: relative, what their runs differ by in each substep.

@@ -3,6 +3,7 @@
 // Each machine runs with both solvers and both integrators. A machine that fails is shrunk and
 // shown as a scene; with SHEAVE_FAULTS=FOLDER it is written there, too.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -206,12 +207,18 @@ TEST(Property, WideMachinesMoveTheSameWithTwiceTheMassesAndForces) {
 }
 
 // Counted from the other end rows come in another order.
-TEST(Property, DISABLED_WideMachinesMoveTheSameWithCablesReversed) {
+TEST(Property, WideMachinesMoveTheSameWithCablesReversed) {
   run_wide_campaign("wide-reversed", [](const Machine& machine, std::uint64_t seed) {
     if (machine.model.step.solver != SolverKind::direct) return not_for_sweeps;
     Retold retold;
     retold.tensions_reversed = true;
-    return alike_once_converged(machine, reversed, retold, seed);
+    retold.compares_shared_loads = false;
+    // DirectSolver::across: so far bodies may be from where the forces of the last round put them.
+    // Of strained cable, where two pairs of what lies on a wheel cost the same to be merged
+    // (cable/stored_strain.h), rounding decides which are, and strains differ by a part of theirs.
+    const bool strained = std::any_of(machine.cables.begin(), machine.cables.end(),
+                                      [](const CableDef& cable) { return cable.axial_stiffness; });
+    return alike(machine, reversed(machine), retold, wide_steps, strained ? 1e-7 : 1e-9, seed);
   });
 }
 
