@@ -169,6 +169,19 @@ void RowSystem::begin_shared_friction() {
   set_slipping_sides();
 }
 
+void RowSystem::turn_as_in(const RowSystem& positions) {
+  for (std::size_t s = 0; s < shared_.size(); ++s) {
+    const SharedFriction& turned = shared_[s];
+    const SharedFriction& before = positions.shared_[s];
+    for (int k = 0; k < turned.count; ++k) {
+      const auto row = at(turned.first_row + k);
+      previous_[row] = positions.previous_[row];
+      if (k > 0) rows_[row].softness += before.softness - turned.softness;
+    }
+  }
+  shared_ = positions.shared_;
+}
+
 bool RowSystem::turn_friction() {
   const std::span<const double> change = active_set_.solution();
   bool changed = false;

@@ -280,6 +280,8 @@ class RowSystem {
   bool turn_to_slip(double bound, SharedFriction& friction);
   /// Of the velocities: that of the positions goes on.
   void begin_shared_friction();
+  /// Its rows again as the positions have left them.
+  void turn_as_in(const RowSystem& positions);
   /// Makes `multipliers` of the feature what they are in its own directions.
   void turn_back(const SharedFriction& friction, std::span<double> multipliers) const;
   /// A row of friction whose bounds follow the pressure within a round.

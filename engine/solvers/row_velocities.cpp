@@ -90,8 +90,6 @@ double RowSystem::whole_multiplier(double h, int row) const {
 }
 
 bool RowSystem::revise_impulses(Substep& substep, Features features, const RowSystem& positions) {
-  // Rows of friction in several directions have turned with its slip.
-  if (!shared_.empty()) return false;
   bool changed = false;
   for (std::size_t f = 0; f < features.size(); ++f) {
     const std::span<double> multipliers = features[f]->multipliers();
@@ -114,10 +112,12 @@ bool RowSystem::revise_impulses(Substep& substep, Features features, const RowSy
     changed = true;
   }
   if (!changed) return false;
+  turn_as_in(positions);
   fill_slots(substep);
   slots_.join(rows_);
   make_groups();
   pose_velocities(substep, positions);
+  if (!shared_.empty()) begin_shared_friction();
   return true;
 }
 
