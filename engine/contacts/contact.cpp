@@ -169,6 +169,12 @@ Vector3 Contact::slip(const Substep& substep) const {
   return slipped + path_a - path_b;
 }
 
+Vector3 Contact::held_slip(const Substep& substep) const {
+  const Vector3 all = slip(substep);
+  if (rows == 2) return tangents[0] * dot(tangents[0], all);
+  return all - normal * dot(normal, all);
+}
+
 void Contact::evaluate(const Substep& substep, int index, Row& row) const {
   const Vector3 surface_a = substep.point(body_a, own_a) - radius_a * normal;
   const Vector3 surface_b = substep.point(body_b, own_b) + radius_b * normal;
