@@ -151,15 +151,15 @@ Bounced BounceCheck::sum() const {
     const Vector3 meeting = without(contact.body_a, at_a) - without(contact.body_b, at_b);
     const double after = contact.normal.dot(parting);
     const double before = contact.normal.dot(meeting);
-    // Friction may turn a body so that the normal force works on it, by no more than it takes.
-    const double worked = 0.5 * push * (before + after);
-    const double rubbed = 0.5 * e_.h * contact.drag[last_end].dot(meeting + parting);
-    bounced.energy += worked > 0.0 ? std::max(worked + std::min(rubbed, 0.0), 0.0) : worked;
+    double worked = 0.5 * push * (before + after);
     for (const auto& [body, sense] : {std::pair{contact.body_a, 1.0}, {contact.body_b, -1.0}}) {
       if (body == e_.bodies.count()) continue;
       const double a = sense * contact.normal.dot(acceleration(leader(body)));
-      bounced.energy -= (means ? 0.5 : 1.0) * e_.h * a * push;
+      worked -= (means ? 0.5 : 1.0) * e_.h * a * push;
     }
+    // Friction may turn a body so that the normal force works on it, by no more than it takes.
+    const double rubbed = 0.5 * e_.h * contact.drag[last_end].dot(meeting + parting);
+    bounced.energy += worked > 0.0 ? std::max(worked + std::min(rubbed, 0.0), 0.0) : worked;
     bounced.flow += push * std::max(std::abs(before), std::abs(after));
   }
   for (int i = 0; i < e_.bodies.count(); ++i) bounced.energy += fallen_beside(i, means);

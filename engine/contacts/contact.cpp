@@ -16,7 +16,8 @@
 // with the direction of the force that the whole manifold holds, along which it will slip.
 //
 // A rigid contact that overlaps at the start is opened by a fiftieth per substep only, because the
-// velocity that opening it at once would leave behind is energy that nobody has put in.
+// velocity that opening it at once would leave behind is energy that nobody has put in. Where it
+// bounces it does so at once, from where it is, c = 0 above, and the way of its rebound opens it.
 
 #include "engine/contacts/contact.h"
 
@@ -90,10 +91,11 @@ void meet(const Substep& substep, double restitution, double rate, double accele
   const double impact = std::sqrt(square);
   const double left = h - 2.0 * gap / (closing + impact);
   if (!(left > 0.0) || impact <= slowest) return;
-  const double target = left * (restitution * impact + 0.5 * acceleration * left);
+  const double way = left * (restitution * impact + 0.5 * acceleration * left);
   const double rebound = restitution * impact + acceleration * left;
-  if (!(target >= 0.0) || !(rebound > 0.0)) return;
-  contact.target = target;
+  if (!(way >= 0.0) || !(rebound > 0.0)) return;
+  contact.target =
+      contact.start_gap < 0.0 ? std::max(contact.target, contact.start_gap + way) : way;
   contact.rebound = rebound;
   contact.rebound_speed = Row::unbounded;
   contact.restitution = restitution;
@@ -167,6 +169,12 @@ Vector3 Contact::slip(const Substep& substep) const {
   const Vector3 path_b =
       substep.point(body_b, own_b) - start_b + radius_b * cross(turn_of(substep, body_b), normal);
   return slipped + path_a - path_b;
+}
+
+Vector3 Contact::held_slip(const Substep& substep) const {
+  const Vector3 all = slip(substep);
+  if (rows == 2) return tangents[0] * dot(tangents[0], all);
+  return all - normal * dot(normal, all);
 }
 
 void Contact::evaluate(const Substep& substep, int index, Row& row) const {

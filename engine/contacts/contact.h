@@ -61,12 +61,15 @@ struct Contact {
   double pressed = 0.0;       ///< l_n that bounds friction
   FollowedPressure pressure;  ///< what `pressed` becomes from round to round
   bool slips = false;
+  bool slid = false;  ///< on the way of the substep, whatever velocities have been given since
 
   int rows = 1;  ///< the normal, and friction along the first or both tangents
 
   [[nodiscard]] double gap(const Substep& substep) const;
   /// s + d_a - d_b
   [[nodiscard]] Vector3 slip(const Substep& substep) const;
+  /// Its part in the directions in which friction acts: it holds nothing across them.
+  [[nodiscard]] Vector3 held_slip(const Substep& substep) const;
   /// Row 0 is the normal, 1 and 2 are friction along the tangents.
   void evaluate(const Substep& substep, int index, Row& row) const;
 };

@@ -148,6 +148,7 @@ class ContactBatch final : public ConstraintBatch {
   }
   [[nodiscard]] bool corrects_velocities() const override { return bounces_; }
   void correct_velocities(Substep& substep) override {
+    for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].slid = is_at_bound(i);
     rebound_.run(substep, contacts_, multipliers_);
   }
 
@@ -175,9 +176,8 @@ class ContactBatch final : public ConstraintBatch {
       const bool touches = multipliers_[3 * i] > 0.0;
       record.sticks =
           contact.friction > 0.0 && (touches ? !contact.slips && !is_at_bound(i) : contact.stuck);
-      if (record.sticks && touches) {
-        record.slipped = contact.slip(substep);
-        record.slipped -= contact.normal * dot(contact.normal, record.slipped);
+      if (record.sticks && touches && !contact.slid && !has_slid(substep, i)) {
+        record.slipped = contact.held_slip(substep);
       }
       statistics.deepest_overlap = std::max(statistics.deepest_overlap, -record.gap);
       append_contact(record, next);
@@ -307,10 +307,20 @@ class ContactBatch final : public ConstraintBatch {
   }
 
   /// Whether friction is all that the normal force allows, which in a round that follows it may be
-  /// less than what the round began with.
-  [[nodiscard]] bool is_at_bound(std::size_t i) const {
-    const double limit = (1.0 - settled_share) * contacts_[i].friction * multipliers_[3 * i];
-    return portable::hypot(multipliers_[3 * i + 1], multipliers_[3 * i + 2]) >= limit;
+  /// less than what the round began with. Of each multiplier `late` has been added since [kg m].
+  [[nodiscard]] bool is_at_bound(std::size_t i, const std::array<double, 3>& late = {}) const {
+    const double* own = &multipliers_[3 * i];
+    const double limit = (1.0 - settled_share) * contacts_[i].friction * (own[0] - late[0]);
+    return portable::hypot(own[1] - late[1], own[2] - late[2]) >= limit;
+  }
+
+  /// Whether friction has let slip what it acted against on the way of the substep. What the second
+  /// half of `rattle` adds may bring that to rest, not back.
+  [[nodiscard]] bool has_slid(const Substep& substep, std::size_t i) const {
+    if (place_ >= substep.late_forces.size() || substep.late_forces[place_].empty()) return false;
+    const double square = substep.h * substep.h;
+    const double* own = &substep.late_forces[place_][3 * i];
+    return is_at_bound(i, {square * own[0], square * own[1], square * own[2]});
   }
 
   /// Makes what acted in the second half of the substep four numbers per contact: along the normal,

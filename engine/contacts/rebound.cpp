@@ -57,7 +57,7 @@ double rebound_from(const Substep& substep, const Contact& contact, double free_
   const double h = substep.h;
   const double shift = lag(substep, contact);
   const double mean = free_velocity + shift - 0.5 * h * a;
-  const double depth = -(contact.start_gap + h * mean);
+  const double depth = -(std::max(contact.start_gap, 0.0) + h * mean);
   const double closing = -(free_velocity + shift);
   const double square = closing * closing + 2.0 * a * std::max(depth, 0.0);
   if (!(closing > 0.0) || !(square > 0.0)) return 0.0;

@@ -134,6 +134,55 @@ TEST(ContactBounce, TheCertificateDoesNotDoubtWhatTumblesDownASlope) {
   }
 }
 
+// A ball that meets the side of a sliding box turns it by friction, so that the floor's normal force
+// works on what would have left the floor. Its friction takes more than that and what the box has
+// not fallen, so that the floor gives nothing.
+TEST(ContactBounce, TheCertificateCountsWhatFrictionTakesFromWhatIsPressed) {
+  Heap heap(SolverKind::direct, IntegratorKind::xpbd);
+  heap.model.step = test::direct_settings(IntegratorKind::xpbd, 0.003);
+  heap.surface.friction = 0.46;
+  heap.surface.restitution = 0.6;
+  heap.floor();
+  heap.surface.restitution = 0.0;
+  heap.surface.friction = 0.64;
+  heap.put(test::box({0.3, 0.3, 0.3}), {0.0, 0.15, 0.0}, 2.4);
+  heap.last().velocity = {-0.084, 0.068, 0.0};
+  heap.surface.friction = 0.25;
+  heap.put(test::ball(0.15), {0.3, 0.15, 0.0}, 2.9);
+  heap.last().velocity = {-0.5, 0.0, 0.0};
+  heap.last().angular_velocity = {0.0, 0.0, 3.1};
+  Simulation simulation = test::start(test::Machine{heap.model, {}});
+  ASSERT_TRUE(simulation.world.step().ok());
+  const certify::Evidence evidence(simulation, *simulation.world.last_substep());
+  EXPECT_LE(certify::BounceCheck(evidence).sum().energy, 0.0);
+}
+
+// What overlaps when it bounces does so where it is: it leaves at e v and is where that takes it,
+// which is farther than the fiftieth of 35 mm by which overlaps are opened.
+TEST(ContactBounce, OfWhatOverlapsMovesItByNoMoreThanItsRebound) {
+  constexpr double speed = 2.0;
+  for (const test::Method& method : test::methods) {
+    for (const double restitution : {0.3, 1.0}) {
+      SCOPED_TRACE(test::name_of(method) + ", restitution " + std::to_string(restitution));
+      Heap heap(method.solver, method.integrator);
+      heap.model.gravity.setZero();
+      heap.model.step = test::direct_settings(method.integrator, 0.004);
+      heap.model.step.solver = method.solver;
+      heap.surface.restitution = restitution;
+      heap.floor();
+      const BodyId ball = heap.put(test::ball(0.1), {0.0, 0.065, 0.0});
+      heap.last().velocity = {0.0, -speed, 0.0};
+      World world = heap.start();
+      for (int i = 0; i < 5; ++i) {
+        ASSERT_TRUE(world.step().ok());
+        EXPECT_NEAR(world.velocity(ball).y(), restitution * speed, 1e-7);
+        const double way = restitution * speed * world.state().time;
+        EXPECT_NEAR(world.position(ball).y(), 0.065 + way, 1e-8);
+      }
+    }
+  }
+}
+
 // A ball on a spring of the floor swings as it does alone while another one bounces elsewhere.
 TEST(ContactBounce, LeavesElasticContactsTheirForce) {
   const auto end_of_swing = [](SolverKind solver, bool beside) {

@@ -36,7 +36,7 @@ TEST(ContactHeap, EnergyNeverRisesWithoutFriction) {
       SCOPED_TRACE(test::name_of(method) + ", seed " + std::to_string(seed));
       test::Random random(static_cast<std::uint64_t>(seed) + 1);
       Heap heap(method.solver, method.integrator);
-      heap.model.step = test::settings(1.0 / 240.0, 2, 20);
+      heap.model.step = test::settings(1.0 / 240.0, 4, 20);
       heap.model.step.solver = method.solver;
       heap.model.step.integrator = method.integrator;
       heap.surface.restitution = 0.5 * (seed % 3);
@@ -55,8 +55,9 @@ TEST(ContactHeap, EnergyNeverRisesWithoutFriction) {
       }
       // `xpbd` keeps mean velocities, which are g h / 2 too small while a body falls and too large
       // when it has bounced: an energy of m g h v, and v is sqrt(2 E / m) for all bodies together
-      // at the most.
-      const double h = 1.0 / 480.0;
+      // at the most. (What an impact that turns a body within a substep makes of the energy is of
+      // second order in the turn, and more than that with substeps of 1/480 s and restitution 1.)
+      const double h = 1.0 / 960.0;
       double mass = 0.0;
       for (const BodyDef& body : heap.model.bodies) mass += body.mass.value_or(0.0);
       EXPECT_LE(highest - start, g * h * std::sqrt(2.0 * start * mass));
