@@ -1,6 +1,7 @@
 #include "engine/solvers/least_violation.h"
 
 #include <algorithm>
+#include <array>
 
 #include "engine/index.h"
 #include "engine/integrators/loads.h"
@@ -66,6 +67,12 @@ void begin_at(Start start, Substep& substep, Features features) {
 
 }  // namespace
 
+bool LeastViolation::revise(Substep& substep, Features features) {
+  bool revised = false;
+  for (const auto& feature : features) revised = feature->revise(substep) || revised;
+  return revised;
+}
+
 LeastViolation::Place LeastViolation::descend(Substep& substep, Features features,
                                               RowSystem& system) {
   const double scale = substep.bodies.scale();
@@ -105,21 +112,24 @@ LeastViolation::Place LeastViolation::descend(Substep& substep, Features feature
   return place;
 }
 
-LeastViolation::Place LeastViolation::descend_and_revise(Substep& substep, Features features,
-                                                         RowSystem& system, bool& settled) {
+int LeastViolation::descend_and_revise(Substep& substep, Features features, RowSystem& system,
+                                       Place& place) {
   constexpr int most_revisions = 8;
-  Place place;
-  settled = false;
-  for (int i = 0; i < most_revisions && !settled; ++i) {
+  std::array<double, most_revisions> misfits{};
+  for (int i = 0; i < most_revisions; ++i) {
     // Forces that nearly hold each other in balance are large where the misfit is least: among
     // other rows they would do so no longer.
     system.begin_lessening(substep, features);
     place = descend(substep, features, system);
-    if (place.failed || substep.work.stopped()) return place;
-    settled = true;
-    for (const auto& feature : features) settled = !feature->revise(substep) && settled;
+    if (place.failed || substep.work.stopped()) return 0;
+    if (!revise(substep, features)) return 1;
+    // The same to the last bit is that of the same rows.
+    const auto end = misfits.begin() + i;
+    const auto before = std::find(misfits.begin(), end, place.misfit);
+    if (before != end) return static_cast<int>(end - before);
+    *end = place.misfit;
   }
-  return place;
+  return 0;
 }
 
 bool LeastViolation::is_stationary(const Substep& substep, const Place& place) {
@@ -129,7 +139,7 @@ bool LeastViolation::is_stationary(const Substep& substep, const Place& place) {
 
 bool LeastViolation::escapes(Substep& substep, Features features, RowSystem& system) {
   for (const Start start : {Start::of_substep, Start::to_one_side, Start::to_the_other}) {
-    if (start != Start::of_substep) result_.go_back(substep, features);
+    if (start != Start::of_substep) least_.go_back(substep, features);
     begin_at(start, substep, features);
     const Place other = descend(substep, features, system);
     if (other.met || !is_stationary(substep, other)) return true;
@@ -139,18 +149,37 @@ bool LeastViolation::escapes(Substep& substep, Features features, RowSystem& sys
   return false;
 }
 
+bool LeastViolation::nothing_is_near(Substep& substep, Features features, RowSystem& system) {
+  result_.keep(substep, features);
+  system.begin_lessening(substep, features, true);
+  const Place place = descend(substep, features, system);
+  bool nothing = !place.met && is_stationary(substep, place);
+  if (nothing) {
+    least_.keep(substep, features);
+    nothing = !escapes(substep, features, system);
+  }
+  system.end_lessening();
+  result_.go_back(substep, features);
+  return nothing;
+}
+
 LeastViolation::Outcome LeastViolation::find(Substep& substep, Features features,
                                              RowSystem& system) {
-  bool settled = false;
-  const Place found = descend_and_revise(substep, features, system, settled);
+  Place found;
+  const int choices = descend_and_revise(substep, features, system, found);
   if (found.failed) return Outcome::failed;
-  if (found.met && settled) return Outcome::met;
-  if (!settled || !is_stationary(substep, found)) return Outcome::unresolved;
-  result_.keep(substep, features);
-  const bool escaped = escapes(substep, features, system);
-  result_.go_back(substep, features);
-  system.linearise(substep, features, RowSystem::Rule::backward, true);
-  return escaped ? Outcome::unresolved : Outcome::dead_end;
+  if (found.met && choices == 1) return Outcome::met;
+  bool nothing = choices > 0;
+  for (int i = 0; i < choices && nothing; ++i) {
+    if (choices > 1) {
+      system.begin_lessening(substep, features);
+      nothing = !descend(substep, features, system).failed;
+    }
+    nothing = nothing && nothing_is_near(substep, features, system);
+    if (choices > 1) revise(substep, features);
+  }
+  if (choices == 1 || nothing) system.linearise(substep, features, RowSystem::Rule::backward, true);
+  return nothing ? Outcome::dead_end : Outcome::unresolved;
 }
 
 }  // namespace sheave

@@ -17,6 +17,7 @@ void RowSystem::collect_rows(Substep& substep, Features features) {
     feature_rows_.push_back(static_cast<int>(rows_.size()));
     feature->linearise(substep, rows_);
   }
+  if (geometry_alone_) leave_geometry_alone();
   feature_rows_.push_back(static_cast<int>(rows_.size()));
   previous_.resize(rows_.size());
   std::size_t shared = 0;

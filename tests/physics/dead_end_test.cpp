@@ -69,6 +69,55 @@ TEST_P(DeadEnd, ALoadStaysAtTheNearestPointOfItsRail) {
   EXPECT_LT(s->world.velocity(load).norm(), 0.1);
 }
 
+std::shared_ptr<PinholeLink> eyelet(BodyId body, const Vector3& point, double friction) {
+  auto link = std::make_shared<PinholeLink>();
+  link->body = body;
+  link->point = point;
+  if (friction > 0.0) link->friction = friction;
+  return link;
+}
+
+// A rope from a load on a rail over two eyelets beside it and back to the load, which a hook
+// between them draws up by z: beneath the middle of the eyelets, at x = 0, the load is nearest to
+// both of them together, and beyond that the rope lacks what the hook takes. That is so whatever
+// the friction: where an eyelet is rough the forces along the rope do not balance there, and that
+// mends nothing.
+TEST_P(DeadEnd, FrictionIsNoWayOut) {
+  if (!direct()) return;
+  constexpr double speed = 0.5;
+  constexpr double beside = 0.4;
+  constexpr double hook = 0.5;
+  const double start = 0.3;
+  for (const double friction : {0.0, 0.2}) {
+    Model model;
+    model.step = step_settings(h, 50);
+    const BodyId load = model.add(load_on_rail({start, 0.0, 0.0}));
+    const BodyId drawn = model.add(led({0.0, hook, 0.0}, {0.0, speed, 0.0}));
+    auto s = Simulation::create(
+        model,
+        {test::cable("rope",
+                     {test::attach(load), eyelet(BodyId::world(), {-beside, beside, 0.0}, friction),
+                      eyelet(drawn, {0.0, 0.0, 0.0}, 0.0),
+                      eyelet(BodyId::world(), {beside, beside, 0.0}, 0.0), test::attach(load)})});
+    ASSERT_TRUE(s.ok());
+    const auto length = [&](double x, double z) {
+      return std::hypot(beside + x, beside) + std::hypot(beside - x, beside) +
+             2.0 * std::hypot(beside, beside - z);
+    };
+    for (int i = 1; i <= 96; ++i) {
+      const StepReport report = s->world.step();
+      ASSERT_TRUE(report.ok());
+      const double gap = length(0.0, hook + speed * h * i) - length(start, hook);
+      if (gap < -1e-9) {
+        EXPECT_EQ(report.statistics.dead_ends, 0) << friction << ' ' << i;
+      } else if (gap > 1e-9) {
+        EXPECT_EQ(report.statistics.dead_ends, 1) << friction << ' ' << i;
+        EXPECT_GT(report.statistics.most_impossible, 0.2 * gap) << friction << ' ' << i;
+      }
+    }
+  }
+}
+
 // A rod of 0.4 m is pushed down on a load just beside its foot: where it stands upright is the
 // worst place, and the load gets out of its way.
 TEST_P(DeadEnd, ALoadThatCanYieldIsAtNone) {
