@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "engine/index.h"
 #include "engine/integrators/loads.h"
@@ -169,7 +170,7 @@ LeastViolation::Outcome LeastViolation::find(Substep& substep, Features features
   const int choices = descend_and_revise(substep, features, system, found);
   if (found.failed) return Outcome::failed;
   if (found.met && choices == 1) return Outcome::met;
-  bool nothing = choices > 0;
+  bool nothing = choices > 0 && found.misfit > 0.0 && std::isfinite(found.misfit);
   for (int i = 0; i < choices && nothing; ++i) {
     if (choices > 1) {
       system.begin_lessening(substep, features);

@@ -341,6 +341,25 @@ double RowSystem::violation() const {
   return worst;
 }
 
+double RowSystem::displacement(double violation) const {
+  const auto is_elastic = [](const Group& group) { return group.elastic; };
+  if (std::none_of(groups_.begin(), groups_.end(), is_elastic)) return violation;
+  double worst = shared_.empty() ? 0.0 : excess_friction();
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const double r = problem_.constant[g];
+    if (!std::isfinite(r)) return std::numeric_limits<double>::infinity();
+    const double excess = std::max(problem_.lower[g], -problem_.upper[g]);
+    const double room = r > 0.0 ? -problem_.lower[g] : problem_.upper[g];
+    const double off = room > 0.0 ? std::abs(r) : 0.0;
+    if (!(off * groups_[g].lever > worst) && !(excess > 0.0)) continue;
+    const double whole = yield(g);
+    if (!(whole > 0.0)) continue;
+    const double unknown = std::max(std::min(off / whole, room), excess);
+    worst = std::max(worst, unknown * (whole - problem_.diagonal[g]) * groups_[g].lever);
+  }
+  return worst;
+}
+
 double RowSystem::yield(std::size_t g) const {
   const Group& group = groups_[g];
   double sum = problem_.diagonal[g];

@@ -156,6 +156,10 @@ class RowSystem {
   /// The largest violation [m or rad] of what the problem asks for, before it is solved, as far as
   /// bounds let unknowns make up for it; infinite if a row's value is not finite.
   [[nodiscard]] double violation() const;
+  /// How far what is violated would move anything [m or rad], where violation() has just told
+  /// `violation`: springs and dampers have a part of theirs, and would move it alone by what
+  /// violation() tells.
+  [[nodiscard]] double displacement(double violation) const;
   /// The largest violation [m or rad], above `least`, of rows that no unknown moves: prescribed
   /// motion alone decides them. violation() leaves them out.
   [[nodiscard]] double unyielding(double least) const;
