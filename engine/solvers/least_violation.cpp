@@ -15,6 +15,11 @@ constexpr int most_rounds = 200;
 constexpr double first_damping = 1e-3;
 constexpr double least_damping = 1e-9;
 constexpr double most_damping = 1e12;
+// Near a dead end the least damping that lessens is that of the rows' curvature, for long: what is
+// farther above it than it has to be makes rounds as much shorter, and what is below it costs an
+// attempt in vain.
+constexpr double more = 3.0;
+constexpr double less_of_it = 0.5;
 /// Of the scene's size: a gap that is more than what rounds leave.
 constexpr double gap = 1e-9;
 /// A way out of so many sizes of the scene is none, and no further rounds are needed to see it.
@@ -92,7 +97,7 @@ LeastViolation::Place LeastViolation::descend(Substep& substep, Features feature
     round_.keep(substep, features);
     bool less = false;
     bool solved = false;
-    for (; !less && damping < most_damping; damping *= 10.0) {
+    for (; !less && damping < most_damping; damping *= more) {
       if (substep.work.stopped()) return place;
       if (!system.solve_damped(substep, damping)) continue;
       solved = true;
@@ -108,7 +113,7 @@ LeastViolation::Place LeastViolation::descend(Substep& substep, Features feature
     }
     place.failed = round == 0 && !solved;
     if (!less) break;
-    damping = std::max(0.1 * damping, least_damping);
+    damping = std::max(less_of_it * damping, least_damping);
   }
   return place;
 }
