@@ -36,19 +36,20 @@ void RattleSolver::begin(Substep& substep, Features features) {
   if (!features.empty()) positions_.remember_start(substep, features);
 }
 
-bool RattleSolver::found(Substep& substep, double violated, double first) const {
+bool RattleSolver::found(Substep& substep, double violated, double first, double off,
+                         double first_off) const {
   const double size = substep.bodies.scale();
   // Gauss-Seidel need not have converged; Newton's method that has not is lost: where bodies have
   // swung so far that no multipliers along the gradients of the start reach a solution, it comes
   // near one and stays there.
   constexpr double nearly = 1e-3;
-  const double left = solver_ == SolverKind::direct ? nearly * std::min(first, size) : first;
+  const double left = solver_ == SolverKind::direct ? nearly * std::min(first_off, size) : first;
   // Sweeps that leave much of what is no small share of the scene are no slow convergence either:
   // rows contradict each other, and each integrator would move the bodies to a compromise of its
   // own, to and fro.
   constexpr double gross = 1e-3;
   const bool torn = violated > 0.5 * first && violated > gross * size;
-  if (torn || violated > std::max(left, DirectSolver::tolerance * size)) return false;
+  if (torn || (off > left && violated > DirectSolver::tolerance * size)) return false;
   StepStatistics& statistics = substep.statistics;
   statistics.rows = positions_.row_count();
   statistics.last_correction = std::max(statistics.last_correction, violated);
@@ -68,6 +69,8 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   constexpr double least_swing = 1e-4;  // [rad]
   double first = 0.0;
   double violated = 0.0;
+  double off = 0.0;
+  double first_off = 0.0;
   bool revised = false;
   bool settled = false;
   bool at_start = false;
@@ -78,10 +81,12 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   for (int round = 0; round <= substep.iterations; ++round) {
     if (!positions_.linearise(substep, features, RowSystem::Rule::midpoint, false)) return false;
     violated = positions_.violation();
-    if (round == 0) first = violated;
+    off = direct ? positions_.displacement(violated) : violated;
+    if (round == 0) first = violated, first_off = off;
     if (!at_start && direct && DirectSolver::runs_away(substep, violated, first)) {
       at_start = true;
       violated = positions_.begin_at_start(substep, features, RowSystem::Rule::midpoint);
+      off = positions_.displacement(violated);
     }
     if (!std::isfinite(violated)) return false;
     settled = settled || (round > 0 && !revised && violated <= enough);
@@ -100,7 +105,7 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
     // After the last round, too: what it finds has the round of the velocities to act in.
     for (const auto& feature : features) revised = feature->revise(substep) || revised;
   }
-  return found(substep, violated, first);
+  return found(substep, violated, first, off, first_off);
 }
 
 void RattleSolver::solve_positions(Substep& substep, Features features) {

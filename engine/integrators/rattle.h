@@ -46,7 +46,7 @@ class RattleSolver {
   [[nodiscard]] bool try_positions(Substep& substep, Features features);
   /// Whether rounds that have left this violation, of what the first one found, are a solution;
   /// counts it if so.
-  bool found(Substep& substep, double violated, double first) const;
+  bool found(Substep& substep, double violated, double first, double off, double first_off) const;
 
   SolverKind solver_;
   RowSystem positions_;

@@ -29,9 +29,10 @@ bool DirectSolver::make_do(Substep& substep, Features features, bool adding_up) 
   const LeastViolation::Outcome outcome = least_.find(substep, features, system_);
   if (outcome == LeastViolation::Outcome::failed) return false;
   StepStatistics& statistics = substep.statistics;
-  double violated = system_.violation();
+  Course course;
+  double& violated = course.violated = system_.violation();
   double imbalance = 0.0;
-  if (outcome == LeastViolation::Outcome::met) confirm(substep, features, violated, imbalance);
+  if (outcome == LeastViolation::Outcome::met) confirm(substep, features, course, imbalance);
   statistics.rows = system_.row_count();
   statistics.last_correction = std::max(statistics.last_correction, violated);
   system_.count_impossible(substep);
@@ -59,7 +60,7 @@ bool DirectSolver::leaves_nothing(const Substep& substep) {
 void DirectSolver::solve(Substep& substep, Features features) {
   const double enough = tolerance * substep.bodies.scale();
   Course course;
-  auto& [violated, before, first, adding_up] = course;
+  auto& [violated, before, first, off, first_off, adding_up] = course;
   double astray = std::numeric_limits<double>::infinity();
   bool revised = false;
   bool renewed = false;  // the last round was the first one with other rows
@@ -70,6 +71,7 @@ void DirectSolver::solve(Substep& substep, Features features) {
     before = violated;
     system_.linearise(substep, features, RowSystem::Rule::backward, adding_up);
     violated = system_.violation();
+    off = system_.displacement(violated);
     if (round > 0 && !revised && violated <= enough && (adding_up || arrives(substep, astray))) {
       break;
     }
@@ -77,11 +79,12 @@ void DirectSolver::solve(Substep& substep, Features features) {
     const bool settled = adding_up || compromise;
     const bool stays = !revised && !renewed;
     if (round > 2 && settled && stays && violated > stagnation * before) break;
-    if (round == 0) first = violated;
+    if (round == 0) first = violated, first_off = off;
     if (!at_start && !adding_up && runs_away(substep, violated, first)) {
       at_start = true;
       before = std::numeric_limits<double>::infinity();
       violated = first = system_.begin_at_start(substep, features, RowSystem::Rule::backward);
+      off = first_off = system_.displacement(violated);
     }
     const bool lost = !(violated <= growth * first);
     const bool finite = std::isfinite(violated);
@@ -115,8 +118,8 @@ void DirectSolver::solve(Substep& substep, Features features) {
   end_rounds(substep, features, course);
 }
 
-bool DirectSolver::confirm(Substep& substep, Features features, double& violated,
-                           double& imbalance) {
+bool DirectSolver::confirm(Substep& substep, Features features, Course& course, double& imbalance) {
+  double& violated = course.violated;
   if (system_.contradicts() || !std::isfinite(violated)) return false;
   constexpr int most_rounds = 10;
   const double enough = tolerance * substep.bodies.scale();
@@ -144,6 +147,7 @@ bool DirectSolver::confirm(Substep& substep, Features features, double& violated
   added_up_.go_back(substep, features);
   system_.linearise(substep, features, RowSystem::Rule::backward, true);
   violated = system_.violation();
+  course.off = system_.displacement(violated);
   return false;
 }
 
@@ -154,14 +158,15 @@ bool DirectSolver::runs_away(const Substep& substep, double violated, double fir
 }
 
 void DirectSolver::end_rounds(Substep& substep, Features features, Course course) {
-  auto& [violated, before, first, adding_up] = course;
+  auto& [violated, before, first, off, first_off, adding_up] = course;
   double imbalance = 0.0;
-  if (adding_up) adding_up = !confirm(substep, features, violated, imbalance);
+  if (adding_up) adding_up = !confirm(substep, features, course, imbalance);
   const double enough = tolerance * substep.bodies.scale();
   // Two rounds do not tell whether more of them would converge: so few were asked for.
   const bool tried = adding_up || substep.iterations > 2;
-  const bool near = violated <= enough || violated <= slow * before;
-  const bool lost = (tried && !near && violated > left_at_most(substep, first)) ||
+  // Nor do those that are on their way back from what they have run to.
+  const bool near = violated <= enough || (violated <= slow * before && violated <= first);
+  const bool lost = (tried && !near && off > left_at_most(substep, first_off)) ||
                     !std::isfinite(violated) ||
                     (adding_up && violated <= enough &&
                      (imbalance > unbalanced || system_.energy_gain(substep) > unresolved));

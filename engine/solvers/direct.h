@@ -46,7 +46,7 @@ class DirectSolver {
   static constexpr double least_swing = 1e-6;
 
   /// What is left of the violation that the first round found counts as no solution above this
-  /// share.
+  /// share: of how far it would move anything.
   static constexpr double nearly = 1e-5;
   /// Corrections that have been added up can end far from implicit Euler, on another side of a
   /// short swing. It makes no energy; what makes more than this share of the kinetic energy counts
@@ -63,17 +63,19 @@ class DirectSolver {
 
  private:
   /// What rounds have come to: the violation that is left, that of the round before and of the
-  /// first one, and whether corrections were added up.
+  /// first one, and how far what was left and that of the first one would move anything.
   struct Course {
     double violated = 0.0;
     double before = 0.0;
     double first = 0.0;
-    bool adding_up = false;
+    double off = 0.0;
+    double first_off = 0.0;
+    bool adding_up = false;  ///< corrections were added up
   };
   /// Whether the substep has failed, and what is counted if not.
   void end_rounds(Substep& substep, Features features, Course course);
 
-  /// What counts as near a solution, where the first round has found `first`.
+  /// How far off what counts as near a solution is, where the first round has found `first`.
   [[nodiscard]] static double left_at_most(const Substep& substep, double first);
   /// No active set was found: makes do, or leaves the substep to Gauss-Seidel, if it has to.
   void give_up(Substep& substep, Features features, bool adding_up);
@@ -93,7 +95,7 @@ class DirectSolver {
   /// start, and what acts at the end would have moved them elsewhere. Goes on from there with
   /// rounds that begin at the prediction, and goes back if they do not converge. Whether they have.
   /// `imbalance` becomes what the forces were off by (RowSystem::imbalance()).
-  bool confirm(Substep& substep, Features features, double& violated, double& imbalance);
+  bool confirm(Substep& substep, Features features, Course& course, double& imbalance);
 
   RowSystem system_;
   KeptPlace added_up_;

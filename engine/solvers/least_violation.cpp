@@ -1,6 +1,8 @@
 #include "engine/solvers/least_violation.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "engine/index.h"
 #include "engine/integrators/loads.h"
@@ -13,6 +15,11 @@ constexpr int most_rounds = 200;
 constexpr double first_damping = 1e-3;
 constexpr double least_damping = 1e-9;
 constexpr double most_damping = 1e12;
+// Near a dead end the least damping that lessens is that of the rows' curvature, for long: what is
+// farther above it than it has to be makes rounds as much shorter, and what is below it costs an
+// attempt in vain.
+constexpr double more = 3.0;
+constexpr double less_of_it = 0.5;
 /// Of the scene's size: a gap that is more than what rounds leave.
 constexpr double gap = 1e-9;
 /// A way out of so many sizes of the scene is none, and no further rounds are needed to see it.
@@ -66,6 +73,12 @@ void begin_at(Start start, Substep& substep, Features features) {
 
 }  // namespace
 
+bool LeastViolation::revise(Substep& substep, Features features) {
+  bool revised = false;
+  for (const auto& feature : features) revised = feature->revise(substep) || revised;
+  return revised;
+}
+
 LeastViolation::Place LeastViolation::descend(Substep& substep, Features features,
                                               RowSystem& system) {
   const double scale = substep.bodies.scale();
@@ -84,7 +97,7 @@ LeastViolation::Place LeastViolation::descend(Substep& substep, Features feature
     round_.keep(substep, features);
     bool less = false;
     bool solved = false;
-    for (; !less && damping < most_damping; damping *= 10.0) {
+    for (; !less && damping < most_damping; damping *= more) {
       if (substep.work.stopped()) return place;
       if (!system.solve_damped(substep, damping)) continue;
       solved = true;
@@ -100,26 +113,29 @@ LeastViolation::Place LeastViolation::descend(Substep& substep, Features feature
     }
     place.failed = round == 0 && !solved;
     if (!less) break;
-    damping = std::max(0.1 * damping, least_damping);
+    damping = std::max(less_of_it * damping, least_damping);
   }
   return place;
 }
 
-LeastViolation::Place LeastViolation::descend_and_revise(Substep& substep, Features features,
-                                                         RowSystem& system, bool& settled) {
+int LeastViolation::descend_and_revise(Substep& substep, Features features, RowSystem& system,
+                                       Place& place) {
   constexpr int most_revisions = 8;
-  Place place;
-  settled = false;
-  for (int i = 0; i < most_revisions && !settled; ++i) {
+  std::array<double, most_revisions> misfits{};
+  for (int i = 0; i < most_revisions; ++i) {
     // Forces that nearly hold each other in balance are large where the misfit is least: among
     // other rows they would do so no longer.
     system.begin_lessening(substep, features);
     place = descend(substep, features, system);
-    if (place.failed || substep.work.stopped()) return place;
-    settled = true;
-    for (const auto& feature : features) settled = !feature->revise(substep) && settled;
+    if (place.failed || substep.work.stopped()) return 0;
+    if (!revise(substep, features)) return 1;
+    // The same to the last bit is that of the same rows.
+    const auto end = misfits.begin() + i;
+    const auto before = std::find(misfits.begin(), end, place.misfit);
+    if (before != end) return static_cast<int>(end - before);
+    *end = place.misfit;
   }
-  return place;
+  return 0;
 }
 
 bool LeastViolation::is_stationary(const Substep& substep, const Place& place) {
@@ -129,7 +145,7 @@ bool LeastViolation::is_stationary(const Substep& substep, const Place& place) {
 
 bool LeastViolation::escapes(Substep& substep, Features features, RowSystem& system) {
   for (const Start start : {Start::of_substep, Start::to_one_side, Start::to_the_other}) {
-    if (start != Start::of_substep) result_.go_back(substep, features);
+    if (start != Start::of_substep) least_.go_back(substep, features);
     begin_at(start, substep, features);
     const Place other = descend(substep, features, system);
     if (other.met || !is_stationary(substep, other)) return true;
@@ -139,18 +155,37 @@ bool LeastViolation::escapes(Substep& substep, Features features, RowSystem& sys
   return false;
 }
 
+bool LeastViolation::nothing_is_near(Substep& substep, Features features, RowSystem& system) {
+  result_.keep(substep, features);
+  system.begin_lessening(substep, features, true);
+  const Place place = descend(substep, features, system);
+  bool nothing = !place.met && is_stationary(substep, place);
+  if (nothing) {
+    least_.keep(substep, features);
+    nothing = !escapes(substep, features, system);
+  }
+  system.end_lessening();
+  result_.go_back(substep, features);
+  return nothing;
+}
+
 LeastViolation::Outcome LeastViolation::find(Substep& substep, Features features,
                                              RowSystem& system) {
-  bool settled = false;
-  const Place found = descend_and_revise(substep, features, system, settled);
+  Place found;
+  const int choices = descend_and_revise(substep, features, system, found);
   if (found.failed) return Outcome::failed;
-  if (found.met && settled) return Outcome::met;
-  if (!settled || !is_stationary(substep, found)) return Outcome::unresolved;
-  result_.keep(substep, features);
-  const bool escaped = escapes(substep, features, system);
-  result_.go_back(substep, features);
-  system.linearise(substep, features, RowSystem::Rule::backward, true);
-  return escaped ? Outcome::unresolved : Outcome::dead_end;
+  if (found.met && choices == 1) return Outcome::met;
+  bool nothing = choices > 0 && found.misfit > 0.0 && std::isfinite(found.misfit);
+  for (int i = 0; i < choices && nothing; ++i) {
+    if (choices > 1) {
+      system.begin_lessening(substep, features);
+      nothing = !descend(substep, features, system).failed;
+    }
+    nothing = nothing && nothing_is_near(substep, features, system);
+    if (choices > 1) revise(substep, features);
+  }
+  if (choices == 1 || nothing) system.linearise(substep, features, RowSystem::Rule::backward, true);
+  return nothing ? Outcome::dead_end : Outcome::unresolved;
 }
 
 }  // namespace sheave

@@ -19,6 +19,13 @@
 // from the start of the substep all end at such places, too, with what the features decide (links
 // that slide) as it is right for the forces found, nothing near satisfies the rows: the machine is
 // asked for more than there is.
+//
+// All this holds where forces act along the gradients, K = J. Friction between spans that share an
+// unknown makes K another one: then the forces of a round may lessen nothing where the misfit is
+// not stationary, and be in balance where it is. Whether places satisfy rows is a question of
+// geometry and not of forces, so it is asked with K = J, and without what yields to enough force.
+// And the forces that hold where one set of links slides may ask for another one, whose forces ask
+// for the first: then nothing may be near with any of these sets.
 
 #include "engine/solvers/kept_place.h"
 #include "engine/solvers/row_system.h"
@@ -48,15 +55,20 @@ class LeastViolation {
   };
   /// Rounds from where the bodies are until the misfit is least.
   Place descend(Substep& substep, Features features, RowSystem& system);
-  /// The same with what the features decide.
-  Place descend_and_revise(Substep& substep, Features features, RowSystem& system, bool& settled);
+  /// The same with what the features decide. Returns between how many sets of rows that goes on to
+  /// change in a circle, the last of which `place` is of: 1 if it has settled, 0 if it does neither.
+  int descend_and_revise(Substep& substep, Features features, RowSystem& system, Place& place);
+  static bool revise(Substep& substep, Features features);
   /// Whether rows are violated there that no way of the scene's size mends at the rates there.
   [[nodiscard]] static bool is_stationary(const Substep& substep, const Place& place);
+  /// Whether no place near satisfies the rows, whatever forces it takes. Nothing has moved then.
+  bool nothing_is_near(Substep& substep, Features features, RowSystem& system);
   /// Whether a descent from other places leads to where rows are met, or to no end.
   bool escapes(Substep& substep, Features features, RowSystem& system);
 
   KeptPlace round_;
   KeptPlace result_;
+  KeptPlace least_;
 };
 
 }  // namespace sheave

@@ -8,7 +8,20 @@
 
 namespace sheave {
 
-void RowSystem::begin_lessening(Substep& substep, Features features) {
+void RowSystem::leave_geometry_alone() {
+  for (Row& row : rows_) {
+    const bool yields = std::isfinite(row.lower) && std::isfinite(row.upper);
+    if (!yields && row.weight == 1.0) continue;
+    row.source = nullptr;  // what is left is no copy of it
+    row.weight = row.start_weight = 1.0;
+    if (!yields) continue;
+    row.lower = row.upper = row.friction = 0.0;
+    row.shares = row.pressed_by = 0;
+  }
+}
+
+void RowSystem::begin_lessening(Substep& substep, Features features, bool geometry_alone) {
+  geometry_alone_ = geometry_alone;
   origin_ = prediction_;
   start_again(substep, features);
   weights_.resize(features.size());

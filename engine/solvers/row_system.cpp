@@ -17,6 +17,7 @@ void RowSystem::collect_rows(Substep& substep, Features features) {
     feature_rows_.push_back(static_cast<int>(rows_.size()));
     feature->linearise(substep, rows_);
   }
+  if (geometry_alone_) leave_geometry_alone();
   feature_rows_.push_back(static_cast<int>(rows_.size()));
   previous_.resize(rows_.size());
   std::size_t shared = 0;
@@ -337,6 +338,25 @@ double RowSystem::violation() const {
     if (off > worst * groups_[g].scale && yield(g) > 0.0) worst = off / groups_[g].scale;
   }
   if (!shared_.empty()) worst = std::max(worst, excess_friction());
+  return worst;
+}
+
+double RowSystem::displacement(double violation) const {
+  const auto is_elastic = [](const Group& group) { return group.elastic; };
+  if (std::none_of(groups_.begin(), groups_.end(), is_elastic)) return violation;
+  double worst = shared_.empty() ? 0.0 : excess_friction();
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const double r = problem_.constant[g];
+    if (!std::isfinite(r)) return std::numeric_limits<double>::infinity();
+    const double excess = std::max(problem_.lower[g], -problem_.upper[g]);
+    const double room = r > 0.0 ? -problem_.lower[g] : problem_.upper[g];
+    const double off = room > 0.0 ? std::abs(r) : 0.0;
+    if (!(off * groups_[g].lever > worst) && !(excess > 0.0)) continue;
+    const double whole = yield(g);
+    if (!(whole > 0.0)) continue;
+    const double unknown = std::max(std::min(off / whole, room), excess);
+    worst = std::max(worst, unknown * (whole - problem_.diagonal[g]) * groups_[g].lever);
+  }
   return worst;
 }
 

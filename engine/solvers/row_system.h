@@ -116,8 +116,10 @@ class RowSystem {
   // Rounds that lessen what rounds do not bring to nothing: engine/solvers/least_violation.h.
 
   /// Puts bodies where begin_adding_up() has found them, with multipliers of 0, and forgets what
-  /// rows weigh.
-  void begin_lessening(Substep& substep, Features features);
+  /// rows weigh. `geometry_alone`: until end_lessening() friction, and all else that yields to
+  /// enough force, counts for nothing, so that forces act along the gradients.
+  void begin_lessening(Substep& substep, Features features, bool geometry_alone = false);
+  void end_lessening() { geometry_alone_ = false; }
   /// The sum of r^2 / w of what is violated, with the most that each unknown would have yielded
   /// since then if all motion were along its gradients, w. To be called after linearise() from
   /// here.
@@ -154,6 +156,10 @@ class RowSystem {
   /// The largest violation [m or rad] of what the problem asks for, before it is solved, as far as
   /// bounds let unknowns make up for it; infinite if a row's value is not finite.
   [[nodiscard]] double violation() const;
+  /// How far what is violated would move anything [m or rad], where violation() has just told
+  /// `violation`: springs and dampers have a part of theirs, and would move it alone by what
+  /// violation() tells.
+  [[nodiscard]] double displacement(double violation) const;
   /// The largest violation [m or rad], above `least`, of rows that no unknown moves: prescribed
   /// motion alone decides them. violation() leaves them out.
   [[nodiscard]] double unyielding(double least) const;
@@ -217,6 +223,8 @@ class RowSystem {
     Vector3 turn = Vector3::Zero();      ///< since the start of the substep [rad]
   };
   void collect_rows(Substep& substep, Features features);
+  /// Takes from the rows what is no geometry.
+  void leave_geometry_alone();
   /// Bounds what is friction by the impulses that were just found. Whether that makes a difference.
   [[nodiscard]] bool bound_friction();
   /// Gives the rows the gradients and weights of the start to act along; false if they touch other
@@ -343,7 +351,8 @@ class RowSystem {
   std::vector<std::vector<double>> weights_;
   std::vector<double> weight_;  ///< per group
   double damping_ = 0.0;        ///< of what the matrix has
-  std::vector<Pose> placed_;    ///< per body: where the last round among others has left it
+  bool geometry_alone_ = false;
+  std::vector<Pose> placed_;  ///< per body: where the last round among others has left it
   bool from_here_ = true;
   std::vector<double> motion_;  ///< per degree of freedom: displacement or turn, or their rates
   double swing_ = 0.0;

@@ -60,15 +60,18 @@ bool is_lifted(const LinkDef& link) {
   return rolling != nullptr && rolling->lifted;
 }
 
-/// Of the links of a rigid cable from `first`, which holds it, to the next one that does.
-bool stretch_is_led(const CableDef& cable, std::size_t first, const BodySet& bodies) {
+/// Of the links of a rigid cable from `first`, which holds it, to the next one that does. `now`:
+/// null at the start.
+bool stretch_is_led(const CableDef& cable, const CableReport* now, std::size_t first,
+                    const BodySet& bodies) {
   bool told = true;
   bool one_body = true;
   const std::size_t count = cable.links.size();
   for (std::size_t i = first, n = 0; n <= count; ++i, ++n) {
     if (i >= count && !cable.closed) return false;
     const LinkDef& link = *cable.links[i % count];
-    if (n > 0 && is_lifted(link)) continue;
+    const bool passed = now != nullptr ? !now->links[i % count].touched : is_lifted(link);
+    if (n > 0 && passed) continue;
     told = told && (moves_as_told(link.body, bodies) || turns_in_place(link, bodies));
     one_body = one_body && link.body.index == cable.links[first]->body.index;
     if (n > 0 && holds(link)) return told || one_body;
@@ -130,12 +133,17 @@ bool asks_the_impossible(const Machine& machine) {
   return led || shortest_span(s) < 1e-6 * s.world.bodies().scale();
 }
 
-bool can_ask_the_impossible(const Machine& machine) {
+bool can_ask_the_impossible(const Machine& machine, const Simulation& now) {
   const Simulation s = start(machine);
-  for (const CableDef& cable : machine.cables) {
+  const std::vector<CableReport> reports = now.cable_reports();
+  for (std::size_t c = 0; c < machine.cables.size(); ++c) {
+    const CableDef& cable = machine.cables[c];
     if (!is_rigid(cable)) continue;
     for (std::size_t i = 0; i < cable.links.size(); ++i) {
-      if (holds(*cable.links[i]) && stretch_is_led(cable, i, s.world.bodies())) return true;
+      if (!holds(*cable.links[i])) continue;
+      if (stretch_is_led(cable, nullptr, i, s.world.bodies())) return true;
+      if (!reports[c].links[i].touched) continue;
+      if (stretch_is_led(cable, &reports[c], i, s.world.bodies())) return true;
     }
   }
   return false;
