@@ -12,6 +12,32 @@ namespace {
 
 using Kind = CertificateItem::Kind;
 
+/// What the spring of a span without damping pulls with at an end of the substep.
+double pull_at(const CableDef& cable, const SpanEvidence& span, End when) {
+  const double rest = span.rest_length[at(when)];
+  const double compliance = cable.axial_stiffness ? std::max(rest, 0.0) / *cable.axial_stiffness
+                                                  : cable.compliance.value_or(0.0);
+  return compliance > 0.0 ? std::max(span.length[at(when)] - rest, 0.0) / compliance : 0.0;
+}
+
+/// By how much less than the bound asks for a link is pulled the way that cable slides. With
+/// `rattle` a spring's force is the mean of those at both ends: where they lie on either side of
+/// the bound, as where a cable goes slack, it has slid by one of them.
+double missing_pull(const Evidence& evidence, const CableEvidence& cable, const PassEvidence& pass,
+                    const SpanEvidence& held, const SpanEvidence& pulling) {
+  const double missing = carried(pass, held) - pulling.tension();
+  const CableDef& definition = *cable.definition;
+  const bool sprung = definition.axial_stiffness || definition.compliance.value_or(0.0) > 0.0;
+  if (!evidence.rattle || !sprung || definition.damping > 0.0) return missing;
+  double least = missing;
+  for (const End when : {first_end, last_end}) {
+    const double bound = portable::exp(pass.friction * pass.wrap_angle[at(when)]);
+    least = std::min(least,
+                     bound * pull_at(definition, held, when) - pull_at(definition, pulling, when));
+  }
+  return least;
+}
+
 void check_pass(const Evidence& evidence, const CableEvidence& cable, const PassEvidence& pass,
                 double largest, Findings& findings) {
   const double before = cable.spans[at(pass.before)].tension();
@@ -37,13 +63,14 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
   findings.note(Kind::friction, "N", std::max(high - bound * low, 0.0), scale, rounding, name);
   if (pass.slip == 0.0 || pass.friction == 0.0 || !(scale > 0.0)) return;
   // Slipping: the side to which it goes pulls harder by all of the bound.
-  const double pulling = pass.slip > 0.0 ? after : before;
+  const SpanEvidence& pulling = cable.spans[at(pass.slip > 0.0 ? pass.after : pass.before)];
   const SpanEvidence& held = cable.spans[at(pass.slip > 0.0 ? pass.before : pass.after)];
   const double asked = carried(pass, held);
+  const double missing = missing_pull(evidence, cable, pass, held, pulling);
   const double creep = 1e-7 * std::min(cable.free_length, evidence.bodies.scale());
   const double weight = std::abs(pass.slip) / (std::abs(pass.slip) + creep);
-  findings.note(Kind::friction, "N", weight * std::max(asked - pulling, 0.0),
-                std::max(scale, asked), rounding, name);
+  findings.note(Kind::friction, "N", weight * std::max(missing, 0.0), std::max(scale, asked),
+                rounding, name);
 }
 
 void check_contact(const Evidence& evidence, const ContactEvidence& contact, Findings& findings) {
