@@ -19,10 +19,23 @@ double RowSystem::unyielding(double least) const {
                             ? r < 0.0
                             : (r > 0.0 ? -problem_.lower[g] : problem_.upper[g]) > 0.0;
     if (!wanted) continue;
-    const double gives = assembled_ ? problem_.diagonal[g] : yield(g);
-    if (gives == 0.0) worst = off;
+    if (gives_nothing(g)) worst = off;
   }
   return worst;
+}
+
+bool RowSystem::gives_nothing(std::size_t g) const {
+  if (assembled_) return problem_.diagonal[g] == 0.0;
+  const double whole = yield(g);
+  if (groups_[g].row_count == 1 || whole == 0.0) return whole == 0.0;
+  // What moves rows that share an unknown may move them to and fro: cable from a driven drum to a
+  // dead end, over a wheel that passes it on.
+  constexpr double rounding = 1e-13;
+  std::vector<double> motion(motion_.size(), 0.0);
+  slots_.add_unknown(static_cast<int>(g), 1.0, motion.data());
+  const double together =
+      problem_.diagonal[g] + slots_.along(static_cast<int>(g), motion.data());
+  return std::abs(together) <= rounding * whole;
 }
 
 void RowSystem::count_impossible(Substep& substep) const {

@@ -246,8 +246,11 @@ class RowSystem {
   /// Which bounds rows are at in the solution: what the next round of the substep begins with.
   void remember_sides(Features features);
   void recall_sides();
-  /// What a unit of the group's unknown makes of its own value.
+  /// What a unit of the group's unknown makes of its own value, were its rows not to move each
+  /// other.
   [[nodiscard]] double yield(std::size_t group) const;
+  /// Whether its unknown does nothing for what it asks for.
+  [[nodiscard]] bool gives_nothing(std::size_t group) const;
   /// The largest of a motion along the degrees of freedom, by what it moves [m].
   [[nodiscard]] double longest(std::span<const double> motion) const;
   void remember_origin(const Substep& substep);

@@ -11,6 +11,7 @@
 
 #include "cable/links/attachment.h"
 #include "cable/links/pinhole.h"
+#include "cable/links/rolling.h"
 #include "cable/simulation.h"
 #include "engine/joint_report.h"
 #include "engine/joints/gear.h"
@@ -198,6 +199,35 @@ TEST_P(Contradiction, WhatMotionAsToldTearsIsCounted) {
         }
       }
     }
+  }
+}
+
+// A drum that turns as it is told winds rope that comes from a dead end over a rough, free wheel:
+// the wheel would have to turn one way for either span, and cable that slides over it moves no
+// more.
+TEST_P(Contradiction, WhatADrumTakesFromADeadEndIsCountedThoughAWheelLiesBetween) {
+  if (!direct()) GTEST_SKIP() << "counted by the direct solver";
+  constexpr double radius = 0.2;
+  constexpr double speed = 2.0;
+  test::Machine m;
+  m.model.step = step_settings(h, 20);
+  BodyDef drum = test::wheel("drum", Vector3::Zero(), radius, 0.1);
+  drum.mobility = Mobility::kinematic;
+  drum.angular_velocity = {0.0, 0.0, speed};
+  const BodyId winds = m.model.add(drum);
+  const BodyId passes = m.model.add(test::wheel("wheel", {2.0, 0.0, 0.0}, radius, 0.1));
+  auto from = test::roll(winds, test::right);
+  from->stored_length = 1.0;
+  auto over = test::roll(passes, test::right);
+  over->friction = 0.3;
+  m.cables.push_back(
+      test::cable("rope", {from, over, test::attach(BodyId::world(), {2.2, -2.0, 0.0})}));
+  Simulation s = test::start(m);
+  for (int i = 1; i <= 20; ++i) {
+    const StepReport report = s.world.step();
+    ASSERT_TRUE(report.ok());
+    EXPECT_GE(report.statistics.impossible, 1) << "once per part";
+    EXPECT_NEAR(report.statistics.most_impossible, speed * radius * h * i, 1e-12);
   }
 }
 
