@@ -236,6 +236,10 @@ void CableSystem::serve_pieces(const Substep& substep, std::size_t first, std::s
   const auto offer = [](Piece::Kind kind, double pull, double held) {
     return kind == Piece::Kind::too_short ? pull + held : pull - held;
   };
+  // What has cable to spare that nobody pulls at is slack, and gives it to whom it lacks.
+  const auto left_with = [](Piece::Kind kind, double pull) {
+    return std::isnan(pull) && kind == Piece::Kind::too_long ? no_pull : pull;
+  };
   double pull = none;
   double held = 0.0;
   std::size_t origin = first;
@@ -245,7 +249,7 @@ void CableSystem::serve_pieces(const Substep& substep, std::size_t first, std::s
     if (serves(piece)) {
       piece.from_before = offer(piece.kind, pull, held);
       piece.before = origin;
-      pull = piece.from_before;
+      pull = left_with(piece.kind, piece.from_before);
       held = 0.0;
     } else if (piece.kind == Piece::Kind::moves) {
       pull = piece.last_pull;
@@ -263,7 +267,7 @@ void CableSystem::serve_pieces(const Substep& substep, std::size_t first, std::s
     if (serves(piece)) {
       piece.from_behind = offer(piece.kind, pull - piece.rise, held);
       piece.behind = origin;
-      pull = piece.from_behind;
+      pull = left_with(piece.kind, piece.from_behind);
       held = 0.0;
     } else if (piece.kind == Piece::Kind::moves) {
       pull = piece.first_pull;

@@ -40,16 +40,24 @@ bool moves_as_told(BodyId id, const BodySet& bodies) {
          body.prescribed();
 }
 
+/// A wheel without inertia of its own, which turns as cable passes.
+bool is_massless_wheel(const LinkDef& link, const BodySet& bodies) {
+  if (dynamic_cast<const RollingLink*>(&link) == nullptr || link.body.is_world()) return false;
+  const BodyProperties& body = bodies[link.body.index];
+  return body.mobility == Mobility::rotor && body.axis_inertia == 0.0 && !body.prescribed();
+}
+
 /// Whether no cable passes: it ends there, or a wheel without slip takes it along.
-bool holds(const LinkDef& link) {
+bool holds(const LinkDef& link, const BodySet& bodies) {
   if (dynamic_cast<const AttachmentLink*>(&link) != nullptr) return true;
+  if (is_massless_wheel(link, bodies)) return false;
   if (const auto* rolling = dynamic_cast<const RollingLink*>(&link)) return !rolling->friction;
   return dynamic_cast<const PinholeLink*>(&link) == nullptr;
 }
 
 /// A wheel on an axle of the world that cable slides over: what it turns by moves no cable.
 bool turns_in_place(const LinkDef& link, const BodySet& bodies) {
-  if (holds(link) || link.body.is_world()) return false;
+  if (holds(link, bodies) || link.body.is_world()) return false;
   const BodyProperties& body = bodies[link.body.index];
   return body.mobility == Mobility::rotor && body.mount < 0;
 }
@@ -74,7 +82,7 @@ bool stretch_is_led(const CableDef& cable, const CableReport* now, std::size_t f
     if (n > 0 && passed) continue;
     told = told && (moves_as_told(link.body, bodies) || turns_in_place(link, bodies));
     one_body = one_body && link.body.index == cable.links[first]->body.index;
-    if (n > 0 && holds(link)) return told || one_body;
+    if (n > 0 && holds(link, bodies)) return told || one_body;
   }
   return false;
 }
@@ -140,7 +148,7 @@ bool can_ask_the_impossible(const Machine& machine, const Simulation& now) {
     const CableDef& cable = machine.cables[c];
     if (!is_rigid(cable)) continue;
     for (std::size_t i = 0; i < cable.links.size(); ++i) {
-      if (!holds(*cable.links[i])) continue;
+      if (!holds(*cable.links[i], s.world.bodies())) continue;
       if (stretch_is_led(cable, nullptr, i, s.world.bodies())) return true;
       if (!reports[c].links[i].touched) continue;
       if (stretch_is_led(cable, &reports[c], i, s.world.bodies())) return true;
