@@ -77,8 +77,10 @@ void check_feeds(const Evidence& evidence, const CableEvidence& cable, Findings&
   if (cable.has_changed || cable.start.cut) return;
   for (const SpanEvidence& span : cable.spans) {
     double speed = 0.0;
+    bool stalled = false;
     for (const SpanSide* side : {&span.from, &span.to}) {
       if (side->place < 0) continue;
+      stalled = stalled || cable.end.links[at(side->place)].stalled;
       const auto* link =
           dynamic_cast<const AttachmentLink*>(cable.definition->links[at(side->place)].get());
       if (link == nullptr) continue;
@@ -90,7 +92,11 @@ void check_feeds(const Evidence& evidence, const CableEvidence& cable, Findings&
     }
     const double asked = speed * evidence.h;
     if (speed == 0.0 || span.rest_length[first_end] + asked <= 0.0) continue;
-    findings.note(Kind::drive, "m", std::abs(span.fed - asked), std::abs(asked),
+    // One that has stalled is told as such; it may do less than it is asked for, but nothing else.
+    const double least = stalled ? std::min(asked, 0.0) : asked;
+    const double most = stalled ? std::max(asked, 0.0) : asked;
+    const double off = std::abs(span.fed - std::clamp(span.fed, least, most));
+    findings.note(Kind::drive, "m", off, std::abs(asked),
                   1e-13 * (cable.end.total_length + evidence.bodies.scale()),
                   [&] { return span.name(); });
   }

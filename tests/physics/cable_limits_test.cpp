@@ -103,6 +103,27 @@ TEST_P(CableLimits, TwoDrivesAgainstEachOtherStandStill) {
   EXPECT_EQ(events_of(s, CableEvent::Kind::stall).size(), 2U);
 }
 
+// A feed that takes rope in, and a driven wheel that draws it the other way, from a span that has
+// none to give: neither moves, both say so, and the certificate takes that for told.
+TEST_P(CableLimits, AFeedAndADriveAgainstEachOtherStandStill) {
+  test::Machine m;
+  m.model.step = step_settings(0.01, 20);
+  const BodyId wheel = m.model.add(driven_wheel("wheel", Vector3::Zero(), 0.1, -1.0));
+  const BodyId load = m.model.add(test::weight("load", {0.1, -1.0, 0.0}, 1.0));
+  m.model.gravity = test::down;
+  auto feed = attach(BodyId::world(), {-0.1, -1.0, 0.0});
+  feed->feed_speed = -0.05;
+  m.cables.push_back(cable("rope", {feed, test::roll(wheel, test::right), attach(load)}));
+  Simulation s = test::start(m);
+  for (int i = 0; i < 20; ++i) {
+    ASSERT_TRUE(s.world.step().ok());
+    EXPECT_TRUE(s.certificate()->clean()) << s.certificate()->worst()->sentence();
+  }
+  EXPECT_NEAR(s.world.state().bodies[0].angle, 0.0, 1e-12);
+  EXPECT_EQ(s.cable_reports()[0].links[0].fed, 0.0);
+  EXPECT_EQ(events_of(s, CableEvent::Kind::stall).size(), 2U);
+}
+
 TEST_P(CableLimits, DrivesThatAgreeDoNotStall) {
   // 0.7 and 0.3 m: the products of radius and speed agree but for their last digit.
   Simulation s = test::start(driven_belt(step_settings(0.003, 20), 0.07, 0.03, 3.0, 7.0));
