@@ -52,6 +52,9 @@ std::optional<Divergence> find_divergence(
     const Substep& substep, std::span<const std::unique_ptr<ConstraintBatch>> features) {
   const BodySet& bodies = substep.bodies;
   const double time = substep.next.time;
+  if (!std::isfinite(time)) {
+    return Divergence{BodyId::world(), time, "the time is not finite: no step can be as long"};
+  }
   // Texts only where there is something to tell: this runs in every substep.
   const auto when = [&] { return " at time " + number_text(time) + " s"; };
   for (int i = 0; i < bodies.count(); ++i) {

@@ -120,6 +120,19 @@ TEST(Restore, RefusesWhatIsNotFiniteByName) {
   }
 }
 
+// So states that steps leave behind are always taken back.
+TEST(WorldStep, EndsWhereTheTimeWouldNotBeFinite) {
+  Model model;
+  model.step.dt = 1e308;
+  World world = test::start(model);
+  ASSERT_TRUE(world.step().ok());
+  const StepReport report = world.step();
+  ASSERT_FALSE(report.ok());
+  EXPECT_THAT(report.divergence->message, HasSubstr("time is not finite"));
+  EXPECT_TRUE(std::isfinite(world.state().time));
+  EXPECT_TRUE(world.restore(world.state()).empty());
+}
+
 TEST(Restore, RefusesAForeignState) {
   Simulation atwood = test::start(test::Atwood{}.machine());
   Simulation tackle = test::start(test::Tackle{}.machine());
