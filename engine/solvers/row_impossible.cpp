@@ -33,8 +33,7 @@ bool RowSystem::gives_nothing(std::size_t g) const {
   constexpr double rounding = 1e-13;
   std::vector<double> motion(motion_.size(), 0.0);
   slots_.add_unknown(static_cast<int>(g), 1.0, motion.data());
-  const double together =
-      problem_.diagonal[g] + slots_.along(static_cast<int>(g), motion.data());
+  const double together = problem_.diagonal[g] + slots_.along(static_cast<int>(g), motion.data());
   return std::abs(together) <= rounding * whole;
 }
 
