@@ -206,8 +206,7 @@ class EnergyCheck {
     const JointWork work = work_of(e_, joint);
     // What a drive does against a lock of the same joint passes through no body.
     within_joints_ += work.flow;
-    const double beyond = std::max(std::abs(work.unexplained) - work.rounding, 0.0);
-    add(std::copysign(beyond, work.unexplained), work.flow, [&] {
+    add(work.unexplained, work.flow, [&] {
       return std::string(joint.definition->type()) + " \"" + joint.definition->name + "\"";
     });
   }

@@ -33,7 +33,7 @@ class JointWorker {
       return work_;
     }
     add_flow();
-    // At either end a gap of what the solver takes for none.
+    // A gap that is within what the solver takes for none changes within it.
     const double gap = 2e-10 * e_.bodies.scale();
     const double size = std::max(e_.size_of(frame_.body_a), e_.size_of(frame_.body_b));
     const double angle = size > 0.0 ? gap / size : 0.0;
@@ -60,11 +60,14 @@ class JointWorker {
     const Lock first = lock_at(first_end);
     const Lock last = lock_at(last_end);
     const Vector3 opened = last.value - first.value;
-    work_.unexplained += (first.effort + last.effort).dot(opened);
+    const double work = (first.effort + last.effort).dot(opened);
     if (!(compliance > 0.0)) {
-      work_.rounding += gap * (first.effort + last.effort).norm();
+      const bool closed = std::max(first.value.norm(), last.value.norm()) <= gap;
+      const double rounding = closed ? gap * (first.effort + last.effort).norm() : 0.0;
+      work_.unexplained += std::copysign(std::max(std::abs(work) - rounding, 0.0), work);
       return;
     }
+    work_.unexplained += work;
     const Vector3 ruled = e_.rattle ? Vector3(0.5 * (first.value + last.value)) : last.value;
     const double taken = ruled.dot(opened) / compliance;
     work_.unexplained += taken;

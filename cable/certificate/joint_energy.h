@@ -8,7 +8,6 @@ namespace sheave::certify {
 struct JointWork {
   double unexplained = 0.0;  ///< on the bodies and their springs [J]
   double flow = 0.0;         ///< what passed through the joint [J]
-  double rounding = 0.0;     ///< of rigid locks' forces over what rounds leave of their gaps [J]
 };
 
 [[nodiscard]] JointWork work_of(const Evidence& evidence, const JointEvidence& joint);
