@@ -54,8 +54,11 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
   // Tensions that are nothing beside those of the cable, or beside rounding, have no ratio that
   // would count.
   const double scale = std::max({high, 1e-3 * largest, evidence.force_rounding});
-  const double rounding =
-      std::max({1e-9 * scale, bound * evidence.force_rounding, evidence.shared_rounding});
+  // Only rigid spans share a load that they leave open.
+  const bool rigid =
+      !cable.definition->axial_stiffness && cable.definition->compliance.value_or(0.0) == 0.0;
+  const double rounding = std::max(
+      {1e-9 * scale, bound * evidence.force_rounding, rigid ? evidence.shared_rounding : 0.0});
   const auto name = [&] {
     return (pass.link < 0 ? std::string("a wrap") : "link " + std::to_string(pass.link)) +
            " of \"" + std::string(pass.cable) + "\"";
