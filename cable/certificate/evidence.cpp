@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cable/cable_system.h"
+#include "cable/certificate/free_rotation.h"
 #include "cable/certificate/pushes.h"
 #include "cable/links/spool.h"
 #include "engine/constraint_batch.h"
@@ -81,6 +82,7 @@ Evidence::Evidence(const Simulation& observed, const LastSubstep& last)
       rattle(last.integrator == IntegratorKind::rattle),
       moments{Moment{&bodies, &start.bodies}, Moment{&bodies, &end.bodies}} {
   balances.resize(at(bodies.count()) + 1);
+  for (int i = 0; i < bodies.count(); ++i) turns_.push_back(counted_turn(*this, i));
   if (simulation.cables != nullptr) collect_cables(last);
   if (!model.joints.empty()) collect_joints(last);
   for (std::size_t f = 0; f < observed.world.features().size(); ++f) {
@@ -130,22 +132,7 @@ double Evidence::size_of(int body) const {
 }
 
 Vector3 Evidence::turn_of(int body) const {
-  if (body == bodies.count()) return Vector3::Zero();
-  const BodyState& from = start.bodies[at(body)];
-  const BodyState& to = end.bodies[at(body)];
-  const BodyProperties& properties = bodies[body];
-  if (properties.mount >= 0) {
-    const Vector3 axis = end.bodies[at(properties.mount)].orientation * properties.axis;
-    return turn_of(properties.mount) + (to.angle - from.angle) * axis;
-  }
-  if (properties.mobility == Mobility::planar || properties.mobility == Mobility::rotor) {
-    return (to.angle - from.angle) * properties.axis;
-  }
-  Quaternion change = to.orientation * from.orientation.conjugate();
-  if (change.w() < 0.0) change.coeffs() = -change.coeffs();
-  const double sine = change.vec().norm();
-  if (!(sine > 0.0)) return Vector3::Zero();
-  return 2.0 * portable::atan2(sine, change.w()) / sine * change.vec();
+  return body == bodies.count() ? Vector3(Vector3::Zero()) : turns_[at(body)];
 }
 
 Vector3 Evidence::displacement(int body, const Vector3& point, End at_end) const {

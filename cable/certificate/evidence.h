@@ -195,7 +195,8 @@ class Evidence {
   /// centre of mass.
   [[nodiscard]] Vector3 load_force(int body, End when) const;
   [[nodiscard]] Vector3 load_torque(int body, End when) const;
-  /// How far the body has turned in the substep about a world axis [rad].
+  /// How far the body has turned in the substep [rad], as the integrator counts it: a rotation
+  /// vector (cable/certificate/free_rotation.h).
   [[nodiscard]] Vector3 turn_of(int body) const;
   [[nodiscard]] std::string body_name(int body) const {
     return "body \"" + bodies.name(body) + "\"";
@@ -226,6 +227,7 @@ class Evidence {
   /// Makes the definitions of cables what has been set.
   void follow_controls();
 
+  std::vector<Vector3> turns_;  ///< per body
   std::vector<CableDef>
       controlled_;  ///< definitions of cables with what has been set; empty if nothing is
 };

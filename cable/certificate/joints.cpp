@@ -196,9 +196,14 @@ class JointCheck {
       // What acts along the extension besides is not told apart from the rod.
       if (coordinates_of(*joint_.definition).front().settings->acts()) return;
       const bool one_sided = frame_.lower != 0.0 || frame_.upper != 0.0;
-      double from = x0;
-      if (frame_.lower != 0.0) from = std::max(from, 0.0);
-      if (frame_.upper != 0.0) from = std::min(from, 0.0);
+      // What was free has no damper before it closes.
+      const bool pulls = frame_.lower != 0.0;
+      const bool pushes = frame_.upper != 0.0;
+      const double moved = x1 - x0;
+      const double change = e_.rattle ? moved : e_.h * seen_by_damper(3, moved / e_.h);
+      double from = x1 - change;
+      if (pulls) from = std::max(from, 0.0);
+      if (pushes) from = std::min(from, 0.0);
       const double damped = frame_.compliance * frame_.damping * (x1 - from) / e_.h;
       const double asked = (e_.rattle ? 0.5 * (from + x1) : x1) + damped;
       double off = std::abs(asked - frame_.compliance * pull);

@@ -2,35 +2,19 @@
 // its start with the loads and the reported forces. Where that ends elsewhere than the state says,
 // forces are wrong or missing: a difference dx of the position is the force m dx / h^2, one dv of
 // the velocity m dv / h.
-//
-// Drag at the rate c [1/s] is exact: in a time t it leaves e^(-ct) of a velocity and (1 - e^(-ct))
-// / ct of an impulse.
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include <Eigen/LU>
-
 #include "cable/certificate/checks.h"
+#include "cable/certificate/free_rotation.h"
 #include "cable/links/rolling.h"
 #include "engine/body_drive.h"
 #include "engine/math/portable.h"
 
 namespace sheave::certify {
 namespace {
-
-/// What drag leaves of a velocity, and of a steady impulse.
-struct Drag {
-  double keep = 1.0;
-  double share = 1.0;
-  Drag(double rate, double time) {
-    const double x = rate * time;
-    if (!(x > 0.0)) return;
-    keep = portable::exp(-x);
-    share = -portable::expm1(-x) / x;
-  }
-};
 
 struct Replay {
   Vector3 position = Vector3::Zero();
@@ -120,15 +104,7 @@ class Player {
     return force;
   }
   [[nodiscard]] Vector3 load_torque(int i, End when) const {
-    const Quaternion orientation = e_.moments[at(when)].orientation(i);
-    Vector3 torque = e_.load_torque(i, when);
-    for (const int r : bodies_[i].mounted_rotors) {
-      const Vector3 own = e_.load_torque(r, when);
-      const Vector3 axle = orientation * bodies_[r].axis;
-      torque += (orientation * bodies_[r].mount_position).cross(e_.load_force(r, when)) + own -
-                axle * axle.dot(own);
-    }
-    return torque;
+    return load_torque_with_rotors(e_, i, when);
   }
 
  private:
@@ -137,45 +113,22 @@ class Player {
     if (body.mobility == Mobility::slider) return along;
     return body.mobility == Mobility::planar ? Vector3(v - along) : v;
   }
-  static Matrix3 in_world(const Matrix3& own, const Quaternion& orientation) {
-    const Matrix3 rotation = orientation.toRotationMatrix();
-    return rotation * own * rotation.transpose();
-  }
 
   void rotate_ball(int i, Replay& replay) const {
     const BodyProperties& body = bodies_[i];
     const Balance& balance = e_.balances[at(i)];
-    const BodyState& from = e_.start.bodies[at(i)];
     const double inverse = body.inverse_inertia(0, 0);
     const double first = first_share_ * e_.h;
     const Drag drag(bodies_.definition(i).angular_damping * inverse, first);
     const Vector3& pushed = balance.torque[e_.rattle ? first_end : last_end];
-    const Vector3 free = drag.keep * from.angular_velocity +
-                         drag.share * first * inverse * load_torque(i, first_end);
+    const FreeRotation free = free_rotation(e_, i);
     const Vector3 change = drag.share * e_.h * inverse * pushed;
-    replay.orientation = turned(turned(from.orientation, e_.h * free), e_.h * change);
-    replay.spin = free + change;
+    replay.orientation = turned(free.orientation, e_.h * change);
+    replay.spin = free.turn / e_.h + change;
     if (!e_.rattle) return;
     replay.spin =
         drag.keep * replay.spin +
         drag.share * inverse * (first * load_torque(i, last_end) + e_.h * balance.torque[last_end]);
-  }
-
-  /// Spin angular momentum of the rotors that the body carries, at one end.
-  [[nodiscard]] Vector3 rotors(int i, const Quaternion& orientation, End when) const {
-    Vector3 sum = Vector3::Zero();
-    for (const int r : bodies_[i].mounted_rotors) {
-      const Vector3 axle = e_.moments[at(when)].orientation(i) * bodies_[r].axis;
-      const BodyState& rotor = (*e_.moments[at(when)].states)[at(r)];
-      sum += bodies_[r].axis_inertia * axle.dot(rotor.angular_velocity) *
-             (orientation * bodies_[r].axis);
-    }
-    return sum;
-  }
-  [[nodiscard]] Vector3 damped(int i, const Matrix3& inertia, const Vector3& w) const {
-    const double c = 0.5 * first_share_ * e_.h * bodies_.definition(i).angular_damping;
-    if (c == 0.0) return w;
-    return (inertia + c * Matrix3::Identity()).inverse() * (inertia * w - c * w);
   }
 
   void rotate_free(int i, Replay& replay) const {
@@ -184,32 +137,16 @@ class Player {
     const BodyState& from = e_.start.bodies[at(i)];
     const double h = e_.h;
     const Vector3 torque = load_torque(i, first_end);
-    const Matrix3 inertia0 = in_world(body.inertia, from.orientation);
-    const Vector3 damped_spin = damped(i, inertia0, from.angular_velocity);
-    const Vector3 momentum = inertia0 * damped_spin + rotors(i, from.orientation, first_end);
-    Quaternion free;
-    if (body.symmetry_axis && body.mounted_rotors.empty()) {
-      // Precession about the momentum, spin about the axis of symmetry.
-      const Vector3& own = *body.symmetry_axis;
-      const double along = own.dot(body.inverse_inertia * own);
-      const double across = 0.5 * (body.inverse_inertia.trace() - along);
-      const Vector3 half = momentum + 0.5 * h * torque;
-      const Vector3 axis = from.orientation * own;
-      free = turned(turned(from.orientation, h * (along - across) * half.dot(axis) * axis),
-                    h * across * half);
-    } else {
-      const Quaternion half = turned(from.orientation, 0.5 * h * damped_spin);
-      const Vector3 w = in_world(body.inverse_inertia, half) *
-                        (momentum + 0.5 * h * torque - rotors(i, half, first_end));
-      free = turned(from.orientation, h * w);
-    }
+    const FreeRotation start = free_rotation(e_, i);
+    const Quaternion& free = start.orientation;
+    const Vector3& momentum = start.momentum;
     const Matrix3 yield = in_world(body.inverse_inertia, e_.rattle ? from.orientation : free);
     const Vector3& pushed = balance.torque[e_.rattle ? first_end : last_end];
     const Vector3 change = h * (yield * pushed);
     replay.orientation = turned(free, h * change);
     if (!e_.rattle) {
       replay.spin = in_world(body.inverse_inertia, free) *
-                        (momentum + h * torque - rotors(i, free, first_end)) +
+                        (momentum + h * torque - rotor_momentum(e_, i, free, first_end)) +
                     change;
       return;
     }
@@ -230,7 +167,7 @@ class Player {
       spun += (own + gained - by_loads) * (to * bodies_[r].axis);
     }
     const Vector3 kept = in_world(body.inverse_inertia, to) * (total - spun);
-    replay.spin = damped(i, inertia1, kept) +
+    replay.spin = damped_spin(e_, i, inertia1, kept) +
                   in_world(body.inverse_inertia, to) *
                       (0.5 * h * load_torque(i, last_end) + h * balance.torque[last_end]);
   }

@@ -250,6 +250,27 @@ void ActiveSetSolver::find_residuals(const ComplementarityProblem& problem) {
   }
 }
 
+void ActiveSetSolver::find_redundant_parts(const ComplementarityProblem& problem,
+                                           std::vector<char>& part) const {
+  part.assign(at(problem.size), 0);
+  std::vector<int> reached;
+  const auto reach = [&](int i) {
+    if (part[at(i)] != 0) return;
+    part[at(i)] = 1;
+    reached.push_back(i);
+  };
+  for (int j = 0; j < problem.size && dropped_ > 0; ++j) {
+    if (problem.free[at(j)] == 1 && factor_.is_dropped(j)) reach(j);
+  }
+  while (!reached.empty()) {
+    const std::size_t i = at(reached.back());
+    reached.pop_back();
+    for (int p = neighbour_start_[i]; p < neighbour_start_[i + 1]; ++p) {
+      reach(neighbours_[at(p)].other);
+    }
+  }
+}
+
 void ActiveSetSolver::forgive_redundant(ComplementarityProblem& problem) const {
   for (int j = 0; j < problem.size; ++j) {
     if (problem.free[at(j)] != 1 || !factor_.is_dropped(j)) continue;

@@ -372,7 +372,9 @@ double RowSystem::yield(std::size_t g) const {
 bool RowSystem::solve(Substep& substep, bool compromise) {
   assemble();
   bool solved = solve_assembled(substep, compromise);
-  shares_load_ = solved && active_set_.dropped() > 0 && !active_set_.contradicts() && share_load();
+  redundant_part_.clear();
+  if (active_set_.dropped() > 0) active_set_.find_redundant_parts(problem_, redundant_part_);
+  shares_load_ = solved && !redundant_part_.empty() && !active_set_.contradicts() && share_load();
   if (shares_load_) {
     active_set_.forgive_redundant(problem_);
     solved = solve_assembled(substep, compromise);
@@ -397,6 +399,7 @@ bool RowSystem::share_load() {
   bool any = false;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
+    if (redundant_part_[g] == 0) continue;
     double share = 0.0;
     for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
       share += rows_[at(i)].weight * rows_[at(i)].load_share;

@@ -328,6 +328,7 @@ class RowSystem {
   /// Counts the impulses in the groups' multipliers as given: the unknowns are what is added to
   /// them.
   void start_from_impulses();
+  void take_redundant_parts(const RowSystem& positions);
   void move_velocities(Substep& substep);
   [[nodiscard]] double rate_of(const Substep& substep, const Row& row) const;
 
@@ -381,6 +382,8 @@ class RowSystem {
   ComplementarityProblem problem_;
   ActiveSetSolver active_set_;
   bool shares_load_ = false;  ///< in the last solve(): rows were redundant, Row::load_share
+  /// Per unknown whether loads that redundant rows share can reach it; empty: there are none.
+  std::vector<char> redundant_part_;
 };
 
 }  // namespace sheave

@@ -43,7 +43,7 @@ void RowSystem::pose_velocities(const Substep& substep, const RowSystem& positio
       0.5 / substep.h;  // of the bounds, for an impulse in the second half of the substep
   // Velocities alone tell nothing of forces that hold each other in balance. They stay what they
   // were in the first half, where the bounds and the links have judged them.
-  const bool redundant = positions.shares_load_ || positions.active_set_.dropped() > 0;
+  take_redundant_parts(positions);
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Group& group = groups_[g];
     const Row& first = rows_[at(group.first_row)];
@@ -63,17 +63,28 @@ void RowSystem::pose_velocities(const Substep& substep, const RowSystem& positio
     const double upper = acts ? share * first.upper : 0.0;
     problem_.free[g] =
         acts && first.lower != first.upper && (bilateral || group.multiplier != 0.0) ? 1 : 0;
+    const bool redundant = !redundant_part_.empty() && redundant_part_[g] != 0;
     group.multiplier =
         redundant ? std::clamp(group.multiplier / substep.h, lower, upper) : 0.0;  // of the impulse
     problem_.constant[g] = rate;
     problem_.lower[g] = lower - group.multiplier;
     problem_.upper[g] = upper - group.multiplier;
   }
-  if (!redundant) return;
+  if (redundant_part_.empty()) return;
   start_from_impulses();
   // At the end of the substep the rows may miss being redundant by rounding, and be solved by what
   // that leaves.
   share_load();
+}
+
+void RowSystem::take_redundant_parts(const RowSystem& positions) {
+  redundant_part_.clear();
+  if (positions.redundant_part_.empty()) return;
+  redundant_part_.assign(groups_.size(), 0);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const auto g = at(positions.group_of_[i]);
+    if (positions.redundant_part_[g] != 0) redundant_part_[at(group_of_[i])] = 1;
+  }
 }
 
 double RowSystem::impulse_of(std::size_t g) const {
