@@ -263,21 +263,6 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   return largest * (acts ? parts : denominator);
 }
 
-// Rigid parts that hold one block together have no tensions of their own while their links hold, and
-// links are judged by these. So they share the load as equal springs would.
-void CableSystem::share_load(const Substep& substep, const CompiledCable& cable, RowList& rows,
-                             std::size_t start) {
-  if (!cable.is_rigid()) return;
-  // Far above SparseFactor::dropped_pivot; a round leaves this share of what the multipliers' change
-  // moves a row by to the next one.
-  constexpr double share = 1e-9;
-  RowResponse response;
-  for (std::size_t i = start; i < rows.size(); ++i) {
-    respond(rows[i], substep.moving, response);
-    rows[i].load_share = share * response.inverse_mass;
-  }
-}
-
 void CableSystem::start_without_feed(int span, Row& row) const {
   // What is fed in a substep comes evenly: at the start none of it is there.
   const SpanSetup& setup = spans_[at(span)];
@@ -309,6 +294,7 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     if (at_start) start_without_feed(k, row);
     row.index = k;
     row.idle = open;
+    row.judged = links_[at(spans_[at(k)].first)].rubs() || links_[at(spans_[at(k)].second)].rubs();
     if (open) row.upper = 0.0;
     row.active = start_tensions_[at(k)] > 0.0;
     row.tied = i > 0;
@@ -332,7 +318,6 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     row.start_weight = weights.start;
     if (cable.has_friction) last = start_spans_[at(k)] = span;
   }
-  if (cable.has_friction && !open) share_load(substep, cable, rows, start);
   const bool acts = open && turns_wheel(substep, cable, run);
   const auto relative = [](double weight, double most) {
     return most == 0.0 && weight == 0.0 ? 1.0 : portable::exp(weight - most);

@@ -179,8 +179,6 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   void linearise_spans(Substep& substep, const CompiledCable& cable, RowList& rows);
   double sweep_runs(Substep& substep, int cable_index);
   using RunWeights = cable_parts::RunWeights;
-  static void share_load(const Substep& substep, const CompiledCable& cable, RowList& rows,
-                         std::size_t start);
   void linearise_run(Substep& substep, const CompiledCable& cable, Run run, RowList& rows);
   void start_without_feed(int span, Row& row) const;
   /// Evaluates the spans of a run, sums their gradients body by body; returns the largest ln k_i.

@@ -74,6 +74,7 @@ struct LinkGeometry {
   [[nodiscard]] bool frictionless() const {
     return loss_exponent == 0.0 && (massless || friction == 0.0);
   }
+  [[nodiscard]] bool rubs() const { return passes() && !frictionless(); }
   /// Length of cable once round the link [m]; 0 for a point.
   [[nodiscard]] double perimeter() const {
     return outline ? outline->curve.perimeter() : 2.0 * pi * std::abs(signed_radius);

@@ -89,10 +89,9 @@ struct Row {
   /// Added to the row's yield w [1/kg], >= 0: shares a load among rows of which fewer would do.
   /// Unlike a compliance it is no spring; the multiplier l leaves the row off by softness x l.
   double softness = 0.0;
-  /// Where rows are redundant, added to the yield of a change of the multiplier [1/kg], >= 0: those
-  /// with such a share find the forces together that are nearest to what they were, instead of
-  /// leaving one of them out.
-  double load_share = 0.0;
+  /// Where rows are redundant its force is not the least one that will do, but that nearest to the
+  /// last round's: what slips and what holds is judged by it (engine/solvers/row_sharing.cpp).
+  bool judged = false;
   /// A row that closes faster than this at the end of a substep of `rattle` rebounds in the next
   /// one [m/s]: its velocity is not stopped.
   double rebound_speed = unbounded;
@@ -144,7 +143,8 @@ struct Row {
     active = tied = curved = told = idle = false;
     turning = 0.0;
     weight = start_weight = lever = 1.0;
-    softness = load_share = 0.0;
+    softness = 0.0;
+    judged = false;
     rebound_speed = unbounded;
     value = rate = compliance = damping = past = 0.0;
     lower = -unbounded;

@@ -395,21 +395,6 @@ bool RowSystem::solve_assembled(Substep& substep, bool compromise) {
   return solved;
 }
 
-bool RowSystem::share_load() {
-  bool any = false;
-  for (std::size_t g = 0; g < groups_.size(); ++g) {
-    const Group& group = groups_[g];
-    if (redundant_part_[g] == 0) continue;
-    double share = 0.0;
-    for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
-      share += rows_[at(i)].weight * rows_[at(i)].load_share;
-    }
-    problem_.diagonal[g] += group.scale * share;
-    any = any || share > 0.0;
-  }
-  return any;
-}
-
 void RowSystem::relax(Substep& substep, int sweeps) {
   assemble();
   active_set_.relax(problem_, sweeps, &substep.work);

@@ -381,7 +381,8 @@ class RowSystem {
   double bound_share_ = 1.0;    ///< of the rows' bounds, in the rule at work
   ComplementarityProblem problem_;
   ActiveSetSolver active_set_;
-  bool shares_load_ = false;  ///< in the last solve(): rows were redundant, Row::load_share
+  bool shares_load_ = false;    ///< in the last solve(): rows were redundant
+  bool of_velocities_ = false;  ///< since linearise_velocities()
   /// Per unknown whether loads that redundant rows share can reach it; empty: there are none.
   std::vector<char> redundant_part_;
 };

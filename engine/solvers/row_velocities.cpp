@@ -28,6 +28,7 @@ void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
   previous_ = positions.previous_;
   problem_.rounding = value_rounding * substep.bodies.scale() / substep.h;
   symmetric_rows_ = true;
+  of_velocities_ = true;
   fill_slots(substep);
   slots_.join(rows_);
   make_groups();
