@@ -252,15 +252,19 @@ void ActiveSetSolver::find_residuals(const ComplementarityProblem& problem) {
 
 void ActiveSetSolver::find_redundant_parts(const ComplementarityProblem& problem,
                                            std::vector<char>& part) const {
-  part.assign(at(problem.size), 0);
+  part.clear();
   std::vector<int> reached;
   const auto reach = [&](int i) {
+    part.resize(at(problem.size), 0);
     if (part[at(i)] != 0) return;
     part[at(i)] = 1;
     reached.push_back(i);
   };
   for (int j = 0; j < problem.size && dropped_ > 0; ++j) {
-    if (problem.free[at(j)] == 1 && factor_.is_dropped(j)) reach(j);
+    // What moves nothing is left out, too, but not because of others.
+    if (problem.free[at(j)] == 1 && factor_.is_dropped(j) && problem.diagonal[at(j)] > 0.0) {
+      reach(j);
+    }
   }
   while (!reached.empty()) {
     const std::size_t i = at(reached.back());

@@ -63,7 +63,7 @@ class ActiveSetSolver {
   [[nodiscard]] int factorisations() const { return factorisations_; }  ///< in the last solve()
   [[nodiscard]] int dropped() const { return dropped_; }  ///< redundant rows in the last solve()
   /// Per unknown whether it is coupled, over others, too, to one that was redundant in the last
-  /// solve(): what loads that redundant rows share can reach.
+  /// solve(): what loads that redundant rows share can reach. Empty: there is none.
   void find_redundant_parts(const ComplementarityProblem& problem, std::vector<char>& part) const;
   /// Solves again, with the matrix and the sets of the last solve(), after `problem.constant` has
   /// grown by `change`, and bounds may have moved. False if

@@ -138,8 +138,8 @@ void RowSystem::bend(const Substep& substep, double negligible) {
   constexpr int most_turns = 12;
   constexpr double settled_share = 1e-2;  // a round leaves about as much of its own accord
   // What rows that depend on each other tell of the second order they need not tell alike: a load
-  // that they share would be made of the difference.
-  if (from_here_ || shares_load_) return;
+  // that they share would be made of the difference, and stay.
+  if (from_here_ || (shares_load_ && shares_judged_)) return;
   find_rubbing_rows();
   const bool curved = curvature_.collect(rows_, substep.bodies.coordinates(), substep.moving);
   if (!curved && rubbing_.empty()) return;

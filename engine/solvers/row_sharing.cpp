@@ -6,15 +6,16 @@
 // locked had thousands of newtons, or none, by the direction in which the machine lay.
 //
 // So rows that only pull or only push yield, each by a small share e of what a unit of its force
-// moves, W: the forces l are then those with the least sum of W l^2, as if the rows were springs
-// that are as stiff as what they hold is light. What locks can carry alone they do, for they do not
-// yield. Rows stay off by e W l, which is nothing. Among locks alone one is left out, as the factors
-// have it.
+// moves, W, at first to its force: the forces l are then those with the least sum of
+// W l^2, as if the rows were springs that are as stiff as what they hold is light. What locks can
+// carry alone they do, for they do not yield. Rows stay off by e W l then; once
+// nothing else is left they yield to the changes of the forces only. Among locks alone one is left out, as the factors have it.
 //
-// Rows by which links with friction are judged (Row::judged) yield to the changes of their forces
-// instead, or these would not stay what a round has made them; so does everything in the velocities,
-// where the forces of the first half are meant to stay.
+// Rows by which links with friction are judged (Row::judged) yield to changes from the first round
+// on, or their forces would not stay what a round has made them; so does everything in the
+// velocities, where the forces of the first half are meant to stay.
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/index.h"
@@ -30,21 +31,34 @@ bool is_one_sided(const Row& row) { return std::isfinite(row.lower) != std::isfi
 bool RowSystem::share_load() {
   // Far above SparseFactor::dropped_pivot.
   constexpr double share = 1e-9;
+  constexpr double explained = 0.1;
   bool any = false;
+  shares_judged_ = false;
+  double open = 0.0;
+  double yielded = 0.0;
+  const bool least = finds_least_ && !of_velocities_;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
     if (redundant_part_[g] == 0 || !is_one_sided(rows_[at(group.first_row)])) continue;
     double yields = 0.0;
-    bool judged = of_velocities_;
+    double value = 0.0;
+    bool judged = false;
     for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
+      value += rows_[at(i)].value;
       if (!(rows_[at(i)].compliance > 0.0)) yields += rows_[at(i)].weight * slots_.yield(i);
       judged = judged || rows_[at(i)].judged;
     }
-    const double softness = group.scale * share * yields;
-    problem_.diagonal[g] += softness;
-    if (!judged) problem_.constant[g] += softness * group.multiplier;
+    problem_.diagonal[g] += group.scale * share * yields;
     any = any || yields > 0.0;
+    shares_judged_ = shares_judged_ || judged;
+    if (!least || judged || group.multiplier == 0.0) continue;
+    const double yields_now = share * yields * group.multiplier;
+    problem_.constant[g] += group.scale * yields_now;
+    open = std::max(open, std::abs(value + yields_now));
+    yielded = std::max(yielded, std::abs(yields_now));
   }
+  // What is left then is what rows yield.
+  if (yielded > 0.0 && open <= explained * yielded) finds_least_ = false;
   return any;
 }
 

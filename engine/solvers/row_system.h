@@ -382,6 +382,8 @@ class RowSystem {
   ComplementarityProblem problem_;
   ActiveSetSolver active_set_;
   bool shares_load_ = false;    ///< in the last solve(): rows were redundant
+  bool shares_judged_ = false;  ///< among those that share are some that are Row::judged
+  bool finds_least_ = true;     ///< forces, of share_load()
   bool of_velocities_ = false;  ///< since linearise_velocities()
   /// Per unknown whether loads that redundant rows share can reach it; empty: there are none.
   std::vector<char> redundant_part_;
