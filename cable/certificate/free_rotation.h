@@ -23,21 +23,21 @@ struct FreeRotation {
 };
 
 /// Of a body that moves freely: neither driven nor on an axle nor planar.
-[[nodiscard]] FreeRotation free_rotation(const Evidence& evidence, int body);
+[[nodiscard]] FreeRotation free_rotation(const Evidence& evidence, int i);
 
 /// How far any body has turned, as the integrator counts it: of one that moves freely the free
 /// rotation and what came after it [rad].
-[[nodiscard]] Vector3 counted_turn(const Evidence& evidence, int body);
+[[nodiscard]] Vector3 counted_turn(const Evidence& evidence, int i);
 
 /// Torque of a body's own loads and those of the rotors on it, but for what spins these, at one end
 /// [N m].
-[[nodiscard]] Vector3 load_torque_with_rotors(const Evidence& evidence, int body, End when);
+[[nodiscard]] Vector3 load_torque_with_rotors(const Evidence& evidence, int i, End when);
 /// Spin angular momentum of the rotors that the body carries, of one end, with the body turned like
 /// that [N m s].
-[[nodiscard]] Vector3 rotor_momentum(const Evidence& evidence, int body,
-                                     const Quaternion& orientation, End when);
+[[nodiscard]] Vector3 rotor_momentum(const Evidence& evidence, int i, const Quaternion& orientation,
+                                     End when);
 /// What drag leaves of an angular velocity in the first half of a substep, or all of it [rad/s].
-[[nodiscard]] Vector3 damped_spin(const Evidence& evidence, int body, const Matrix3& inertia,
+[[nodiscard]] Vector3 damped_spin(const Evidence& evidence, int i, const Matrix3& inertia,
                                   const Vector3& angular_velocity);
 /// A tensor of the body's frame in that of the world.
 [[nodiscard]] Matrix3 in_world(const Matrix3& own, const Quaternion& orientation);
