@@ -74,6 +74,7 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
   bool revised = false;
   bool settled = false;
   bool at_start = false;
+  bool yields = false;  // rows that share a load, in the last round
   // One linearisation more than rounds: whether x1 is a solution or the substep must be left to
   // xpbd is decided by what the last round has left, which only the rows at x1 tell. The velocities
   // need these rows, too.
@@ -89,12 +90,13 @@ bool RattleSolver::try_positions(Substep& substep, Features features) {
       off = positions_.displacement(violated);
     }
     if (!std::isfinite(violated)) return false;
-    settled = settled || (round > 0 && !revised && violated <= enough);
+    settled = settled || (round > 0 && !revised && violated <= enough && !yields);
     if ((settled && violated <= done) || round == substep.iterations) break;
     if (direct) {
       // What rows ask for that contradict each other no round finds; xpbd makes them give way.
       if (round > 2 && positions_.contradicts()) return false;
       if (!positions_.solve(substep)) return false;
+      yields = positions_.yielded() > 1e-3 * enough;
       if (round > 0 || positions_.swing() > least_swing) positions_.bend(substep, enough);
     } else {
       positions_.relax(substep, 1);

@@ -66,15 +66,15 @@ void DirectSolver::solve(Substep& substep, Features features) {
   bool renewed = false;  // the last round was the first one with other rows
   bool compromise = false;
   bool at_start = false;
+  bool yields = false;  // rows that share a load, in the last round
   system_.move_on(substep);
   for (int round = 0; round < substep.iterations; ++round) {
     before = violated;
     system_.linearise(substep, features, RowSystem::Rule::backward, adding_up);
     violated = system_.violation();
     off = system_.displacement(violated);
-    if (round > 0 && !revised && violated <= enough && (adding_up || arrives(substep, astray))) {
-      break;
-    }
+    const bool closes = round > 0 && !revised && violated <= enough && !yields;
+    if (closes && (adding_up || arrives(substep, astray))) break;
     // Rows between driven bodies that nothing can satisfy stay violated in every round.
     const bool settled = adding_up || compromise;
     const bool stays = !revised && !renewed;
@@ -102,7 +102,8 @@ void DirectSolver::solve(Substep& substep, Features features) {
     }
     if (!system_.solve(substep, compromise)) return give_up(substep, features, adding_up);
     const bool swings = system_.swing() > least_swing;
-    const bool done = !compromise && !swings && leaves_nothing(substep);
+    yields = system_.yielded() > 1e-3 * enough;
+    const bool done = !compromise && !swings && !yields && leaves_nothing(substep);
     const bool goes_on = !done && round + 1 < substep.iterations;
     if (!compromise && goes_on && (round > 0 || swings)) system_.bend(substep, 0.1 * enough);
     system_.apply(substep, features);

@@ -24,42 +24,59 @@
 namespace sheave {
 namespace {
 
+/// e of the head of this file, far above SparseFactor::dropped_pivot.
+constexpr double share = 1e-9;
+constexpr double small_share = 1e-12;
+
 bool is_one_sided(const Row& row) { return std::isfinite(row.lower) != std::isfinite(row.upper); }
 
 }  // namespace
 
 bool RowSystem::share_load() {
-  // Far above SparseFactor::dropped_pivot.
-  constexpr double share = 1e-9;
   constexpr double explained = 0.1;
-  bool any = false;
+  sharing_.clear();
   shares_judged_ = false;
   double open = 0.0;
   double yielded = 0.0;
-  const bool least = finds_least_ && !of_velocities_;
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
     if (redundant_part_[g] == 0 || !is_one_sided(rows_[at(group.first_row)])) continue;
-    double yields = 0.0;
+    Sharing own{g, 0.0, false};
     double value = 0.0;
-    bool judged = false;
     for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
       value += rows_[at(i)].value;
-      if (!(rows_[at(i)].compliance > 0.0)) yields += rows_[at(i)].weight * slots_.yield(i);
-      judged = judged || rows_[at(i)].judged;
+      if (!(rows_[at(i)].compliance > 0.0)) own.yield += rows_[at(i)].weight * slots_.yield(i);
+      own.judged = own.judged || rows_[at(i)].judged;
     }
-    problem_.diagonal[g] += group.scale * share * yields;
-    any = any || yields > 0.0;
-    shares_judged_ = shares_judged_ || judged;
-    if (!least || judged || group.multiplier == 0.0) continue;
-    const double yields_now = share * yields * group.multiplier;
-    problem_.constant[g] += group.scale * yields_now;
-    open = std::max(open, std::abs(value + yields_now));
-    yielded = std::max(yielded, std::abs(yields_now));
+    // Of velocities there is one round, to which the next one leaves nothing.
+    own.yield *= of_velocities_ && !own.judged ? small_share : share;
+    if (!(own.yield > 0.0)) continue;
+    sharing_.push_back(own);
+    shares_judged_ = shares_judged_ || own.judged;
+    if (own.judged || of_velocities_ || group.multiplier == 0.0) continue;
+    open = std::max(open, std::abs(value + own.yield * group.multiplier));
+    yielded = std::max(yielded, std::abs(own.yield * group.multiplier));
   }
   // What is left then is what rows yield.
   if (yielded > 0.0 && open <= explained * yielded) finds_least_ = false;
-  return any;
+  for (const Sharing& own : sharing_) {
+    const Group& group = groups_[own.group];
+    problem_.diagonal[own.group] += group.scale * own.yield;
+    if (own.judged || of_velocities_ || !finds_least_) continue;
+    problem_.constant[own.group] += group.scale * own.yield * group.multiplier;
+  }
+  return !sharing_.empty();
+}
+
+double RowSystem::yielded() const {
+  if (!shares_load_ || !finds_least_) return 0.0;
+  const std::span<const double> change = active_set_.solution();
+  double most = 0.0;
+  for (const Sharing& own : sharing_) {
+    if (own.judged) continue;
+    most = std::max(most, own.yield * std::abs(groups_[own.group].multiplier + change[own.group]));
+  }
+  return most;
 }
 
 }  // namespace sheave

@@ -185,6 +185,8 @@ class RowSystem {
   /// How far the bodies are from where the multipliers of before solve() put them along the
   /// gradients of now [m or rad].
   [[nodiscard]] double astray() const;
+  /// What rows are left off by because they share a load [m]; another round closes it.
+  [[nodiscard]] double yielded() const;
   /// Whether in the last solve() some rows contradicted each other, so that nothing satisfies them
   /// all. `compromise` makes all of them give way, where otherwise some are left out.
   [[nodiscard]] bool contradicts() const { return active_set_.contradicts(); }
@@ -381,10 +383,16 @@ class RowSystem {
   double bound_share_ = 1.0;    ///< of the rows' bounds, in the rule at work
   ComplementarityProblem problem_;
   ActiveSetSolver active_set_;
-  bool shares_load_ = false;    ///< in the last solve(): rows were redundant
-  bool shares_judged_ = false;  ///< among those that share are some that are Row::judged
-  bool finds_least_ = true;     ///< forces, of share_load()
-  bool of_velocities_ = false;  ///< since linearise_velocities()
+  struct Sharing {
+    std::size_t group = 0;
+    double yield = 0.0;  ///< e W [1/kg]
+    bool judged = false;
+  };
+  std::vector<Sharing> sharing_;  ///< of the last share_load()
+  bool shares_load_ = false;      ///< in the last solve(): rows were redundant
+  bool shares_judged_ = false;    ///< among those that share are some that are Row::judged
+  bool finds_least_ = true;       ///< forces, of share_load()
+  bool of_velocities_ = false;    ///< since linearise_velocities()
   /// Per unknown whether loads that redundant rows share can reach it; empty: there are none.
   std::vector<char> redundant_part_;
 };
