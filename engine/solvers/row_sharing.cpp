@@ -25,8 +25,8 @@ namespace sheave {
 namespace {
 
 /// e of the head of this file, far above SparseFactor::dropped_pivot.
-constexpr double share = 1e-9;
-constexpr double small_share = 1e-12;
+constexpr double yielding_share = 1e-9;
+constexpr double share_of_rates = 1e-12;
 
 bool is_one_sided(const Row& row) { return std::isfinite(row.lower) != std::isfinite(row.upper); }
 
@@ -49,7 +49,7 @@ bool RowSystem::share_load() {
       own.judged = own.judged || rows_[at(i)].judged;
     }
     // Of velocities there is one round, to which the next one leaves nothing.
-    own.yield *= of_velocities_ && !own.judged ? small_share : share;
+    own.yield *= of_velocities_ && !own.judged ? share_of_rates : yielding_share;
     if (!(own.yield > 0.0)) continue;
     sharing_.push_back(own);
     shares_judged_ = shares_judged_ || own.judged;
