@@ -277,14 +277,8 @@ void ActiveSetSolver::find_redundant_parts(const ComplementarityProblem& problem
 
 void ActiveSetSolver::forgive_redundant(ComplementarityProblem& problem) const {
   for (int j = 0; j < problem.size; ++j) {
-    const std::size_t i = at(j);
-    const double left = residual_[i];
-    bool forgiven = problem.free[i] == 1 && factor_.is_dropped(j);
-    // What is at a bound may be beyond what its side allows by rounding.
-    if (problem.free[i] != 1 && problem.lower[i] < problem.upper[i]) {
-      forgiven = is_at_lower(problem, i) ? left < 0.0 : left > 0.0;
-    }
-    if (forgiven) problem.constant[i] -= left;
+    if (problem.free[at(j)] != 1 || !factor_.is_dropped(j)) continue;
+    problem.constant[at(j)] -= residual_[at(j)];
   }
 }
 

@@ -6,10 +6,10 @@
 // locked had thousands of newtons, or none, by the direction in which the machine lay.
 //
 // So rows that only pull or only push yield, each by a small share e of what a unit of its force
-// moves, W, at first to its force: the forces l are then those with the least sum of
-// W l^2, as if the rows were springs that are as stiff as what they hold is light. What locks can
-// carry alone they do, for they do not yield. Rows stay off by e W l then; once
-// nothing else is left they yield to the changes of the forces only. Among locks alone one is left out, as the factors have it.
+// moves, W, at first to its force: the forces l are then those with the least sum of W l^2, as if
+// the rows were springs that are as stiff as what they hold is light. What locks can carry alone
+// they do, for they do not yield. Rows stay off by e W l then; once nothing else is left they yield
+// to the changes of the forces only. Among locks alone one is left out, as the factors have it.
 //
 // Rows by which links with friction are judged (Row::judged) yield to changes from the first round
 // on, or their forces would not stay what a round has made them; so does everything in the
@@ -48,7 +48,7 @@ bool RowSystem::share_load() {
       if (!(rows_[at(i)].compliance > 0.0)) own.yield += rows_[at(i)].weight * slots_.yield(i);
       own.judged = own.judged || rows_[at(i)].judged;
     }
-    // Of velocities there is one round, to which the next one leaves nothing.
+    // What the one round of the velocities leaves no other closes.
     own.yield *= of_velocities_ && !own.judged ? share_of_rates : yielding_share;
     if (!(own.yield > 0.0)) continue;
     sharing_.push_back(own);
