@@ -99,15 +99,16 @@ bool CableSystem::comes_off(const Substep& substep, int span, int link,
   const double stored = stored_arc(next, link);
   const LinkGeometry& wheel = links_[at(link)];
   if (!wheel.outline) return stored < 0.0;
-  const bool in_space = spans_[at(span)].kind == SpanKind::spatial;
+  const SpanSetup& setup = spans_[at(span)];
+  const int after = span_after(cables_[at(setup.cable)], link);
+  const bool in_space =
+      setup.kind == SpanKind::spatial || spans_[at(after)].kind == SpanKind::spatial;
   // What comes onto a corner and goes again is edges, whose sum is rounded.
   constexpr double rounding = 1e-9;
   if (stored < -rounding * wheel.perimeter() && !in_space) return true;
   // At a corner there is no length, but an angle. (In space the length is not quite that of the
   // edges, either.)
   if (stored > 0.5 * wheel.perimeter()) return false;
-  const SpanSetup& setup = spans_[at(span)];
-  const int after = span_after(cables_[at(setup.cable)], link);
   return signed_wrap_angle(substep, wheel, geometry_of(substep, span), geometry_of(substep, after),
                            stored) < 0.0;
 }

@@ -251,26 +251,19 @@ void ActiveSetSolver::find_residuals(const ComplementarityProblem& problem) {
 }
 
 void ActiveSetSolver::find_redundant_parts(const ComplementarityProblem& problem,
-                                           std::vector<char>& part) const {
+                                           std::vector<char>& part) {
+  // Components that are rounding share nothing.
+  constexpr double still = 1e-7;
   part.clear();
-  std::vector<int> reached;
-  const auto reach = [&](int i) {
-    part.resize(at(problem.size), 0);
-    if (part[at(i)] != 0) return;
-    part[at(i)] = 1;
-    reached.push_back(i);
-  };
   for (int j = 0; j < problem.size && dropped_ > 0; ++j) {
     // What moves nothing is left out, too, but not because of others.
-    if (problem.free[at(j)] == 1 && factor_.is_dropped(j) && problem.diagonal[at(j)] > 0.0) {
-      reach(j);
-    }
-  }
-  while (!reached.empty()) {
-    const std::size_t i = at(reached.back());
-    reached.pop_back();
-    for (int p = neighbour_start_[i]; p < neighbour_start_[i + 1]; ++p) {
-      reach(neighbours_[at(p)].other);
+    const double own = problem.diagonal[at(j)];
+    if (problem.free[at(j)] != 1 || !factor_.is_dropped(j) || !(own > 0.0)) continue;
+    part.resize(at(problem.size), 0);
+    find_null_vector(problem, j);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const double z = null_vector_[i];
+      if (z * z * problem.diagonal[i] > still * still * own) part[i] = 1;
     }
   }
 }
@@ -289,14 +282,15 @@ int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem, boo
   constexpr double agreement = 1e-9;
   double largest = 0.0;
   for (const double constant : problem.constant) largest = std::max(largest, std::abs(constant));
+  const double agreed = problem.rounding + agreement * largest;
   for (int j = 0; j < problem.size; ++j) {
     if (problem.free[at(j)] != 1 || !factor_.is_dropped(j)) continue;
+    const double off = std::abs(residual_[at(j)]);
+    if (!(off > (going_round ? noise(problem, at(j)) : agreed))) continue;
+    find_null_vector(problem, j);
     // Unless it is what keeps violations going round: of friction whose coordinate locks hold, the
     // residual at a bound tells, however small, that it is the other bound.
-    const double negligible =
-        going_round ? noise(problem, at(j)) : problem.rounding + agreement * largest;
-    if (!(std::abs(residual_[at(j)]) > negligible)) continue;
-    find_null_vector(problem, j);
+    if (!(off > agreed) && !shares_with_friction(problem)) continue;
     const int blocking = first_blocked(problem, j, residual_[at(j)] < 0.0 ? 1.0 : -1.0);
     if (blocking >= 0) return blocking;
     contradicts_ = true;
@@ -318,6 +312,15 @@ void ActiveSetSolver::find_null_vector(const ComplementarityProblem& problem, in
   }
   factor_.solve(null_vector_);
   null_vector_[j] = 1.0;
+}
+
+bool ActiveSetSolver::shares_with_friction(const ComplementarityProblem& problem) const {
+  constexpr double still = 1e-9;
+  for (std::size_t i = 0; i < null_vector_.size(); ++i) {
+    const bool bounded = std::isfinite(problem.lower[i]) && std::isfinite(problem.upper[i]);
+    if (bounded && std::abs(null_vector_[i]) > still) return true;
+  }
+  return false;
 }
 
 bool ActiveSetSolver::takes_back_share(const ComplementarityProblem& problem) {

@@ -62,9 +62,9 @@ class ActiveSetSolver {
   [[nodiscard]] int changes() const { return changes_; }  ///< of sides in the last solve()
   [[nodiscard]] int factorisations() const { return factorisations_; }  ///< in the last solve()
   [[nodiscard]] int dropped() const { return dropped_; }  ///< redundant rows in the last solve()
-  /// Per unknown whether it is coupled, over others, too, to one that was redundant in the last
-  /// solve(): what loads that redundant rows share can reach. Empty: there is none.
-  void find_redundant_parts(const ComplementarityProblem& problem, std::vector<char>& part) const;
+  /// Per unknown whether it shares a load with others: whether it is not 0 in some z with A z = 0
+  /// of the rows that were free in the last solve(). Empty: no row was redundant.
+  void find_redundant_parts(const ComplementarityProblem& problem, std::vector<char>& part);
   /// Solves again, with the matrix and the sets of the last solve(), after `problem.constant` has
   /// grown by `change`, and bounds may have moved. False if
   /// these are not the right sets now; the solution is then still the last one.
@@ -109,6 +109,8 @@ class ActiveSetSolver {
   [[nodiscard]] int blocking_unknown(const ComplementarityProblem& problem, bool going_round);
   /// z with A z = 0 of a redundant unknown, into null_vector_.
   void find_null_vector(const ComplementarityProblem& problem, int redundant);
+  /// Whether unknowns with two bounds have a part in it.
+  [[nodiscard]] bool shares_with_friction(const ComplementarityProblem& problem) const;
   /// Where violations go round and redundant rows agree with the others: takes from unknowns beyond
   /// their bounds what redundant ones, left out, have left to them. Whether that is a solution.
   [[nodiscard]] bool takes_back_share(const ComplementarityProblem& problem);

@@ -185,8 +185,8 @@ Course follow(const Machine& machine, int steps) {
       return course;
     }
     const StepStatistics& done = report.statistics;
-    course.told =
-        done.compromises > 0 || done.unconverged > 0 || (breaks && done.redundant_rows > 0);
+    course.told = done.compromises > 0 || done.unconverged > 0 || done.impossible > 0 ||
+                  done.dead_ends > 0 || (breaks && done.redundant_rows > 0);
     if (course.told) return course;
     if (s.cables != nullptr && !s.cables->tangent_warnings().empty()) {
       course.lost = true;
