@@ -277,11 +277,15 @@ void ActiveSetSolver::forgive_redundant(ComplementarityProblem& problem) const {
 
 int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem, bool going_round) {
   if (dropped_ == 0) return -1;
-  // Residuals of redundant rows that agree are rounding, more than that of a row of its own; what
-  // is overlooked here is larger against the constants of the next round.
+  // Residuals of redundant rows that agree are rounding, more than that of a row of its own, and
+  // what rows have yielded to share a load (engine/solvers/row_sharing.cpp); what is overlooked here
+  // is larger against the constants of the next round.
   constexpr double agreement = 1e-9;
   double largest = 0.0;
-  for (const double constant : problem.constant) largest = std::max(largest, std::abs(constant));
+  for (std::size_t i = 0; i < solution_.size(); ++i) {
+    const double moved = std::abs(problem.diagonal[i] * solution_[i]);
+    largest = std::max({largest, std::abs(problem.constant[i]), moved});
+  }
   const double agreed = problem.rounding + agreement * largest;
   for (int j = 0; j < problem.size; ++j) {
     if (problem.free[at(j)] != 1 || !factor_.is_dropped(j)) continue;

@@ -53,8 +53,7 @@ bool DirectSolver::arrives(Substep& substep, double& astray) const {
 }
 
 bool DirectSolver::leaves_nothing(const Substep& substep) {
-  return !system_.contradicts() &&
-         system_.remainder(substep) <= RowSystem::value_rounding * substep.bodies.scale();
+  return !system_.contradicts() && system_.remainder(substep) <= system_.rounding();
 }
 
 void DirectSolver::solve(Substep& substep, Features features) {

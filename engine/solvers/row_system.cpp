@@ -12,11 +12,14 @@ void RowSystem::collect_rows(Substep& substep, Features features) {
   rows_.clear();
   feature_rows_.clear();
   has_all_rows_ = true;
+  double longest = substep.bodies.scale();
   for (const auto& feature : features) {
+    longest = std::max(longest, feature->longest());
     has_all_rows_ = has_all_rows_ && feature->has_all_rows();
     feature_rows_.push_back(static_cast<int>(rows_.size()));
     feature->linearise(substep, rows_);
   }
+  rounding_ = value_rounding * longest;
   if (geometry_alone_) leave_geometry_alone();
   feature_rows_.push_back(static_cast<int>(rows_.size()));
   previous_.resize(rows_.size());
@@ -82,7 +85,7 @@ bool RowSystem::match_start() {
 bool RowSystem::linearise(Substep& substep, Features features, Rule rule, bool from_here) {
   bound_share_ = rule == Rule::backward ? 1.0 : 0.5;
   collect_rows(substep, features);
-  problem_.rounding = value_rounding * substep.bodies.scale();
+  problem_.rounding = rounding_;
   symmetric_rows_ = forces_turn_ = rule == Rule::backward;
   fill_slots(substep);
   if (rule == Rule::midpoint && !match_start()) return false;

@@ -72,8 +72,8 @@ using Features = std::span<const std::unique_ptr<ConstraintBatch>>;
 /// pattern of the matrix.
 class RowSystem {
  public:
-  /// What rounding leaves of a row's value, relative to the scene's size: lengths are sums of some
-  /// ten numbers of that size. Without it rows that only a wheel between walls can move, taut by
+  /// What rounding leaves of a row's value, relative to the scene's size, or that of the longest
+  /// span if it is larger: lengths are sums of some ten numbers of that size. Without it rows that only a wheel between walls can move, taut by
   /// rounding on either side of it, would have no solution: no turn of the wheel is good for both.
   static constexpr double value_rounding = 1e-14;
 
@@ -190,6 +190,8 @@ class RowSystem {
   /// Whether in the last solve() some rows contradicted each other, so that nothing satisfies them
   /// all. `compromise` makes all of them give way, where otherwise some are left out.
   [[nodiscard]] bool contradicts() const { return active_set_.contradicts(); }
+  /// What rounding leaves of the rows' values [m].
+  [[nodiscard]] double rounding() const { return rounding_; }
   /// Sweeps over the unknowns instead: projected Gauss-Seidel.
   void relax(Substep& substep, int sweeps);
   /// Moves the bodies and the multipliers.
@@ -389,6 +391,7 @@ class RowSystem {
     bool judged = false;
   };
   std::vector<Sharing> sharing_;  ///< of the last share_load()
+  double rounding_ = 0.0;         ///< of the values of positions [m]
   bool shares_load_ = false;      ///< in the last solve(): rows were redundant
   bool shares_judged_ = false;    ///< among those that share are some that are Row::judged
   bool finds_least_ = true;       ///< forces, of share_load()

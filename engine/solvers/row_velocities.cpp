@@ -26,7 +26,8 @@ void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
   for (Row& row : rows_) std::swap(row.weight, row.start_weight);
   feature_rows_ = positions.feature_rows_;
   previous_ = positions.previous_;
-  problem_.rounding = value_rounding * substep.bodies.scale() / substep.h;
+  rounding_ = positions.rounding_;
+  problem_.rounding = rounding_ / substep.h;
   symmetric_rows_ = true;
   of_velocities_ = true;
   fill_slots(substep);

@@ -60,13 +60,14 @@ double largest_tension(const Moment& moment) {
   return largest;
 }
 
-/// Of two courses, step by step; as long as both last.
+/// Of two courses, step by step; as long as both last and take the same steps.
 std::vector<Apart> apart(const Course& a, const Course& b, double dt, double size, double weight) {
   std::vector<Apart> result;
   double largest = weight;
   for (std::size_t i = 0; i < std::min(a.moments.size(), b.moments.size()); ++i) {
     const Moment& p = a.moments[i];
     const Moment& q = b.moments[i];
+    if (p.parts != q.parts) break;
     largest = std::max(largest, largest_tension(p));
     Apart now{motion_apart(p, q, dt, size), 0.0};
     for (std::size_t k = 0; k < p.tensions.size(); ++k) {
@@ -195,6 +196,7 @@ Course follow(const Machine& machine, int steps) {
     Moment& moment = course.moments.emplace_back();
     moment.bodies = s.world.state().bodies;
     moment.redundant = done.redundant_rows > 0;
+    moment.parts = done.substep_parts;
     for (const CableReport& cable : s.cable_reports()) append_tensions(cable, moment);
   }
   return course;

@@ -6,10 +6,12 @@
 // changed by about as much, are run beside it. What they differ by from the machine, times a safety
 // factor of 30 (random changes miss the worst direction; each substep rounds anew), is what the
 // other run may differ by. Once twins differ by 1e-4 of the machine's size nothing can be said any
-// more. Nor where a run tells that rows contradict each other or that a substep has not converged
-// (what it does then depends on the order of rows), or where a joint that can break is one of more
-// than hold a body: which of them has how much of the load is open.
+// more. Nor where a run tells that rows contradict each other, that something asks for what cannot
+// be or that a substep has not converged (what it does then depends on the order of rows), or where
+// a joint that can break is one of more than hold a body: which of them has how much of the load is
+// open. Nor once one run does a substep in other parts than the other, which is another time step.
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -23,6 +25,7 @@ struct Moment {
   std::vector<std::vector<double>> tensions;  ///< of each cable, its spans in order [N]
   /// Some rows depended on each other: which of them carries how much is open.
   bool redundant = false;
+  std::int64_t parts = 0;  ///< into which substeps were cut
 };
 
 struct Course {
@@ -45,8 +48,8 @@ struct Retold {
   std::function<BodyState(BodyState)> body = [](BodyState b) { return b; };
   double tension = 1.0;            ///< factor
   bool tensions_reversed = false;  ///< spans of each cable are counted from the other end
-  /// What impacts leave in spans that hold each other within the cones of their links depends on the
-  /// order of rows: tensions are compared where no rows depend on each other.
+  /// What impacts leave in spans that hold each other within the cones of their links depends on
+  /// the order of rows: tensions are compared where no rows depend on each other.
   bool compares_shared_loads = true;
 };
 
