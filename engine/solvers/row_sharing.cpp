@@ -11,9 +11,9 @@
 // they do, for they do not yield. Rows stay off by e W l then; once nothing else is left they yield
 // to the changes of the forces only. Among locks alone one is left out, as the factors have it.
 //
-// Rows by which links with friction are judged (Row::judged) yield to changes from the first round
-// on, or their forces would not stay what a round has made them; so does everything in the
-// velocities, where the forces of the first half are meant to stay.
+// Where links with friction are judged by the forces of some of them (Row::judged), all yield to
+// changes from the first round on, or these would not stay what a round has made them; so does
+// everything in the velocities, where the forces of the first half are meant to stay.
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +53,7 @@ bool RowSystem::share_load() {
     if (!(own.yield > 0.0)) continue;
     sharing_.push_back(own);
     shares_judged_ = shares_judged_ || own.judged;
-    if (own.judged || of_velocities_ || group.multiplier == 0.0) continue;
+    if (of_velocities_ || group.multiplier == 0.0) continue;
     open = std::max(open, std::abs(value + own.yield * group.multiplier));
     yielded = std::max(yielded, std::abs(own.yield * group.multiplier));
   }
@@ -62,18 +62,17 @@ bool RowSystem::share_load() {
   for (const Sharing& own : sharing_) {
     const Group& group = groups_[own.group];
     problem_.diagonal[own.group] += group.scale * own.yield;
-    if (own.judged || of_velocities_ || !finds_least_) continue;
+    if (shares_judged_ || of_velocities_ || !finds_least_) continue;
     problem_.constant[own.group] += group.scale * own.yield * group.multiplier;
   }
   return !sharing_.empty();
 }
 
 double RowSystem::yielded() const {
-  if (!shares_load_ || !finds_least_) return 0.0;
+  if (!shares_load_ || !finds_least_ || shares_judged_) return 0.0;
   const std::span<const double> change = active_set_.solution();
   double most = 0.0;
   for (const Sharing& own : sharing_) {
-    if (own.judged) continue;
     most = std::max(most, own.yield * std::abs(groups_[own.group].multiplier + change[own.group]));
   }
   return most;
