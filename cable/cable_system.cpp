@@ -50,6 +50,14 @@ double CableSystem::compliance_of(const CompiledCable& cable, double rest_length
   return cable.compliance + cable.inverse_stiffness * std::max(rest_length, 0.0);
 }
 
+double CableSystem::longest() const {
+  double longest = 0.0;
+  for (std::size_t k = 0; k < spans_.size(); ++k) {
+    if (spans_[k].active) longest = std::max(longest, references_[k].rest_length);
+  }
+  return longest;
+}
+
 void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   follow_state(substep, state);
   begin_affine_spans(substep);
@@ -72,12 +80,10 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     stored_[at(strain_places_[i])] = stored_strain(state, link);
   }
   freeze_where_asked(cables_);
-  longest_ = 0.0;
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const SpanSetup& setup = spans_[k];
     if (!setup.active) continue;
     start_tensions_[k] = state.reals[tension_index(static_cast<int>(k))];
-    longest_ = std::max(longest_, state.reals[k]);
     const LinkGeometry& first = links_[at(setup.first)];
     const LinkGeometry& second = links_[at(setup.second)];
     // What is smaller than the quantum counts in the row, too: left out of 1e5 spans, it amounts to

@@ -99,7 +99,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] bool takes_cables() const override { return true; }
   [[nodiscard]] int row_count() const override { return static_cast<int>(spans_.size()); }
   void begin(const Substep& substep, const FeatureState& state) override;
-  [[nodiscard]] double longest() const override { return longest_; }
+  [[nodiscard]] double longest() const override;
   [[nodiscard]] bool limits_drives() const override { return driven_; }
   void limit_drives(Substep& substep) override;
   double sweep(Substep& substep) override;
@@ -475,7 +475,6 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   cable_parts::RunWork run_work_;
   std::vector<Piece> pieces_;  ///< of one cable
   // Of `rattle`, whose multipliers act as at the start of the substep.
-  double longest_ = 0.0;  ///< of the spans' rest lengths [m]
   bool knows_start_ = false;
   std::vector<std::array<double, 2>> start_values_;  ///< of damped rows, and their compliance
   std::vector<SpanGeometry> start_spans_;  ///< of cables with friction, per span, as last evaluated

@@ -12,14 +12,12 @@ void RowSystem::collect_rows(Substep& substep, Features features) {
   rows_.clear();
   feature_rows_.clear();
   has_all_rows_ = true;
-  double longest = substep.bodies.scale();
   for (const auto& feature : features) {
-    longest = std::max(longest, feature->longest());
     has_all_rows_ = has_all_rows_ && feature->has_all_rows();
     feature_rows_.push_back(static_cast<int>(rows_.size()));
     feature->linearise(substep, rows_);
   }
-  rounding_ = value_rounding * longest;
+  if (!(rounding_ > 0.0)) find_rounding(substep, features);
   if (geometry_alone_) leave_geometry_alone();
   feature_rows_.push_back(static_cast<int>(rows_.size()));
   previous_.resize(rows_.size());
@@ -33,6 +31,12 @@ void RowSystem::collect_rows(Substep& substep, Features features) {
   }
   shared_.resize(shared);
   if (shared > 0) follow_slip(substep);
+}
+
+void RowSystem::find_rounding(const Substep& substep, Features features) {
+  double longest = substep.bodies.scale();
+  for (const auto& feature : features) longest = std::max(longest, feature->longest());
+  rounding_ = value_rounding * longest;
 }
 
 void RowSystem::remember_start(Substep& substep, Features features) {

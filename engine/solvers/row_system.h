@@ -207,6 +207,7 @@ class RowSystem {
   /// Forgets what rounds of this substep leave for the next one.
   void begin_rounds() {
     knows_sides_ = false;
+    rounding_ = 0.0;
     shared_.clear();
   }
   [[nodiscard]] int row_count() const { return static_cast<int>(rows_.size()); }
@@ -227,6 +228,7 @@ class RowSystem {
     Vector3 turn = Vector3::Zero();      ///< since the start of the substep [rad]
   };
   void collect_rows(Substep& substep, Features features);
+  void find_rounding(const Substep& substep, Features features);
   /// Takes from the rows what is no geometry.
   void leave_geometry_alone();
   /// Bounds what is friction by the impulses that were just found. Whether that makes a difference.
@@ -391,7 +393,7 @@ class RowSystem {
     bool judged = false;
   };
   std::vector<Sharing> sharing_;  ///< of the last share_load()
-  double rounding_ = 0.0;         ///< of the values of positions [m]
+  double rounding_ = 0.0;         ///< of the values of positions [m]; 0: not found yet
   bool shares_load_ = false;      ///< in the last solve(): rows were redundant
   bool shares_judged_ = false;    ///< among those that share are some that are Row::judged
   bool finds_least_ = true;       ///< forces, of share_load()
