@@ -61,9 +61,9 @@ class ConstraintBatch {
   /// Whether linearise() always appends the same rows within a substep, unless revise() says that
   /// something has changed. (The ground has none for what is far from it.)
   [[nodiscard]] virtual bool has_all_rows() const { return false; }
-  /// The longest length that a row's value is a difference of in this substep [m], if it can be
-  /// longer than the bodies are apart (a cable to a point of the world): of that size is what
-  /// rounding leaves of the value.
+  /// The longest length that a row's value is a difference of in this substep [m], slack or not, if
+  /// it can be longer than the bodies are apart (a cable to a point of the world): of that size is
+  /// what rounding leaves of the value.
   [[nodiscard]] virtual double longest() const { return 0.0; }
   /// The accumulated multipliers, which a row refers to by its index; a solver changes them with
   /// the positions.

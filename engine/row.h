@@ -89,8 +89,9 @@ struct Row {
   /// Added to the row's yield w [1/kg], >= 0: shares a load among rows of which fewer would do.
   /// Unlike a compliance it is no spring; the multiplier l leaves the row off by softness x l.
   double softness = 0.0;
-  /// Where rows are redundant its force is not the least one that will do, but that nearest to the
-  /// last round's: what slips and what holds is judged by it (engine/solvers/row_sharing.cpp).
+  /// What slips and what holds is judged by its force: where it is redundant, rows do not go back
+  /// to the least forces that will do, but stay near the last round's
+  /// (engine/solvers/row_sharing.cpp).
   bool judged = false;
   /// A row that closes faster than this at the end of a substep of `rattle` rebounds in the next
   /// one [m/s]: its velocity is not stopped.

@@ -277,24 +277,18 @@ void ActiveSetSolver::forgive_redundant(ComplementarityProblem& problem) const {
 
 int ActiveSetSolver::blocking_unknown(const ComplementarityProblem& problem, bool going_round) {
   if (dropped_ == 0) return -1;
-  // Residuals of redundant rows that agree are rounding, more than that of a row of its own, and
-  // what rows have yielded to share a load (engine/solvers/row_sharing.cpp); what is overlooked here
-  // is larger against the constants of the next round.
-  constexpr double agreement = 1e-9;
   double largest = 0.0;
-  for (std::size_t i = 0; i < solution_.size(); ++i) {
-    const double moved = std::abs(problem.diagonal[i] * solution_[i]);
-    largest = std::max({largest, std::abs(problem.constant[i]), moved});
-  }
-  const double agreed = problem.rounding + agreement * largest;
+  for (const double constant : problem.constant) largest = std::max(largest, std::abs(constant));
   for (int j = 0; j < problem.size; ++j) {
     if (problem.free[at(j)] != 1 || !factor_.is_dropped(j)) continue;
     const double off = std::abs(residual_[at(j)]);
-    if (!(off > (going_round ? noise(problem, at(j)) : agreed))) continue;
+    const double hidden = noise(problem, at(j));
+    if (!(off > hidden)) continue;
     find_null_vector(problem, j);
     // Unless it is what keeps violations going round: of friction whose coordinate locks hold, the
     // residual at a bound tells, however small, that it is the other bound.
-    if (!(off > agreed) && !shares_with_friction(problem)) continue;
+    const bool tells = going_round && shares_with_friction(problem);
+    if (!tells && !(off > agreement(problem, largest))) continue;
     const int blocking = first_blocked(problem, j, residual_[at(j)] < 0.0 ? 1.0 : -1.0);
     if (blocking >= 0) return blocking;
     contradicts_ = true;
@@ -316,6 +310,20 @@ void ActiveSetSolver::find_null_vector(const ComplementarityProblem& problem, in
   }
   factor_.solve(null_vector_);
   null_vector_[j] = 1.0;
+}
+
+double ActiveSetSolver::agreement(const ComplementarityProblem& problem, double largest) const {
+  // As A z = 0 the residual is the sum of z_i c_i. Rounding of each c counts, and what the rows have
+  // yielded to share a load (engine/solvers/row_sharing.cpp); never more than rounds may leave.
+  constexpr double share = 1e-9;
+  constexpr double most = 1e4;  // DirectSolver::tolerance over RowSystem::value_rounding
+  double rounded = 0.0;
+  for (std::size_t i = 0; i < null_vector_.size(); ++i) {
+    const double z = std::abs(null_vector_[i]);
+    rounded += z * problem.rounding;
+    largest = std::max(largest, z * std::abs(problem.diagonal[i] * solution_[i]));
+  }
+  return std::min(rounded + share * largest, most * problem.rounding);
 }
 
 bool ActiveSetSolver::shares_with_friction(const ComplementarityProblem& problem) const {

@@ -109,6 +109,9 @@ class ActiveSetSolver {
   [[nodiscard]] int blocking_unknown(const ComplementarityProblem& problem, bool going_round);
   /// z with A z = 0 of a redundant unknown, into null_vector_.
   void find_null_vector(const ComplementarityProblem& problem, int redundant);
+  /// What rows that depend on each other by it may be off by and still agree. `largest`: of the
+  /// constants.
+  [[nodiscard]] double agreement(const ComplementarityProblem& problem, double largest) const;
   /// Whether unknowns with two bounds have a part in it.
   [[nodiscard]] bool shares_with_friction(const ComplementarityProblem& problem) const;
   /// Where violations go round and redundant rows agree with the others: takes from unknowns beyond

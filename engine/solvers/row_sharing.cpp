@@ -11,9 +11,14 @@
 // they do, for they do not yield. Rows stay off by e W l then; once nothing else is left they yield
 // to the changes of the forces only. Among locks alone one is left out, as the factors have it.
 //
-// Where links with friction are judged by the forces of some of them (Row::judged), all yield to
-// changes from the first round on, or these would not stay what a round has made them; so does
-// everything in the velocities, where the forces of the first half are meant to stay.
+// Only rows of which one could be left out share anything: those that have a part in a change of
+// forces which moves nothing (ActiveSetSolver::find_redundant_parts()). Those with a compliance do
+// not yield any further.
+//
+// Where links with friction are judged by the forces of some of them (Row::judged), all of the
+// machine's yield to changes from the first round on, or these would not stay what a round has made
+// them; so does everything in the velocities, where the forces of the first half are meant to stay
+// and no other round closes what is left: by a thousandth of e, but for rows that are judged.
 
 #include <algorithm>
 #include <cmath>
@@ -41,18 +46,18 @@ bool RowSystem::share_load() {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const Group& group = groups_[g];
     if (redundant_part_[g] == 0 || !is_one_sided(rows_[at(group.first_row)])) continue;
-    Sharing own{g, 0.0, false};
+    Sharing own{g, 0.0};
+    bool judged = false;
     double value = 0.0;
     for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
       value += rows_[at(i)].value;
       if (!(rows_[at(i)].compliance > 0.0)) own.yield += rows_[at(i)].weight * slots_.yield(i);
-      own.judged = own.judged || rows_[at(i)].judged;
+      judged = judged || rows_[at(i)].judged;
     }
-    // What the one round of the velocities leaves no other closes.
-    own.yield *= of_velocities_ && !own.judged ? share_of_rates : yielding_share;
+    own.yield *= of_velocities_ && !judged ? share_of_rates : yielding_share;
     if (!(own.yield > 0.0)) continue;
     sharing_.push_back(own);
-    shares_judged_ = shares_judged_ || own.judged;
+    shares_judged_ = shares_judged_ || judged;
     if (of_velocities_ || group.multiplier == 0.0) continue;
     open = std::max(open, std::abs(value + own.yield * group.multiplier));
     yielded = std::max(yielded, std::abs(own.yield * group.multiplier));

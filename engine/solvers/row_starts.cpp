@@ -19,7 +19,6 @@ void clear_multipliers(Features features) {
 }  // namespace
 
 void RowSystem::move_on(Substep& substep) {
-  finds_least_ = true;
   double square = 0.0;
   begin_rounds();
   remember_origin(substep);

@@ -72,9 +72,10 @@ using Features = std::span<const std::unique_ptr<ConstraintBatch>>;
 /// pattern of the matrix.
 class RowSystem {
  public:
-  /// What rounding leaves of a row's value, relative to the scene's size, or that of the longest
-  /// span if it is larger: lengths are sums of some ten numbers of that size. Without it rows that only a wheel between walls can move, taut by
-  /// rounding on either side of it, would have no solution: no turn of the wheel is good for both.
+  /// What rounding leaves of a row's value, relative to the scene's size, or to the longest span,
+  /// slack ones among them, if that is longer: lengths are sums of some ten numbers of that size.
+  /// Without it rows that only a wheel between walls can move, taut by rounding on either side of
+  /// it, would have no solution: no turn of the wheel is good for both.
   static constexpr double value_rounding = 1e-14;
 
   enum class Rule { backward, midpoint };
@@ -207,6 +208,7 @@ class RowSystem {
   /// Forgets what rounds of this substep leave for the next one.
   void begin_rounds() {
     knows_sides_ = false;
+    finds_least_ = true;
     rounding_ = 0.0;
     shared_.clear();
   }
@@ -390,7 +392,6 @@ class RowSystem {
   struct Sharing {
     std::size_t group = 0;
     double yield = 0.0;  ///< e W [1/kg]
-    bool judged = false;
   };
   std::vector<Sharing> sharing_;  ///< of the last share_load()
   double rounding_ = 0.0;         ///< of the values of positions [m]; 0: not found yet
@@ -398,7 +399,7 @@ class RowSystem {
   bool shares_judged_ = false;    ///< among those that share are some that are Row::judged
   bool finds_least_ = true;       ///< forces, of share_load()
   bool of_velocities_ = false;    ///< since linearise_velocities()
-  /// Per unknown whether loads that redundant rows share can reach it; empty: there are none.
+  /// Per unknown whether it shares a load with rows that are redundant; empty: there are none.
   std::vector<char> redundant_part_;
 };
 

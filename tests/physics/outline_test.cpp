@@ -262,8 +262,8 @@ TEST(Outline, ACableStaysOnItsLastCornerAsLongAsItIsBent) {
 }
 
 /// A rope over the uppermost corner of an octagon. Its end beside the plane goes down, so that the
-/// next corner comes to lie under the rope, too; then its end in the plane goes up, until it is bent
-/// round that corner alone, by 0.3 rad.
+/// next corner comes to lie under the rope, too; then its end in the plane goes up, until it is
+/// bent round that corner alone, by 0.3 rad.
 Simulation rope_on_its_last_corner(double size, bool counted_from_the_end_beside) {
   test::Machine m;
   m.model.gravity = Vector3::Zero();
