@@ -314,7 +314,8 @@ void ActiveSetSolver::find_null_vector(const ComplementarityProblem& problem, in
 
 double ActiveSetSolver::agreement(const ComplementarityProblem& problem, double largest) const {
   // As A z = 0 the residual is the sum of z_i c_i. Rounding of each c counts, and what the rows
-  // have yielded to share a load (engine/solvers/row_sharing.cpp); never more than rounds may leave.
+  // have yielded to share a load (engine/solvers/row_sharing.cpp); never more than rounds may
+  // leave.
   constexpr double share = 1e-9;
   constexpr double most = 1e4;  // DirectSolver::tolerance over RowSystem::value_rounding
   double rounded = 0.0;
