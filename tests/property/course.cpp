@@ -105,8 +105,10 @@ class Twins {
   void add(double change, std::uint64_t seed) { add(perturbed(machine_, change, seed)); }
   void add(const Machine& twin) {
     if (!Simulation::create(twin.model, twin.cables)) return;
-    const int steps = static_cast<int>(course_.moments.size());
+    // The step that tells has no moment.
+    const int steps = static_cast<int>(course_.moments.size()) + (course_.told ? 1 : 0);
     const Course course = follow(twin, steps);
+    same_told_ = same_told_ && course.told == course_.told;
     const auto now = apart(course_, course, machine_.model.step.dt, size_, weight_);
     // Larger changes than the first ones make a run cut its substeps otherwise sooner or later;
     // that excuses nothing.
@@ -123,6 +125,8 @@ class Twins {
     ++count_;
   }
   [[nodiscard]] int count() const { return count_; }
+  /// Whether all of them told as much as the machine.
+  [[nodiscard]] bool same_told() const { return same_told_; }
   [[nodiscard]] const std::vector<Apart>& apart_so_far() const { return apart_; }
 
  private:
@@ -132,6 +136,7 @@ class Twins {
   double weight_;
   std::vector<Apart> apart_;
   int count_ = 0;
+  bool same_told_ = true;
 };
 
 Finding judged(const std::vector<Apart>& difference, const Twins& twins, double noise) {
@@ -190,8 +195,9 @@ Course follow(const Machine& machine, int steps) {
       return course;
     }
     const StepStatistics& done = report.statistics;
-    course.told = done.compromises > 0 || done.unconverged > 0 || done.impossible > 0 ||
-                  done.dead_ends > 0 || (breaks && done.redundant_rows > 0);
+    course.impossible = done.impossible > 0 || done.dead_ends > 0;
+    course.told = course.impossible || done.compromises > 0 || done.unconverged > 0 ||
+                  (breaks && done.redundant_rows > 0);
     if (course.told) return course;
     if (s.cables != nullptr && !s.cables->tangent_warnings().empty()) {
       course.lost = true;
@@ -234,6 +240,10 @@ Finding alike(const Machine& machine, const Machine& other, const Retold& retold
   if (finding.holds() && ends_apart && twins.apart_so_far().size() == course.moments.size() &&
       (twins.apart_so_far().empty() || twins.apart_so_far().back().motion < hopeless)) {
     finding = {true, 1.0, 0.0, "one fails, the other does not"};
+  }
+  const bool one_tells = (course.impossible && !told.told) || (told.impossible && !course.told);
+  if (finding.holds() && one_tells && twins.same_told()) {
+    finding = {true, 1.0, 0.0, "one tells of what cannot be, the other does not"};
   }
   return finding;
 }

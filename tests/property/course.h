@@ -10,6 +10,8 @@
 // be or that a substep has not converged (what it does then depends on the order of rows), or where
 // a joint that can break is one of more than hold a body: which of them has how much of the load is
 // open. Nor once one run does a substep in other parts than the other, which is another time step.
+// But one that tells that something asks for what cannot be, where the other and all twins do not,
+// is a fault.
 
 #include <cstdint>
 #include <functional>
@@ -33,6 +35,7 @@ struct Course {
   bool failed = false;          ///< it diverged after them
   bool lost = false;            ///< a span had no tangent after them
   bool told = false;            ///< it told that what came after them depends on the order of rows
+  bool impossible = false;      ///< it told that something asked for what cannot be
 };
 [[nodiscard]] Course follow(const Machine& machine, int steps);
 
