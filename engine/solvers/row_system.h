@@ -230,6 +230,7 @@ class RowSystem {
     Vector3 turn = Vector3::Zero();      ///< since the start of the substep [rad]
   };
   void collect_rows(Substep& substep, Features features);
+  /// rounding_, of the bodies' extent and the longest length of any feature.
   void find_rounding(const Substep& substep, Features features);
   /// Takes from the rows what is no geometry.
   void leave_geometry_alone();
@@ -389,6 +390,7 @@ class RowSystem {
   double bound_share_ = 1.0;    ///< of the rows' bounds, in the rule at work
   ComplementarityProblem problem_;
   ActiveSetSolver active_set_;
+  /// An unknown that shares a load.
   struct Sharing {
     std::size_t group = 0;
     double yield = 0.0;  ///< e W [1/kg]
