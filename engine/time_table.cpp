@@ -5,13 +5,22 @@
 //   clamped       2 h0 M0 + h0 M1 = 6 s0,            likewise at the other end
 //   not a knot    (M1 - M0) / h0 = (M2 - M1) / h1:   the first two pieces are one polynomial
 // Both leave a tridiagonal system with a dominant diagonal, which needs no pivots.
+//
+// A monotone table has rates r at its points instead. They are 0 where the slopes on both sides
+// differ in sign, else a weighted harmonic mean of these, which never exceeds three times the
+// smaller one: sufficient for a cubic piece without a turning point (Fritsch and Carlson 1980). A
+// piece with the slope s, the length h and the rates r0 and r1 has the second derivatives
+//   M0 = (6 s - 4 r0 - 2 r1) / h,   M1 = (2 r0 + 4 r1 - 6 s) / h.
 
 #include "engine/time_table.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace sheave {
 namespace {
+
+using Bend = TimeTable::Bend;
 
 /// lower[i] x[i - 1] + diagonal[i] x[i] + upper[i] x[i + 1] = right[i].
 struct Tridiagonal {
@@ -42,7 +51,7 @@ class Spline {
     }
   }
 
-  [[nodiscard]] std::vector<double> clamped() const {
+  [[nodiscard]] std::vector<Bend> clamped() const {
     Tridiagonal system = inner();
     const std::size_t last = lengths_.size();
     system.diagonal[0] = 2.0 * lengths_[0];
@@ -51,15 +60,15 @@ class Spline {
     system.lower[last] = lengths_[last - 1];
     system.diagonal[last] = 2.0 * lengths_[last - 1];
     system.right[last] = -6.0 * slopes_[last - 1];
-    return system.solve();
+    return pieces(system.solve());
   }
 
-  [[nodiscard]] std::vector<double> not_a_knot() const {
+  [[nodiscard]] std::vector<Bend> not_a_knot() const {
     const std::size_t last = lengths_.size();
-    if (last == 1) return {0.0, 0.0};
+    if (last == 1) return {{}};
     if (last == 2) {  // one parabola
       const double bend = 2.0 * (slopes_[1] - slopes_[0]) / (lengths_[0] + lengths_[1]);
-      return {bend, bend, bend};
+      return pieces({bend, bend, bend});
     }
     // The ends' unknowns follow from their neighbours': M0 = ((h0 + h1) M1 - h0 M2) / h1.
     Tridiagonal system = inner();
@@ -74,10 +83,50 @@ class Spline {
     std::vector<double> bends = system.solve();
     bends[0] = (1.0 + h0) * bends[1] - h0 * bends[2];
     bends[last] = (1.0 + hn) * bends[last - 1] - hn * bends[last - 2];
+    return pieces(bends);
+  }
+
+  [[nodiscard]] std::vector<Bend> monotone() const {
+    std::vector<double> rates{end_rate(0, 1)};
+    for (std::size_t i = 1; i < slopes_.size(); ++i) rates.push_back(inner_rate(i));
+    rates.push_back(end_rate(slopes_.size() - 1, slopes_.size() - 2));
+    std::vector<Bend> bends;
+    for (std::size_t i = 0; i < slopes_.size(); ++i) {
+      const double six = 6.0 * slopes_[i];
+      bends.push_back({(six - 4.0 * rates[i] - 2.0 * rates[i + 1]) / lengths_[i],
+                       (2.0 * rates[i] + 4.0 * rates[i + 1] - six) / lengths_[i]});
+    }
     return bends;
   }
 
  private:
+  /// Second derivatives that do not jump at points, as those of pieces.
+  [[nodiscard]] static std::vector<Bend> pieces(const std::vector<double>& bends) {
+    std::vector<Bend> both;
+    for (std::size_t i = 1; i < bends.size(); ++i) both.push_back({bends[i - 1], bends[i]});
+    return both;
+  }
+
+  [[nodiscard]] double inner_rate(std::size_t i) const {
+    const double before = slopes_[i - 1];
+    const double after = slopes_[i];
+    if (!(before * after > 0.0)) return 0.0;
+    const double near = 2.0 * lengths_[i] + lengths_[i - 1];
+    const double far = lengths_[i] + 2.0 * lengths_[i - 1];
+    return (near + far) / (near / before + far / after);
+  }
+
+  /// That of the parabola through the three points at an end, kept between 0 and 3 slopes. `end`
+  /// and `next`: the end's piece and its neighbour.
+  [[nodiscard]] double end_rate(std::size_t end, std::size_t next) const {
+    const double slope = slopes_[end];
+    if (slopes_.size() == 1) return slope;
+    const double share = lengths_[end] / (lengths_[end] + lengths_[next]);
+    const double rate = slope + share * (slope - slopes_[next]);
+    if (!(rate * slope > 0.0)) return 0.0;
+    return std::abs(rate) > 3.0 * std::abs(slope) ? 3.0 * slope : rate;
+  }
+
   [[nodiscard]] Tridiagonal inner() const {
     Tridiagonal system(lengths_.size() + 1);
     for (std::size_t i = 1; i < lengths_.size(); ++i) {
@@ -102,7 +151,9 @@ TimeTable TimeTable::of(std::vector<double> times, std::vector<double> values,
   const bool pairs = table.times.size() == table.values.size() && table.times.size() > 1;
   if (interpolation == Interpolation::linear || !pairs) return table;
   const Spline spline(table.times, table.values);
-  table.bends = interpolation == Interpolation::clamped ? spline.clamped() : spline.not_a_knot();
+  table.bends = interpolation == Interpolation::clamped    ? spline.clamped()
+                : interpolation == Interpolation::monotone ? spline.monotone()
+                                                           : spline.not_a_knot();
   return table;
 }
 
@@ -117,9 +168,9 @@ double TimeTable::at(double time) const {
   const double chord = values[i - 1] + share * (values[i] - values[i - 1]);
   if (bends.empty()) return chord;
   const double rest = (times[i] - time) / length;
-  return chord +
-         length * length / 6.0 *
-             ((rest * rest - 1.0) * rest * bends[i - 1] + (share * share - 1.0) * share * bends[i]);
+  return chord + length * length / 6.0 *
+                     ((rest * rest - 1.0) * rest * bends[i - 1].first +
+                      (share * share - 1.0) * share * bends[i - 1].last);
 }
 
 double TimeTable::rate(double time) const {
@@ -131,9 +182,9 @@ double TimeTable::rate(double time) const {
   if (bends.empty()) return slope;
   const double share = (time - times[i - 1]) / length;
   const double rest = (times[i] - time) / length;
-  return slope +
-         length / 6.0 *
-             ((1.0 - 3.0 * rest * rest) * bends[i - 1] + (3.0 * share * share - 1.0) * bends[i]);
+  return slope + length / 6.0 *
+                     ((1.0 - 3.0 * rest * rest) * bends[i - 1].first +
+                      (3.0 * share * share - 1.0) * bends[i - 1].last);
 }
 
 double TimeTable::integral(double from, double to) const {

@@ -17,20 +17,31 @@ enum class Interpolation {
   cubic,
   /// The same with rate 0 at both ends: of a motion from rest to rest.
   clamped,
+  /// Cubic pieces with a continuous rate that never leave the range of the two points around them:
+  /// values that rise stay rising, and a peak of the points is a peak of the function. Fritsch and
+  /// Butland's rates (SIAM J. Sci. Stat. Comput. 5, 1984). Second derivatives jump at points.
+  monotone,
 };
-inline constexpr std::array<std::string_view, 3> interpolation_names{"linear", "cubic", "clamped"};
+inline constexpr std::array<std::string_view, 4> interpolation_names{"linear", "cubic", "clamped",
+                                                                     "monotone"};
 inline constexpr std::string_view interpolation_meaning =
-    "of the values between their times; cubic: a smooth spline through them; clamped: one from "
-    "rest to rest";
+    "of the values between their times; cubic: a smooth spline through them, which may overshoot "
+    "them and may start backwards; clamped: one from rest to rest; monotone: smooth, and never "
+    "beyond the two values around it";
 
 /// Through (times[i], values[i]), constant before the first and after the last point. Times
 /// increase strictly. Without times it is the constant values[0]; without values it is 0.
 struct TimeTable {
   std::vector<double> times;  ///< [s]
   std::vector<double> values;
-  /// Second derivatives at the points [per s2], linear between them; empty: the table is piecewise
-  /// linear. of() finds those of a spline.
-  std::vector<double> bends{};
+  /// A piece from one point to the next is a cubic: its second derivatives at both of its ends
+  /// [per s2].
+  struct Bend {
+    double first = 0.0;
+    double last = 0.0;
+  };
+  /// Per piece, one less than points; empty: the table is piecewise linear. of() finds them.
+  std::vector<Bend> bends{};
 
   /// A table with these points, as many values as times or a single one without.
   [[nodiscard]] static TimeTable of(std::vector<double> times, std::vector<double> values,

@@ -1,5 +1,6 @@
 #include "engine/time_table.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -20,7 +21,8 @@ TEST(TimeTable, IsLinearBetweenItsPointsAndConstantOutside) {
 
 TEST(TimeTable, PointsThatDoNotGoTogetherHaveNoSpline) {
   // What a scene with such a fault makes before the fault is told.
-  for (const Interpolation kind : {Interpolation::cubic, Interpolation::clamped}) {
+  for (const Interpolation kind :
+       {Interpolation::cubic, Interpolation::clamped, Interpolation::monotone}) {
     EXPECT_TRUE(TimeTable::of({0.0, 1.0, 2.0}, {1.0}, kind).bends.empty());
     EXPECT_TRUE(TimeTable::of({0.0, 1.0, 2.0}, {}, kind).bends.empty());
   }
@@ -138,17 +140,61 @@ TEST(TimeTable, SplinesOfSampledMotionsConverge) {
   EXPECT_NEAR(std::log2(coarse[1] / fine[1]), 2.0, 0.15);
 }
 
+// Points of a ramp from rest to rest: a spline starts backwards there, and overshoots.
+TEST(TimeTable, MonotoneTablesStayBetweenTheirPoints) {
+  const std::vector<double> times{0.0, 1.0, 2.0, 3.0, 5.0, 5.5};
+  const std::vector<double> values{0.0, 0.0, 3.0, 3.0, 1.0, -4.0};
+  const TimeTable spline = TimeTable::of(times, values, Interpolation::cubic);
+  EXPECT_LT(spline.at(0.5), -0.1) << "or the points show nothing";
+  const TimeTable table = TimeTable::of(times, values, Interpolation::monotone);
+  for (double t = 0.0; t <= 5.5; t += 0.01) {
+    const auto after = std::upper_bound(times.begin() + 1, times.end() - 1, t) - times.begin();
+    const auto [low, high] = std::minmax(values[after - 1], values[after]);
+    EXPECT_GE(table.at(t), low - 1e-15) << t;
+    EXPECT_LE(table.at(t), high + 1e-15) << t;
+  }
+  for (std::size_t i = 1; i + 1 < times.size(); ++i) {
+    EXPECT_NEAR(table.rate(times[i] - 1e-9), table.rate(times[i] + 1e-9), 1e-6) << times[i];
+  }
+}
+
+TEST(TimeTable, MonotoneTablesOfFewPointsAreALineAndAParabola) {
+  const TimeTable line = TimeTable::of({0.0, 2.0}, {1.0, 5.0}, Interpolation::monotone);
+  EXPECT_DOUBLE_EQ(line.at(0.5), 2.0);
+  EXPECT_DOUBLE_EQ(line.rate(1.0), 2.0);
+  // The rates of t^2 at 0, 1 and 2: parabolas through three points tell those at the ends.
+  const TimeTable parabola =
+      TimeTable::of({0.0, 1.0, 2.0}, {0.0, 1.0, 4.0}, Interpolation::monotone);
+  EXPECT_DOUBLE_EQ(parabola.rate(2.0), 4.0);
+  EXPECT_DOUBLE_EQ(parabola.rate(1.0), 1.5) << "the harmonic mean of 1 and 3";
+}
+
+// Rates are right to the second order where they do not change their sign, and so values to the
+// third.
+TEST(TimeTable, MonotoneTablesOfSampledMotionsConverge) {
+  const auto error = [](double spacing) {
+    const TimeTable table = sampled_sine(spacing, Interpolation::monotone);
+    double largest = 0.0;
+    for (double t = 0.0; t < 1.2; t += 0.00137)
+      largest = std::max(largest, std::abs(table.at(t) - std::sin(t)));
+    return largest;
+  };
+  EXPECT_NEAR(std::log2(error(0.0125) / error(0.00625)), 3.0, 0.15);
+}
+
 TEST(TimeTable, IntegralsOfSplinesAreThoseOfTheirRates) {
-  const TimeTable table = sampled_sine(0.3, Interpolation::cubic);
-  // Of a fine midpoint rule: second order, 3 (1e-4)^2 / 24.
-  double sum = 0.0;
-  for (int i = 0; i < 40000; ++i) sum += 1e-4 * table.at(-0.5 + (i + 0.5) * 1e-4);
-  EXPECT_NEAR(table.integral(-0.5, 3.5), sum, 2e-9);
-  EXPECT_NEAR(table.integral(0.7, 0.70001), 1e-5 * table.at(0.700005), 1e-16)
-      << "but for the rounding of the times";
-  double way = 0.0;
-  for (int i = 0; i < 30000; ++i) way += 1e-4 * table.rate((i + 0.5) * 1e-4);
-  EXPECT_NEAR(way, table.at(3.0) - table.at(0.0), 2e-9);
+  for (const Interpolation kind : {Interpolation::cubic, Interpolation::monotone}) {
+    const TimeTable table = sampled_sine(0.3, kind);
+    // Of a fine midpoint rule: second order, 3 (1e-4)^2 / 24.
+    double sum = 0.0;
+    for (int i = 0; i < 40000; ++i) sum += 1e-4 * table.at(-0.5 + (i + 0.5) * 1e-4);
+    EXPECT_NEAR(table.integral(-0.5, 3.5), sum, 2e-9);
+    EXPECT_NEAR(table.integral(0.7, 0.70001), 1e-5 * table.at(0.700005), 1e-16)
+        << "but for the rounding of the times";
+    double way = 0.0;
+    for (int i = 0; i < 30000; ++i) way += 1e-4 * table.rate((i + 0.5) * 1e-4);
+    EXPECT_NEAR(way, table.at(3.0) - table.at(0.0), 2e-9);
+  }
 }
 
 }  // namespace
