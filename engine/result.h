@@ -1,5 +1,5 @@
 #pragma once
-// Errors are values: nothing in the library throws, prints or exits.
+// Errors are values: nothing in the library prints or exits, and no fault of an input is thrown.
 
 #include <string>
 #include <utility>
@@ -21,7 +21,25 @@ struct Error {
 /// All faults found, in the order in which the checks ran. Empty means none.
 using Errors = std::vector<Error>;
 
+namespace detail {
+/// Throws a std::logic_error with the faults' messages: the value of a failure was read.
+[[noreturn]] void reject_value(const Errors& faults);
+}  // namespace detail
+
 /// A value, or the faults that prevented it (at least one).
+///
+/// Two idioms, neither of which can fail unseen:
+///
+///   auto crane = load("crane.json");
+///   if (!crane) return report(crane.errors());       // then *crane and crane-> are safe
+///
+///   Errors faults;                                   // many values, one question
+///   const auto winch = crane->body("winch").value(faults);
+///   const auto rope = crane->cable("rope").value(faults);
+///   if (!faults.empty()) return report(faults);
+///
+/// Whoever reads the value of a failure without asking gets a std::logic_error that carries the
+/// messages of its faults. That is a mistake in the program, and the only thing here that throws.
 template <class T>
 class Result {
  public:
@@ -35,19 +53,33 @@ class Result {
   [[nodiscard]] bool ok() const { return std::holds_alternative<T>(content_); }
   explicit operator bool() const { return ok(); }
 
-  /// The value; valid only when ok().
-  [[nodiscard]] T& value() & { return std::get<T>(content_); }
-  [[nodiscard]] const T& value() const& { return std::get<T>(content_); }
-  [[nodiscard]] T&& value() && { return std::get<T>(std::move(content_)); }
+  /// The value; a failure adds its faults to `faults` and gives T{}. A handle that is made so
+  /// names nothing, and every call that is given one answers with a fault.
+  [[nodiscard]] T value(Errors& faults) const& {
+    if (ok()) return *std::get_if<T>(&content_);
+    faults.insert(faults.end(), errors().begin(), errors().end());
+    return T{};
+  }
+
+  /// The value, for those who have asked ok().
+  [[nodiscard]] T& value() & { return ok() ? *std::get_if<T>(&content_) : reject(); }
+  [[nodiscard]] const T& value() const& { return ok() ? *std::get_if<T>(&content_) : reject(); }
+  [[nodiscard]] T&& value() && { return std::move(value()); }
   T* operator->() { return &value(); }
   const T* operator->() const { return &value(); }
   T& operator*() & { return value(); }
   const T& operator*() const& { return value(); }
 
-  /// The faults; valid only when not ok().
-  [[nodiscard]] const Errors& errors() const { return std::get<Errors>(content_); }
+  /// The faults; none if ok().
+  [[nodiscard]] const Errors& errors() const {
+    static const Errors none;
+    const Errors* const faults = std::get_if<Errors>(&content_);
+    return faults != nullptr ? *faults : none;
+  }
 
  private:
+  [[noreturn]] T& reject() const { detail::reject_value(errors()); }
+
   std::variant<T, Errors> content_;
 };
 

@@ -58,7 +58,10 @@ int main() {
   for (int i = 0; i < 60; ++i) {
     if (!world->step().ok()) return 1;
   }
-  const double tension = *world->tension(*world->cable("cable"), 0);
+  sheave::Errors faults;
+  const auto held = world->cable("cable").value(faults);
+  const double tension = world->tension(held, 0).value(faults);
+  if (!faults.empty()) return std::puts(faults[0].message.c_str()), 1;
   // a = (m2 - m1) g / (m1 + m2 + I / r^2) = 10 / 3.5 and T = m1 (g + a).
   const double expected = 1.0 * (10.0 + 10.0 / 3.5);
   std::printf("tension %.6f N, closed form %.6f N\n", tension, expected);
