@@ -1,4 +1,5 @@
-# What a C++ program needs for find_package(sheave) and sheave::engine, sheave::cable, sheave::scenes, sheave::live, sheave::measure.
+# What a C++ program needs for find_package(sheave): sheave::sheave, which is all of it, or one of sheave::engine, sheave::cable,
+# sheave::scenes, sheave::live, sheave::measure, sheave::statics.
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sheave")
@@ -44,6 +45,11 @@ while(waiting)
 endwhile()
 
 if(installed)
+  add_library(sheave_all INTERFACE)
+  add_library(sheave::sheave ALIAS sheave_all)
+  set_target_properties(sheave_all PROPERTIES EXPORT_NAME sheave)
+  target_link_libraries(sheave_all INTERFACE ${installed})
+  list(APPEND installed sheave_all)
   foreach(header IN LISTS public_headers)
     cmake_path(GET header PARENT_PATH folder)
     install(
