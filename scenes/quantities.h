@@ -21,7 +21,9 @@ inline constexpr std::array<Quantity, 14> body_quantities{{
     {"wx", "rad/s", "angular velocity"},
     {"wy", "rad/s", "the same"},
     {"wz", "rad/s", "the same"},
-    {"angle", "rad", "angle turned about the axis: planar bodies and rotors"},
+    {"angle", "rad",
+     "angle turned about the axis: planar bodies and rotors; of a mounted rotor relative to its "
+     "carrier"},
 }};
 inline constexpr std::array<Quantity, 3> span_quantities{{
     {"tension", "N", "of the free span that begins at a link, counted from 0"},
