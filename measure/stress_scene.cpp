@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <random>
 
@@ -161,17 +160,16 @@ class SceneMaps {
 
 Result<std::vector<StressMap>> scene_stress_maps(const std::string& path,
                                                  const StressRange& range) {
-  const SceneResult scene = load_scene(path);
+  SceneText read = read_scene_text(path);
+  const SceneResult scene =
+      read.failure.errors.empty() ? load_scene_text(read.text, path) : std::move(read.failure);
   if (!scene) {
     Errors errors;
     for (const SceneError& error : scene.errors) errors.push_back({"", to_string(error)});
     return errors;
   }
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) return Error{path, "cannot be read"};
-  // Settings are changed in what a program makes, not in the program.
-  if (jsonnet::is_program(path)) text = write_scene(*scene);
+  // Settings are changed in the scene that a program makes, not in the program.
+  const std::string text = jsonnet::is_program(path) ? write_scene(*scene) : std::move(read.text);
   StressCell origin;
   origin.path = path;
   const SceneMaps maps(std::move(origin), *scene, scalable_settings(text),

@@ -261,30 +261,41 @@ SceneResult load_scene_text(std::string_view text, const std::string& file_name,
   return result;
 }
 
-SceneResult load_scene(const std::string& path, const std::vector<Override>& overrides,
-                       const JsonnetOptions& jsonnet) {
+SceneText read_scene_text(const std::string& path) {
+  const auto failed = [&](SceneStatus status, std::string message) {
+    SceneText result;
+    result.failure = file_error(path, status, std::move(message));
+    return result;
+  };
   std::error_code code;
   const std::filesystem::file_status status = std::filesystem::status(path, code);
   if (status.type() == std::filesystem::file_type::not_found) {
-    return file_error(path, SceneStatus::not_found, "there is no such file");
+    return failed(SceneStatus::not_found, "there is no such file");
   }
   if (std::filesystem::is_directory(status)) {
-    return file_error(path, SceneStatus::unreadable, "is a directory, not a scene file");
+    return failed(SceneStatus::unreadable, "is a directory, not a scene file");
   }
   std::ifstream file(path, std::ios::binary);
-  if (!file) return file_error(path, SceneStatus::unreadable, "cannot be opened for reading");
+  if (!file) return failed(SceneStatus::unreadable, "cannot be opened for reading");
   // One byte more than allowed is enough to see that there are too many.
   const std::size_t most = json::Limits{}.bytes + 1;
-  std::string text;
+  SceneText result;
   const std::uintmax_t size = std::filesystem::file_size(path, code);  // of no pipe
-  if (!code) text.reserve(static_cast<std::size_t>(std::min<std::uintmax_t>(size, most)));
+  if (!code) result.text.reserve(static_cast<std::size_t>(std::min<std::uintmax_t>(size, most)));
   std::vector<char> block(std::size_t{1} << 16U);
-  while (file && text.size() < most) {
+  while (file && result.text.size() < most) {
     file.read(block.data(), static_cast<std::streamsize>(block.size()));
-    text.append(block.data(), static_cast<std::size_t>(file.gcount()));
+    result.text.append(block.data(), static_cast<std::size_t>(file.gcount()));
   }
-  if (file.bad()) return file_error(path, SceneStatus::unreadable, "cannot be read");
-  return load_scene_text(text, path, overrides, jsonnet);
+  if (file.bad()) return failed(SceneStatus::unreadable, "cannot be read");
+  return result;
+}
+
+SceneResult load_scene(const std::string& path, const std::vector<Override>& overrides,
+                       const JsonnetOptions& jsonnet) {
+  SceneText read = read_scene_text(path);
+  if (!read.failure.errors.empty()) return std::move(read.failure);
+  return load_scene_text(read.text, path, overrides, jsonnet);
 }
 
 }  // namespace sheave

@@ -168,8 +168,15 @@ struct JsonnetOptions {
   std::vector<std::string> import_folders;
 };
 
+/// The bytes of a scene file, or why there are none.
+struct SceneText {
+  std::string text;     ///< at most one byte more than a scene may have
+  SceneResult failure;  ///< its errors are empty if the file was read
+};
+/// Reads a scene file once; a pipe cannot be read again.
+[[nodiscard]] SceneText read_scene_text(const std::string& path);
 /// Reads and checks a scene. A scene that loads also builds: create_simulation() accepts it. A file
-/// whose name ends in .jsonnet is evaluated first; overrides then change what it made.
+/// whose name ends in .jsonnet is evaluated first; overrides then change the scene that it made.
 [[nodiscard]] SceneResult load_scene(const std::string& path,
                                      const std::vector<Override>& overrides = {},
                                      const JsonnetOptions& jsonnet = {});

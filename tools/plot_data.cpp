@@ -23,7 +23,7 @@ namespace sheave::tools {
 namespace {
 
 constexpr double missing_value = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t most_table_bytes = std::size_t{1} << 31U;
+constexpr std::size_t most_table_bytes = std::size_t{512} << 20U;
 /// Moments that a recorder keeps: more than a picture has columns.
 constexpr std::size_t most_moments = 8000;
 

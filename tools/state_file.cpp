@@ -13,7 +13,7 @@ namespace sheave::tools {
 namespace {
 
 /// A world of a million bodies with everything that features carry has a tenth of that.
-constexpr std::size_t most_state_bytes = std::size_t{4} << 30U;
+constexpr std::size_t most_state_bytes = std::size_t{256} << 20U;
 
 }  // namespace
 

@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double largest_double = std::numeric_limits<double>::max();
 /// Enough for the most runs that a sweep may have.
-constexpr std::size_t most_journal_bytes = std::size_t{1} << 31U;
+constexpr std::size_t most_journal_bytes = std::size_t{256} << 20U;
 constexpr std::size_t most_values = 100'000'000;
 
 json::Limits journal_limits() {

@@ -25,7 +25,7 @@ namespace {
 using JournalJson = nlohmann::json;
 
 /// Far more than any journal.
-constexpr std::size_t most_bytes = std::size_t{1} << 30U;
+constexpr std::size_t most_bytes = std::size_t{256} << 20U;
 
 double now_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
