@@ -201,7 +201,7 @@ Action declare_modes(CLI::App& app) {
   app.footer(R"(Examples:
   sheave modes crane.json
   sheave modes crane.json --mode 2 --video sway.mp4
-  sheave modes crane.json --input drive:winch --output load.y --matrices crane
+  sheave modes crane.json --input 'drive:hoist winch' --output hook.y --matrices crane
 
 Exit codes: 0 done, 2 wrong usage, 65 bad scene, 75 no rest was found.)");
   return [options] { return modes(*options); };

@@ -264,7 +264,7 @@ Action declare_render(CLI::App& app) {
   sheave render crane.json --video crane.mp4
   sheave render crane.json --still crane.png --at 1.5 --labels --width 1920 --height 1080
   sheave render crane.json --video crane.gif --width 480 --height 270 --format best
-  sheave render crane.json --still way.png --trail load:3
+  sheave render crane.json --still way.png --trail hook:3
   sheave render crane.json --glb crane.glb --fps 30
   sheave render crane.json --video slow.mp4 --speed 0.1 --dt 0.001 --png frames
 

@@ -92,7 +92,7 @@ Action declare_statics(CLI::App& app) {
   app.add_flag("--json", options->json, "print one JSON object");
   app.footer(R"(Examples:
   sheave statics crane.json
-  sheave statics crane.json --case 'empty:/bodies/load/mass=1' --case 'full:/bodies/load/mass=500'
+  sheave statics crane.json --case 'empty:/bodies/hook/mass=1' --case 'full:/bodies/hook/mass=5000'
   sheave statics net.json --json | jq .cases[0].cables[0].spans[0].tension
 
 Drives stand where they are, controllers do nothing. Slack cables are found. What dry friction

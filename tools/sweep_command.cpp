@@ -214,11 +214,12 @@ Action declare_sweep(CLI::App& app) {
   app.add_flag("-q,--quiet", options.quiet, "no progress");
   add_outputs(app, arguments->outputs);
   app.footer(R"(Examples:
-  sheave sweep crane.json --vary /bodies/load/mass=500:5000:10 --measure max:hoist.0.tension
+  sheave sweep crane.json --vary /bodies/hook/mass=500:5000:10 --measure 'max:hoist cable.0.tension'
   sheave sweep crane.jsonnet --vary load=50:500:10 --vary parts=2,4,8 \
       --measure max:rope.0.tension --chart crane.png --csv crane.csv
-  sheave sweep crane.json --vary /bodies/load/mass=500:5000:log --vary /step/dt=0.001:0.02:log \
-      --design latin-hypercube --samples 200 --measure max:hoist.0.tension --resume crane.sweep
+  sheave sweep crane.json --vary /bodies/hook/mass=500:5000:log --vary /step/dt=0.001:0.02:log \
+      --design latin-hypercube --samples 200 \
+      --measure 'max:hoist cable.0.tension' --resume crane.sweep
   sheave sweep crane.json ... --shard 2/8 --resume part-2.sweep     then: sheave merge part-*.sweep
 
 Rows do not depend on the number of cores or shards. Exit codes as of `sheave run`; runs that
