@@ -17,6 +17,7 @@
 #include "tests/tools/scenes.h"
 #include "tools/gnuplot_script.h"
 #include "tools/one_line.h"
+#include "tools/trade_table.h"
 
 namespace sheave::test {
 namespace {
@@ -267,6 +268,15 @@ TEST(MarkdownText, BeginsNothing) {
   EXPECT_EQ(tools::markdown_text("a <b> & [c](d) `e` | \\"),
             "a &lt;b&gt; &amp; \\[c\\](d) \\`e\\` \\| \\\\");
   EXPECT_EQ(tools::markdown_code("``` a\n"), "````\n``` a\n````\n");
+}
+
+TEST(MarkdownText, PagesOfTradesHoldNoMarkup) {
+  for (const std::string& text : hostile_texts()) {
+    tools::TradeTable table;
+    table.scene = text;
+    table.limits = {text};
+    EXPECT_EQ(tools::trade_markdown(table).find("<script"), std::string::npos) << text;
+  }
 }
 
 }  // namespace
