@@ -1,17 +1,28 @@
 // What fuzzing has found once is tried in every build: fuzz/regressions/TARGET/ has the inputs that
 // broke a promise, fuzz/corpus/ TARGET/ a few that reach most of the code.
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "fuzz/chart_texts.h"
 #include "fuzz/machine.h"
 #include "fuzz/target.h"
 #include "tests/property/shrink.h"
+#include "tests/support/hostile_text.h"
+#include "tools/gnuplot.h"
+#include "tools/one_line.h"
+
+#if SHEAVE_HAS_RENDER
+#include "render/child_process.h"
+#endif
 
 namespace sheave::fuzz {
 namespace {
@@ -83,6 +94,129 @@ TEST(RandomMachines, keep_every_promise) {
     }
   }
 }
+
+std::vector<std::string> some_texts(std::uint64_t first, std::uint64_t count) {
+  std::vector<std::string> texts;
+  for (std::uint64_t i = 0; i < count; ++i) texts.push_back(test::hostile_text(first + i));
+  return texts;
+}
+
+constexpr std::uint64_t texts_of_a_chart = 100;
+
+// SHEAVE_CASES texts that follow from the seeds from SHEAVE_SEED on, a hundred into the charts of
+// all kinds at a time.
+TEST(HostileTexts, StayTexts) {
+  const std::uint64_t first = from_environment("SHEAVE_SEED", 1);
+  const std::uint64_t end = first + from_environment("SHEAVE_CASES", 2000);
+  for (std::uint64_t seed = first; seed < end; seed += texts_of_a_chart) {
+    const std::vector<std::string> texts = some_texts(seed, texts_of_a_chart);
+    for (const auto& chart : charts_with(texts, tools::ChartFormat::svg)) {
+      ASSERT_NO_THROW(require_harmless(chart.text(), test::hostile_mark)) << "seed " << seed;
+    }
+  }
+}
+
+#if SHEAVE_HAS_RENDER
+
+bool has_gnuplot() {
+  static const bool found = std::system("gnuplot --version > /dev/null 2>&1") == 0;  // NOLINT
+  return found;
+}
+
+/// What gnuplot prints of the texts of a script that shows them.
+std::string read_back(const std::vector<std::string>& texts) {
+  tools::GnuplotScript script(tools::ChartFormat::svg, 100);
+  script.add({"set print '-'\n"});
+  for (const std::string& text : texts) script.add({"print ", script.shown(text), "\n"});
+  auto child = render::ChildProcess::start({"gnuplot", "-d", "-"}, {.keeps_output = true});
+  const std::string code = script.text();
+  EXPECT_TRUE(child && child->write(std::vector<std::uint8_t>(code.begin(), code.end())).empty());
+  EXPECT_TRUE(child->finish().empty()) << child->last_words();
+  const std::vector<std::uint8_t> output = child->output();
+  return {output.begin(), output.end()};
+}
+
+// The judge is gnuplot itself.
+TEST(HostileTexts, AreReadBackByGnuplot) {
+  if (!has_gnuplot()) GTEST_SKIP() << "no gnuplot";
+  const std::uint64_t first = from_environment("SHEAVE_SEED", 1);
+  const std::uint64_t end = first + from_environment("SHEAVE_CASES", 2000);
+  constexpr std::uint64_t at_once = 2000;
+  for (std::uint64_t seed = first; seed < end; seed += at_once) {
+    const std::vector<std::string> texts = some_texts(seed, std::min(at_once, end - seed));
+    std::string expected;
+    for (const std::string& text : texts) expected += tools::one_line(text) + "\n";
+    ASSERT_EQ(read_back(texts), expected) << "seed " << seed;
+  }
+}
+
+/// A folder to draw in, while every program that is started tells its name.
+class Drawing {
+ public:
+  Drawing() : before_(fs::current_path()) {
+    std::string name = (fs::temp_directory_path() / "sheave-charts.XXXXXX").string();
+    EXPECT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    programs_ = name + ".programs";
+    fs::current_path(folder_);
+#ifdef SHEAVE_FAULT_LIBRARY
+    ::setenv("LD_PRELOAD", SHEAVE_FAULT_LIBRARY, 1);
+    ::setenv("SHEAVE_FAULT_PROGRAMS", programs_.c_str(), 1);
+#endif
+  }
+  ~Drawing() {
+    ::unsetenv("LD_PRELOAD");
+    ::unsetenv("SHEAVE_FAULT_PROGRAMS");
+    fs::current_path(before_);
+    fs::remove_all(folder_);
+    fs::remove(programs_);
+  }
+  Drawing(const Drawing&) = delete;
+  Drawing& operator=(const Drawing&) = delete;
+
+  [[nodiscard]] bool is_empty() const { return fs::is_empty(folder_); }
+  /// Names of the programs so far.
+  [[nodiscard]] std::vector<std::string> programs() const {
+    std::ifstream file(programs_);
+    std::vector<std::string> names;
+    for (std::string line; std::getline(file, line);) names.push_back(fs::path(line).filename());
+    return names;
+  }
+
+ private:
+  fs::path before_;
+  fs::path folder_;
+  std::string programs_;
+};
+
+// One text in 200 of SHEAVE_CASES, at least one hundred: nothing but the pictures appears, and
+// nothing but gnuplot starts.
+TEST(HostileTexts, AreDrawn) {
+  if (!has_gnuplot()) GTEST_SKIP() << "no gnuplot";
+  const std::uint64_t first = from_environment("SHEAVE_SEED", 1);
+  const std::uint64_t charts =
+      1 + from_environment("SHEAVE_CASES", 2000) / (200 * texts_of_a_chart);
+  const Drawing drawing;
+  std::size_t drawn = 0;
+  for (std::uint64_t i = 0; i < charts; ++i) {
+    const std::uint64_t seed = first + 200 * texts_of_a_chart * i;
+    for (const auto& chart :
+         charts_with(some_texts(seed, texts_of_a_chart), tools::ChartFormat::svg)) {
+      const std::string picture = std::to_string(drawn++) + ".svg";
+      EXPECT_NO_THROW(tools::draw_with_gnuplot(picture, chart)) << "seed " << seed;
+      EXPECT_TRUE(fs::remove(picture)) << "seed " << seed;
+      EXPECT_TRUE(drawing.is_empty()) << "seed " << seed;
+    }
+  }
+#ifdef SHEAVE_FAULT_LIBRARY
+  EXPECT_EQ(drawing.programs().size(), drawn);
+  for (const std::string& program : drawing.programs()) {
+    EXPECT_TRUE(program.starts_with("gnuplot")) << program;
+  }
+#endif
+}
+
+#endif
 
 }  // namespace
 }  // namespace sheave::fuzz

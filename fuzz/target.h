@@ -46,16 +46,21 @@ void try_command_line(Bytes bytes);
 /// refused changes nothing; the log leads to the same state.
 void try_live(Bytes bytes);
 
+/// Texts, in every place where a chart can have one: gnuplot's script has no more commands than
+/// without them (chart_texts.h). Nothing is drawn.
+void try_chart(Bytes bytes);
+
 /// A target by its name.
 struct Target {
   std::string_view name;
   void (*run)(Bytes bytes);
 };
-inline constexpr std::array<Target, 6> targets{{{"scene_text", try_scene_text},
+inline constexpr std::array<Target, 7> targets{{{"scene_text", try_scene_text},
                                                 {"machine", try_machine},
                                                 {"state", try_state},
                                                 {"journal", try_journal},
                                                 {"command_line", try_command_line},
-                                                {"live", try_live}}};
+                                                {"live", try_live},
+                                                {"chart", try_chart}}};
 
 }  // namespace sheave::fuzz

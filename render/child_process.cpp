@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include <fcntl.h>
@@ -33,10 +34,14 @@ void close_if_open(int& descriptor) {
 /// Spawn settings that must be destroyed whatever happens.
 class SpawnSettings {
  public:
-  SpawnSettings(int input, int messages) {
+  SpawnSettings(int input, int output, int messages) {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    if (output >= 0) {
+      posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+    } else {
+      posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    }
     posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
     posix_spawnattr_init(&attributes);
     // The caller may ignore or block signals; the child starts with the usual ones.
@@ -61,6 +66,20 @@ class SpawnSettings {
   posix_spawn_file_actions_t actions{};
   posix_spawnattr_t attributes{};
 };
+
+/// Our environment but for the variables whose names begin with one of these, for exec.
+std::vector<char*> environment_without(const std::vector<std::string>& beginnings) {
+  std::vector<char*> variables;
+  for (char** variable = environ; *variable != nullptr; ++variable) {
+    const std::string_view text(*variable);
+    const bool hidden =
+        std::any_of(beginnings.begin(), beginnings.end(),
+                    [&](const std::string& beginning) { return text.starts_with(beginning); });
+    if (!hidden) variables.push_back(*variable);
+  }
+  variables.push_back(nullptr);
+  return variables;
+}
 
 /// Processor time that a process of ours has used, in ticks of its own; -1 if that cannot be told.
 long used_time(int process) {
@@ -105,32 +124,33 @@ constexpr const char* abandoned = "was ended before it was done, as was asked fo
 
 }  // namespace
 
-ChildProcess::ChildProcess(std::string name, int process, int input, int messages,
-                           double stall_seconds, StopRequest abandon)
+ChildProcess::ChildProcess(std::string name, ChildOptions options, int process, int input,
+                           int output, int messages)
     : name_(std::move(name)),
-      stall_seconds_(stall_seconds),
-      abandon_(std::move(abandon)),
+      options_(std::move(options)),
       process_(process),
       input_(input),
+      output_(output),
       messages_(messages) {}
 
 ChildProcess::ChildProcess(ChildProcess&& other) noexcept
     : name_(std::move(other.name_)),
-      stall_seconds_(other.stall_seconds_),
-      abandon_(std::move(other.abandon_)),
+      options_(std::move(other.options_)),
       process_(std::exchange(other.process_, -1)),
       input_(std::exchange(other.input_, -1)),
+      output_(std::exchange(other.output_, -1)),
       messages_(std::exchange(other.messages_, -1)) {}
 
 ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
   if (this != &other) {
     kill();
+    close_if_open(output_);
     close_if_open(messages_);
     name_ = std::move(other.name_);
-    stall_seconds_ = other.stall_seconds_;
-    abandon_ = std::move(other.abandon_);
+    options_ = std::move(other.options_);
     process_ = std::exchange(other.process_, -1);
     input_ = std::exchange(other.input_, -1);
+    output_ = std::exchange(other.output_, -1);
     messages_ = std::exchange(other.messages_, -1);
   }
   return *this;
@@ -138,11 +158,12 @@ ChildProcess& ChildProcess::operator=(ChildProcess&& other) noexcept {
 
 ChildProcess::~ChildProcess() {
   kill();
+  close_if_open(output_);
   close_if_open(messages_);
 }
 
 Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& arguments,
-                                         double stall_seconds, StopRequest abandon) {
+                                         ChildOptions options) {
   const std::string& name = arguments.front();
   // A socket rather than a pipe: MSG_NOSIGNAL turns a broken connection into an error without
   // touching the program's handling of SIGPIPE.
@@ -150,11 +171,14 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     return Error{"", "cannot start '" + name + "': no socket: " + std::strerror(errno)};
   }
-  // A file rather than a pipe for its messages: nobody has to empty it while frames are written.
-  int messages = ::memfd_create("messages", MFD_CLOEXEC);
-  if (messages < 0) {
+  // From here on all that is open is closed again on every way out.
+  ChildProcess child(name, std::move(options), -1, ends[0], -1, -1);
+  // Files rather than pipes: nobody has to empty them while the child is fed.
+  child.messages_ = ::memfd_create("messages", MFD_CLOEXEC);
+  if (child.options_.keeps_output) child.output_ = ::memfd_create("output", MFD_CLOEXEC);
+  if (child.messages_ < 0 || (child.options_.keeps_output && child.output_ < 0)) {
     const Error error{"", "cannot start '" + name + "': no memory file: " + std::strerror(errno)};
-    for (int& end : ends) close_if_open(end);
+    close_if_open(ends[1]);
     return error;
   }
   std::vector<char*> pointers;
@@ -163,29 +187,30 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
     pointers.push_back(const_cast<char*>(argument.c_str()));  // NOLINT(*-pro-type-const-cast)
   }
   pointers.push_back(nullptr);
-  pid_t process = -1;
+  std::vector<char*> variables = environment_without(child.options_.hidden_variables);
   int status = 0;
   {
-    const SpawnSettings settings(ends[1], messages);
-    status = ::posix_spawnp(&process, name.c_str(), &settings.actions, &settings.attributes,
-                            pointers.data(), environ);
+    const SpawnSettings settings(ends[1], child.output_, child.messages_);
+    status = ::posix_spawnp(&child.process_, name.c_str(), &settings.actions, &settings.attributes,
+                            pointers.data(), variables.data());
   }
   close_if_open(ends[1]);
   if (status != 0) {
-    close_if_open(ends[0]);
-    close_if_open(messages);
-    return Error{"", "cannot start the program '" + name + "': " + std::strerror(status)};
+    child.process_ = -1;
+    const std::string remedy = status == ENOENT ? child.options_.if_missing : std::string();
+    return Error{"", "cannot start the program '" + name + "': " + std::strerror(status) +
+                         (remedy.empty() ? "" : "; " + remedy)};
   }
-  return ChildProcess(name, process, ends[0], messages, stall_seconds, std::move(abandon));
+  return child;
 }
 
 Errors ChildProcess::write(std::span<const std::uint8_t> bytes) {
-  Watch watch(process_, stall_seconds_);
+  Watch watch(process_, options_.stall_seconds);
   while (!bytes.empty()) {
     const ssize_t count = ::send(input_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (count >= 0) {
       bytes = bytes.subspan(static_cast<std::size_t>(count));
-      if (count > 0) watch = Watch(process_, stall_seconds_);
+      if (count > 0) watch = Watch(process_, options_.stall_seconds);
       continue;
     }
     if (errno == EINTR) continue;
@@ -205,13 +230,15 @@ Errors ChildProcess::write(std::span<const std::uint8_t> bytes) {
 Errors ChildProcess::finish() {
   if (process_ < 0) return {Error{"", "'" + name_ + "' has already ended"}};
   close_input();
-  Watch watch(process_, stall_seconds_);
-  int status = 0;
+  Watch watch(process_, options_.stall_seconds);
   int wait_ms = first_poll_ms;
   for (;;) {
-    const pid_t ended = ::waitpid(process_, &status, WNOHANG);
-    if (ended == process_) break;
-    if (ended < 0 && errno != EINTR) {
+    siginfo_t ended{};
+    // Leaves the child to be reaped, so that its number stays its own until its group has ended.
+    const int asked =
+        ::waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT);
+    if (asked == 0 && ended.si_pid == process_) break;
+    if (asked < 0 && errno != EINTR) {
       process_ = -1;
       return {Error{"", "'" + name_ + "' is lost: " + std::strerror(errno)}};
     }
@@ -221,7 +248,8 @@ Errors ChildProcess::finish() {
     ::poll(nullptr, 0, wait_ms);
     wait_ms = std::min(2 * wait_ms, longest_poll_ms);
   }
-  process_ = -1;
+  if (!options_.leaves_programs) end_group();
+  const int status = reap();
   if (WIFEXITED(status) && WEXITSTATUS(status) == 0) return {};
   std::string how = WIFEXITED(status) ? "ended with status " + std::to_string(WEXITSTATUS(status))
                                       : "was ended by signal " + std::to_string(WTERMSIG(status));
@@ -236,15 +264,43 @@ Errors ChildProcess::give_up(const std::string& why) {
 
 void ChildProcess::kill() {
   if (process_ >= 0) {
-    ::kill(process_, SIGKILL);
-    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    if (options_.leaves_programs) {
+      ::kill(process_, SIGKILL);
+    } else {
+      end_group();
     }
-    process_ = -1;
+    static_cast<void>(reap());
   }
   close_input();
 }
 
+void ChildProcess::end_group() const { ::kill(-process_, SIGKILL); }
+
+int ChildProcess::reap() {
+  int status = 0;
+  while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+  process_ = -1;
+  return status;
+}
+
 void ChildProcess::close_input() { close_if_open(input_); }
+
+std::vector<std::uint8_t> ChildProcess::output() const {
+  if (output_ < 0) return {};
+  const off_t size = ::lseek(output_, 0, SEEK_END);
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(std::max<off_t>(size, 0)));
+  std::size_t read = 0;
+  while (read < bytes.size()) {
+    const ssize_t count =
+        ::pread(output_, bytes.data() + read, bytes.size() - read, static_cast<off_t>(read));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) break;
+    read += static_cast<std::size_t>(count);
+  }
+  bytes.resize(read);
+  return bytes;
+}
 
 std::string ChildProcess::last_words() const {
   constexpr off_t most = 600;

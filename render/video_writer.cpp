@@ -141,12 +141,10 @@ Result<VideoWriter> VideoWriter::create(const std::string& path, int width, int 
   Result<ChildProcess> encoder =
       ChildProcess::start(command_line(*container_of(path), file->temporary_path(),
                                        width + width % 2, height + height % 2, options),
-                          options.stall_seconds, options.abandon);
-  if (!encoder) {
-    Errors errors = encoder.errors();
-    errors.front().message += "; videos need ffmpeg (Debian: apt install ffmpeg)";
-    return errors;
-  }
+                          {.stall_seconds = options.stall_seconds,
+                           .abandon = options.abandon,
+                           .if_missing = "videos need ffmpeg (Debian: apt install ffmpeg)"});
+  if (!encoder) return encoder.errors();
   // An aggregate, which make_unique cannot initialise for every compiler.
   // NOLINTNEXTLINE(modernize-make-unique)
   return VideoWriter(std::unique_ptr<Content>(

@@ -21,8 +21,8 @@ struct VideoOptions {
   int quality = 18;
   /// Name or path of the encoder, looked up in PATH.
   std::string program = "ffmpeg";
-  double stall_seconds = ChildProcess::usual_stall_seconds;  ///< see ChildProcess::start
-  StopRequest abandon{};                                     ///< likewise
+  double stall_seconds = ChildOptions{}.stall_seconds;  ///< see ChildOptions
+  StopRequest abandon{};                                ///< likewise
 };
 
 /// Writes H.264 in 4:2:0 that every player and browser shows, or an endless GIF. Frames with an odd

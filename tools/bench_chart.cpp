@@ -8,6 +8,7 @@
 #include "tools/bench_table.h"
 #include "tools/failure.h"
 #include "tools/gnuplot.h"
+#include "tools/log_axis.h"
 
 namespace sheave::tools {
 namespace {
@@ -15,17 +16,18 @@ namespace {
 /// Rows that get one colour.
 struct Series {
   const char* title;
+  GnuplotPiece colour;
   bool (*contains)(const BenchRow& row);
 };
 constexpr std::array<Series, 3> chart_series{
-    {{"gauss-seidel, as in the paper",
+    {{"gauss-seidel, as in the paper", "#c0392b",
       [](const BenchRow& row) { return row.settings.solver == SolverKind::gauss_seidel; }},
-     {"direct",
+     {"direct", "#2471a3",
       [](const BenchRow& row) {
         return row.settings.solver == SolverKind::direct &&
                row.settings.integrator == IntegratorKind::xpbd;
       }},
-     {"direct, rattle", [](const BenchRow& row) {
+     {"direct, rattle", "#1e8449", [](const BenchRow& row) {
         return row.settings.solver == SolverKind::direct &&
                row.settings.integrator == IntegratorKind::rattle;
       }}}};
@@ -44,74 +46,96 @@ double place_of(const std::vector<std::string>& names, const std::string& scene)
   return static_cast<double>(std::find(names.begin(), names.end(), scene) - names.begin());
 }
 
-/// Data blocks: $paper, then $series0, 1, ...: place, time, its quartiles, error.
-std::string data_blocks(const BenchTable& table, const std::vector<std::string>& names) {
-  std::string text = "$paper << end\n";
-  for (const BenchRow& row : table.rows) {
-    if (!row.measured() || !row.paper_seconds) continue;
-    text += fmt::format("{} {:.6e}\n", place_of(names, row.scene) - 0.3, 1e3 * *row.paper_seconds);
+/// The panel of times and that of errors, as they come together.
+class BenchChart {
+ public:
+  BenchChart(const BenchTable& table, ChartFormat format)
+      : table_(table), names_(scene_names(table)), script_(format, 800) {}
+
+  GnuplotScript script() {
+    plot_paper();
+    for (std::size_t s = 0; s < chart_series.size(); ++s) plot_series(s);
+    GnuplotCode scenes;
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (i > 0) scenes.add({", "});
+      scenes.add({script_.tic(names_[i], static_cast<double>(i))});
+    }
+    script_.add({"set grid y\nset xtics (", scenes,
+                 ") nomirror\nset xrange [-0.5:", static_cast<double>(names_.size()) - 0.5, "]\n"});
+    script_.add({"set multiplot layout 2,1\nset key outside top center horizontal\n"});
+    if (!times_.empty()) times_.set('y', script_);
+    script_.add({"set ylabel 'time of a frame [ms]'\nplot ", time_plots_, "\n"});
+    script_.add({"set ytics autofreq\n"});  // forgets the names of the first panel
+    if (!errors_.empty()) errors_.set('y', script_);
+    script_.add({"set ylabel 'error [scene size]'\nplot ", error_plots_, "\nunset multiplot\n"});
+    return script_;
   }
-  text += "end\n";
-  for (std::size_t s = 0; s < chart_series.size(); ++s) {
-    text += fmt::format("$series{} << end\n", s);
+
+ private:
+  static void plot(std::initializer_list<GnuplotPiece> pieces, GnuplotCode& plots) {
+    if (!plots.empty()) plots.add({", "});
+    plots.add(pieces);
+  }
+
+  void plot_paper() {
+    ChartRows rows;
+    for (const BenchRow& row : table_.rows) {
+      if (!row.measured() || !row.paper_seconds) continue;
+      const double time = 1e3 * *row.paper_seconds;
+      rows.add({place_of(names_, row.scene) - 0.3, time});
+      times_.add(time);
+    }
+    if (rows.empty()) return;
+    plot({script_.block(rows),
+          " using 1:2 with points pt 2 ps 1.5 lw 2 lc rgb '#888888' title 'paper, 2018'"},
+         time_plots_);
+  }
+
+  void plot_series(std::size_t s) {
+    const Series& series = chart_series[s];
+    ChartRows rows;  // place, time, its quartiles, error
     std::string last;
-    for (const BenchRow& row : table.rows) {
-      if (!row.measured() || !chart_series[s].contains(row)) continue;
+    for (const BenchRow& row : table_.rows) {
+      if (!row.measured() || !series.contains(row)) continue;
       // Two settings of one scene and series stand side by side.
       const double aside = row.scene == last ? 0.07 : 0.0;
       last = row.scene;
       // A logarithmic axis has no zero; what is below 1e-16 is none.
-      text += fmt::format("{} {:.6e} {:.6e} {:.6e} {:.6e}\n",
-                          place_of(names, row.scene) - 0.12 + 0.18 * static_cast<double>(s) + aside,
-                          1e3 * row.seconds.median, 1e3 * row.seconds.lower,
-                          1e3 * row.seconds.upper, std::max(row.error.position, 1e-16));
+      const double error = std::max(row.error.position, 1e-16);
+      rows.add({place_of(names_, row.scene) - 0.12 + 0.18 * static_cast<double>(s) + aside,
+                1e3 * row.seconds.median, 1e3 * row.seconds.lower, 1e3 * row.seconds.upper, error});
+      times_.add(1e3 * row.seconds.lower);
+      times_.add(1e3 * row.seconds.upper);
+      errors_.add(error);
     }
-    text += "end\n";
+    if (rows.empty()) return;
+    const GnuplotCode block = script_.block(rows);
+    plot({block, " using 1:2:3:4 with yerrorbars pt 7 ps 1.2 lw 2 lc rgb '", series.colour,
+          "' title ", script_.shown(series.title)},
+         time_plots_);
+    plot({block, " using 1:5 with points pt 7 ps 1.2 lc rgb '", series.colour, "' notitle"},
+         error_plots_);
   }
-  return text;
-}
+
+  const BenchTable& table_;
+  std::vector<std::string> names_;
+  GnuplotScript script_;
+  LogAxis times_;
+  LogAxis errors_;
+  GnuplotCode time_plots_;
+  GnuplotCode error_plots_;
+};
 
 }  // namespace
 
-std::string chart_script(const BenchTable& table, const std::string& output) {
-  const std::vector<std::string> names = scene_names(table);
-  std::string script = data_blocks(table, names);
-  script += gnuplot_terminal(output, 800);
-  script += "set logscale y\nset format y '10^{%T}'\nset grid y\nset xtics (";
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    script += fmt::format("{}{} {}", i > 0 ? ", " : "", gnuplot_quoted(names[i]), i);
-  }
-  script +=
-      fmt::format(") nomirror\nset xrange [-0.5:{}]\n", static_cast<double>(names.size()) - 0.5);
-  script += "set multiplot layout 2,1\nset key outside top center horizontal\n";
-  script += "set ylabel 'time of a frame [ms]'\nplot ";
-  const bool paper = std::any_of(table.rows.begin(), table.rows.end(), [](const BenchRow& row) {
-    return row.measured() && row.paper_seconds;
-  });
-  if (paper)
-    script += "$paper using 1:2 with points pt 2 ps 1.5 lw 2 lc rgb '#888888' title 'paper, 2018'";
-  constexpr std::array<const char*, 3> colours{"#c0392b", "#2471a3", "#1e8449"};
-  std::string times;
-  std::string errors;
-  for (std::size_t s = 0; s < chart_series.size(); ++s) {
-    const bool used = std::any_of(table.rows.begin(), table.rows.end(), [&](const BenchRow& row) {
-      return row.measured() && chart_series[s].contains(row);
-    });
-    if (!used) continue;
-    times += fmt::format(
-        "{}$series{} using 1:2:3:4 with yerrorbars pt 7 ps 1.2 lw 2 lc rgb '{}' title '{}'",
-        times.empty() && !paper ? "" : ", ", s, colours[s], chart_series[s].title);
-    errors += fmt::format("{}$series{} using 1:5 with points pt 7 ps 1.2 lc rgb '{}' notitle",
-                          errors.empty() ? "" : ", ", s, colours[s]);
-  }
-  script += times + "\nset ylabel 'error [scene size]'\nplot " + errors;
-  return script + "\nunset multiplot\nset output\n";
+GnuplotScript chart_script(const BenchTable& table, ChartFormat format) {
+  return BenchChart(table, format).script();
 }
 
 void draw_chart(const BenchTable& table, const std::string& path) {
-  check_chart_name(path);
+  const ChartFormat format = chart_format(path);
   if (scene_names(table).empty()) throw Failure(ExitCode::io, path + ": there is nothing to draw");
-  draw_with_gnuplot(path, [&](const std::string& output) { return chart_script(table, output); });
+  draw_with_gnuplot(path, chart_script(table, format));
 }
 
 }  // namespace sheave::tools

@@ -8,7 +8,7 @@
 #include "tools/bench_table.h"
 #include "tools/command.h"
 #include "tools/command_line.h"
-#include "tools/gnuplot.h"
+#include "tools/gnuplot_script.h"
 #include "tools/interrupt.h"
 #include "tools/output_faults.h"
 #include "tools/output_file.h"
@@ -28,7 +28,7 @@ struct BenchArguments {
 
 /// Refuses what would only be found wrong after minutes of measuring.
 void check_arguments(const BenchArguments& arguments) {
-  if (!arguments.chart.empty()) check_chart_name(arguments.chart);
+  if (!arguments.chart.empty()) static_cast<void>(chart_format(arguments.chart));
   if (!arguments.compare.empty()) {
     // An empty table has nothing to compare, but the file is read.
     static_cast<void>(compare_with_baseline({}, arguments.compare, arguments.allow));

@@ -9,6 +9,7 @@
 #include "measure/paper_table.h"
 #include "measure/reference_run.h"
 #include "measure/spread.h"
+#include "tools/gnuplot_script.h"
 #include "tools/machine_info.h"
 
 namespace sheave::tools {
@@ -107,10 +108,10 @@ struct BenchComparison {
                                                     const std::string& path, double allowed_ratio);
 [[nodiscard]] std::string comparison_text(const BenchComparison& comparison);
 
-/// Draws times and errors with gnuplot into a .png or .svg file. A Failure: 2 other name, 74 no
-/// gnuplot or no file.
+/// Draws times and errors with gnuplot into a .png, .svg or .pdf file. A Failure: 2 other name, 74
+/// no gnuplot or no file.
 void draw_chart(const BenchTable& table, const std::string& path);
 /// What gnuplot is told.
-[[nodiscard]] std::string chart_script(const BenchTable& table, const std::string& output);
+[[nodiscard]] GnuplotScript chart_script(const BenchTable& table, ChartFormat format);
 
 }  // namespace sheave::tools

@@ -6,6 +6,7 @@
 
 #include "tools/bench_table.h"
 #include "tools/error_text.h"
+#include "tools/one_line.h"
 #include "tools/text_table.h"
 
 namespace sheave::tools {
@@ -94,7 +95,7 @@ std::string bench_text(const BenchTable& table) {
 
 std::string bench_markdown(const BenchTable& table) {
   std::string result = "# The paper's Table 1 on this machine\n\n";
-  result += "Made by `sheave bench --markdown`: " + machine_text(table) + ".\n\n";
+  result += "Made by `sheave bench --markdown`: " + markdown_text(machine_text(table)) + ".\n\n";
   result += fmt::format(
       "Frame: CPU time of one frame of 1/60 s, median and quartiles of {} interleaved repetitions "
       "of\n"
@@ -113,7 +114,7 @@ std::string bench_markdown(const BenchTable& table) {
     if (row.measured()) result += markdown_row(cells(row));
   }
   result += "\n";
-  for (const std::string& line : bench_remarks(table)) result += "* " + line + "\n";
+  for (const std::string& line : bench_remarks(table)) result += "* " + markdown_text(line) + "\n";
   return result;
 }
 

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
+#include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "tools/failure.h"
+#include "tools/interrupt.h"
 
 #if SHEAVE_HAS_RENDER
 #include "render/child_process.h"
@@ -16,87 +14,68 @@
 #endif
 
 namespace sheave::tools {
-namespace {
-
-/// The last `count` bytes of a file, or fewer; none if it cannot be read.
-[[maybe_unused]] std::string tail_of_file(const std::string& path, std::size_t count) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const auto size = static_cast<std::streamoff>(file.tellg());
-  if (size < 0) return {};
-  file.seekg(std::max<std::streamoff>(0, size - static_cast<std::streamoff>(count)));
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-}  // namespace
-
-void check_chart_name(const std::string& path) {
-  if (path.ends_with(".png") || path.ends_with(".svg") || path.ends_with(".pdf")) return;
-  throw Failure(ExitCode::usage, path + ": the name of a chart must end in .png, .svg or .pdf");
-}
-
-std::string gnuplot_quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("''") : std::string(1, c);
-  return result + "'";
-}
-
-std::string gnuplot_terminal(const std::string& output, int height) {
-  std::string kind = fmt::format("pngcairo size 1000,{} font 'DejaVu Sans,11'", height);
-  if (output.ends_with(".svg")) {
-    kind = fmt::format("svg size 1000,{} font 'DejaVu Sans,13' background 'white'", height);
-  } else if (output.ends_with(".pdf")) {
-    constexpr double pixels_per_inch = 100.0;
-    kind = fmt::format("pdfcairo size 10in,{:g}in font 'DejaVu Sans,11'", height / pixels_per_inch);
-  }
-  return "set terminal " + kind + "\nset output " + gnuplot_quoted(output) + "\n";
-}
 
 #if SHEAVE_HAS_RENDER
 
 namespace {
 
-/// Whether a .png, .svg or .pdf file ends as such a file does: gnuplot ends with success on a full disk,
-/// too.
-bool is_whole_picture(const std::string& path) {
-  constexpr std::size_t longest = 16;
-  const std::string text = tail_of_file(path, longest);
-  const char* const mark =
-      path.ends_with(".png") ? "IEND" : (path.ends_with(".svg") ? "</svg>" : "%%EOF");
-  return text.find(mark) != std::string::npos;
+/// Whether a picture ends as one of its format does: gnuplot may end with success and half of one.
+bool is_whole_picture(const std::vector<std::uint8_t>& bytes, ChartFormat format) {
+  constexpr std::ptrdiff_t longest = 16;
+  const auto size = static_cast<std::ptrdiff_t>(bytes.size());
+  const std::string tail(bytes.end() - std::min(size, longest), bytes.end());
+  const std::string_view mark =
+      format == ChartFormat::png ? "IEND" : (format == ChartFormat::svg ? "</svg>" : "%%EOF");
+  return tail.find(mark) != std::string::npos;
+}
+
+[[noreturn]] void not_drawn(const std::string& path, const std::string& why) {
+  throw Failure(ExitCode::io, path + ": " + why);
+}
+
+/// The picture that a script makes.
+std::vector<std::uint8_t> drawn(const std::string& path, const GnuplotScript& script) {
+  // The first signal may have ended the run that is to be drawn; then the chart is still wanted.
+  const bool already = interrupted();
+  const auto unwanted = [already] { return already ? hurried() : interrupted(); };
+  // -d: without gnuplotrc and ~/.gnuplot. GNUTERM and GNUPLOT_... choose terminals, drivers, fonts
+  // and folders of scripts, FIT_..., PAGER and SHELL files and programs.
+  Result<render::ChildProcess> gnuplot = render::ChildProcess::start(
+      {"gnuplot", "-d", "-"},
+      {.abandon = unwanted,
+       .keeps_output = true,
+       .hidden_variables = {"GNUPLOT", "GNUTERM", "GNUHELP", "FIT_", "PAGER=", "SHELL="},
+       .if_missing = "charts need gnuplot (Debian: apt install gnuplot-nox)"});
+  if (!gnuplot) throw Failure(ExitCode::io, to_text(gnuplot.errors()));
+  const std::string text = script.text();
+  Errors errors = gnuplot->write(std::vector<std::uint8_t>(text.begin(), text.end()));
+  if (errors.empty()) errors = gnuplot->finish();
+  if (unwanted()) throw Failure(ExitCode::interrupted, path + ": not drawn: interrupted");
+  if (!errors.empty()) not_drawn(path, to_text(errors));
+  std::vector<std::uint8_t> picture = gnuplot->output();
+  if (!is_whole_picture(picture, script.format())) {
+    const std::string said = gnuplot->last_words();
+    not_drawn(path, "'gnuplot' has left no picture" + (said.empty() ? "" : ": " + said));
+  }
+  return picture;
 }
 
 }  // namespace
 
-void draw_with_gnuplot(const std::string& path,
-                       const std::function<std::string(const std::string& output)>& script_for) {
-  check_chart_name(path);
+void draw_with_gnuplot(const std::string& path, const GnuplotScript& script) {
+  // Otherwise a signal would end us, and leave a gnuplot that hangs to itself.
+  catch_interrupts();
   Result<render::OutputFile> file = render::OutputFile::create(path);
   if (!file) throw Failure(ExitCode::io, to_text(file.errors()));
-  // Only the name was wanted: gnuplot opens the file itself. It keeps the extension.
-  if (const Errors errors = file->close(); !errors.empty())
-    throw Failure(ExitCode::io, to_text(errors));
-  Result<render::ChildProcess> gnuplot = render::ChildProcess::start({"gnuplot", "-"});
-  if (!gnuplot) {
-    throw Failure(ExitCode::io, to_text(gnuplot.errors()) +
-                                    "; charts need gnuplot (Debian: apt install gnuplot-nox)");
-  }
-  const std::string script = script_for(file->temporary_path());
-  const std::vector<std::uint8_t> bytes(script.begin(), script.end());
-  Errors errors = gnuplot->write(bytes);
-  if (errors.empty()) errors = gnuplot->finish();
-  if (errors.empty() && !is_whole_picture(file->temporary_path())) {
-    const std::string said = gnuplot->last_words();
-    errors.push_back({"", "'gnuplot' has left no picture" + (said.empty() ? "" : ": " + said)});
-  }
-  if (!errors.empty()) throw Failure(ExitCode::io, path + ": " + to_text(errors));
-  errors = file->commit();
+  // Written by us and not by gnuplot, which does not tell of a full disk.
+  Errors errors = file->write(drawn(path, script));
+  if (errors.empty()) errors = file->commit();
   if (!errors.empty()) throw Failure(ExitCode::io, to_text(errors));
 }
 
 #else
 
-void draw_with_gnuplot(const std::string& path,
-                       const std::function<std::string(const std::string& output)>&) {
+void draw_with_gnuplot(const std::string& path, const GnuplotScript&) {
   throw Failure(ExitCode::io, path + ": this build cannot start gnuplot (SHEAVE_RENDER is off)");
 }
 

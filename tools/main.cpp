@@ -69,6 +69,9 @@ ExitCode run_command_line(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   sheave::tools::turn_signals_into_errors();
+  // Mesa's software renderer starts a thread per core for each picture line of ours, and waits for
+  // ever for those that the system does not allow. Without them pictures are the same.
+  ::setenv("LP_NUM_THREADS", "0", 0);
   std::set_terminate(sheave::tools::end_at_once);
   return static_cast<int>(sheave::tools::run_command_line(argc, argv));
 }

@@ -86,7 +86,11 @@ std::string filled_live_page(const std::string& page, const std::string& scene) 
 }
 
 void open_in_browser(const std::string& path) {
-  Result<render::ChildProcess> opener = render::ChildProcess::start({"xdg-open", path});
+  // A whole path begins with a slash: what else a name may begin with is no option of xdg-open, and
+  // no address of a page somewhere else.
+  const std::string whole = std::filesystem::absolute(path).string();
+  Result<render::ChildProcess> opener =
+      render::ChildProcess::start({"xdg-open", whole}, {.leaves_programs = true});
   const Errors errors = opener ? opener->finish() : opener.errors();
   if (!errors.empty()) {
     print_warning("cannot open the browser: " + to_text(errors) + "\nplease open " + path);

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "scenes/quantity_unit.h"
-#include "tools/gnuplot.h"
 #include "tools/plot_data.h"
 
 namespace sheave::tools {
@@ -20,8 +19,8 @@ using PlotJson = nlohmann::ordered_json;
 
 /// Colours that the colour-blind tell apart (Okabe and Ito 2008), without the yellow, which is too
 /// light for a line.
-constexpr std::array<const char*, 7> plot_colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
-                                                  "#E69F00", "#56B4E9", "#000000"};
+constexpr std::array<GnuplotPiece, 7> plot_colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                   "#E69F00", "#56B4E9", "#000000"};
 /// More events than this are marked without words.
 constexpr std::size_t most_worded_events = 12;
 
@@ -63,37 +62,23 @@ std::string panel_label(const PlotPanel& panel) {
   return last.empty() ? "[" + panel.unit + "]" : last + " [" + panel.unit + "]";
 }
 
-std::string block_name(std::size_t run, std::size_t quantity) {
-  return fmt::format("$data{}_{}", run, quantity);
-}
-
-std::string data_blocks(const std::vector<PlotRun>& runs) {
-  std::string text;
-  for (std::size_t r = 0; r < runs.size(); ++r) {
-    for (std::size_t q = 1; q < runs[r].names.size(); ++q) {
-      text += block_name(r, q) + " << end\n";
-      const std::vector<double>& x = runs[r].values[0];
-      const std::vector<double>& y = runs[r].values[q];
-      bool any = false;
-      for (std::size_t i = 0; i < x.size(); ++i) {
-        // A gap, as in the first row of forces, breaks the line.
-        const bool drawn = std::isfinite(x[i]) && std::isfinite(y[i]);
-        if (drawn) {
-          text += fmt::format("{:.12g} {:.12g}\n", x[i], y[i]);
-        } else if (any) {
-          text += "\n";
-        }
-        any = any || drawn;
-      }
-      if (!any) text += "NaN NaN\n";
-      text += "end\n";
+/// One quantity of a run over the horizontal one.
+ChartRows plotted_rows(const PlotRun& run, std::size_t quantity) {
+  const std::vector<double>& x = run.values[0];
+  const std::vector<double>& y = run.values[quantity];
+  ChartRows rows;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (std::isfinite(x[i]) && std::isfinite(y[i])) {
+      rows.add({x[i], y[i]});
+    } else if (!rows.empty()) {
+      rows.add_gap();  // as in the first row of forces: breaks the line
     }
   }
-  return text;
+  return rows;
 }
 
 /// Lines at the moments when something happened, the same in all panels; words in the first.
-std::string event_marks(const std::vector<PlotRun>& runs, bool worded) {
+void mark_events(const std::vector<PlotRun>& runs, bool worded, GnuplotScript& script) {
   std::map<double, std::string> events;
   for (const PlotRun& run : runs) {
     for (const PlotEvent& event : run.events) {
@@ -102,25 +87,55 @@ std::string event_marks(const std::vector<PlotRun>& runs, bool worded) {
       text += (text.empty() ? "" : ", ") + event.text;
     }
   }
-  std::string script = "unset arrow\nunset label\n";
+  script.add({"unset arrow\nunset label\n"});
   for (const auto& [time, text] : events) {
-    script += fmt::format(
-        "set arrow from first {0:.12g}, graph 0 to first {0:.12g}, graph 1 nohead dt 3 lc rgb "
-        "'#888888' back\n",
-        time);
+    script.add({"set arrow from first ", time, ", graph 0 to first ", time,
+                ", graph 1 nohead dt 3 lc rgb '#888888' back\n"});
     if (!worded || events.size() > most_worded_events) continue;
-    script += fmt::format(
-        "set label {} at first {:.12g}, graph 0.98 rotate by 90 right noenhanced font ',9' tc rgb "
-        "'#555555' offset 0.7,0\n",
-        gnuplot_quoted(text), time);
+    script.add({"set label ", script.shown(text), " at first ", time,
+                ", graph 0.98 rotate by 90 right font ',9' tc rgb '#555555' offset 0.7,0\n"});
   }
-  return script;
+}
+
+/// Whether a panel has a point; gnuplot finds no range for axes without any.
+bool has_points(const std::vector<PlotRun>& runs, const PlotPanel& panel) {
+  for (const PlotRun& run : runs) {
+    for (std::size_t q = 1; q < run.names.size(); ++q) {
+      const bool drawn = std::count(panel.names.begin(), panel.names.end(), run.names[q]) > 0;
+      for (std::size_t i = 0; drawn && i < run.values[q].size(); ++i) {
+        if (std::isfinite(run.values[0][i]) && std::isfinite(run.values[q][i])) return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// What the plot command of a panel draws.
+GnuplotCode panel_plots(const std::vector<PlotRun>& runs, const PlotPanel& panel,
+                        GnuplotScript& script) {
+  GnuplotCode plots;
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    for (std::size_t q = 1; q < runs[r].names.size(); ++q) {
+      const auto found = std::find(panel.names.begin(), panel.names.end(), runs[r].names[q]);
+      if (found == panel.names.end()) continue;
+      const auto place = static_cast<std::size_t>(found - panel.names.begin());
+      // Colours tell quantities apart and dashes runs; of one quantity, both tell runs apart.
+      const std::size_t colour = panel.names.size() == 1 ? r : place;
+      std::string label = runs[r].names[q];
+      if (runs.size() > 1) label += ", " + runs[r].label;
+      if (!plots.empty()) plots.add({", "});
+      plots.add({script.block(plotted_rows(runs[r], q)), " using 1:2 with lines lw 2 dt ",
+                 r % 5 + 1, " lc rgb '", plot_colours[colour % plot_colours.size()], "' title ",
+                 script.shown(label)});
+    }
+  }
+  return plots;
 }
 
 }  // namespace
 
-std::string plot_script(const std::vector<PlotRun>& runs, const std::string& title,
-                        const std::string& output) {
+GnuplotScript plot_script(const std::vector<PlotRun>& runs, const std::string& title,
+                          ChartFormat format) {
   const std::vector<PlotPanel> panels = panels_of(runs);
   constexpr int first_height = 560;
   constexpr int next_height = 320;
@@ -128,34 +143,23 @@ std::string plot_script(const std::vector<PlotRun>& runs, const std::string& tit
       panels.size() == 1
           ? first_height
           : 60 + next_height * static_cast<int>(std::max<std::size_t>(panels.size(), 1));
-  std::string script = data_blocks(runs) + gnuplot_terminal(output, height);
-  script += "set grid lc rgb '#dddddd'\nset key outside right top noenhanced spacing 1.2\n";
-  script += fmt::format("set multiplot layout {},1 title {} noenhanced\n", panels.size(),
-                        gnuplot_quoted(title));
-  script += "set lmargin 12\nset rmargin 30\n";  // one below the other
+  GnuplotScript script(format, height);
+  script.add({"set grid lc rgb '#dddddd'\nset key outside right top spacing 1.2\n"});
+  script.add({"set multiplot layout ", panels.size(), ",1 title ", script.shown(title), "\n"});
+  script.add({"set lmargin 12\nset rmargin 30\n"});  // one below the other
   for (std::size_t p = 0; p < panels.size(); ++p) {
-    const PlotPanel& panel = panels[p];
-    script += event_marks(runs, p == 0);
-    script += "set xlabel " + gnuplot_quoted(axis_label(runs.front().names.front())) +
-              " noenhanced\nset ylabel " + gnuplot_quoted(panel_label(panel)) + " noenhanced\n";
-    std::string plots;
-    for (std::size_t r = 0; r < runs.size(); ++r) {
-      for (std::size_t q = 1; q < runs[r].names.size(); ++q) {
-        const auto found = std::find(panel.names.begin(), panel.names.end(), runs[r].names[q]);
-        if (found == panel.names.end()) continue;
-        const auto place = static_cast<std::size_t>(found - panel.names.begin());
-        // Colours tell quantities apart and dashes runs; of one quantity, both tell runs apart.
-        const std::size_t colour = panel.names.size() == 1 ? r : place;
-        std::string label = runs[r].names[q];
-        if (runs.size() > 1) label += ", " + runs[r].label;
-        plots += fmt::format("{}{} using 1:2 with lines lw 2 dt {} lc rgb '{}' title {}",
-                             plots.empty() ? "" : ", ", block_name(r, q), r % 5 + 1,
-                             plot_colours[colour % plot_colours.size()], gnuplot_quoted(label));
-      }
+    mark_events(runs, p == 0, script);
+    if (has_points(runs, panels[p])) {
+      script.add({"set xrange [*:*]\nset yrange [*:*]\n"});
+    } else {
+      script.add({"set xrange [0:1]\nset yrange [0:1]\n"});
     }
-    script += "plot " + plots + "\n";
+    script.add({"set xlabel ", script.shown(axis_label(runs.front().names.front())),
+                "\nset ylabel ", script.shown(panel_label(panels[p])), "\nplot ",
+                panel_plots(runs, panels[p], script), "\n"});
   }
-  return script + "unset multiplot\nset output\n";
+  script.add({"unset multiplot\n"});
+  return script;
 }
 
 std::string plot_json(const std::vector<PlotRun>& runs, const std::string& file) {

@@ -58,7 +58,7 @@ PlotRun plot_of_scene(const PlotArguments& arguments, const std::string& path) {
 }
 
 ExitCode plot(const PlotArguments& arguments) {
-  check_chart_name(arguments.out);
+  const ChartFormat format = chart_format(arguments.out);
   std::vector<NamedPath> inputs;
   for (const std::string& path : arguments.inputs) inputs.push_back({"the input", path});
   check_paths(inputs, {{"--out", arguments.out}}, arguments.json);
@@ -79,8 +79,7 @@ ExitCode plot(const PlotArguments& arguments) {
   for (std::size_t i = 0; arguments.title.empty() && i < runs.size(); ++i) {
     title += (i > 0 ? ", " : "") + runs[i].label;
   }
-  draw_with_gnuplot(arguments.out,
-                    [&](const std::string& output) { return plot_script(runs, title, output); });
+  draw_with_gnuplot(arguments.out, plot_script(runs, title, format));
   if (arguments.json) print(plot_json(runs, arguments.out));
   return ExitCode::done;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes/observables.h"
+#include "tools/gnuplot_script.h"
 
 namespace sheave::tools {
 
@@ -59,8 +60,8 @@ class PlotRecorder {
 
 /// The chart of runs for gnuplot, one panel for each unit; in colours that the colour-blind tell
 /// apart, runs by dashes.
-[[nodiscard]] std::string plot_script(const std::vector<PlotRun>& runs, const std::string& title,
-                                      const std::string& output);
+[[nodiscard]] GnuplotScript plot_script(const std::vector<PlotRun>& runs, const std::string& title,
+                                        ChartFormat format);
 /// The same in numbers: what is drawn, with the extremes of each line.
 [[nodiscard]] std::string plot_json(const std::vector<PlotRun>& runs, const std::string& file);
 

@@ -173,7 +173,7 @@ void check_run_paths(const RunOptions& options) {
   for (const std::string& path : options.record.paths) outputs.push_back({"--out", path});
   outputs.push_back({"--save-state", options.save_state});
   if (!options.plot.patterns.empty()) {
-    check_chart_name(options.plot_file);
+    static_cast<void>(chart_format(options.plot_file));
     outputs.push_back({"--plot-file", options.plot_file});
   }
   outputs.push_back({"--rope-history", options.ropes.path});
@@ -187,9 +187,8 @@ std::string scene_title(const RunSummary& summary) {
 }
 
 void draw(const RunOptions& options, const PlotRun& run) {
-  draw_with_gnuplot(options.plot_file, [&](const std::string& output) {
-    return plot_script({run}, run.label, output);
-  });
+  draw_with_gnuplot(options.plot_file,
+                    plot_script({run}, run.label, chart_format(options.plot_file)));
   if (!options.quiet) print_note(options.plot_file + ": drawn");
 }
 

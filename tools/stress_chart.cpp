@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
-#include "tools/gnuplot.h"
+#include "tools/log_axis.h"
 #include "tools/stress_table.h"
 
 namespace sheave::tools {
@@ -32,7 +33,7 @@ std::string mark_of(const StressOutcome& outcome) {
   return std::string(letters[static_cast<std::size_t>(kind)]) + (outcome.silent() ? "!" : "");
 }
 
-/// "1/60", "10^{4}", "0.3", "5x10^{-6}".
+/// "1/60", "10⁴", "0.3", "5x10⁻⁶".
 std::string tic_text(double value) {
   for (const double part : {30.0, 60.0}) {
     if (std::abs(value * part - 1.0) < 1e-9) return fmt::format("1/{:g}", part);
@@ -42,16 +43,64 @@ std::string tic_text(double value) {
   }
   const double power = std::floor(std::log10(std::abs(value)) + 1e-9);
   const double factor = value / std::pow(10.0, power);
-  const std::string ten = fmt::format("10^{{{:g}}}", power);
+  const std::string ten = power_of_ten(static_cast<int>(power));
   return std::abs(factor - 1.0) < 1e-6 ? ten : fmt::format("{:.2g}x{}", factor, ten);
 }
 
-std::string tics(const std::vector<double>& values) {
-  std::string text;
+GnuplotCode tics(const std::vector<double>& values, GnuplotScript& script) {
+  GnuplotCode list;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    text += fmt::format("{}'{}' {}", i > 0 ? ", " : "", tic_text(values[i]), i);
+    if (i > 0) list.add({", "});
+    list.add({script.tic(tic_text(values[i]), static_cast<double>(i))});
   }
-  return text;
+  return list;
+}
+
+/// The cells: where each is, the power of ten of its error, and its mark.
+struct StressRows {
+  ChartRows errors;
+  ChartRows on_dark;   ///< marks that are white, for the colour is dark
+  ChartRows on_light;  ///< black ones
+};
+
+StressRows stress_rows(const StressResult& result, GnuplotScript& script) {
+  const std::size_t columns = result.map.x.values.size();
+  StressRows rows;
+  for (std::size_t i = 0; i < result.outcomes.size(); ++i) {
+    const StressOutcome& outcome = result.outcomes[i];
+    const double error = outcome.verdict.error;
+    const double power = std::isfinite(error) ? std::clamp(std::log10(std::max(error, 1e-300)),
+                                                           least_power, most_power)
+                                              : most_power;
+    // What was refused has no colour.
+    const bool refused = outcome.verdict.kind == StressKind::refused;
+    const auto x = static_cast<double>(i % columns);
+    const auto y = static_cast<double>(i / columns);
+    rows.errors.add({x, y, refused ? std::numeric_limits<double>::quiet_NaN() : power});
+    const bool dark = !refused && power > dark_power;
+    (dark ? rows.on_dark : rows.on_light).add({x, y, script.shown_number(mark_of(outcome))});
+  }
+  // Off the map, because gnuplot refuses to plot nothing.
+  for (ChartRows* marks : {&rows.on_dark, &rows.on_light}) {
+    marks->add({-9.0, -9.0, script.shown_number(".")});
+  }
+  return rows;
+}
+
+/// What colours mean.
+void set_palette(GnuplotScript& script) {
+  GnuplotCode powers;
+  for (int i = static_cast<int>(least_power); i <= static_cast<int>(most_power); i += 2) {
+    if (!powers.empty()) powers.add({", "});
+    powers.add({script.tic(power_of_ten(i), i)});
+  }
+  script.add({"set cbrange [", least_power, ":", most_power, "]\nset cbtics (", powers,
+              ")\nset cblabel 'relative error'\n"});
+  // From white to blue up to a tenth, from orange to brown above: told apart by all kinds of colour
+  // vision, and in grey.
+  script.add(
+      {"set palette defined (-12 '#ffffff', -6 '#deebf7', -3 '#c6dbef', -1.01 '#9ecae1', "
+       "-1 '#fdae6b', 0 '#e6550d', 2 '#7f2704')\n"});
 }
 
 }  // namespace
@@ -62,58 +111,31 @@ std::string stress_chart_name(const StressResult& result) {
                      integrator_names[static_cast<std::size_t>(result.settings.integrator)]);
 }
 
-std::string stress_script(const StressResult& result, const std::string& output) {
+GnuplotScript stress_script(const StressResult& result, ChartFormat format) {
   const measure::StressMap& map = result.map;
-  const std::size_t columns = map.x.values.size();
-  std::string errors = "$errors << end\n";
-  // Never empty: gnuplot refuses to plot nothing.
-  std::string dark = "$dark << end\n-9 -9 .\n";
-  std::string light = "$light << end\n-9 -9 .\n";
-  for (std::size_t i = 0; i < result.outcomes.size(); ++i) {
-    const StressOutcome& outcome = result.outcomes[i];
-    const double error = outcome.verdict.error;
-    const double power = std::isfinite(error) ? std::clamp(std::log10(std::max(error, 1e-300)),
-                                                           least_power, most_power)
-                                              : most_power;
-    // What was refused has no colour.
-    const bool refused = outcome.verdict.kind == StressKind::refused;
-    const std::string place = fmt::format("{} {}", i % columns, i / columns);
-    errors += fmt::format("{} {}\n", place, refused ? "NaN" : fmt::format("{:.3f}", power));
-    const bool on_dark = !refused && power > dark_power;
-    (on_dark ? light : dark) += place + " " + mark_of(outcome) + "\n";
-  }
-  std::string script =
-      errors + "end\n" + dark + "end\n" + light + "end\n" + gnuplot_terminal(output, 480);
-  script +=
-      "set title " + gnuplot_quoted(map.name + ", " + result.settings.name()) + " noenhanced\n";
-  script +=
-      "set label 1 'in a cell: the power of ten that its error is below, or what it failed by: W "
-      "error "
-      "above 10 %, D diverged and stopped,' at graph 0.5, -0.23 center font ',10'\n"
-      "set label 2 'E energy gain, S false slack, L lost length; ! without a warning; r refused: "
-      "not a "
-      "valid scene' at graph 0.5, -0.29 center font ',10'\n";
-  script += "set bmargin 7\nunset key\nset datafile missing 'NaN'\n";
-  script += fmt::format("set xtics ({})\nset ytics ({})\n", tics(map.x.values), tics(map.y.values));
-  script += "set xlabel " + gnuplot_quoted(map.x.name) + " noenhanced\n";
-  script += "set ylabel " + gnuplot_quoted(map.y.name) + " noenhanced\n";
-  script += fmt::format("set xrange [-0.5:{}]\nset yrange [-0.5:{}]\n",
-                        static_cast<double>(columns) - 0.5,
-                        static_cast<double>(map.y.values.size()) - 0.5);
-  script +=
-      fmt::format("set cbrange [{}:{}]\nset cblabel 'relative error'\n", least_power, most_power);
-  script += "set format cb '10^{%.0f}'\n";
-  // From white to blue up to a tenth, from orange to brown above: told apart by all kinds of colour
-  // vision, and in grey.
-  script +=
-      "set palette defined (-12 '#ffffff', -6 '#deebf7', -3 '#c6dbef', -1.01 '#9ecae1', "
-      "-1 '#fdae6b', 0 '#e6550d', 2 '#7f2704')\n";
-  script +=
-      "set style fill solid border lc rgb '#d0d0d0'\n"
-      "plot $errors using 1:2:(0.5):(0.5):3 with boxxyerror palette, "
-      "$dark using 1:2:3 with labels font ',10' tc rgb 'black', "
-      "$light using 1:2:3 with labels font ',10' tc rgb 'white'\n";
-  return script + "set output\n";
+  GnuplotScript script(format, 480);
+  const StressRows rows = stress_rows(result, script);
+  script.add({"set title ", script.shown(map.name + ", " + result.settings.name()), "\n"});
+  script.add(
+      {"set label 1 'in a cell: the power of ten that its error is below, or what it failed by: W "
+       "error above 10 %, D diverged and stopped,' at graph 0.5, -0.23 center font ',10'\n"
+       "set label 2 'E energy gain, S false slack, L lost length; ! without a warning; r refused: "
+       "not a valid scene' at graph 0.5, -0.29 center font ',10'\n"});
+  script.add({"set bmargin 7\nunset key\nset datafile missing 'NaN'\n"});
+  script.add({"set xtics (", tics(map.x.values, script), ")\nset ytics (",
+              tics(map.y.values, script), ")\n"});
+  script.add(
+      {"set xlabel ", script.shown(map.x.name), "\nset ylabel ", script.shown(map.y.name), "\n"});
+  script.add({"set xrange [-0.5:", static_cast<double>(map.x.values.size()) - 0.5,
+              "]\nset yrange [-0.5:", static_cast<double>(map.y.values.size()) - 0.5, "]\n"});
+  set_palette(script);
+  const GnuplotCode mark = GnuplotScript::shown_of_column(3);
+  script.add({"set style fill solid border lc rgb '#d0d0d0'\nplot ", script.block(rows.errors),
+              " using 1:2:(0.5):(0.5):3 with boxxyerror palette, ", script.block(rows.on_light),
+              " using 1:2:", mark, " with labels font ',10' tc rgb 'black', ",
+              script.block(rows.on_dark), " using 1:2:", mark,
+              " with labels font ',10' tc rgb 'white'\n"});
+  return script;
 }
 
 }  // namespace sheave::tools

@@ -67,8 +67,7 @@ void draw_maps(const std::vector<StressResult>& results, const StressArguments& 
     for (const char* extension : {".png", ".svg"}) {
       const std::string path =
           (std::filesystem::path(folder) / (stress_chart_name(result) + extension)).string();
-      draw_with_gnuplot(path,
-                        [&](const std::string& output) { return stress_script(result, output); });
+      draw_with_gnuplot(path, stress_script(result, chart_format(path)));
     }
   }
 }

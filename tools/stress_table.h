@@ -7,6 +7,7 @@
 
 #include "measure/stress_judge.h"
 #include "measure/stress_map.h"
+#include "tools/gnuplot_script.h"
 
 namespace sheave::tools {
 
@@ -72,6 +73,6 @@ struct StressOptions {
 /// Every cell with its command, one JSON object in one line.
 [[nodiscard]] std::string stress_json(const std::vector<StressResult>& results);
 /// A gnuplot script that draws the heat map of one result.
-[[nodiscard]] std::string stress_script(const StressResult& result, const std::string& output);
+[[nodiscard]] GnuplotScript stress_script(const StressResult& result, ChartFormat format);
 
 }  // namespace sheave::tools

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/one_line.h"
 #include "tools/stress_table.h"
 #include "tools/text_table.h"
 
@@ -155,7 +156,7 @@ std::string stress_markdown(const std::vector<StressResult>& results,
     if (!path.empty()) text += fmt::format("![{}]({})\n\n", result.map.name, path);
     text += map_table(result);
     const std::string worst = worst_text(result, "");
-    if (!worst.empty()) text += "\n```\n" + worst + "```\n";
+    if (!worst.empty()) text += "\n" + markdown_code(worst);
   }
   return text;
 }

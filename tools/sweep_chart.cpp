@@ -7,17 +7,21 @@
 
 #include <fmt/format.h>
 
-#include "tools/gnuplot.h"
+#include "tools/gnuplot_script.h"
 #include "tools/sweep_table.h"
 
 namespace sheave::tools {
 namespace {
 
 constexpr int panel_height = 420;
+constexpr int most_height = 32'000;  // of a picture that Cairo draws
 /// A heat map with more cells than this is a cloud of points.
 constexpr std::size_t most_cells = 10'000;
 /// Numbers stand in the cells of a map of at most so many columns.
 constexpr std::size_t most_written = 12;
+/// Names at an axis of words, and of a map.
+constexpr std::size_t most_words = 100;
+constexpr std::size_t most_map_names = 16;
 
 /// One varied thing as an axis of a chart: numbers where they are, words side by side.
 struct ChartAxis {
@@ -32,14 +36,16 @@ struct ChartAxis {
     return static_cast<std::size_t>(std::find(values.begin(), values.end(), value) -
                                     values.begin());
   }
-  [[nodiscard]] std::string tics(std::size_t every) const {
-    std::string text;
-    for (std::size_t i = 0; i < values.size(); i += every) {
-      const std::string word =
+  /// Not more names than `most`, evenly.
+  [[nodiscard]] GnuplotCode tics(std::size_t most, GnuplotScript& script) const {
+    GnuplotCode list;
+    for (std::size_t i = 0; i < values.size(); i += 1 + values.size() / most) {
+      if (i > 0) list.add({", "});
+      const std::string name =
           numeric ? fmt::format("{:.4g}", std::strtod(values[i].c_str(), nullptr)) : values[i];
-      text += fmt::format("{}{} {}", i > 0 ? ", " : "", gnuplot_quoted(word), i);
+      list.add({script.tic(name, static_cast<double>(i))});
     }
-    return "(" + text + ")";
+    return {"(", list, ")"};
   }
 };
 
@@ -81,32 +87,39 @@ ChartAxis chart_axis(const SweepTable& table, std::size_t a) {
 }
 
 std::string measure_label(const SweepMeasure& measure) {
-  return gnuplot_quoted(measure.unit.empty() ? measure.name
-                                             : measure.name + " [" + measure.unit + "]");
+  return measure.unit.empty() ? measure.name : measure.name + " [" + measure.unit + "]";
+}
+
+/// Where an axis of things side by side ends; of none there is still an axis.
+double end_of(const ChartAxis& axis) {
+  return static_cast<double>(std::max<std::size_t>(axis.values.size(), 1)) - 0.5;
 }
 
 class SweepChart {
  public:
-  explicit SweepChart(const SweepTable& table) : table_(table) {
+  SweepChart(const SweepTable& table, ChartFormat format)
+      : table_(table),
+        script_(format,
+                std::min(most_height,
+                         panel_height * static_cast<int>(table.head.measures.size()) + 40)) {
     for (std::size_t a = 0; a < table.head.axes.size(); ++a) axes_.push_back(chart_axis(table, a));
   }
 
-  std::string script(const std::string& output) {
+  GnuplotScript script() {
     const std::size_t columns = is_map() || axes_.size() == 1 ? 1 : axes_.size();
     const std::size_t rows = table_.head.measures.size();
-    const int height = panel_height * static_cast<int>(rows) + 40;
-    std::string text = gnuplot_terminal(output, height);
-    text += "set datafile missing 'NaN'\nset grid lc rgb '#dddddd'\nset tics nomirror\n";
-    text += fmt::format("set multiplot layout {},{} title {} noenhanced\n", rows, columns,
-                        gnuplot_quoted(title()));
+    script_.add({"set datafile missing 'NaN'\nset grid lc rgb '#dddddd'\nset tics nomirror\n"});
+    script_.add({"set multiplot layout ", rows, ",", columns, " title ", script_.shown(title()),
+                 "\nunset key\n"});
     for (std::size_t m = 0; m < rows; ++m) {
       if (is_map()) {
-        text += map(m);
+        draw_map(m);
         continue;
       }
-      for (const ChartAxis& axis : axes_) text += cloud(m, axis);
+      for (const ChartAxis& axis : axes_) draw_cloud(m, axis);
     }
-    return text + "unset multiplot\nset output\n";
+    script_.add({"unset multiplot\n"});
+    return script_;
   }
 
  private:
@@ -135,106 +148,105 @@ class SweepChart {
   }
 
   /// The measure over one axis: a line if that is all that is varied.
-  [[nodiscard]] std::string cloud(std::size_t m, const ChartAxis& axis) const {
+  void draw_cloud(std::size_t m, const ChartAxis& axis) {
     std::vector<std::size_t> order(table_.rows.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t x, std::size_t y) { return axis.places[x] < axis.places[y]; });
-    std::string data = "$data << end\n";
-    std::string failed = "$failed << end\n";
-    bool any = false;
-    bool any_failed = false;
+    ChartRows data;
+    ChartRows failed;
     const double bottom = least_of(m);  // what has no height stands there
     for (const std::size_t i : order) {
       const double value = table_.rows[i].measured[m];
       if (std::isfinite(value)) {
-        data += fmt::format("{:.12g} {:.12g}\n", axis.places[i], value);
-        any = true;
+        data.add({axis.places[i], value});
       } else {
-        failed += fmt::format("{:.12g} {:.12g}\n", axis.places[i], bottom);
-        any_failed = true;
+        failed.add({axis.places[i], bottom});
       }
     }
-    std::string text = data + "end\n" + failed + "end\nunset key\n";
-    text += axis.logarithmic ? "set logscale x\n" : "unset logscale x\n";
-    text += axis.numeric ? "set xtics autofreq\n" : "set xtics " + axis.tics(1) + "\n";
-    text += axis.numeric ? "set xrange [*:*]\n"
-                         : fmt::format("set xrange [-0.5:{}]\n",
-                                       static_cast<double>(axis.values.size()) - 0.5);
-    text += "set xlabel " + gnuplot_quoted(axis.name) + " noenhanced\n";
-    text += "set ylabel " + measure_label(table_.head.measures[m]) + " noenhanced\n";
-    std::string plots;
-    if (any) {
+    script_.add({axis.logarithmic ? GnuplotPiece("set") : GnuplotPiece("unset"), " logscale x\n"});
+    if (axis.numeric) {
+      script_.add({"set xtics autofreq\n"});
+      if (table_.rows.empty()) {
+        script_.add({"set xrange [0:1]\nset yrange [0:1]\n"});
+      } else {
+        script_.add({"set xrange [*:*]\n"});
+      }
+    } else {
+      script_.add({"set xtics ", axis.tics(most_words, script_),
+                   "\nset xrange [-0.5:", static_cast<double>(axis.values.size()) - 0.5, "]\n"});
+    }
+    script_.add({"set xlabel ", script_.shown(axis.name), "\nset ylabel ",
+                 script_.shown(measure_label(table_.head.measures[m])), "\n"});
+    GnuplotCode plots;
+    if (!data.empty()) {
       const bool line = axes_.size() == 1 && axis.numeric;
-      plots = fmt::format("$data using 1:2 with {} pt 7 ps 0.8 lc rgb '#0072B2'",
-                          line ? "linespoints lw 2" : "points");
+      plots.add({script_.block(data), " using 1:2 with ",
+                 line ? GnuplotPiece("linespoints lw 2") : GnuplotPiece("points"),
+                 " pt 7 ps 0.8 lc rgb '#0072B2'"});
     }
-    if (any_failed && any) {
-      plots += ", $failed using 1:2 with points pt 2 ps 1 lw 2 lc rgb '#D55E00'";
+    if (!failed.empty() || data.empty()) {
+      if (!plots.empty()) plots.add({", "});
+      plots.add({script_.block(failed), " using 1:2 with points pt 2 ps 1 lw 2 lc rgb '#D55E00'"});
     }
-    if (plots.empty()) plots = "$failed using 1:2 with points pt 2 ps 1 lw 2 lc rgb '#D55E00'";
-    return text + "plot " + plots + "\n";
+    script_.add({"plot ", plots, "\n"});
   }
 
   /// Two axes side by side with the measure as colour.
-  [[nodiscard]] std::string map(std::size_t m) const {
+  void draw_map(std::size_t m) {
     const ChartAxis& x = axes_[0];
     const ChartAxis& y = axes_[1];
-    std::string cells = "$cells << end\n";
-    std::string failed = "$failed << end\n-9 -9\n";  // never empty: gnuplot plots no nothing
-    double low = 0.0;
-    double high = 0.0;
-    bool any = false;
+    ChartRows cells;
+    ChartRows failed;
+    failed.add({-9.0, -9.0});  // never empty: gnuplot plots no nothing
+    double low = least_of(m);
+    double high = low;
     for (const SweepRow& row : table_.rows) {
-      const std::string place =
-          fmt::format("{} {}", x.index_of(row.values[0]), y.index_of(row.values[1]));
+      const auto column = static_cast<double>(x.index_of(row.values[0]));
+      const auto line = static_cast<double>(y.index_of(row.values[1]));
       const double value = row.measured[m];
       if (!std::isfinite(value)) {
-        failed += place + "\n";
+        failed.add({column, line});
         continue;
       }
-      cells += fmt::format("{} {:.12g} {:.4g}\n", place, value, value);
-      low = any ? std::min(low, value) : value;
-      high = any ? std::max(high, value) : value;
-      any = true;
+      cells.add({column, line, value, script_.shown_number(fmt::format("{:.4g}", value))});
+      high = std::max(high, value);
     }
-    if (!any) cells += "-9 -9 0 0\n";
-    const double middle = 0.5 * (low + high);
-    std::string text = cells + "end\n" + failed + "end\nunset key\nunset logscale\n";
-    text += "set xtics " + x.tics(1 + x.values.size() / 16) + "\n";
-    text += "set ytics " + y.tics(1 + y.values.size() / 16) + "\n";
-    text += fmt::format("set xrange [-0.5:{}]\nset yrange [-0.5:{}]\n",
-                        static_cast<double>(x.values.size()) - 0.5,
-                        static_cast<double>(y.values.size()) - 0.5);
-    text += "set xlabel " + gnuplot_quoted(x.name) + " noenhanced\n";
-    text += "set ylabel " + gnuplot_quoted(y.name) + " noenhanced\n";
-    text += "set cblabel " + measure_label(table_.head.measures[m]) + " noenhanced\n";
-    text += high > low ? fmt::format("set cbrange [{:.12g}:{:.12g}]\n", low, high)
-                       : "set cbrange [*:*]\n";
+    if (cells.empty()) cells.add({-9.0, -9.0, 0.0, script_.shown_number("")});
+    script_.add({"unset logscale\nset xtics ", x.tics(most_map_names, script_), "\nset ytics ",
+                 y.tics(most_map_names, script_), "\n"});
+    script_.add({"set xrange [-0.5:", end_of(x), "]\nset yrange [-0.5:", end_of(y), "]\n"});
+    script_.add({"set xlabel ", script_.shown(x.name), "\nset ylabel ", script_.shown(y.name),
+                 "\nset cblabel ", script_.shown(measure_label(table_.head.measures[m])), "\n"});
+    // A range that is none, to the digits that gnuplot is told, has no colours.
+    const double size = std::max(std::abs(low), std::abs(high));
+    const double room = high - low > 1e-9 * size ? 0.0 : (size > 0.0 ? 0.1 * size : 1.0);
+    script_.add({"set cbrange [", low - room, ":", high + room, "]\n"});
     // Cividis (Nuñez, Anderton, Renslow 2018): the same to the eyes of the colour-blind.
-    text +=
-        "set palette defined (0 '#00224e', 1 '#123570', 2 '#3b496c', 3 '#575d6d', 4 '#707173', "
-        "5 '#8a8678', 6 '#a59c74', 7 '#c3b369', 8 '#e1cc55', 9 '#fee838')\n"
-        "set style fill solid noborder\n"
-        "plot $cells using 1:2:(0.5):(0.5):3 with boxxyerror palette, "
-        "$failed using 1:2 with points pt 2 ps 1.5 lw 2 lc rgb '#D55E00'";
+    script_.add(
+        {"set palette defined (0 '#00224e', 1 '#123570', 2 '#3b496c', 3 '#575d6d', 4 '#707173', "
+         "5 '#8a8678', 6 '#a59c74', 7 '#c3b369', 8 '#e1cc55', 9 '#fee838')\n"
+         "set style fill solid noborder\n"});
+    const GnuplotCode block = script_.block(cells);
+    script_.add({"plot ", block, " using 1:2:(0.5):(0.5):3 with boxxyerror palette, ",
+                 script_.block(failed),
+                 " using 1:2 with points pt 2 ps 1.5 lw 2 lc rgb '#D55E00'"});
     if (x.values.size() <= most_written) {
-      text += fmt::format(
-          ", $cells using 1:2:4:($3 < {0:.12g} ? 0xffffff : 0) with labels font ',10' "
-          "tc rgb variable",
-          middle);
+      script_.add({", ", block, " using 1:2:", GnuplotScript::shown_of_column(4), ":($3 < ",
+                   0.5 * (low + high), " ? 0xffffff : 0) with labels font ',10' tc rgb variable"});
     }
-    return text + "\n";
+    script_.add({"\n"});
   }
 
   const SweepTable& table_;
   std::vector<ChartAxis> axes_;
+  GnuplotScript script_;
 };
 
 }  // namespace
 
-std::string sweep_chart_script(const SweepTable& table, const std::string& output) {
-  return SweepChart(table).script(output);
+GnuplotScript sweep_chart_script(const SweepTable& table, ChartFormat format) {
+  return SweepChart(table, format).script();
 }
 
 }  // namespace sheave::tools

@@ -56,9 +56,7 @@ ExitCode write_outputs(const SweepOutputs& outputs, const SweepTable& table) {
   }
   if (!outputs.chart.empty()) {
     faults.attempt([&] {
-      draw_with_gnuplot(outputs.chart, [&](const std::string& output) {
-        return sweep_chart_script(table, output);
-      });
+      draw_with_gnuplot(outputs.chart, sweep_chart_script(table, chart_format(outputs.chart)));
     });
   }
   const bool all_done = std::all_of(table.rows.begin(), table.rows.end(), [](const SweepRow& row) {
@@ -69,7 +67,7 @@ ExitCode write_outputs(const SweepOutputs& outputs, const SweepTable& table) {
 
 void check_outputs(const SweepOutputs& outputs, const std::vector<NamedPath>& inputs,
                    const std::string& journal) {
-  if (!outputs.chart.empty()) check_chart_name(outputs.chart);
+  if (!outputs.chart.empty()) static_cast<void>(chart_format(outputs.chart));
   if (outputs.json && outputs.csv == "-") {
     throw Failure(ExitCode::usage, "--json and --csv - would both write to standard output");
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scenes/scene.h"
+#include "tools/gnuplot_script.h"
 #include "tools/sweep_plan.h"
 
 namespace sheave::tools {
@@ -72,6 +73,6 @@ struct SweepTable {
 [[nodiscard]] std::string sweep_csv(const SweepTable& table);
 /// Measures over what is varied: lines over one axis, heat maps over two, clouds of points over
 /// more.
-[[nodiscard]] std::string sweep_chart_script(const SweepTable& table, const std::string& output);
+[[nodiscard]] GnuplotScript sweep_chart_script(const SweepTable& table, ChartFormat format);
 
 }  // namespace sheave::tools

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
-#include "tools/gnuplot.h"
+#include "tools/log_axis.h"
 #include "tools/trade_table.h"
 
 namespace sheave::tools {
@@ -16,7 +15,7 @@ namespace {
 /// How the rows of one solver and integrator look. Colours that the colour-blind tell apart (Okabe
 /// and Ito 2008), and different shapes for print without any.
 struct SeriesStyle {
-  const char* colour;
+  GnuplotPiece colour;
   int filled;  ///< gnuplot's point type: tangents in every iteration
   int hollow;  ///< tangents once per substep
 };
@@ -24,32 +23,13 @@ constexpr std::array<std::array<SeriesStyle, 2>, 2> series_styles{
     {{{{"#D55E00", 7, 6}, {"#E69F00", 9, 8}}},
      {{{"#0072B2", 5, 4}, {"#009E73", 13, 12}}}}};  // [solver][integrator]
 
-/// Whole decades round everything that is drawn; a logarithmic axis has no zero.
-class LogRange {
- public:
-  /// A third of a decade beside it stays free, so that no point lies on the frame.
-  void add(double value) {
-    if (!(value > 0.0) || !std::isfinite(value)) return;
-    lowest_ = std::min(lowest_, 0.5 * value);
-    highest_ = std::max(highest_, 2.0 * value);
-  }
-  [[nodiscard]] double lower() const { return std::pow(10.0, std::floor(std::log10(lowest_))); }
-  [[nodiscard]] double upper() const {
-    return std::max(std::pow(10.0, std::ceil(std::log10(highest_))), 10.0 * lower());
-  }
-  [[nodiscard]] bool empty() const { return !(lowest_ <= highest_); }
-  [[nodiscard]] std::string text() const { return fmt::format("[{:g}:{:g}]", lower(), upper()); }
-
- private:
-  double lowest_ = std::numeric_limits<double>::infinity();
-  double highest_ = 0.0;
-};
-
-/// What gnuplot is told, piece by piece.
+/// The chart, piece by piece.
 class TradeChart {
  public:
-  explicit TradeChart(const TradeTable& table)
-      : table_(table), least_(std::max(table.doubt.position, rounding_error)) {
+  TradeChart(const TradeTable& table, ChartFormat format)
+      : table_(table),
+        least_(std::max(table.doubt.position, rounding_error)),
+        script_(format, 700) {
     for (const TradeRow& row : table_.rows) {
       if (!row.measured()) continue;
       errors_.add(error_of(row));
@@ -64,22 +44,23 @@ class TradeChart {
     if (times_.empty()) times_.add(1.0);
   }
 
-  std::string script(const std::string& output) {
+  GnuplotScript script() {
     for (std::size_t s = 0; s < solver_names.size(); ++s) {
       for (std::size_t i = 0; i < integrator_names.size(); ++i) add_series(s, i);
     }
     add_front();
     add_failures();
-    std::string text = blocks_ + gnuplot_terminal(output, 700);
-    text += "set logscale xy\nset format xy '10^{%T}'\nset grid lc rgb '#dddddd'\n";
-    text += "set xrange " + times_.text() + "\nset yrange " + errors_.text() + "\n";
-    text += "set key outside top center horizontal noenhanced maxrows 3\n";
-    text += levels();
-    text += "set title " + gnuplot_quoted(title()) + " noenhanced\n";
-    text += "set xlabel 'CPU time per simulated second [s]'\n";
-    text += "set ylabel 'largest position error [size of the scene]'\n";
-    if (plots_.empty()) plots_ = "1/0 notitle";
-    return text + "plot " + plots_ + "\nset output\n";
+    times_.set('x', script_);
+    errors_.set('y', script_);
+    script_.add({"set grid lc rgb '#dddddd'\nset key outside top center horizontal maxrows 3\n"});
+    add_levels();
+    script_.add({"set title ", script_.shown(title()), "\n"});
+    script_.add(
+        {"set xlabel 'CPU time per simulated second [s]'\n"
+         "set ylabel 'largest position error [size of the scene]'\n"});
+    if (plots_.empty()) plots_.add({"1/0 notitle"});
+    script_.add({"plot ", plots_, "\n"});
+    return script_;
   }
 
  private:
@@ -92,12 +73,15 @@ class TradeChart {
     return row.expected_seconds / std::max(table_.simulated_seconds, table_.dt);
   }
 
-  void plot(const std::string& text) { plots_ += (plots_.empty() ? "" : ", ") + text; }
+  void plot(std::initializer_list<GnuplotPiece> pieces) {
+    if (!plots_.empty()) plots_.add({", "});
+    plots_.add(pieces);
+  }
 
   void add_series(std::size_t solver, std::size_t integrator) {
     bool titled = false;
     for (const bool hollow : {false, true}) {
-      std::string data;
+      ChartRows rows;
       for (const TradeRow& row : table_.rows) {
         const StepSettings& step = row.setting.step;
         if (!row.measured() || static_cast<std::size_t>(step.solver) != solver ||
@@ -105,21 +89,17 @@ class TradeChart {
           continue;
         }
         if ((row.setting.tangents == TangentUpdate::substep) != hollow) continue;
-        data += fmt::format("{:.6e} {:.6e} {:.6e} {:.6e}\n", row.seconds.median, error_of(row),
-                            row.seconds.lower, row.seconds.upper);
+        rows.add({row.seconds.median, error_of(row), row.seconds.lower, row.seconds.upper});
       }
-      if (data.empty()) continue;
-      const std::string name =
-          fmt::format("$series{}{}{}", solver, integrator, hollow ? "hollow" : "");
-      blocks_ += name + " << end\n" + data + "end\n";
+      if (rows.empty()) continue;
       const SeriesStyle& style = series_styles[solver][integrator];
-      const std::string title =
-          titled ? "notitle"
-                 : "title " + gnuplot_quoted(fmt::format("{}, {}{}", solver_names[solver],
-                                                         integrator_names[integrator],
-                                                         order_text(solver, integrator)));
-      plot(fmt::format("{} using 1:2:3:4 with xerrorbars pt {} ps 1.1 lw 1.5 lc rgb '{}' {}", name,
-                       hollow ? style.hollow : style.filled, style.colour, title));
+      const std::string name =
+          titled ? ""
+                 : fmt::format("{}, {}{}", solver_names[solver], integrator_names[integrator],
+                               order_text(solver, integrator));
+      plot({script_.block(rows), " using 1:2:3:4 with xerrorbars pt ",
+            hollow ? style.hollow : style.filled, " ps 1.1 lw 1.5 lc rgb '", style.colour,
+            "' title ", script_.shown(name)});
       titled = true;
     }
   }
@@ -135,48 +115,45 @@ class TradeChart {
   }
 
   void add_front() {
-    std::string data;
+    ChartRows rows;
     for (const std::size_t i : measure::pareto_front(table_.points())) {
-      data +=
-          fmt::format("{:.6e} {:.6e}\n", table_.rows[i].seconds.median, error_of(table_.rows[i]));
+      rows.add({table_.rows[i].seconds.median, error_of(table_.rows[i])});
     }
-    if (data.empty()) return;
-    blocks_ += "$front << end\n" + data + "end\n";
-    plot("$front using 1:2 with lines lw 2 lc rgb '#444444' title 'nothing is faster and better'");
+    if (rows.empty()) return;
+    plot({script_.block(rows),
+          " using 1:2 with lines lw 2 lc rgb '#444444' title 'nothing is faster and better'"});
   }
 
   /// At the upper edge, where they were expected to be in time.
   void add_failures() {
-    std::string data;
+    ChartRows rows;
     for (const TradeRow& row : table_.rows) {
       if (row.fault.empty()) continue;
-      data +=
-          fmt::format("{:.6e} {:.6e}\n", std::max(expected(row), times_.lower()), errors_.upper());
+      rows.add({std::max(expected(row), times_.lower()), errors_.upper()});
     }
-    if (data.empty()) return;
-    blocks_ += "$failed << end\n" + data + "end\n";
-    plot("$failed using 1:2 with points pt 2 ps 1.3 lw 2 lc rgb '#000000' title 'failed'");
+    if (rows.empty()) return;
+    plot({script_.block(rows),
+          " using 1:2 with points pt 2 ps 1.3 lw 2 lc rgb '#000000' title 'failed'"});
   }
 
   /// Dashed lines at the errors that settings are named for, and at that of the reference.
-  [[nodiscard]] std::string levels() const {
-    std::string text;
+  void add_levels() {
     for (const double level : trade_levels) {
       if (level <= errors_.lower() || level >= errors_.upper()) continue;
-      text += fmt::format(
-          "set arrow from graph 0, first {0:g} to graph 1, first {0:g} nohead dt 3 lc rgb "
-          "'#888888'\nset label '{1:g} %' at graph 0.995, first {0:g} right offset 0,0.5 tc rgb "
-          "'#555555'\n",
-          level, 100.0 * level);
+      add_level(level, {"dt 3"}, {"graph 0.995"}, {"right offset 0,0.5"},
+                fmt::format("{:g} %", 100.0 * level));
     }
     if (least_ > errors_.lower()) {
-      text += fmt::format(
-          "set arrow from graph 0, first {0:g} to graph 1, first {0:g} nohead dt 2 lc rgb "
-          "'#888888'\nset label 'the reference tells no more' at graph 0.005, first {0:g} left "
-          "offset 0,-0.6 tc rgb '#555555'\n",
-          least_);
+      add_level(least_, {"dt 2"}, {"graph 0.005"}, {"left offset 0,-0.6"},
+                "the reference tells no more");
     }
-    return text;
+  }
+
+  void add_level(double level, const GnuplotCode& dashes, const GnuplotCode& place,
+                 const GnuplotCode& side, const std::string& text) {
+    script_.add({"set arrow from graph 0, first ", level, " to graph 1, first ", level, " nohead ",
+                 dashes, " lc rgb '#888888'\nset label ", script_.shown(text), " at ", place,
+                 ", first ", level, " ", side, " tc rgb '#555555'\n"});
   }
 
   [[nodiscard]] std::string title() const {
@@ -196,16 +173,16 @@ class TradeChart {
 
   const TradeTable& table_;
   double least_;
-  LogRange errors_;
-  LogRange times_;
-  std::string blocks_;
-  std::string plots_;
+  LogAxis errors_;
+  LogAxis times_;
+  GnuplotScript script_;
+  GnuplotCode plots_;
 };
 
 }  // namespace
 
-std::string trade_chart_script(const TradeTable& table, const std::string& output) {
-  return TradeChart(table).script(output);
+GnuplotScript trade_chart_script(const TradeTable& table, ChartFormat format) {
+  return TradeChart(table, format).script();
 }
 
 }  // namespace sheave::tools

@@ -60,7 +60,7 @@ void no_doubles(std::vector<int>& values) {
 
 /// Refuses what would only be found wrong after minutes of measuring.
 TradeQuestion check_trade_arguments(const TradeArguments& arguments) {
-  if (!arguments.chart.empty()) check_chart_name(arguments.chart);
+  if (!arguments.chart.empty()) static_cast<void>(chart_format(arguments.chart));
   TradeQuestion question;
   if (!arguments.budget.empty()) question.seconds_per_frame = budget_seconds(arguments.budget);
   if (!arguments.error.empty()) question.error = error_share(arguments.error);
@@ -130,8 +130,7 @@ void write_trade_files(const TradeArguments& arguments, const TradeTable& table,
   }
   if (arguments.chart.empty()) return;
   faults.attempt([&] {
-    draw_with_gnuplot(arguments.chart,
-                      [&](const std::string& output) { return trade_chart_script(table, output); });
+    draw_with_gnuplot(arguments.chart, trade_chart_script(table, chart_format(arguments.chart)));
   });
 }
 

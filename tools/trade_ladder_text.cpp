@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/one_line.h"
 #include "tools/text_table.h"
 #include "tools/trade_table.h"
 
@@ -97,13 +98,14 @@ std::string ladder_markdown(const TradeTable& table) {
   if (!table.ladder) return {};
   const TradeLadder& ladder = *table.ladder;
   std::string result = "\n## Model ladder\n\n";
-  if (!ladder.skipped.empty()) return result + ladder.skipped + "\n";
+  if (!ladder.skipped.empty()) return result + markdown_text(ladder.skipped) + "\n";
   result += "Setting: " + explanation(table) + ".\n\n";
   result += table_row(ladder_head) + table_row(std::vector<std::string>(ladder_head.size(), "---"));
   result += table_row(written_cells(ladder));
   for (const LadderRow& row : ladder.rows) result += table_row(ladder_cells(ladder, row));
   result += "\n";
-  for (const std::string& line : ladder_remarks(ladder)) result += "* " + line + "\n";
+  for (const std::string& line : ladder_remarks(ladder))
+    result += "* " + markdown_text(line) + "\n";
   return result;
 }
 

@@ -14,6 +14,7 @@
 #include "measure/spread.h"
 #include "measure/work_precision.h"
 #include "tools/error_text.h"
+#include "tools/gnuplot_script.h"
 #include "tools/machine_info.h"
 
 namespace sheave::tools {
@@ -154,7 +155,7 @@ inline constexpr std::array<double, 3> trade_levels{1e-2, 1e-3, 1e-4};
 /// A line of names, then one line per row (RFC 4180).
 [[nodiscard]] std::string trade_csv(const TradeTable& table);
 /// What gnuplot is told to draw the work-precision chart.
-[[nodiscard]] std::string trade_chart_script(const TradeTable& table, const std::string& output);
+[[nodiscard]] GnuplotScript trade_chart_script(const TradeTable& table, ChartFormat format);
 
 /// What a user asks for: one of them.
 struct TradeQuestion {

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "tools/one_line.h"
 #include "tools/progress.h"
 #include "tools/text_table.h"
 #include "tools/trade_table.h"
@@ -181,11 +182,11 @@ std::string trade_text(const TradeTable& table) {
 }
 
 std::string trade_markdown(const TradeTable& table) {
-  std::string result = fmt::format("# {}: speed against accuracy\n\n", table.scene);
-  for (const std::string& line : trade_answers(table)) result += "* " + line + "\n";
-  result += "\nMade by `sheave trade --markdown`. " + head_line(table) + "; " +
+  std::string result = fmt::format("# {}: speed against accuracy\n\n", markdown_text(table.scene));
+  for (const std::string& line : trade_answers(table)) result += "* " + markdown_text(line) + "\n";
+  result += "\nMade by `sheave trade --markdown`. " + markdown_text(head_line(table)) + "; " +
             reference_line(table) + ".\n\n";
-  for (const std::string& line : span_lines(table)) result += "* " + line + "\n";
+  for (const std::string& line : span_lines(table)) result += "* " + markdown_text(line) + "\n";
   result += fmt::format(
       "\nms / s: CPU time per simulated second, median and quartiles of {} interleaved "
       "repetitions of the whole scene; one sample for "
@@ -201,8 +202,8 @@ std::string trade_markdown(const TradeTable& table) {
     result += trade_markdown_row(trade_cells(row, table.doubt));
   }
   result += "\n";
-  for (const std::string& line : trade_remarks(table)) result += "* " + line + "\n";
-  for (const std::string& line : skipped_lines(table)) result += "* " + line + "\n";
+  for (const std::string& line : trade_remarks(table)) result += "* " + markdown_text(line) + "\n";
+  for (const std::string& line : skipped_lines(table)) result += "* " + markdown_text(line) + "\n";
   return result + ladder_markdown(table);
 }
 

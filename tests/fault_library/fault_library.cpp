@@ -6,10 +6,12 @@
 //   SHEAVE_FAULT_NEW=n       the n-th call of operator new fails; with SHEAVE_FAULT_STAYS all after it
 //                            Counted from the first call of signal(), with which main() begins: nobody can catch what static
 //                            objects of libraries throw before
+//   SHEAVE_FAULT_PROGRAMS=path   every program that starts, the command and all that come of it: its file, one a line
 //   SHEAVE_FAULT_LOG=path    the calls, one per record (see Record)
 //
 // Output calls are those that bring something to a disk or start a program; standard error is left
-// alone, for it tells what happened. Programs that the command starts are not touched.
+// alone, for it tells what happened. Programs that the command starts are not touched, unless they
+// are to tell their names.
 
 #include <atomic>
 #include <cerrno>
@@ -45,6 +47,17 @@ long number_of(const char* name) {
   return text == nullptr ? 0 : std::strtol(text, nullptr, 10);
 }
 
+void tell_program(const char* path) {
+  char name[4097];
+  const ssize_t length = ::readlink("/proc/self/exe", name, sizeof name - 1);
+  if (length < 0) return;
+  name[length] = '\n';
+  const auto file =
+      static_cast<int>(::syscall(SYS_open, path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+  ::syscall(SYS_write, file, name, static_cast<std::size_t>(length) + 1);
+  ::syscall(SYS_close, file);
+}
+
 __attribute__((constructor)) void read_environment() {
   fault_at = number_of("SHEAVE_FAULT_AT");
   fault_new = number_of("SHEAVE_FAULT_NEW");
@@ -53,7 +66,12 @@ __attribute__((constructor)) void read_environment() {
     log_file = static_cast<int>(
         ::syscall(SYS_open, path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
   }
-  ::unsetenv("LD_PRELOAD");
+  // However a program is started, it has to load this library first, and says its name.
+  if (const char* path = std::getenv("SHEAVE_FAULT_PROGRAMS")) {
+    tell_program(path);
+  } else {
+    ::unsetenv("LD_PRELOAD");
+  }
 }
 
 __attribute__((destructor)) void tell_allocations() {

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <iterator>
 
+#include <unistd.h>
+
 #include <gtest/gtest.h>
 
 #include "render/child_process.h"
@@ -331,6 +333,52 @@ TEST(Child, LastWordsAreReported) {
   auto killed = ChildProcess::start({"sh", "-c", "kill -9 $$"});
   ASSERT_TRUE(killed);
   EXPECT_EQ(killed->finish().front().message, "'sh' was ended by signal 9");
+}
+
+TEST(Child, OutputIsKeptIfAskedFor) {
+  auto child = ChildProcess::start({"sh", "-c", "cat; echo $SHEAVE_A$SHEAVE_B"},
+                                   {.keeps_output = true, .hidden_variables = {"SHEAVE_A"}});
+  ASSERT_TRUE(child);
+  EXPECT_TRUE(child->write(std::vector<std::uint8_t>{'a', '\0', 'b'}).empty());
+  EXPECT_TRUE(child->finish().empty());
+  EXPECT_EQ(child->output(), (std::vector<std::uint8_t>{'a', '\0', 'b', '\n'}));
+}
+
+TEST(Child, OneThatIsMissingIsToldWithItsRemedy) {
+  const auto child = ChildProcess::start({"no-such-program-here"}, {.if_missing = "install it"});
+  ASSERT_FALSE(child);
+  EXPECT_EQ(
+      child.errors()[0].message,
+      "cannot start the program 'no-such-program-here': No such file or directory; install it");
+}
+
+/// Whether a process has ended, waited for or not.
+bool has_ended(const std::string& process) {
+  std::ifstream file("/proc/" + process + "/stat");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  return text.empty() || text.find(") Z ") != std::string::npos;
+}
+
+TEST(Child, WhatItHasStartedEndsWithIt) {
+  // Ends by itself, is ended, and is destroyed.
+  for (const int way : {0, 1, 2}) {
+    std::string grandchild;
+    {
+      auto child = ChildProcess::start(
+          {"sh", "-c",
+           way == 0 ? "sleep 100000 & echo $!" : "sleep 100000 & echo $!; sleep 100000"},
+          {.keeps_output = true});
+      ASSERT_TRUE(child);
+      while (child->output().empty()) ::usleep(1000);
+      const std::vector<std::uint8_t> said = child->output();
+      grandchild.assign(said.begin(), said.end() - 1);
+      if (way == 0) {
+        EXPECT_TRUE(child->finish().empty());
+      }
+      if (way == 1) child->kill();
+    }
+    while (!has_ended(grandchild)) ::usleep(1000);
+  }
 }
 
 TEST(Child, TalkativeOneDoesNotBlock) {

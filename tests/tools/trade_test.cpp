@@ -411,7 +411,8 @@ TEST(TradeText, ShowsFailuresAndChoosesByWhatIsKnown) {
   // 1e-3 is known up to 1e-4, so it may be more than 0.1 %.
   EXPECT_THAT(text, HasSubstr("cheapest setting for 0.1 %: none of these"));
   EXPECT_EQ(tools::answer(table, {.seconds_per_frame = 0.025}), 1U);
-  EXPECT_THAT(tools::trade_chart_script(table, "a.svg"), HasSubstr("1 of 4 settings failed"));
+  EXPECT_THAT(tools::trade_chart_script(table, tools::ChartFormat::svg).text(),
+              HasSubstr("1 of 4 settings failed"));
 }
 
 TEST(TradeText, NamesWhatWasSkippedCheapestFirst) {
