@@ -203,6 +203,7 @@ class LiveWorld {
 
  private:
   explicit LiveWorld(Simulation simulation);
+  [[nodiscard]] Errors restore(std::shared_ptr<LiveRevision> revision, const State& state);
   [[nodiscard]] Errors set_drive_of(BodyHandle body, DriveKind kind, const DriveTarget& target);
   [[nodiscard]] std::string fault_of(BodyHandle body) const;
   [[nodiscard]] std::string fault_of(JointHandle joint) const;
