@@ -51,8 +51,8 @@ class EditMaker {
   const World& old_;
   State then_;
   std::shared_ptr<const BodySet> bodies_;
-  State now_;                                          // of bodies
-  std::optional<Substep> then_substep_, now_substep_;  // where cables change
+  State now_;                           // of bodies
+  std::optional<Substep> now_substep_;  // where cables change
   BodyFrames frames_;
   std::vector<Kept> kept_;
   std::vector<CableDef> definitions_;
@@ -210,13 +210,8 @@ std::unique_ptr<CableSystem> EditMaker::make_cables() {
   const bool any_changed = std::any_of(starts.begin(), starts.end(), [](const CableStart& start) {
     return start.running != nullptr;
   });
-  if (any_changed) {
-    then_substep_.emplace(old_.bodies(), then_, draft_.model.step.dt, 1);
-    now_substep_.emplace(*bodies_, now_, draft_.model.step.dt, 1);
-    from.then = &*then_substep_;
-    from.now = &*now_substep_;
-  }
-  take(CableTransfer(**made).continue_from(from, starts));
+  if (any_changed) now_substep_.emplace(*bodies_, now_, draft_.model.step.dt, 1);
+  take(CableTransfer(**made).continue_from(from, now_substep_ ? &*now_substep_ : nullptr, starts));
   return std::move(*made);
 }
 
