@@ -358,7 +358,7 @@ Result<std::shared_ptr<LiveRevision>> EditMaker::make() {
   if (const auto& supervisor = draft_.before.simulation.supervisor) {
     auto again = supervisor->again(simulation);
     if (!again) return again.errors();
-    simulation.supervisor = std::move(*again);
+    simulation.set_supervisor(std::move(*again));
   }
   return std::make_shared<LiveRevision>(std::move(simulation), draft_.bodies, joints_,
                                         draft_.cables, records());

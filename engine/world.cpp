@@ -225,6 +225,10 @@ Errors World::restore(const State& state) {
   if (!fault.empty()) return {{"", "the state does not belong to this world: " + fault}};
   const std::string infinite = infinite_number(state, *content_->bodies, content_->features);
   if (!infinite.empty()) return {{"", "no world can go on from the state: " + infinite}};
+  if (content_->memory_fault) {
+    const std::string bad = content_->memory_fault(state);
+    if (!bad.empty()) return {{"", "the state does not belong to this world: " + bad}};
+  }
   content_->state = state;
   content_->driver.forget();
   content_->substep.next = state;

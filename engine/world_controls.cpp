@@ -222,6 +222,8 @@ Errors World::set_gravity(const Vector3& gravity) {
 
 std::vector<double>& World::memory() { return content_->state.memory; }
 
+void World::check_memory_by(MemoryFault fault) { content_->memory_fault = std::move(fault); }
+
 Errors World::release_joint(int joint) {
   Content& c = *content_;
   const ControlCheck check = c.check();

@@ -29,6 +29,7 @@ class SceneSupervisor final : public Supervisor {
   [[nodiscard]] Result<std::shared_ptr<const Supervisor>> again(
       const Simulation& simulation) const override;
   [[nodiscard]] bool has_stopped(const State& state) const override;
+  [[nodiscard]] std::string memory_fault(const State& state) const override;
 
   /// When each trigger has acted last [s], in the order of the scene.
   [[nodiscard]] std::vector<std::optional<double>> acted_at(const State& state) const;
