@@ -88,6 +88,11 @@ class SlotTable {
   std::vector<Slot> slots_;
 };
 
+/// Why a change cannot be that would leave a world whose energy nobody could tell any more.
+inline constexpr std::string_view energy_fault =
+    "the energy of the world would be beyond the range of numbers, 1.8e308 J: masses, speeds or "
+    "distances are too large";
+
 /// While it lives what there is must stay, also if a callback throws.
 class Busy {
  public:

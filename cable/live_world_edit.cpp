@@ -2,6 +2,7 @@
 // nothing is wrong the new one takes the place of the old one.
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "cable/cable_transfer.h"
@@ -399,6 +400,8 @@ Result<EditReport> LiveWorld::edit(const std::function<void(Edit&)>& changes) {
   if (!draft.errors.empty()) return draft.errors;
   Result<std::shared_ptr<LiveRevision>> made = EditMaker(draft, state()).make();
   if (!made) return made.errors();
+  const Energy after = (*made)->world().energy();
+  if (!std::isfinite(after.total())) return Error{"", std::string(energy_fault)};
   EditReport report;
   const Energy before = energy();
   std::set<std::pair<std::int32_t, std::uint32_t>> changed;
@@ -417,7 +420,6 @@ Result<EditReport> LiveWorld::edit(const std::function<void(Edit&)>& changes) {
     if (added != 0.0) report.cables.push_back({handle, added});
   }
   revision_ = std::move(*made);
-  const Energy after = energy();
   report.energy = {after.kinetic - before.kinetic, after.potential - before.potential,
                    after.elastic - before.elastic};
   return report;

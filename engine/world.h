@@ -186,7 +186,9 @@ class World {
   /// Nothing at time 0, after restore() and after a step that was stopped, until the next step.
   [[nodiscard]] std::optional<LastSubstep> last_substep() const;
 
-  [[nodiscard]] Energy energy() const;
+  [[nodiscard]] Energy energy() const { return energy_of(state()); }
+  /// The same in another state of this world.
+  [[nodiscard]] Energy energy_of(const State& state) const;
   /// Pose of the body frame's origin [m] (not of the centre of mass).
   [[nodiscard]] Vector3 position(BodyId body) const;
   [[nodiscard]] Quaternion orientation(BodyId body) const;

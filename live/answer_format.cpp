@@ -133,10 +133,13 @@ std::vector<AnswerKey> reading_keys() {
 }
 
 std::vector<AnswerKey> consequence_keys() {
-  return {{"energy", {ValueKind::number, "J"}, "by how much there is more of it"},
-          {"cables",
-           {ValueKind::objects, {}, {}, &length_change_format()},
-           "whose lengths have changed"}};
+  return {
+      {"energy",
+       {ValueKind::number_or_null, "J"},
+       "by how much there is more of it; null if what there was is beyond the range of numbers"},
+      {"cables",
+       {ValueKind::objects, {}, {}, &length_change_format()},
+       "whose lengths have changed"}};
 }
 
 std::span<const AnswerFormat> event_formats() {

@@ -183,7 +183,7 @@ void append_damping_warning(const StepSettings& step, const RunStatistics& stati
                             const RunMonitor& monitor, std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.1;  // of energy: 5 % of speeds
   const double energy = monitor.most_vivid_energy();
-  if (statistics.numerical_damping <= share_limit * energy) return;
+  if (!(statistics.numerical_damping > share_limit * energy)) return;
   std::string message = fmt::format(
       "the step is too long for the vibration of elastic cables: xpbd took {:.3g} J from it, where "
       "kinetic and elastic energy were {:.3g} J at most; {} may avoid that",
@@ -203,7 +203,8 @@ void append_loss_warning(const StepSettings& step, const RunMonitor& monitor,
   const double loss = monitor.integrator_loss();
   const double flow = monitor.energy_flow();
   const double least = rounding * std::abs(monitor.initial_energy().potential);
-  if (said || loss <= share_limit * flow + least) return;
+  // Of energies beyond the range of numbers there are no shares.
+  if (said || !(loss > share_limit * flow + least)) return;
   std::string message = fmt::format(
       "xpbd took about {:.3g} J from the motion, {:.2g} % of what there was at most and what came "
       "and went: the step is too long for it; {} may avoid that",
@@ -229,7 +230,7 @@ void append_energy_warning(const Scene& scene, const Simulation& simulation,
   for (int i = 0; i < bodies.count(); ++i) {
     potential += bodies[i].mass * bodies.gravity().norm() * bodies.scale();
   }
-  if (gain <= share_limit * size + rounding * (size + potential)) return;
+  if (!(gain > share_limit * size + rounding * (size + potential))) return;
   std::string message = fmt::format(
       "there was {:.3g} J more energy than at the start, although nothing puts any into the scene, "
       "and kinetic and elastic energy were {:.3g} J at most: the step is too long for what moves, "
