@@ -88,11 +88,15 @@ Result<std::shared_ptr<const Supervisor>> SceneSupervisor::again(
   Scene scene;
   scene.model = simulation.world.model();
   scene.cables = *simulation.cable_definitions;
-  for (const TriggerAtWork& trigger : triggers_) scene.triggers.push_back(trigger.definition);
-  for (const auto& controller : controllers_) scene.controllers.push_back(controller.definition);
+  append_to(scene);
   Result<std::shared_ptr<const SceneSupervisor>> made = create(scene, simulation);
   if (!made) return made.errors();
   return std::shared_ptr<const Supervisor>(std::move(*made));
+}
+
+void SceneSupervisor::append_to(Scene& scene) const {
+  for (const TriggerAtWork& trigger : triggers_) scene.triggers.push_back(trigger.definition);
+  for (const auto& controller : controllers_) scene.controllers.push_back(controller.definition);
 }
 
 Result<std::size_t> SceneSupervisor::sampled(const std::string& quantity, const std::string& path) {

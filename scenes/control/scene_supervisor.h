@@ -37,6 +37,8 @@ class SceneSupervisor final : public Supervisor {
   [[nodiscard]] const TriggerDef& trigger(std::size_t index) const {
     return triggers_[index].definition;
   }
+  /// Gives a scene the controllers and triggers.
+  void append_to(Scene& scene) const;
   /// How often a control has not taken what it was given.
   [[nodiscard]] std::int64_t refusals(const State& state) const;
 
