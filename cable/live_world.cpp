@@ -235,8 +235,15 @@ LiveReport LiveWorld::step(const StopRequest& stop, const std::function<void()>&
     };
   }
   const Busy busy(is_busy_);
+  const CableSystem* cables = running().cables;
+  const double begin = time();
+  const std::uint64_t edition = cables != nullptr ? cables->warnings_edition() : 0;
   static_cast<StepReport&>(report) = running().world.step(stop, set ? set : before_substep);
   note_events(report);
+  if (!report.stopped) append_solver_warnings(report.statistics, report.warnings);
+  if (!report.stopped && cables != nullptr && cables->warnings_edition() != edition) {
+    append_cable_warnings(*cables, running().world.bodies(), begin, report.warnings);
+  }
   for (const int joint : intact) {
     if (is_broken(joint)) {
       report.broken_joints.push_back(revision_->joint_handles[at(joint)]);
