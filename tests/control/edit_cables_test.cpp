@@ -416,7 +416,8 @@ TEST(EditCables, ALooseCableKnowsNothingOfTheWorldItComesFrom) {
     const double loose = **world.loose_length(rope, CableEnd::last);
     EXPECT_NEAR(loose, 2.0, 1e-12);
     edit(world, [&](Edit& e) {
-      if (other_cable) e.add(cable("other", {attach(BodyId::world()), attach(BodyId{1})}));
+      const auto from = attach(BodyId::world(), {-1.0, 0.5, 0.0});
+      if (other_cable) e.add(cable("other", {from, attach(BodyId{1})}));
     });
     edit(world, [&](Edit& e) { e.attach(rope, CableEnd::last, BodyId{2}, Vector3::Zero()); });
     EXPECT_EQ(*world.stored_length(rope, 0), stored) << other_cable;
