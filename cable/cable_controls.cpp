@@ -22,14 +22,6 @@ std::string above_zero_fault(const std::string& what, double value) {
   return what + " must be finite and above 0, not " + number_text(value);
 }
 
-bool is_finite_ramp(const Ramp& ramp) {
-  for (const double x : {ramp.from, ramp.to, ramp.start, ramp.start_rate, ramp.end, ramp.end_rate,
-                         ramp.rate_after}) {
-    if (!std::isfinite(x)) return false;
-  }
-  return ramp.from <= ramp.to;
-}
-
 }  // namespace
 
 void CableSystem::follow_state(const Substep& substep, const FeatureState& state) {
@@ -186,7 +178,7 @@ bool CableSystem::accepts_controls(const Controls& controls) const {
       const LinkControl* set = controls.links.find(cable.first_link + i);
       if (set == nullptr) continue;
       if ((!std::isnan(set->friction) && !friction_fault(c, i, set->friction).empty()) ||
-          (set->has_feed && !(feed_fault(c, i).empty() && is_finite_ramp(set->feed_speed)))) {
+          (set->has_feed && !(feed_fault(c, i).empty() && set->feed_speed.is_sound()))) {
         return false;
       }
     }

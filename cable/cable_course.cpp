@@ -119,7 +119,7 @@ void CableSystem::follow_course(const BodySet& bodies, const FeatureState& own) 
 bool CableSystem::accepts(const FeatureState& state) const {
   const auto integer = [&](std::size_t index) { return state.integers[index]; };
   for (std::size_t i = stall_index(0); i < state.integers.size(); ++i) {
-    if (std::abs(integer(i)) > 1) return false;
+    if (integer(i) < -1 || integer(i) > 1) return false;
   }
   for (std::size_t c = 0; c < cables_.size(); ++c) {
     const CompiledCable& cable = cables_[c];

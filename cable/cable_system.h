@@ -74,6 +74,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] std::vector<LinkWarning> slide_warnings() const {
     return link_warnings(notes_.slides_at);
   }
+  /// Another one if there may be another warning of these kinds.
+  [[nodiscard]] std::uint64_t warnings_edition() const { return notes_.edition; }
   /// What happened since the system was created, in order.
   [[nodiscard]] const std::vector<CableEvent>& events() const { return events_; }
   /// The same, and forgets them; between steps.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "cable/links/attachment.h"
 #include "engine/field_check.h"
@@ -15,10 +14,6 @@ RunningLink CableTransfer::running_link(int cable, int link, const FeatureState&
   const CompiledCable& compiled = system_.cables_[at(cable)];
   const int index = compiled.first_link + link;
   RunningLink running;
-  running.was = index;
-  if (const auto next = own.integers[system_.next_index(index)]; next >= 0) {
-    running.went_to = compiled.first_link + static_cast<int>(next);
-  }
   running.stored_length = own.reals[system_.stored_length_index(index)];
   running.slipped = own.reals[system_.slip_index(index)];
   running.angle = own.reals[system_.angle_index(index)];
@@ -53,22 +48,40 @@ RunningLink CableTransfer::running_link(int cable, int link, const FeatureState&
 
 RunningCable CableTransfer::running_cable(int cable, const CableDef& definition,
                                           const FeatureState& own, const Controls& controls) const {
-  RunningCable running = course_of(cable, definition, own, controls);
-  std::map<int, int> came_from;
-  for (const RunningLink& link : running.links) {
-    if (link.went_to >= 0) came_from.emplace(link.went_to, link.was);
-  }
-  for (RunningLink& link : running.links) {
-    const auto found = came_from.find(link.was);
-    if (found != came_from.end()) link.came_from = found->second;
-  }
-  return running;
+  return course_of(cable, definition, own, controls).running;
 }
 
-RunningCable CableTransfer::course_of(int cable, const CableDef& definition,
-                                      const FeatureState& own, const Controls& controls) const {
+TakenCable CableTransfer::take_apart(int cable, const CableDef& definition, const FeatureState& own,
+                                     const Controls& controls, const Substep& now) {
   const CompiledCable& compiled = system_.cables_[at(cable)];
-  RunningCable running;
+  Course course = course_of(cable, definition, own, controls);
+  std::vector<RunningLink*> by_number(at(compiled.link_count), nullptr);
+  for (std::size_t i = 0; i < course.numbers.size(); ++i) {
+    by_number[at(course.numbers[i])] = &course.running.links[i];
+  }
+  TakenCable taken;
+  system_.follow_state(now, own);
+  for (const int number : course.numbers) {
+    const auto next = own.integers[system_.next_index(compiled.first_link + number)];
+    if (next < 0) continue;
+    const auto span = std::make_shared<const SpanGeometry>(
+        system_.geometry_of(now, compiled.first_span + number));
+    by_number[at(number)]->went_by = span;
+    by_number[static_cast<std::size_t>(next)]->came_by = span;
+    taken.spans.push_back(span);
+  }
+  taken.excess = missing_length(now, own, cable);
+  system_.knows_lengths_ = false;
+  taken.running = std::move(course.running);
+  return taken;
+}
+
+CableTransfer::Course CableTransfer::course_of(int cable, const CableDef& definition,
+                                               const FeatureState& own,
+                                               const Controls& controls) const {
+  const CompiledCable& compiled = system_.cables_[at(cable)];
+  Course course;
+  RunningCable& running = course.running;
   running.quantum = compiled.quantum;
   if (const CableControl* set = controls.cables.find(cable)) running.control = *set;
   const std::int64_t cut = own.integers[system_.cut_index(cable)];
@@ -76,30 +89,34 @@ RunningCable CableTransfer::course_of(int cable, const CableDef& definition,
   const auto next_of = [&](int link) {
     return static_cast<int>(own.integers[system_.next_index(compiled.first_link + link)]);
   };
+  const auto append = [&](int link) {
+    running.links.push_back(running_link(cable, link, own, controls));
+    course.numbers.push_back(link);
+  };
   const auto append_wraps = [&](int first, int behind) {
     for (int link = first; link >= compiled.listed_links; link = next_of(link)) {
       if (cut == 1 + link) running.cut_span = behind;
-      running.links.push_back(running_link(cable, link, own, controls));
+      append(link);
       if (next_of(link) == first) break;
     }
   };
   bool touches_listed = false;
   for (int link = 0; link < compiled.listed_links; ++link) {
-    running.links.push_back(running_link(cable, link, own, controls));
+    append(link);
     running.links.back().link = definition.links[at(link)];
     if (cut == 1 + link) running.cut_span = link;
     const bool last = !compiled.closed && link + 1 == compiled.listed_links;
     touches_listed = touches_listed || last || next_of(link) >= 0;
     append_wraps(next_of(link), link);
   }
-  if (touches_listed) return running;
+  if (touches_listed) return course;
   // A belt that has left all its listed links.
   for (int place = compiled.listed_links; place < compiled.link_count; ++place) {
     if (next_of(place) < 0) continue;
     append_wraps(place, 0);
     break;
   }
-  return running;
+  return course;
 }
 
 double CableTransfer::size_of(const CompiledCable& cable, int link, int body) const {
@@ -112,8 +129,8 @@ double CableTransfer::size_of(const CompiledCable& cable, int link, int body) co
 
 std::string CableTransfer::size_fault(const CompiledCable& cable, int link,
                                       const RunningLink& running) const {
-  if (running.was < 0 || !running.is_on_course()) return {};
-  if (size_of(cable, link, running.body) == running.size) return {};
+  if (!running.size || !running.is_on_course()) return {};
+  if (size_of(cable, link, running.body) == *running.size) return {};
   return "cable \"" + cable.name + "\" lies on link " + std::to_string(link - cable.first_link) +
          ", which would have another size; take the cable off it before, and lead it over it again";
 }
@@ -175,69 +192,62 @@ void move_contact(double way, StoredStrain::End end, const CompiledCable& cable,
 
 }  // namespace
 
-int CableTransfer::span_behind(const CableSystem& system, int link) {
-  const auto in =
-      std::find_if(system.cables_.begin(), system.cables_.end(),
-                   [&](const CompiledCable& c) { return link < c.first_link + c.link_count; });
-  return in->first_span + link - in->first_link;
-}
-
-void CableTransfer::move_contacts(int cable, RunningCable& running, const TransferFrom& from) {
-  if (from.system == nullptr) return;
-  CableSystem& before = *from.system;
-  system_.follow_state(*from.now, system_.initial_);
-  before.follow_state(*from.then, *from.state);
+void CableTransfer::move_contacts(int cable, RunningCable& running, const Substep& now) {
+  system_.follow_state(now, system_.initial_);
   const CompiledCable& own = system_.cables_[at(cable)];
   struct Stop {
-    int link;           // among those of all cables
+    int number;         // of the link within the cable, and of the span behind it
     std::size_t place;  // in the running cable
   };
   std::vector<Stop> course;
-  int listed = own.first_link;
-  int wrap = own.first_link + own.listed_links;
+  int listed = 0;
+  int wrap = own.listed_links;
   for (std::size_t i = 0; i < running.links.size(); ++i) {
     const RunningLink& link = running.links[i];
     const int number = link.is_listed() ? listed++ : wrap++;
     if (link.is_on_course()) course.push_back({number, i});
   }
-  const auto moved = [&](const Stop& stop, int old_first, int new_span, RunningSpan& span) {
-    const LinkGeometry& geometry = system_.links_[at(stop.link)];
-    if (old_first < 0 || !geometry.wraps()) return;
-    const SpanGeometry was = before.geometry_of(*from.then, span_behind(before, old_first));
-    const SpanGeometry is = system_.geometry_of(*from.now, new_span);
-    if (!is.has_tangent) return;
-    RunningLink& link = running.links[stop.place];
-    const bool exits = old_first == link.was;
+  const auto geometry_at = [&](const Stop& stop) -> const LinkGeometry& {
+    return system_.links_[at(own.first_link + stop.number)];
+  };
+  const auto moved = [&](const Stop& stop, const SpanGeometry& was, const SpanGeometry& is,
+                         StoredStrain::End end, RunningSpan& span) {
+    const bool exits = end == StoredStrain::End::outgoing;
+    const LinkGeometry& geometry = geometry_at(stop);
     const double way =
-        geometry.side * contact_shift(*from.now, geometry, was, is, exits) * (exits ? 1.0 : -1.0);
-    move_contact(way, exits ? StoredStrain::End::outgoing : StoredStrain::End::incoming, own, link,
-                 span);
+        geometry.side * contact_shift(now, geometry, was, is, exits) * (exits ? 1.0 : -1.0);
+    move_contact(way, end, own, running.links[stop.place], span);
   };
   const std::size_t spans = course.empty() || own.closed ? course.size() : course.size() - 1;
   for (std::size_t i = 0; i < spans; ++i) {
     const Stop& first = course[i];
     const Stop& second = course[(i + 1) % course.size()];
-    const RunningLink& a = running.links[first.place];
-    const RunningLink& b = running.links[second.place];
-    if (b.was >= 0 && a.went_to == b.was) continue;
+    const auto left_by = running.links[first.place].went_by.lock();
+    const auto met_by = running.links[second.place].came_by.lock();
+    if (left_by == met_by) continue;  // the same one, or links that have touched nothing before
     // Links that have just come have no length of their own yet.
     std::size_t holder = first.place;
     while (holder > 0 && running.links[holder].is_fresh) --holder;
     if (!running.links[holder].span) continue;
     RunningSpan& span = *running.links[holder].span;
-    const int new_span = span_behind(system_, first.link);
-    moved(first, a.went_to >= 0 ? a.was : -1, new_span, span);
-    moved(second, b.came_from, new_span, span);
+    const SpanGeometry is = system_.geometry_of(now, own.first_span + first.number);
+    if (!is.has_tangent) continue;
+    if (left_by && geometry_at(first).wraps()) {
+      moved(first, *left_by, is, StoredStrain::End::outgoing, span);
+    }
+    if (met_by && geometry_at(second).wraps()) {
+      moved(second, *met_by, is, StoredStrain::End::incoming, span);
+    }
   }
   // The shorter way round led past it; but where there is no other wheel it cannot leave this one.
   for (const Stop& stop : course) {
     RunningLink& link = running.links[stop.place];
-    const LinkGeometry& geometry = system_.links_[at(stop.link)];
+    const LinkGeometry& geometry = geometry_at(stop);
     if (!own.closed || course.size() > 2 || !geometry.wraps() || !link.span) continue;
     if (link.stored_length >= 0.0) continue;
     move_contact(geometry.perimeter(), StoredStrain::End::outgoing, own, link, *link.span);
   }
-  before.knows_lengths_ = system_.knows_lengths_ = false;
+  system_.knows_lengths_ = false;
 }
 
 std::string CableTransfer::put_cable(int cable, const RunningCable& running, FeatureState& own) {
@@ -328,21 +338,21 @@ LinkWays CableTransfer::ways_of(int cable) const {
   return ways;
 }
 
-std::string CableTransfer::put_changed(int cable, const RunningCable& changed,
-                                       const TransferFrom& from) {
+std::string CableTransfer::put_changed(int cable, const RunningCable& changed, const Substep& now) {
   RunningCable running = changed;
   const bool any_fresh = std::any_of(running.links.begin(), running.links.end(),
                                      [](const RunningLink& link) { return link.is_fresh; });
   const LinkWays ways = any_fresh ? ways_of(cable) : LinkWays{};
   std::string fault = put_cable(cable, running, system_.initial_);
   if (!fault.empty()) return fault;
-  move_contacts(cable, running, from);
+  move_contacts(cable, running, now);
   if (any_fresh) fault = share_with_fresh_links(system_.cables_[at(cable)], ways, running);
   if (fault.empty()) fault = put_cable(cable, running, system_.initial_);
   return fault;
 }
 
-Errors CableTransfer::continue_from(const TransferFrom& from, std::span<const CableStart> starts) {
+Errors CableTransfer::continue_from(const TransferFrom& from, const Substep* now,
+                                    std::span<const CableStart> starts) {
   Errors errors;
   CableSystem* const before = from.system;
   for (std::size_t c = 0; c < starts.size(); ++c) {
@@ -350,7 +360,7 @@ Errors CableTransfer::continue_from(const TransferFrom& from, std::span<const Ca
     const CableStart& start = starts[c];
     std::string fault;
     if (start.running != nullptr) {
-      fault = put_changed(cable, *start.running, from);
+      fault = put_changed(cable, *start.running, *now);
     } else if (start.same_as >= 0 && has_layout_of(cable, *before, start.same_as)) {
       fault = copy_cable(cable, *before, start.same_as, *from.state, system_.initial_);
     } else if (start.same_as >= 0) {
@@ -368,8 +378,7 @@ Errors CableTransfer::continue_from(const TransferFrom& from, std::span<const Ca
   return errors;
 }
 
-double CableTransfer::missing_length(const Substep& now, const FeatureState& own, int cable) {
-  system_.follow_state(now, own);
+double CableTransfer::missing_length(const Substep& now, const FeatureState& own, int cable) const {
   double most = 0.0;
   system_.for_each_run(system_.cables_[at(cable)], [&](CableSystem::Run run) {
     double missing = 0.0;
@@ -379,12 +388,13 @@ double CableTransfer::missing_length(const Substep& now, const FeatureState& own
     }
     most = std::max(most, missing);
   });
-  system_.knows_lengths_ = false;
   return most;
 }
 
 std::string CableTransfer::start_fault(const Substep& now, int cable, double allowed) {
+  system_.follow_state(now, system_.initial_);
   const double excess = missing_length(now, system_.initial_, cable);
+  system_.knows_lengths_ = false;
   const CompiledCable& own = system_.cables_[at(cable)];
   const std::string name = "cable \"" + own.name + "\"";
   const bool rigid = own.compliance == 0.0 && own.inverse_stiffness == 0.0;

@@ -10,12 +10,10 @@
 
 namespace sheave {
 
-/// The world before, and both at the moment of the edit.
+/// The world before.
 struct TransferFrom {
   CableSystem* system = nullptr;        ///< null: there were no cables
   const FeatureState* state = nullptr;  ///< its part of the state
-  const Substep* then = nullptr;        ///< bodies where they were
-  const Substep* now = nullptr;         ///< and where they are, in the next world: the same places
 };
 
 /// Reads and writes the state of the cables of one world.
@@ -25,26 +23,34 @@ class CableTransfer {
 
   [[nodiscard]] RunningCable running_cable(int cable, const CableDef& definition,
                                            const FeatureState& own, const Controls& controls) const;
-  /// Makes initial_state() that in which cables go on from another world.
-  [[nodiscard]] Errors continue_from(const TransferFrom& from, std::span<const CableStart> starts);
-  /// By how much the cable is too short where that is worst [m], in a state `now` that cables have
-  /// the part `own` of.
-  [[nodiscard]] double missing_length(const Substep& now, const FeatureState& own, int cable);
+  /// The same to be taken apart, in a state `now` that cables have the part `own` of.
+  [[nodiscard]] TakenCable take_apart(int cable, const CableDef& definition,
+                                      const FeatureState& own, const Controls& controls,
+                                      const Substep& now);
+  /// Makes initial_state() that in which cables go on from another world, with bodies as `now`,
+  /// which may be null if none of them has been taken apart.
+  [[nodiscard]] Errors continue_from(const TransferFrom& from, const Substep* now,
+                                     std::span<const CableStart> starts);
   /// Why the cable cannot begin as in initial_state(), with bodies as `now`; one that is too short
   /// by no more than `allowed` [m] has been so before.
   [[nodiscard]] std::string start_fault(const Substep& now, int cable, double allowed);
 
  private:
-  [[nodiscard]] RunningCable course_of(int cable, const CableDef& definition,
-                                       const FeatureState& own, const Controls& controls) const;
+  /// A cable as it runs, and the number of each of its links within it.
+  struct Course {
+    RunningCable running;
+    std::vector<int> numbers;
+  };
+  [[nodiscard]] Course course_of(int cable, const CableDef& definition, const FeatureState& own,
+                                 const Controls& controls) const;
+  /// By how much the cable is too short where that is worst [m], in a state that is followed.
+  [[nodiscard]] double missing_length(const Substep& now, const FeatureState& own, int cable) const;
   [[nodiscard]] RunningLink running_link(int cable, int link, const FeatureState& own,
                                          const Controls& controls) const;
   void put_link(int cable, int link, const RunningLink& running, FeatureState& own);
   /// Where the spans beside a wheel are new, they touch it elsewhere than those before: it takes
   /// the way between out of them, or gives it to them.
-  void move_contacts(int cable, RunningCable& running, const TransferFrom& from);
-  /// The number of the span behind a link of the list of all links.
-  [[nodiscard]] static int span_behind(const CableSystem& system, int link);
+  void move_contacts(int cable, RunningCable& running, const Substep& now);
   /// Of initial_state() as it was compiled: how long the ways are where everything is now.
   [[nodiscard]] LinkWays ways_of(int cable) const;
   /// Gives the cable the state `running`; why it cannot.
@@ -53,8 +59,7 @@ class CableTransfer {
   /// Why a link cannot be put there; empty if it can.
   [[nodiscard]] std::string size_fault(const CompiledCable& cable, int link,
                                        const RunningLink& running) const;
-  [[nodiscard]] std::string put_changed(int cable, const RunningCable& changed,
-                                        const TransferFrom& from);
+  [[nodiscard]] std::string put_changed(int cable, const RunningCable& changed, const Substep& now);
   [[nodiscard]] std::string put_cable(int cable, const RunningCable& running, FeatureState& own);
   /// Whether its part of the state has the form of that of cable `then` of another system.
   [[nodiscard]] bool has_layout_of(int cable, const CableSystem& before, int then) const;

@@ -129,13 +129,14 @@ DraftCable* EditDraft::running(CableHandle handle, bool may_be_cut) {
     own.running = record.running;
     if (record.place >= 0) {
       const State& state = before.world().state();
-      own.running = CableTransfer(*before.system())
-                        .running_cable(record.place, record.definition, state.features.back(),
-                                       state.controls);
-      own.running.control.added_length = 0.0;
       const Substep now(before.world().bodies(), state, model.step.dt, 1);
-      own.excess =
-          CableTransfer(*before.system()).missing_length(now, state.features.back(), record.place);
+      TakenCable taken = CableTransfer(*before.system())
+                             .take_apart(record.place, record.definition, state.features.back(),
+                                         state.controls, now);
+      own.running = std::move(taken.running);
+      own.running.control.added_length = 0.0;
+      spans_before.insert(spans_before.end(), taken.spans.begin(), taken.spans.end());
+      own.excess = taken.excess;
     }
     own.runs = true;
     own.definition.rest_lengths.clear();

@@ -40,6 +40,9 @@ struct EditDraft {
   std::vector<DraftJoint> own_joints;
   std::map<int, DraftCable>
       own_cables;  ///< by slot; those that are not among them are as they were
+  /// TakenCable::spans of all that were taken apart: whatever becomes of their links, they are known
+  /// for as long as the edit lasts.
+  std::vector<std::shared_ptr<const SpanGeometry>> spans_before;
   Errors errors;
 
   void fail(std::string message) { errors.push_back({"", std::move(message)}); }

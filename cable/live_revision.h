@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,10 +49,13 @@ class SlotTable {
     }
     return {};
   }
-  /// In the first place that is free.
-  Handle<Tag> add(int index, std::uint32_t generation) {
+  /// In the first place that is free and not `used`, by marks per slot.
+  Handle<Tag> add(int index, std::uint32_t generation, std::span<const char> used = {}) {
     std::size_t i = 0;
-    while (i < slots_.size() && slots_[i].generation != 0) ++i;
+    const auto taken = [&] {
+      return slots_[i].generation != 0 || (i < used.size() && used[i] != 0);
+    };
+    while (i < slots_.size() && taken()) ++i;
     if (i == slots_.size()) slots_.emplace_back();
     slots_[i].generation = generation;
     slots_[i].index = index;
@@ -83,6 +87,11 @@ class SlotTable {
  private:
   std::vector<Slot> slots_;
 };
+
+/// Why a change cannot be that would leave a world whose energy nobody could tell any more.
+inline constexpr std::string_view energy_fault =
+    "the energy of the world would be beyond the range of numbers, 1.8e308 J: masses, speeds or "
+    "distances are too large";
 
 /// While it lives what there is must stay, also if a callback throws.
 class Busy {

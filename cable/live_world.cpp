@@ -235,8 +235,15 @@ LiveReport LiveWorld::step(const StopRequest& stop, const std::function<void()>&
     };
   }
   const Busy busy(is_busy_);
+  const CableSystem* cables = running().cables;
+  const double begin = time();
+  const std::uint64_t edition = cables != nullptr ? cables->warnings_edition() : 0;
   static_cast<StepReport&>(report) = running().world.step(stop, set ? set : before_substep);
   note_events(report);
+  if (!report.stopped) append_solver_warnings(report.statistics, report.warnings);
+  if (!report.stopped && cables != nullptr && cables->warnings_edition() != edition) {
+    append_cable_warnings(*cables, running().world.bodies(), begin, report.warnings);
+  }
   for (const int joint : intact) {
     if (is_broken(joint)) {
       report.broken_joints.push_back(revision_->joint_handles[at(joint)]);
@@ -324,13 +331,17 @@ std::string LiveWorld::busy_fault() const {
   return is_busy_ ? "this cannot be done from within a step or an edit; do it after that" : "";
 }
 
-Errors LiveWorld::restore(const State& state) {
+Errors LiveWorld::restore(const State& state) { return restore(revision_, state); }
+
+/// The world of `revision` goes to the state, or stays as it is; only then it becomes the one there
+/// is, which cannot fail.
+Errors LiveWorld::restore(std::shared_ptr<LiveRevision> revision, const State& state) {
   if (is_busy_) return {because(busy_fault())};
-  Errors errors = running().world.restore(state);
-  if (errors.empty() && revision_->system() != nullptr) {
-    static_cast<void>(revision_->system()->take_events());
-  }
-  return errors;
+  Errors errors = revision->simulation.world.restore(state);
+  if (!errors.empty()) return errors;
+  if (CableSystem* cables = revision->system()) static_cast<void>(cables->take_events());
+  revision_ = std::move(revision);
+  return {};
 }
 
 std::shared_ptr<const void> LiveWorld::keep_in_place() {
@@ -341,12 +352,10 @@ std::shared_ptr<const void> LiveWorld::keep_in_place() {
 LiveSnapshot LiveWorld::snapshot() const { return {state(), revision_, identity_}; }
 
 Errors LiveWorld::restore(const LiveSnapshot& snapshot) {
-  if (is_busy_) return {{"", busy_fault()}};
   if (snapshot.identity_ != identity_) {
     return {{"", "the snapshot is one of another world"}};
   }
-  revision_ = snapshot.revision_;
-  return restore(snapshot.state_);
+  return restore(snapshot.revision_, snapshot.state_);
 }
 
 }  // namespace sheave

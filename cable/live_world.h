@@ -24,6 +24,7 @@
 #include "cable/edit.h"
 #include "cable/handle.h"
 #include "cable/simulation.h"
+#include "cable/step_warnings.h"
 #include "engine/wrench.h"
 
 namespace sheave {
@@ -60,6 +61,9 @@ struct LiveReport : StepReport {
   std::vector<CableEvent> events;          ///< of cables, in their order
   std::vector<JointHandle> broken_joints;  ///< in this step
   std::size_t omitted = 0;                 ///< events beyond those
+  /// What could not be done as asked: of solver and integrator in this step, of cables if it was
+  /// the first time. The command prints the same of a run.
+  std::vector<Warning> warnings;
 };
 
 struct LiveRevision;
@@ -203,6 +207,7 @@ class LiveWorld {
 
  private:
   explicit LiveWorld(Simulation simulation);
+  [[nodiscard]] Errors restore(std::shared_ptr<LiveRevision> revision, const State& state);
   [[nodiscard]] Errors set_drive_of(BodyHandle body, DriveKind kind, const DriveTarget& target);
   [[nodiscard]] std::string fault_of(BodyHandle body) const;
   [[nodiscard]] std::string fault_of(JointHandle joint) const;

@@ -2,6 +2,7 @@
 // nothing is wrong the new one takes the place of the old one.
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "cable/cable_transfer.h"
@@ -51,8 +52,8 @@ class EditMaker {
   const World& old_;
   State then_;
   std::shared_ptr<const BodySet> bodies_;
-  State now_;                                          // of bodies
-  std::optional<Substep> then_substep_, now_substep_;  // where cables change
+  State now_;                           // of bodies
+  std::optional<Substep> now_substep_;  // where cables change
   BodyFrames frames_;
   std::vector<Kept> kept_;
   std::vector<CableDef> definitions_;
@@ -210,13 +211,8 @@ std::unique_ptr<CableSystem> EditMaker::make_cables() {
   const bool any_changed = std::any_of(starts.begin(), starts.end(), [](const CableStart& start) {
     return start.running != nullptr;
   });
-  if (any_changed) {
-    then_substep_.emplace(old_.bodies(), then_, draft_.model.step.dt, 1);
-    now_substep_.emplace(*bodies_, now_, draft_.model.step.dt, 1);
-    from.then = &*then_substep_;
-    from.now = &*now_substep_;
-  }
-  take(CableTransfer(**made).continue_from(from, starts));
+  if (any_changed) now_substep_.emplace(*bodies_, now_, draft_.model.step.dt, 1);
+  take(CableTransfer(**made).continue_from(from, now_substep_ ? &*now_substep_ : nullptr, starts));
   return std::move(*made);
 }
 
@@ -363,7 +359,7 @@ Result<std::shared_ptr<LiveRevision>> EditMaker::make() {
   if (const auto& supervisor = draft_.before.simulation.supervisor) {
     auto again = supervisor->again(simulation);
     if (!again) return again.errors();
-    simulation.supervisor = std::move(*again);
+    simulation.set_supervisor(std::move(*again));
   }
   return std::make_shared<LiveRevision>(std::move(simulation), draft_.bodies, joints_,
                                         draft_.cables, records());
@@ -404,6 +400,8 @@ Result<EditReport> LiveWorld::edit(const std::function<void(Edit&)>& changes) {
   if (!draft.errors.empty()) return draft.errors;
   Result<std::shared_ptr<LiveRevision>> made = EditMaker(draft, state()).make();
   if (!made) return made.errors();
+  const Energy after = (*made)->world().energy();
+  if (!std::isfinite(after.total())) return Error{"", std::string(energy_fault)};
   EditReport report;
   const Energy before = energy();
   std::set<std::pair<std::int32_t, std::uint32_t>> changed;
@@ -422,7 +420,6 @@ Result<EditReport> LiveWorld::edit(const std::function<void(Edit&)>& changes) {
     if (added != 0.0) report.cables.push_back({handle, added});
   }
   revision_ = std::move(*made);
-  const Energy after = energy();
   report.energy = {after.kinetic - before.kinetic, after.potential - before.potential,
                    after.elastic - before.elastic};
   return report;

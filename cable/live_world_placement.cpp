@@ -120,10 +120,11 @@ Result<Placement> LiveWorld::place(BodyHandle body, const Vector3& position,
       next.controls.cables.put(index, placed.added.size(), control);
     }
   }
-  const double energy = world.energy().total();
+  const double energy = world.energy_of(next).total();
+  if (!std::isfinite(energy)) return Error{"", std::string(energy_fault)};
+  placement.energy = energy - world.energy().total();
   Errors errors = world.restore(next);
   if (!errors.empty()) return errors;
-  placement.energy = world.energy().total() - energy;
   return placement;
 }
 

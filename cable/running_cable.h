@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cable/link.h"
+#include "cable/span_geometry.h"
 #include "engine/body_frames.h"
 #include "engine/controls.h"
 
@@ -25,12 +26,12 @@ struct RunningSpan {
 /// What the state of the cables says of one link (cable/cable_state_layout.h).
 struct RunningLink {
   std::shared_ptr<const LinkDef> link;  ///< null: a wrap
-  // Numbers among all links of the world before: its own, and those before and behind it on its
-  // course; -1: none.
-  int was = -1;
-  int came_from = -1;
-  int went_to = -1;
-  double size = 0.0;           ///< of what it lies on there [m]
+  /// The spans by which the cable came to it and went on in the world that an edit takes apart: two
+  /// links have the same one if it lay between them. EditDraft owns them, so a link that is kept for
+  /// longer than the edit knows of none: a cable that hangs loose touches its last link anywhere.
+  std::weak_ptr<const SpanGeometry> came_by;
+  std::weak_ptr<const SpanGeometry> went_by;
+  std::optional<double> size;  ///< of what it lies on there [m]; none: it has just come
   double stored_length = 0.0;  ///< [m]
   double slipped = 0.0;        ///< [m]; of an attachment what was fed
   double angle = 0.0;          ///< of a hybrid end's attachment [rad]
@@ -71,6 +72,13 @@ struct RunningCable {
   [[nodiscard]] int listed_count() const;
   /// Of everything [m]; exact as long as there is one quantum.
   [[nodiscard]] double length() const;
+};
+
+/// A cable that an edit takes apart.
+struct TakenCable {
+  RunningCable running;
+  std::vector<std::shared_ptr<const SpanGeometry>> spans;  ///< that its links refer to
+  double excess = 0.0;  ///< by how much it is too short where that is worst [m]
 };
 
 /// Where a cable of an edited world comes from.

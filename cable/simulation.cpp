@@ -37,6 +37,12 @@ StepReport Simulation::step(const StopRequest& stop) {
   return world.step(stop, [this] { supervisor->supervise(*this); });
 }
 
+void Simulation::set_supervisor(std::shared_ptr<const Supervisor> acting) {
+  supervisor = std::move(acting);
+  world.check_memory_by(
+      [own = supervisor](const State& state) { return own->memory_fault(state); });
+}
+
 std::int64_t Simulation::leap(std::int64_t count) {
   return supervisor == nullptr ? world.leap(count) : 0;
 }

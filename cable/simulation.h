@@ -41,6 +41,8 @@ class Supervisor {
       const Simulation& simulation) const = 0;
   /// Whether the run shall end with this state.
   [[nodiscard]] virtual bool has_stopped(const State& state) const = 0;
+  /// Why State::memory cannot be its own; empty if it can. States come from files, too.
+  [[nodiscard]] virtual std::string memory_fault(const State& state) const = 0;
 };
 
 /// A world and, if it has any, its cables.
@@ -56,6 +58,8 @@ struct Simulation {
   std::shared_ptr<const std::vector<CableDef>> cable_definitions;
   /// Acts in step(); null if there is none. World::memory() must be its own.
   std::shared_ptr<const Supervisor> supervisor = nullptr;
+  /// Makes it the supervisor, and the world refuse states with a memory that cannot be its own.
+  void set_supervisor(std::shared_ptr<const Supervisor> acting);
 
   /// World::step(), with the supervisor if there is one.
   [[nodiscard]] StepReport step(const StopRequest& stop = {});

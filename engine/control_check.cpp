@@ -10,20 +10,12 @@
 namespace sheave {
 namespace {
 
-bool all_finite(double x) { return std::isfinite(x); }
 bool all_finite(bool /*b*/) { return true; }
 bool all_finite(ForceFrame /*frame*/) { return true; }
 bool all_finite(const Vector3& v) { return v.allFinite(); }
 
-template <class Value>
-bool is_ramp(const RampOf<Value>& ramp) {
-  bool finite = ramp.from <= ramp.to;
-  visit_ramp(ramp, [&](const auto& member) { finite = finite && all_finite(member); });
-  return finite;
-}
-
 bool is_drive(const DriveControl& control) {
-  return is_ramp(control.target) && (std::isnan(control.limit) || control.limit >= 0.0);
+  return control.target.is_sound() && (std::isnan(control.limit) || control.limit >= 0.0);
 }
 
 constexpr double unit_slop = 1e-6;
@@ -67,7 +59,7 @@ bool make_ramp(const DriveNow& now, const DriveTarget& target, Ramp& ramp) {
     ramp.start_rate = now.rate;
     ramp.end_rate = ramp.rate_after = *target.rate;
   }
-  return true;
+  return ramp.is_sound();
 }
 
 std::string ramp_fault(const DriveNow& now, const DriveTarget& target) {
@@ -126,6 +118,24 @@ std::string ControlCheck::motion_fault(int body) const {
   return body_name(body) + " is " +
          std::string(mobility_names[static_cast<std::size_t>(bodies_[body].mobility)]) +
          "; only kinematic bodies go where they are told to";
+}
+
+bool ControlCheck::is_sound(const ForceControl& force) {
+  bool finite = true;
+  ControlMembers<ForceControl>::visit(
+      force, [&](const auto& member) { finite = finite && all_finite(member); });
+  return finite;
+}
+
+bool ControlCheck::takes_motion(int body, const MotionControl& motion) const {
+  const double length = motion.start_orientation.norm();
+  if (!motion.position.is_sound() || !motion.turn.is_sound() ||
+      !(std::abs(length - 1.0) < unit_slop) || !(motion.position.to > motion.position.from)) {
+    return false;
+  }
+  if (!keeps_to_a_way(body)) return true;
+  return way_fault(body, motion.state_at(bodies_, body, motion.position.from)).empty() &&
+         way_fault(body, motion.state_at(bodies_, body, motion.position.to)).empty();
 }
 
 bool ControlCheck::keeps_to_a_way(int body) const {
@@ -250,20 +260,11 @@ std::string ControlCheck::bodies_fault(const Controls& controls) const {
     }
     if (const ForceControl* force = controls.forces.find(i); force != nullptr && fault.empty()) {
       fault = force_fault(i);
-      ControlMembers<ForceControl>::visit(*force, [&](const auto& member) {
-        if (!all_finite(member)) fault = body_name(i) + " has a force that is not finite";
-      });
+      if (!is_sound(*force)) fault = body_name(i) + " has a force that is not finite";
     }
     if (const MotionControl* set = controls.motions.find(i); set != nullptr && fault.empty()) {
       fault = motion_fault(i);
-      const double length = set->start_orientation.norm();
-      if (!is_ramp(set->position) || !is_ramp(set->turn) || !(std::abs(length - 1.0) < unit_slop) ||
-          !(set->position.to > set->position.from)) {
-        fault = body_name(i) + " has no such motion";
-      }
-      for (const double time : {set->position.from, set->position.to}) {
-        if (fault.empty()) fault = way_fault(i, set->state_at(bodies_, i, time));
-      }
+      if (fault.empty() && !takes_motion(i, *set)) fault = body_name(i) + " has no such motion";
     }
     if (!fault.empty()) return fault;
   }

@@ -1,6 +1,7 @@
 #pragma once
 // What is wrong with controls; internal to the engine, but for make_ramp(). Faults are texts, empty
-// where there is none.
+// where there is none. Setters ask of what they are about to set what restore() asks of a state, so
+// a world never has what it could not go back to.
 
 #include <memory>
 #include <span>
@@ -73,6 +74,10 @@ class ControlCheck {
   [[nodiscard]] std::string drive_fault(int body) const;
   [[nodiscard]] std::string force_fault(int body) const;
   [[nodiscard]] std::string motion_fault(int body) const;
+  /// Whether a state can have such a force.
+  [[nodiscard]] static bool is_sound(const ForceControl& force);
+  /// Whether a state can have such a motion of a kinematic body.
+  [[nodiscard]] bool takes_motion(int body, const MotionControl& motion) const;
   /// Whether a kinematic body cannot be in any pose and move anyhow.
   [[nodiscard]] bool keeps_to_a_way(int body) const;
   /// Whether it may be in this pose and move so.

@@ -79,6 +79,8 @@ std::optional<Divergence> find_divergence(
 std::string infinite_number(const State& state, const BodySet& bodies,
                             std::span<const std::unique_ptr<ConstraintBatch>> features) {
   if (!std::isfinite(state.time)) return "its time is not finite";
+  constexpr std::int64_t most_steps = std::int64_t{1} << 53;  // times that a double still counts
+  if (state.steps < 0 || state.steps > most_steps) return "no run comes to its number of steps";
   for (int i = 0; i < bodies.count(); ++i) {
     const BodyState& body = state.bodies[at(i)];
     const char* what = !body.position.allFinite()               ? "position"

@@ -1,6 +1,7 @@
 #pragma once
 // A value on its way to a target.
 
+#include <cmath>
 #include <type_traits>
 
 namespace sheave {
@@ -18,6 +19,15 @@ struct RampOf {
   Value end_rate = nothing();    ///< as it arrives [per s]
   Value rate_after = nothing();  ///< from then on [per s]
 
+  /// Whether a world can go along it: its numbers are finite, and what it does within its time has
+  /// finite rates. What makes a ramp asks this, and what takes a state with one.
+  [[nodiscard]] bool is_sound() const {
+    const double span = to - from;
+    const bool in_time =
+        std::isfinite(from) && std::isfinite(to) && (span == 0.0 || std::isfinite(1.0 / span));
+    return in_time && span >= 0.0 && finite(Value(end - start)) && finite(start_rate) &&
+           finite(end_rate) && finite(rate_after) && finite(start) && finite(end);
+  }
   /// Whether it is beyond its end at `time`. Times of steps are rounded; at the end it still
   /// arrives.
   [[nodiscard]] bool past(double time) const {
@@ -47,6 +57,13 @@ struct RampOf {
   }
 
  private:
+  static bool finite(const Value& value) {
+    if constexpr (std::is_arithmetic_v<Value>) {
+      return std::isfinite(value);
+    } else {
+      return value.allFinite();
+    }
+  }
   static Value nothing() {
     if constexpr (std::is_arithmetic_v<Value>) {
       return 0.0;

@@ -9,8 +9,29 @@
 namespace sheave {
 namespace {
 
-constexpr std::uint64_t format_tag = 0x32'45'54'41'54'53'48'53;            // "SHSTATE2"
+constexpr std::uint64_t format_tag = 0x33'45'54'41'54'53'48'53;            // "SHSTATE3"
+constexpr std::uint64_t tag_without_checksum = 0x32'45'54'41'54'53'48'53;  // "SHSTATE2"
 constexpr std::uint64_t tag_without_controls = 0x31'45'54'41'54'53'48'53;  // "SHSTATE1"
+
+/// Follows the tag. Where versions without a checksum have a number of steps it is -1, so a file whose
+/// tag has been changed to theirs is none of them.
+constexpr std::uint64_t no_older_version = ~std::uint64_t{0};
+
+/// FNV-1a, word by word. Each word is taken up by a one-to-one function of what was before, so two
+/// lists that differ in one word never have the same hash.
+class WordHash {
+ public:
+  void add(std::uint64_t word) {
+    // FNV-1a multiplies after every byte; a whole word at a time needs the high bits folded back,
+    // or they would never reach the low ones.
+    value_ = (value_ ^ word) * 0x100000001b3;
+    value_ ^= value_ >> 32;
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325;
+};
 
 /// Files are little-endian on every machine.
 std::uint64_t little_endian(std::uint64_t word) {
@@ -170,49 +191,86 @@ class Reader {
 }  // namespace
 
 std::uint64_t hash(const State& state) {
-  std::uint64_t result = 0xcbf29ce484222325;
-  const auto add = [&](std::uint64_t word) {
-    // FNV-1a multiplies after every byte; a whole word at a time needs the high bits folded back,
-    // or they would never reach the low ones.
-    result = (result ^ word) * 0x100000001b3;
-    result ^= result >> 32;
-  };
+  WordHash result;
+  const auto add = [&](std::uint64_t word) { result.add(word); };
   for_each_word(state, add);
   for_each_word_set(state.controls, add);
   for (const double x : state.memory) add(bits_of(x));
-  return result;
+  return result.value();
 }
 
-std::string to_bytes(const State& state) {
+std::string to_bytes(const State& state, const StateOrigin& origin) {
   std::string bytes;
+  WordHash sum;
   const auto append = [&](std::uint64_t word) {
+    sum.add(word);
     word = little_endian(word);
     char buffer[sizeof word];
     std::memcpy(buffer, &word, sizeof word);
     bytes.append(buffer, sizeof word);
   };
   append(format_tag);
+  append(no_older_version);
+  append(origin.scene);
+  append(origin.layout);
   for_each_word(state, append);
   for_each_word(state.controls, append);
   append(static_cast<std::uint64_t>(state.memory.size()));
   for (const double x : state.memory) append(bits_of(x));
+  sum.add(bytes.size() / sizeof(std::uint64_t));
+  append(sum.value());
   return bytes;
 }
 
+namespace {
+
+/// Whether the last word is the checksum of all before it, and of how many these are: taken up, a
+/// checksum of words alone leaves 0, and a 0 behind it would be right again.
+bool has_right_sum(const std::string& bytes) {
+  constexpr std::size_t word_size = sizeof(std::uint64_t);
+  const std::size_t words = bytes.size() / word_size;
+  if (bytes.size() % word_size != 0 || words == 0) return false;
+  Reader reader(bytes);
+  WordHash sum;
+  for (std::size_t i = 1; i < words; ++i) sum.add(reader.word());
+  sum.add(words - 1);
+  return reader.word() == sum.value();
+}
+
+}  // namespace
+
 Result<State> state_from_bytes(const std::string& bytes) {
+  Result<SavedState> saved = saved_state_from_bytes(bytes);
+  if (!saved) return saved.errors();
+  return std::move(saved->state);
+}
+
+Result<SavedState> saved_state_from_bytes(const std::string& bytes) {
   Reader reader(bytes);
   const std::uint64_t first = reader.word();
-  if (first != format_tag && first != tag_without_controls) {
+  if (first != format_tag && first != tag_without_checksum && first != tag_without_controls) {
     constexpr std::size_t tag_size = 8;
     const std::string tag = bytes.substr(0, tag_size);
     const bool version = tag.starts_with("SHSTATE") && tag.back() > ' ' && tag.back() < 0x7f;
     if (version && tag.size() == tag_size) {
       return Error{"", "a saved state of another version: it is " + tag +
-                           "; this program reads SHSTATE1 and SHSTATE2"};
+                           "; this program reads SHSTATE1 to SHSTATE3"};
     }
-    return Error{"", "not a saved state of this program: the first eight bytes must be SHSTATE2"};
+    return Error{"", "not a saved state of this program: the first eight bytes must be SHSTATE3"};
   }
-  State state;
+  SavedState saved;
+  State& state = saved.state;
+  if (first == format_tag) {
+    if (!has_right_sum(bytes)) {
+      return Error{"",
+                   "a saved state must be as it was written: the checksum at the end of these " +
+                       std::to_string(bytes.size()) +
+                       " bytes is not theirs; they are truncated or have been changed"};
+    }
+    saved.checked = reader.word() == no_older_version;
+    saved.origin.scene = reader.word();
+    saved.origin.layout = reader.word();
+  }
   state.steps = reader.integer();
   state.time = reader.real();
   state.bodies.resize(reader.count(14));
@@ -230,18 +288,20 @@ Result<State> state_from_bytes(const std::string& bytes) {
     feature.integers.resize(reader.count(1));
     for (std::int64_t& i : feature.integers) i = reader.integer();
   }
-  if (first == format_tag) {
+  if (first != tag_without_controls) {
     state.controls.has_gravity = reader.flag();
     if (state.controls.has_gravity) reader.read(state.controls.gravity);
     visit_tables(state.controls, [&](auto& table) { reader.read(table); });
     state.memory.resize(reader.count(1));
     for (double& x : state.memory) x = reader.real();
   }
-  if (!reader.complete()) {
+  if (first == format_tag) static_cast<void>(reader.word());
+  const bool older = first != format_tag && state.steps >= 0;
+  if (!reader.complete() || !(saved.checked || older)) {
     return Error{"", "a saved state must be complete: these " + std::to_string(bytes.size()) +
                          " bytes are truncated or hold something else"};
   }
-  return state;
+  return saved;
 }
 
 }  // namespace sheave

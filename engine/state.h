@@ -45,10 +45,26 @@ struct State {
 /// controls what is set counts, and not what has been set and cleared.
 [[nodiscard]] std::uint64_t hash(const State& state);
 
-/// The state as bytes, for a file; restores bit for bit on machines of the same byte order.
-[[nodiscard]] std::string to_bytes(const State& state);
-/// The inverse of to_bytes; an error names what is wrong with `bytes`. Files of the version before,
-/// which knew no controls, are states in which nothing is set.
+/// Of which machine a state is; 0: nobody has said so.
+struct StateOrigin {
+  std::uint64_t scene = 0;   ///< hash of all that the machine is made of
+  std::uint64_t layout = 0;  ///< hash of what the numbers of the state belong to
+};
+
+/// A state from a file.
+struct SavedState {
+  State state;
+  StateOrigin origin;
+  bool checked = false;  ///< the file has a checksum, and it is right; of old ones nobody knows
+};
+
+/// The state as bytes, for a file: a tag, its numbers, and a checksum of all of them, in which every
+/// change of one 8-byte word shows. Restores bit for bit, on machines of any byte order.
+[[nodiscard]] std::string to_bytes(const State& state, const StateOrigin& origin = {});
+/// The inverse of to_bytes; an error names what is wrong with `bytes`. Of the versions before,
+/// SHSTATE2 had no checksum, and SHSTATE1 no controls, either: states in which nothing is set.
+[[nodiscard]] Result<SavedState> saved_state_from_bytes(const std::string& bytes);
+/// The same, for who does not ask where it is from.
 [[nodiscard]] Result<State> state_from_bytes(const std::string& bytes);
 
 }  // namespace sheave

@@ -225,37 +225,41 @@ Errors World::restore(const State& state) {
   if (!fault.empty()) return {{"", "the state does not belong to this world: " + fault}};
   const std::string infinite = infinite_number(state, *content_->bodies, content_->features);
   if (!infinite.empty()) return {{"", "no world can go on from the state: " + infinite}};
+  if (content_->memory_fault) {
+    const std::string bad = content_->memory_fault(state);
+    if (!bad.empty()) return {{"", "the state does not belong to this world: " + bad}};
+  }
   content_->state = state;
   content_->driver.forget();
   content_->substep.next = state;
   return {};
 }
 
-Energy World::energy() const {
+Energy World::energy_of(const State& state) const {
   const Content& c = *content_;
   Energy energy;
-  const Controls& controls = c.state.controls;
+  const Controls& controls = state.controls;
   const Vector3& gravity = controls.has_gravity ? controls.gravity : c.model.gravity;
   for (int i = 0; i < c.bodies->count(); ++i) {
     const BodyProperties& body = (*c.bodies)[i];
-    const BodyState& state = c.state.bodies[at(i)];
+    const BodyState& own = state.bodies[at(i)];
     if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) continue;
-    const Vector3& w = state.angular_velocity;
+    const Vector3& w = own.angular_velocity;
     if (body.mobility == Mobility::rotor) {
       const Vector3 axis = body.mount >= 0
-                               ? Vector3(c.state.bodies[at(body.mount)].orientation * body.axis)
+                               ? Vector3(state.bodies[at(body.mount)].orientation * body.axis)
                                : body.axis;
       const double spin = axis.dot(w);
       energy.kinetic += 0.5 * body.axis_inertia * spin * spin;
       continue;
     }
-    const Vector3 own_w = state.orientation.conjugate() * w;
+    const Vector3 own_w = own.orientation.conjugate() * w;
     energy.kinetic +=
-        0.5 * body.mass * state.velocity.squaredNorm() + 0.5 * own_w.dot(body.inertia * own_w);
-    energy.potential -= state.position.dot(body.mass * gravity + c.model.bodies[at(i)].force);
+        0.5 * body.mass * own.velocity.squaredNorm() + 0.5 * own_w.dot(body.inertia * own_w);
+    energy.potential -= own.position.dot(body.mass * gravity + c.model.bodies[at(i)].force);
   }
   for (std::size_t i = 0; i < c.features.size(); ++i) {
-    energy.elastic += c.features[i]->elastic_energy(*c.bodies, c.state, c.state.features[i]);
+    energy.elastic += c.features[i]->elastic_energy(*c.bodies, state, state.features[i]);
   }
   return energy;
 }

@@ -154,6 +154,10 @@ class World {
   /// State::memory, to be read and written by whoever sets controls. States with another size do
   /// not belong to this world.
   [[nodiscard]] std::vector<double>& memory();
+  /// Why a state cannot have the memory that it has; empty if it can. restore() asks; as long as
+  /// nobody has said so, any numbers will do.
+  using MemoryFault = std::function<std::string(const State&)>;
+  void check_memory_by(MemoryFault fault);
   /// Unchecked: for functions that check what they set for a feature (Simulation::set_...()).
   [[nodiscard]] Controls& controls_of_features();
 
@@ -175,14 +179,16 @@ class World {
   /// world that is not told so exchanges them with those of the substep before.
   void keep_in_place();
 
-  /// Goes back (or ahead) to a state of this world; an error if its shape does not fit, or its
-  /// controls, or if a number is not finite.
+  /// Goes back (or ahead) to a state of this world; an error, and nothing has changed, if its shape
+  /// does not fit, or its controls or its memory, or if a number is not finite.
   [[nodiscard]] Errors restore(const State& state);
 
   /// Nothing at time 0, after restore() and after a step that was stopped, until the next step.
   [[nodiscard]] std::optional<LastSubstep> last_substep() const;
 
-  [[nodiscard]] Energy energy() const;
+  [[nodiscard]] Energy energy() const { return energy_of(state()); }
+  /// The same in another state of this world.
+  [[nodiscard]] Energy energy_of(const State& state) const;
   /// Pose of the body frame's origin [m] (not of the centre of mass).
   [[nodiscard]] Vector3 position(BodyId body) const;
   [[nodiscard]] Quaternion orientation(BodyId body) const;

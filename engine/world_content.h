@@ -20,6 +20,7 @@ struct World::Content {
   std::vector<JointPlace> joints;    // in the order of the model
   std::size_t coordinate_count = 0;  // of all joints
   double control_interval = 0.0;     // how long what is set now has [s]
+  World::MemoryFault memory_fault;   // may be empty
   bool stays_in_place = false;       // World::keep_in_place(), and where that is:
   const BodyState* bodies_place = nullptr;
   const double* reals_place = nullptr;

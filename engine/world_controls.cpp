@@ -102,10 +102,6 @@ bool has_unit_length(const Quaternion& orientation) {
 
 bool absent_or_finite(const std::optional<Vector3>& v) { return !v || is_finite(*v); }
 
-bool is_sound(const PointForce& force) {
-  return is_finite(force.force) && is_finite(force.torque) && absent_or_finite(force.point);
-}
-
 bool is_sound(const MotionTarget& target, double over) {
   return is_finite(target.position) && absent_or_finite(target.velocity) &&
          absent_or_finite(target.angular_velocity) &&
@@ -226,6 +222,8 @@ Errors World::set_gravity(const Vector3& gravity) {
 
 std::vector<double>& World::memory() { return content_->state.memory; }
 
+void World::check_memory_by(MemoryFault fault) { content_->memory_fault = std::move(fault); }
+
 Errors World::release_joint(int joint) {
   Content& c = *content_;
   const ControlCheck check = c.check();
@@ -266,20 +264,15 @@ void World::clear_gravity() {
 Errors World::set_force(BodyId body, const PointForce& force) {
   const Content& c = *content_;
   const ControlCheck check = c.check();
-  if (!check.is_body(body) || !check.takes_force(body.index) || !is_sound(force)) {
-    return refuse_force(check, body);
-  }
-  controls_of_features().forces.change(body.index, at(c.bodies->count()), [&](ForceControl& set) {
-    set.acts = true;
-    set.frame = force.frame;
-    set.force = force.force;
-    set.torque = force.torque;
-    if (force.point) {
-      set.arm = *force.point - (*c.bodies)[body.index].center_of_mass;
-    } else {
-      set.arm.setZero();
-    }
-  });
+  if (!check.is_body(body) || !check.takes_force(body.index)) return refuse_force(check, body);
+  ForceControl set;
+  set.acts = true;
+  set.frame = force.frame;
+  set.force = force.force;
+  set.torque = force.torque;
+  if (force.point) set.arm = *force.point - (*c.bodies)[body.index].center_of_mass;
+  if (!ControlCheck::is_sound(set)) return refuse_force(check, body);
+  controls_of_features().forces.put(body.index, at(c.bodies->count()), set);
   return {};
 }
 
@@ -333,23 +326,25 @@ Errors World::set_motion(BodyId body, const MotionTarget& target) {
   const BodyState& from = c.state.bodies[at(body.index)];
   const bool smooth = target.velocity.has_value();
   const Vector3 speed = smooth ? from.velocity : over_time(target.position - from.position, over);
-  if (!is_finite(speed) || (check.keeps_to_a_way(body.index) &&
-                            !check.way_fault(body.index, end_of(target, from)).empty())) {
+  if (check.keeps_to_a_way(body.index) &&
+      !check.way_fault(body.index, end_of(target, from)).empty()) {
     return refuse_motion(check, body, target, over, c.state);
   }
   Turn turn;
   if (target.orientation) turn = turn_to(from.orientation, target.orientation->normalized());
-  controls_of_features().motions.change(
-      body.index, at(c.bodies->count()), [&](MotionControl& motion) {
-        set_way(from, target.position, turn, c.state.time, over, motion);
-        if (smooth) {
-          const Vector3 none = Vector3::Zero();
-          const Vector3& spin = target.angular_velocity ? *target.angular_velocity : none;
-          set_smooth_rates(from, turn, *target.velocity, spin, motion);
-        } else {
-          set_straight_rates(speed, over_time(turn.vector, over), motion);
-        }
-      });
+  MotionControl motion;
+  set_way(from, target.position, turn, c.state.time, over, motion);
+  if (smooth) {
+    const Vector3 none = Vector3::Zero();
+    const Vector3& spin = target.angular_velocity ? *target.angular_velocity : none;
+    set_smooth_rates(from, turn, *target.velocity, spin, motion);
+  } else {
+    set_straight_rates(speed, over_time(turn.vector, over), motion);
+  }
+  if (!check.takes_motion(body.index, motion)) {
+    return refuse_motion(check, body, target, over, c.state);
+  }
+  controls_of_features().motions.put(body.index, at(c.bodies->count()), motion);
   return {};
 }
 
@@ -372,6 +367,11 @@ Errors World::clear_motion(BodyId body, std::optional<double> over) {
   set_way(from, to.position, turn, c.state.time, time, motion);
   set_smooth_rates(from, turn, to.velocity, to.angular_velocity, motion);
   motion.returns = true;
+  if (!check.takes_motion(body.index, motion)) {
+    return refuse_body(
+        body, "position",
+        check.body_name(body.index) + " cannot get back in " + number_text(time) + " s");
+  }
   controls_of_features().motions.put(body.index, at(c.bodies->count()), motion);
   return {};
 }

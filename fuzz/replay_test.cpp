@@ -9,6 +9,7 @@
 #include <iterator>
 #include <string>
 #include <vector>
+#include <random>
 
 #include <gtest/gtest.h>
 
@@ -91,6 +92,22 @@ TEST(RandomMachines, keep_every_promise) {
     } catch (const std::exception& fault) {
       ADD_FAILURE() << fault.what() << "\nseed " << seed;
       keep_scene(bytes, seed);
+    }
+  }
+}
+
+// The same for edits, of random bytes.
+TEST(RandomEdits, keep_every_promise) {
+  const std::uint64_t cases = from_environment("SHEAVE_CASES", 100);
+  const std::uint64_t first = from_environment("SHEAVE_SEED", 1);
+  for (std::uint64_t seed = first; seed < first + cases; ++seed) {
+    std::mt19937_64 random(seed);
+    std::vector<std::uint8_t> bytes(512);
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random() >> 56U);
+    try {
+      try_edit(bytes);
+    } catch (const std::exception& fault) {
+      ADD_FAILURE() << fault.what() << "\nseed " << seed;
     }
   }
 }

@@ -50,17 +50,24 @@ void try_live(Bytes bytes);
 /// without them (chart_texts.h). Nothing is drawn.
 void try_chart(Bytes bytes);
 
+/// Edits of a world, one after the other, that take cables apart and put them together, with bodies
+/// and joints that come and go and steps in between: each is accepted or refused, and leads to the
+/// topology, as a model of what cable/edit.h says (edit_model.h); what is refused changes nothing,
+/// and every state that there is can be gone back to.
+void try_edit(Bytes bytes);
+
 /// A target by its name.
 struct Target {
   std::string_view name;
   void (*run)(Bytes bytes);
 };
-inline constexpr std::array<Target, 7> targets{{{"scene_text", try_scene_text},
+inline constexpr std::array<Target, 8> targets{{{"scene_text", try_scene_text},
                                                 {"machine", try_machine},
                                                 {"state", try_state},
                                                 {"journal", try_journal},
                                                 {"command_line", try_command_line},
                                                 {"live", try_live},
                                                 {"chart", try_chart}}};
+                                                {"edit", try_edit}}};
 
 }  // namespace sheave::fuzz

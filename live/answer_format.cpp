@@ -75,6 +75,15 @@ std::vector<AnswerFormat> make_events() {
         subscription_key,
         {"joint", {ValueKind::text}, "its name"},
         {"kind", {ValueKind::text, {}, joint_events}, "what"}}},
+      {"warning",
+       "something could not be done as asked: what the command warns of; of a subscription to "
+       "events",
+       {step_key,
+        time_key,
+        subscription_key,
+        {"kind", {ValueKind::text}, "never changes its meaning, e.g. \"unconverged\""},
+        {"subject", {ValueKind::text}, "a cable, a span; empty: the step as a whole"},
+        {"message", {ValueKind::text}, "the same for people"}}},
       {"omitted",
        "there were more events of cables in a step than are told",
        {step_key, time_key, subscription_key, {"count", {ValueKind::integer}, "how many more"}}},
@@ -133,10 +142,13 @@ std::vector<AnswerKey> reading_keys() {
 }
 
 std::vector<AnswerKey> consequence_keys() {
-  return {{"energy", {ValueKind::number, "J"}, "by how much there is more of it"},
-          {"cables",
-           {ValueKind::objects, {}, {}, &length_change_format()},
-           "whose lengths have changed"}};
+  return {
+      {"energy",
+       {ValueKind::number_or_null, "J"},
+       "by how much there is more of it; null if what there was is beyond the range of numbers"},
+      {"cables",
+       {ValueKind::objects, {}, {}, &length_change_format()},
+       "whose lengths have changed"}};
 }
 
 std::span<const AnswerFormat> event_formats() {

@@ -17,6 +17,7 @@ struct AnswerFormat;
 struct AnswerValue {
   enum class Kind {
     number,
+    number_or_null,  ///< null where it is beyond the range of numbers
     integer,
     boolean,
     text,             ///< one of `words`, if there are any

@@ -44,6 +44,8 @@ Json value_schema(const AnswerValue& value) {
   switch (value.kind) {
     case ValueKind::number:
       return {{"type", "number"}};
+    case ValueKind::number_or_null:
+      return {{"type", Json::array({"number", "null"})}};
     case ValueKind::integer:
       return {{"type", "integer"}};
     case ValueKind::boolean:
@@ -145,6 +147,8 @@ std::string value_text(const AnswerValue& value) {
   switch (value.kind) {
     case ValueKind::number:
       return with_unit("a number");
+    case ValueKind::number_or_null:
+      return value.unit.empty() ? "a number or null" : with_unit("a number") + " or null";
     case ValueKind::integer:
       return "an integer";
     case ValueKind::boolean:

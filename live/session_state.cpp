@@ -140,6 +140,14 @@ void SessionState::tell_events(const std::string& name, const LiveReport& report
     line["kind"] = "break";
     send(line, false);
   }
+  for (const Warning& warning : report.warnings) {
+    Json line = event("warning");
+    line["subscription"] = name;
+    line["kind"] = warning.kind;
+    line["subject"] = warning.subject;
+    line["message"] = warning.message;
+    send(line, false);
+  }
   if (report.omitted == 0) return;
   Json line = event("omitted");
   line["subscription"] = name;

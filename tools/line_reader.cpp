@@ -1,6 +1,6 @@
 #include "tools/line_reader.h"
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <utility>
@@ -30,14 +30,18 @@ std::optional<LineReader::Line> LineReader::next() {
 }
 
 void LineReader::read() {
-  std::array<char, 65536> block{};
-  const ssize_t count = ::read(descriptor_, block.data(), block.size());
-  if (count < 0 && (errno == EINTR || errno == EAGAIN)) return;
+  // Into the buffer itself: a stack may have no room for all that a pipe has.
+  constexpr std::size_t block = 65536;
+  const std::size_t before = buffer_.size();
+  buffer_.resize(before + block);
+  const ssize_t count = ::read(descriptor_, buffer_.data() + before, block);
+  const int fault = errno;
+  buffer_.resize(before + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+  if (count < 0 && (fault == EINTR || fault == EAGAIN)) return;
   if (count < 0) {
-    throw Failure(ExitCode::io, what_ + ": cannot be read: " + std::strerror(errno));
+    throw Failure(ExitCode::io, what_ + ": cannot be read: " + std::strerror(fault));
   }
   if (count == 0) at_end_ = true;
-  buffer_.append(block.data(), static_cast<std::size_t>(count));
 }
 
 }  // namespace sheave::tools

@@ -199,7 +199,7 @@ ExitCode run_live(const LiveOptions& options) {
   }
   Result<Simulation> simulation = create_simulation(scene);
   if (!simulation) throw Failure(ExitCode::bad_scene, to_text(simulation.errors()));
-  if (!options.load_state.empty()) load_state(simulation->world, options.load_state);
+  if (!options.load_state.empty()) load_state(*simulation, options.load_state);
   catch_interrupts();
   LiveServer server(options, scene, std::move(*simulation));
   return server.serve();

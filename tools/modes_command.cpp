@@ -110,7 +110,7 @@ ModeInput parse_input(const Scene& scene, const World& world, const std::string&
 
 /// Moves the simulation to the state about which it is linearised.
 void go_to_state(const ModesOptions& options, Simulation& simulation, ModesFound& found) {
-  if (!options.load_state.empty()) load_state(simulation.world, options.load_state);
+  if (!options.load_state.empty()) load_state(simulation, options.load_state);
   if (options.at) {
     while (simulation.world.state().time < *options.at - 1e-9) {
       const StepReport step = simulation.step();

@@ -93,7 +93,7 @@ RunOutcome play(const Scene& scene, const std::string& start, std::span<const do
                 Progress& progress,
                 const std::function<bool(std::size_t, const Simulation&)>& show) {
   Simulation simulation = make_simulation(scene);
-  if (!start.empty()) load_state(simulation.world, start);
+  if (!start.empty()) load_state(simulation, start);
   Shutter shutter(scene, times, show);
   return simulate(simulation, step_count(scene), progress,
                   [&](const RunStatistics&) { return shutter.observe(simulation); });

@@ -150,7 +150,7 @@ ExitCode render_scene(const RenderOptions& options) {
   double begin = 0.0;
   if (!options.load_state.empty()) {
     Simulation loaded = make_simulation(scene);
-    load_state(loaded.world, options.load_state);
+    load_state(loaded, options.load_state, false);  // it is loaded once more
     begin = loaded.world.state().time;
   }
   Trails trails(scene, pictures.trails);

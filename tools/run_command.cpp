@@ -204,7 +204,7 @@ ExitCode run(const RunOptions& options) {
   const StopRequest time_is_over = limit_of(options);
   const Scene scene = load(options.scene);
   Simulation simulation = make_simulation(scene);
-  if (!options.load_state.empty()) load_state(simulation.world, options.load_state);
+  if (!options.load_state.empty()) load_state(simulation, options.load_state);
   const std::int64_t last_step = last_step_of(options, scene, simulation);
   std::vector<Warning> warnings = early_warnings(options, scene, simulation, last_step);
   std::optional<measure::ErrorEstimator> estimator =

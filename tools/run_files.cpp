@@ -1,12 +1,15 @@
 #include "tools/run_files.h"
 
+#include "scenes/saved_state.h"
 #include "tools/terminal.h"
 
 namespace sheave::tools {
 
 RunFiles::RunFiles(const RecordOptions& tables, const std::string& state_path, bool other_output,
                    const Simulation& simulation)
-    : recorder_(tables, simulation), other_output_(other_output) {
+    : origin_(state_path.empty() ? StateOrigin{} : origin_of(simulation)),
+      recorder_(tables, simulation),
+      other_output_(other_output) {
   if (!state_path.empty()) state_.emplace(state_path);
 }
 
@@ -29,7 +32,7 @@ void RunFiles::finish(const State& state, RunStatus status) {
   if (!state_ || status == RunStatus::diverged) return;
   OutputSummary saved{OutputSummary::Kind::state, state_->path(), 0, {}};
   try {
-    state_->write(to_bytes(state));
+    state_->write(to_bytes(state, origin_));
     state_->commit();
   } catch (const Failure& failure) {
     saved.fault = failure.what();

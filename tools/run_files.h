@@ -43,6 +43,7 @@ class RunFiles {
   [[nodiscard]] OutputFaults& faults() { return faults_; }
 
  private:
+  StateOrigin origin_;  // found while there are no files yet that could be left behind
   Recorder recorder_;
   std::optional<OutputFile> state_;
   bool other_output_;

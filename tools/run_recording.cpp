@@ -65,7 +65,7 @@ std::int64_t suitable_interval(const Scene& scene) {
 RecordedRun record_run(const Scene& scene, const std::string& start, std::int64_t interval,
                        Progress& progress) {
   Simulation simulation = make_simulation(scene);
-  if (!start.empty()) load_state(simulation.world, start);
+  if (!start.empty()) load_state(simulation, start);
   RecordedRun run{view::Recording(simulation), {}, {}};
   const std::int64_t first = simulation.world.state().steps;
   const auto take = [&] {

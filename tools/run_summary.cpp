@@ -32,35 +32,6 @@ std::string_view RunSummary::status() const {
 
 namespace {
 
-std::string link_name(const CableSystem::LinkWarning& warning, const BodySet& bodies) {
-  const std::string body =
-      warning.body < bodies.count() ? "\"" + bodies.name(warning.body) + "\"" : "the world";
-  return warning.link < 0 ? fmt::format("the wrap on {}", body)
-                          : fmt::format("link {} on {}", warning.link, body);
-}
-
-/// Drives that would have needed cable which was not there, and cable that slid because there was
-/// no more.
-void append_shortage_warnings(const CableSystem& cables, const BodySet& bodies,
-                              std::vector<Warning>& warnings) {
-  for (const CableSystem::LinkWarning& warning : cables.stall_warnings()) {
-    warnings.push_back(
-        {"stalled", warning.cable,
-         fmt::format("cable {}: {} stalled in {} substeps, first at {} s: its drive draws more "
-                     "cable than there is, or than another drive feeds",
-                     warning.cable, link_name(warning, bodies), warning.substeps,
-                     number_text(warning.first_time))});
-  }
-  for (const CableSystem::LinkWarning& warning : cables.slide_warnings()) {
-    warnings.push_back(
-        {"slid", warning.cable,
-         fmt::format("cable {} slid over {} in {} substeps, first at {} s, although it cannot "
-                     "slip there: the span next to it was used up",
-                     warning.cable, link_name(warning, bodies), warning.substeps,
-                     number_text(warning.first_time))});
-  }
-}
-
 /// Joints that have not held. Rigid ones are as exact as the solver: open by more than a thousandth
 /// of the scene, or a hundredth of a radian, they have not.
 void append_joint_warnings(const Simulation& simulation, const RunStatistics& statistics,
@@ -102,26 +73,6 @@ void append_joint_warnings(const Simulation& simulation, const RunStatistics& st
          fmt::format("the drive of joint {} was off what it asks for by {:.3g} of it in the mean: "
                      "{}",
                      names[i]->name, joints[i].drive_error / joints[i].drive_asked, why)});
-  }
-}
-
-void append_cable_warnings(const CableSystem& cables, std::vector<Warning>& warnings) {
-  warnings = scene_warnings(cables);
-  for (const CableSystem::TangentWarning& warning : cables.tangent_warnings()) {
-    std::string span = warning.span < 0 ? fmt::format("{} behind a wrap", warning.cable)
-                                        : fmt::format("{}.{}", warning.cable, warning.span);
-    std::string message = fmt::format(
-        "span {} had no tangent in {} substeps, first at {} s: its wheels overlap, and its "
-        "numbers mean little there",
-        span, warning.substeps, number_text(warning.first_time));
-    warnings.push_back({"no_tangent", std::move(span), std::move(message)});
-  }
-  for (const CableSystem::WrapWarning& warning : cables.wrap_warnings()) {
-    std::string message = fmt::format(
-        "cable {} found no place for another wrap in {} substeps, first at {} s, and went through "
-        "the body; raise its most_wraps",
-        warning.cable, warning.substeps, number_text(warning.first_time));
-    warnings.push_back({"too_many_wraps", warning.cable, std::move(message)});
   }
 }
 
@@ -183,7 +134,7 @@ void append_damping_warning(const StepSettings& step, const RunStatistics& stati
                             const RunMonitor& monitor, std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.1;  // of energy: 5 % of speeds
   const double energy = monitor.most_vivid_energy();
-  if (statistics.numerical_damping <= share_limit * energy) return;
+  if (!(statistics.numerical_damping > share_limit * energy)) return;
   std::string message = fmt::format(
       "the step is too long for the vibration of elastic cables: xpbd took {:.3g} J from it, where "
       "kinetic and elastic energy were {:.3g} J at most; {} may avoid that",
@@ -203,7 +154,8 @@ void append_loss_warning(const StepSettings& step, const RunMonitor& monitor,
   const double loss = monitor.integrator_loss();
   const double flow = monitor.energy_flow();
   const double least = rounding * std::abs(monitor.initial_energy().potential);
-  if (said || loss <= share_limit * flow + least) return;
+  // Of energies beyond the range of numbers there are no shares.
+  if (said || !(loss > share_limit * flow + least)) return;
   std::string message = fmt::format(
       "xpbd took about {:.3g} J from the motion, {:.2g} % of what there was at most and what came "
       "and went: the step is too long for it; {} may avoid that",
@@ -229,7 +181,7 @@ void append_energy_warning(const Scene& scene, const Simulation& simulation,
   for (int i = 0; i < bodies.count(); ++i) {
     potential += bodies[i].mass * bodies.gravity().norm() * bodies.scale();
   }
-  if (gain <= share_limit * size + rounding * (size + potential)) return;
+  if (!(gain > share_limit * size + rounding * (size + potential))) return;
   std::string message = fmt::format(
       "there was {:.3g} J more energy than at the start, although nothing puts any into the scene, "
       "and kinetic and elastic energy were {:.3g} J at most: the step is too long for what moves, "
@@ -292,74 +244,19 @@ void append_control_warning(const Simulation& simulation, std::vector<Warning>& 
                    refusals)});
 }
 
-/// What nothing could have done as asked.
-void append_impossible_warnings(const RunStatistics& statistics, std::vector<Warning>& warnings) {
-  if (statistics.impossible > 0) {
-    std::string message = fmt::format(
-        "in {} {} bodies that move as they are told asked for what cannot be, by up to {:.3g} m or "
-        "rad: a rigid cable or a joint between them has nothing else that it could move; let one "
-        "of "
-        "them yield, or give the cable an axial_stiffness",
-        statistics.impossible, statistics.impossible == 1 ? "substep" : "substeps",
-        statistics.most_impossible);
-    warnings.push_back({"impossible", "", std::move(message)});
-  }
-  if (statistics.dead_ends > 0) {
-    std::string message = fmt::format(
-        "in {} {} no motion met all that cables, joints and drives ask for: as where a winch draws "
-        "a load beyond what it can reach, or a drive passes its dead centre; bodies were left "
-        "where the least is off, up to {:.3g} m or rad",
-        statistics.dead_ends, statistics.dead_ends == 1 ? "substep" : "substeps",
-        statistics.most_impossible);
-    warnings.push_back({"dead_end", "", std::move(message)});
-  }
-}
-
-/// What the solver and the integrator could not do as asked.
-void append_solver_warnings(const RunStatistics& statistics, std::vector<Warning>& warnings) {
-  // At a dead end neither could any other have done it.
-  const std::int64_t fallbacks = statistics.integrator_fallbacks - statistics.dead_ends;
-  const std::int64_t unconverged = statistics.unconverged - statistics.dead_ends;
-  if (statistics.solver_fallbacks > 0) {
-    std::string message = fmt::format(
-        "the direct solver did not find which rows act in {} {} and left {} to Gauss-Seidel "
-        "sweeps, so that precision is theirs there",
-        statistics.solver_fallbacks, statistics.solver_fallbacks == 1 ? "substep" : "substeps",
-        statistics.solver_fallbacks == 1 ? "it" : "them");
-    warnings.push_back({"solver_fallback", "", std::move(message)});
-  }
-  if (fallbacks > 0) {
-    std::string message = fmt::format(
-        "things moved too far for rattle in {} {}, or in the smallest part of one, which left {} "
-        "to "
-        "xpbd and its damping; more substeps avoid that",
-        fallbacks, fallbacks == 1 ? "substep" : "substeps", fallbacks == 1 ? "it" : "them");
-    warnings.push_back({"integrator_fallback", "", std::move(message)});
-  }
-  if (statistics.cut_substeps > 0) {
-    std::string message = fmt::format(
-        "{} {} did not converge as a whole and {} done in {} parts, with more work but no less "
-        "precision; more substeps avoid that",
-        statistics.cut_substeps, statistics.cut_substeps == 1 ? "substep" : "substeps",
-        statistics.cut_substeps == 1 ? "was" : "were", statistics.substep_parts);
-    warnings.push_back({"cut_substeps", "", std::move(message)});
-  }
-  if (statistics.exhausted > 0) {
-    std::string message = fmt::format(
-        "{} {} took all the rounds or factorisations that a substep may and {} done as a whole: "
-        "what moves there is hard to solve; more substeps may avoid that",
-        statistics.exhausted, statistics.exhausted == 1 ? "substep" : "substeps",
-        statistics.exhausted == 1 ? "was" : "were");
-    warnings.push_back({"exhausted", "", std::move(message)});
-  }
-  append_impossible_warnings(statistics, warnings);
-  if (unconverged > 0) {
-    std::string message = fmt::format(
-        "{} {} did not converge, in however small parts: constraints that contradict each other? "
-        "What they left off has become velocity",
-        unconverged, unconverged == 1 ? "substep" : "substeps");
-    warnings.push_back({"unconverged", "", std::move(message)});
-  }
+/// What of a run's steps together a single step tells, too.
+StepStatistics step_statistics(const RunStatistics& run) {
+  StepStatistics statistics;
+  statistics.solver_fallbacks = run.solver_fallbacks;
+  statistics.impossible = run.impossible;
+  statistics.dead_ends = run.dead_ends;
+  statistics.most_impossible = run.most_impossible;
+  statistics.integrator_fallbacks = run.integrator_fallbacks;
+  statistics.cut_substeps = run.cut_substeps;
+  statistics.substep_parts = run.substep_parts;
+  statistics.unconverged = run.unconverged;
+  statistics.exhausted = run.exhausted;
+  return statistics;
 }
 
 }  // namespace
@@ -410,8 +307,9 @@ std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simu
                                       const RunStatistics& statistics, const RunMonitor& monitor) {
   std::vector<Warning> warnings;
   if (simulation.cables != nullptr) {
-    append_cable_warnings(*simulation.cables, warnings);
-    append_shortage_warnings(*simulation.cables, simulation.world.bodies(), warnings);
+    warnings = scene_warnings(*simulation.cables);
+    constexpr double ever = -std::numeric_limits<double>::infinity();
+    append_cable_warnings(*simulation.cables, simulation.world.bodies(), ever, warnings);
     append_stretch_warnings(simulation, statistics, monitor, warnings);
   }
   append_joint_warnings(simulation, statistics, monitor, warnings);
@@ -419,7 +317,7 @@ std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simu
   append_loss_warning(scene.model.step, monitor, warnings);
   append_energy_warning(scene, simulation, monitor, warnings);
   append_rounding_warning(simulation.world, warnings);
-  append_solver_warnings(statistics, warnings);
+  append_solver_warnings(step_statistics(statistics), warnings);
   append_control_warning(simulation, warnings);
   return warnings;
 }

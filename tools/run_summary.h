@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cable/step_warnings.h"
 #include "engine/joint_report.h"
 #include "measure/error_estimate.h"
 #include "scenes/check.h"
@@ -16,13 +17,6 @@
 #include "tools/simulate.h"
 
 namespace sheave::tools {
-
-/// Something the user should know although the run went on.
-struct Warning {
-  std::string kind;     ///< for programs: "no_tangent", "solver_fallback", ...
-  std::string subject;  ///< column-like name of what it is about, e.g. "rope.2"; may be empty
-  std::string message;  ///< one sentence
-};
 
 /// Something that happened at a moment.
 struct RunEvent {

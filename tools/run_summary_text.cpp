@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -151,9 +152,11 @@ std::string event_lines(const RunSummary& summary) {
 std::string invariants(const RunSummary& summary) {
   const RunMonitor& monitor = summary.monitor;
   TextTable energy({"energy [J]", "start", "end", "largest drift"}, 1);
-  energy.add({"total", short_number(monitor.initial_energy().total()),
-              short_number(monitor.final_energy().total()),
-              short_number(monitor.max_energy_drift())});
+  const auto joules = [](double value) {
+    return std::isfinite(value) ? short_number(value) : std::string("not finite");
+  };
+  energy.add({"total", joules(monitor.initial_energy().total()),
+              joules(monitor.final_energy().total()), joules(monitor.max_energy_drift())});
   std::string text = "\n" + energy.text();
   text += fmt::format("  the integrator took {} J of {} J\n",
                       short_number(monitor.integrator_loss()), short_number(monitor.energy_flow()));

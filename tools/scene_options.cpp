@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -56,7 +57,7 @@ std::string standard_input() {
   // What is longer is no scene; one byte more is enough for the loader to see it.
   const std::size_t most = json::Limits{}.bytes + 1;
   std::string text;
-  std::array<char, 65536> block{};
+  std::vector<char> block(std::size_t{1} << 16U);
   while (text.size() < most) {
     const std::size_t count = std::fread(block.data(), 1, block.size(), stdin);
     text.append(block.data(), count);

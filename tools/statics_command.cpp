@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "scenes/saved_state.h"
 #include "tools/command.h"
 #include "tools/output_file.h"
 #include "tools/statics_report.h"
@@ -50,8 +51,9 @@ ExitCode statics(const StaticsOptions& options) {
     results.push_back(find_rest(one, options.settings, options.quantities));
   }
   if (!options.save_state.empty()) {
+    const std::string bytes = saved_state(*results.front().simulation);
     OutputFile file(options.save_state);
-    file.write(to_bytes(results.front().state));
+    file.write(bytes);
     file.commit();
   }
   print(options.json ? statics_json(options.scene.path, results)

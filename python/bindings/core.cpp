@@ -1,5 +1,6 @@
 #include "python/bindings/core.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -96,6 +97,17 @@ void Core::note(const LiveReport& report) {
     add({world.time(), "break", *world.name(joint), -1, {}});
   }
   dropped_events += static_cast<std::int64_t>(report.omitted);
+  if (report.warnings.empty()) return;
+  const StepStatistics& step = report.statistics;
+  troubles.solver_fallbacks += step.solver_fallbacks;
+  troubles.impossible += step.impossible;
+  troubles.dead_ends += step.dead_ends;
+  troubles.most_impossible = std::max(troubles.most_impossible, step.most_impossible);
+  troubles.integrator_fallbacks += step.integrator_fallbacks;
+  troubles.cut_substeps += step.cut_substeps;
+  troubles.substep_parts += step.substep_parts;
+  troubles.unconverged += step.unconverged;
+  troubles.exhausted += step.exhausted;
 }
 
 /// Steps with the lock of the interpreter given away, but for calls into Python.
@@ -184,7 +196,9 @@ bool Core::Stepper::step() {
   if (fault_) return false;
   const bool stoppable = core_.is_slow_ || substep_;
   LiveReport report = world_.step(stoppable ? stop_ : StopRequest{}, substep_);
-  if (!report.events.empty() || !report.broken_joints.empty()) core_.note(report);
+  const bool quiet =
+      report.events.empty() && report.broken_joints.empty() && report.warnings.empty();
+  if (!quiet) core_.note(report);
   refused_ = report.stopped && !fault_;
   if (report.divergence) divergence_ = std::move(report.divergence);
   if (!report.ok() || fault_) return false;

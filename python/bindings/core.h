@@ -65,6 +65,8 @@ class Core : public std::enable_shared_from_this<Core> {
   [[nodiscard]] Views& views();
   std::deque<Event> events;
   std::int64_t dropped_events = 0;
+  /// Of the steps that were warned of, together.
+  StepStatistics troubles;
 
  private:
   class Stepper;

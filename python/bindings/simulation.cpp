@@ -68,6 +68,25 @@ py::list event_list(Core& core) {
   return events;
 }
 
+py::list warning_list(Core& core) {
+  const Simulation& simulation = core.simulation();
+  std::vector<Warning> warnings;
+  append_solver_warnings(core.troubles, warnings);
+  if (simulation.cables != nullptr) {
+    constexpr double ever = -std::numeric_limits<double>::infinity();
+    append_cable_warnings(*simulation.cables, simulation.world.bodies(), ever, warnings);
+  }
+  py::list list;
+  for (const Warning& warning : warnings) {
+    py::dict one;
+    one["kind"] = warning.kind;
+    one["subject"] = warning.subject;
+    one["message"] = warning.message;
+    list.append(std::move(one));
+  }
+  return list;
+}
+
 py::object certificate_of(Core& core) {
   const std::optional<Certificate> certificate = core.simulation().certificate();
   if (!certificate) return py::none();
@@ -157,6 +176,10 @@ void bind_simulation(py::module_& /*module*/, SimulationClass& simulation) {
                           "How many there were that `events` does not have.");
   simulation.def(
       "clear_events", [](Core& core) { core.events.clear(); }, "Forgets the events.");
+  simulation.def_property_readonly(
+      "warnings", &warning_list,
+      "What steps could not do as they were asked, as `sheave run` warns of it: dicts with kind, "
+      "subject and message. Of cables since the last edit.");
   simulation.def("certificate", &certificate_of,
                  "What a check of the last substep finds, item by item; None before the first.");
   simulation.def("contacts", &contacts_of, "Where bodies touch or are about to.");

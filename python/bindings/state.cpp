@@ -1,11 +1,10 @@
 // States that are kept, hashed and saved.
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "python/bindings/bind.h"
 #include "python/bindings/errors.h"
+#include "scenes/saved_state.h"
 
 namespace sheave::python {
 namespace {
@@ -23,23 +22,17 @@ void restore(Core& core, const Snapshot& snapshot) {
   session.refresh();
 }
 
-py::bytes save_state(Core& core) { return to_bytes(core.world().state()); }
+py::bytes save_state(Core& core) { return saved_state(core.simulation()); }
 
 void load_state(Core& core, const py::bytes& bytes) {
-  const State state = value_of(state_from_bytes(std::string(bytes)), "StateError");
-  const double dt = core.simulation().world.model().step.dt;
-  const double time = static_cast<double>(state.steps) * dt;
-  constexpr std::int64_t most_saved_steps = std::int64_t{1} << 53;
-  const bool counted = state.steps >= 0 && state.steps <= most_saved_steps &&
-                       std::abs(state.time - time) <= 1e-6 * dt + 1e-12 * time;
-  if (!counted) {
-    raise("StateError",
-          fmt::format("the time {} s of the state is not that of {} steps of {} s: it was saved "
-                      "with another dt, or in the middle of a step",
-                      state.time, state.steps, dt));
-  }
+  State state;
+  const std::vector<std::string> warnings =
+      value_of(check_saved_state(core.simulation(), std::string(bytes), state), "StateError");
   const Errors errors = core.world().restore(state);
   if (!errors.empty()) raise("StateError", errors);
+  for (const std::string& warning : warnings) {
+    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 2) != 0) throw py::error_already_set();
+  }
 }
 
 }  // namespace

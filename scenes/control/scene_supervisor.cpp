@@ -51,6 +51,17 @@ Error at_path(const Errors& errors, const std::string& path) {
 /// steps.
 bool is_due(double time, double due, double substep) { return time > due - 1e-6 * substep; }
 
+bool is_flag(double number) { return number == 0.0 || number == 1.0; }
+
+/// A count that a double has exactly.
+bool is_count(double number) {
+  constexpr double most = 9007199254740992.0;  // 2^53
+  return number >= 0.0 && number <= most && number == std::floor(number);
+}
+
+/// When something was done last, in a state at `now`.
+bool is_past(double time, double now) { return time == never || (time >= 0.0 && time <= now); }
+
 double substep_of(const Simulation& simulation) {
   const StepSettings& step = simulation.world.model().step;
   return step.dt / step.substeps;
@@ -77,11 +88,15 @@ Result<std::shared_ptr<const Supervisor>> SceneSupervisor::again(
   Scene scene;
   scene.model = simulation.world.model();
   scene.cables = *simulation.cable_definitions;
-  for (const TriggerAtWork& trigger : triggers_) scene.triggers.push_back(trigger.definition);
-  for (const auto& controller : controllers_) scene.controllers.push_back(controller.definition);
+  append_to(scene);
   Result<std::shared_ptr<const SceneSupervisor>> made = create(scene, simulation);
   if (!made) return made.errors();
   return std::shared_ptr<const Supervisor>(std::move(*made));
+}
+
+void SceneSupervisor::append_to(Scene& scene) const {
+  for (const TriggerAtWork& trigger : triggers_) scene.triggers.push_back(trigger.definition);
+  for (const auto& controller : controllers_) scene.controllers.push_back(controller.definition);
 }
 
 Result<std::size_t> SceneSupervisor::sampled(const std::string& quantity, const std::string& path) {
@@ -188,6 +203,31 @@ std::vector<double> SceneSupervisor::initial_memory() const {
 
 bool SceneSupervisor::has_stopped(const State& state) const {
   return state.memory.size() == memory_size_ && state.memory[stopped] != 0.0;
+}
+
+std::string SceneSupervisor::memory_fault(const State& state) const {
+  const std::vector<double>& memory = state.memory;
+  if (memory.size() != memory_size_) return "what it remembers is not of these controllers";
+  if (!is_flag(memory[stopped]) || !is_count(memory[refused])) {
+    return "what it remembers of the run is nothing that a run leaves";
+  }
+  for (const TriggerAtWork& trigger : triggers_) {
+    const double* const own = memory.data() + trigger.first;
+    if (is_past(own[acted], state.time) && is_flag(own[holds])) continue;
+    return fmt::format("what it remembers of trigger \"{}\" is nothing that a run leaves",
+                       trigger.definition.name);
+  }
+  for (const ControllerAtWork& controller : controllers_) {
+    const double* const own = memory.data() + controller.first;
+    const std::span<const double> its(own + controller_size, controller.definition->memory_size());
+    const bool finite =
+        std::all_of(its.begin(), its.end(), [](double x) { return std::isfinite(x); });
+    const bool counts = own[samples] >= 0.0;  // beyond 2^53, too, of a sample time near 0
+    if (is_flag(own[is_on]) && counts && is_past(own[sampled_at], state.time) && finite) continue;
+    return fmt::format("what it remembers of controller \"{}\" is nothing that a run leaves",
+                       controller.definition->name);
+  }
+  return {};
 }
 
 std::vector<std::optional<double>> SceneSupervisor::acted_at(const State& state) const {
@@ -313,7 +353,14 @@ void SceneSupervisor::act(const ControllerAtWork& controller, std::span<const do
     memory[refused] += 1.0;
     return;
   }
-  const double output = definition.output(input, {own + controller_size, definition.memory_size()});
+  const std::span<double> its(own + controller_size, definition.memory_size());
+  const double output = definition.output(input, its);
+  // One whose sums have run out of numbers begins them anew.
+  for (double& number : its) {
+    if (std::isfinite(number)) continue;
+    number = 0.0;
+    memory[refused] += 1.0;
+  }
   note(controller.control.set(simulation, output, controller.sample_time), simulation);
 }
 
@@ -353,7 +400,7 @@ Result<Simulation> create_simulation(const Scene& scene) {
       SceneSupervisor::create(scene, *simulation);
   if (!supervisor) return supervisor.errors();
   simulation->world.memory() = (*supervisor)->initial_memory();
-  simulation->supervisor = std::move(*supervisor);
+  simulation->set_supervisor(std::move(*supervisor));
   return simulation;
 }
 

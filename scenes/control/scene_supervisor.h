@@ -29,6 +29,7 @@ class SceneSupervisor final : public Supervisor {
   [[nodiscard]] Result<std::shared_ptr<const Supervisor>> again(
       const Simulation& simulation) const override;
   [[nodiscard]] bool has_stopped(const State& state) const override;
+  [[nodiscard]] std::string memory_fault(const State& state) const override;
 
   /// When each trigger has acted last [s], in the order of the scene.
   [[nodiscard]] std::vector<std::optional<double>> acted_at(const State& state) const;
@@ -36,6 +37,8 @@ class SceneSupervisor final : public Supervisor {
   [[nodiscard]] const TriggerDef& trigger(std::size_t index) const {
     return triggers_[index].definition;
   }
+  /// Gives a scene the controllers and triggers.
+  void append_to(Scene& scene) const;
   /// How often a control has not taken what it was given.
   [[nodiscard]] std::int64_t refusals(const State& state) const;
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -44,7 +45,7 @@ void send(int pipe, Message kind, std::string_view text) {
 
 std::string read_all(int pipe, std::size_t most) {
   std::string bytes;
-  std::array<char, 65536> block{};
+  std::vector<char> block(std::size_t{1} << 16U);
   while (bytes.size() <= most) {
     const ssize_t count = ::read(pipe, block.data(), block.size());
     if (count < 0 && errno == EINTR) continue;

@@ -1,5 +1,7 @@
 // Cables that are taken apart and put together while a world runs.
 
+#include <cmath>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -355,6 +357,73 @@ TEST(EditCables, RopeOfADrumIsTiedElsewhere) {
   EXPECT_NEAR(std::abs(world.pose(*world.body("second"))->position.y() + 2.0), 0.2 * (1.0 - 0.005),
               1e-6);
   EXPECT_EQ(*world.length(rope), 5.0);
+}
+
+/// A drum whose rope of 3 m hangs down 2 m from it, behind a cable with many links.
+test::Machine drum_behind_a_long_cable() {
+  test::Machine machine;
+  machine.model.gravity = test::down;
+  machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
+  machine.model.bodies = {
+      test::wheel("drum", {0.0, 0.0, 0.0}, 0.2, 0.05), test::weight("first", {0.2, -2.0, 0.0}, 1.0),
+      test::weight("second", {1.5, -0.5, 0.0}, 2.0), test::weight("third", {5.0, -1.0, 0.0}, 1.0)};
+  machine.model.bodies[0].drive = DriveKind::speed;
+  machine.model.bodies[0].drive_values = {0.0};
+  auto spool = std::make_shared<SpoolLink>();
+  spool->body = BodyId{0};
+  spool->winding = right;
+  spool->stored_length = 1.0;
+  CableDef many = cable("many", {attach(BodyId::world(), {3.0, 0.0, 0.0})});
+  for (int i = 0; i < 4; ++i) {
+    auto eyelet = std::make_shared<PinholeLink>();
+    eyelet->point = {3.2 + 0.3 * i, i % 2 == 0 ? 0.2 : 0.0, 0.0};
+    many.links.push_back(eyelet);
+  }
+  many.links.push_back(attach(BodyId{3}));
+  machine.cables = {many, cable("rope", {spool, attach(BodyId{1})})};
+  return machine;
+}
+
+// Tied elsewhere in one edit, the rope leaves the drum elsewhere, and the way between comes out of
+// what is stored: a contact at the angle t on a drum of radius r lies at t = phi + arccos(r / d) for
+// a point at the angle phi and the distance d, and the rope runs clockwise up to it.
+TEST(EditCables, InOneEditTheContactMoves) {
+  LiveWorld world = live(drum_behind_a_long_cable());
+  const CableHandle rope = *world.cable("rope");
+  const double stored = *world.stored_length(rope, 0);
+  const double hanging = *world.rest_length(rope, 0);
+  EXPECT_NEAR(hanging, 2.0, 1e-12);
+  edit(world, [&](Edit& e) {
+    e.detach(rope, CableEnd::last);
+    e.attach(rope, CableEnd::last, BodyId{2}, Vector3::Zero());
+  });
+  const auto contact = [](double x, double y) {
+    return std::atan2(y, x) + std::acos(0.2 / std::hypot(x, y));
+  };
+  const double way = 0.2 * (contact(1.5, -0.5) - contact(0.2, -2.0));
+  EXPECT_NEAR(*world.stored_length(rope, 0), stored - way, 1e-12);
+  EXPECT_NEAR(*world.rest_length(rope, 0), hanging + way, 1e-12);
+}
+
+// What has hung loose knows nothing of the world in which it did: neither of one with fewer links
+// nor of one in which other cables have the numbers that it had. All that was loose is the span.
+TEST(EditCables, ALooseCableKnowsNothingOfTheWorldItComesFrom) {
+  for (const bool other_cable : {false, true}) {
+    LiveWorld world = live(drum_behind_a_long_cable());
+    const CableHandle rope = *world.cable("rope");
+    const double stored = *world.stored_length(rope, 0);
+    edit(world, [&](Edit& e) { e.detach(rope, CableEnd::last); });
+    const double loose = **world.loose_length(rope, CableEnd::last);
+    EXPECT_NEAR(loose, 2.0, 1e-12);
+    edit(world, [&](Edit& e) {
+      const auto from = attach(BodyId::world(), {-1.0, 0.5, 0.0});
+      if (other_cable) e.add(cable("other", {from, attach(BodyId{1})}));
+    });
+    edit(world, [&](Edit& e) { e.attach(rope, CableEnd::last, BodyId{2}, Vector3::Zero()); });
+    EXPECT_EQ(*world.stored_length(rope, 0), stored) << other_cable;
+    EXPECT_EQ(*world.rest_length(rope, 0), loose) << other_cable;
+    advance(world, 5);
+  }
 }
 
 // A cable that has been cut splits where it was cut, and both pieces can be tied to something.

@@ -161,6 +161,20 @@ TEST(Edit, BodiesComeAndGoAndTheirHandlesWithThem) {
 }
 
 // A wheel is put on the axle of a carrier that has turned and moved.
+// What an edit has tied to a body that it then removes is not tied to the next one that it adds.
+TEST(Edit, ABodyThatGoesIsNotTheOneThatComes) {
+  LiveWorld world = test::live(test::Atwood{}.machine());
+  const CableHandle cable = world.cable_at(0);
+  edit(world, [](Edit& e) { e.add(test::lump("old", {3.0, 0.0, 0.0}, 1.0)); });
+  const std::string fault = test::refused(world, [&](Edit& e) {
+    e.detach(cable, CableEnd::last);
+    e.attach(cable, CableEnd::last, e.id(*world.body("old")), Vector3::Zero());
+    e.remove(*world.body("old"));
+    e.add(test::lump("new", {0.25, -2.0, 0.0}, 1.0));
+  });
+  EXPECT_THAT(fault, HasSubstr("on a body that is not there"));
+}
+
 TEST(Edit, RotorOnACarrierThatHasTurned) {
   test::Machine machine = empty(IntegratorKind::rattle);
   machine.model.gravity = Vector3::Zero();

@@ -184,6 +184,37 @@ TEST(LiveWorld, AStepTellsWhatHappened) {
   }
 }
 
+// A drum draws a rigid rope that the world holds: it stalls, and the step in which it first does says
+// so, in the words that the command has for it.
+TEST(LiveWorld, AStepWarnsOfWhatItCouldNotDo) {
+  test::Machine machine;
+  machine.model.step = test::direct_settings(IntegratorKind::rattle, 0.01);
+  machine.model.bodies = {test::wheel("drum", {0.0, 0.0, 0.0}, 0.2, 0.05)};
+  machine.model.bodies[0].drive = DriveKind::speed;
+  machine.model.bodies[0].drive_values = {0.0};
+  auto spool = roll(BodyId{0}, right);
+  spool->stored_length = 1.0;
+  machine.cables = {cable("rope", {spool, attach(BodyId::world(), {0.2, -2.0, 0.0})})};
+  LiveWorld world = test::live(machine);
+  EXPECT_TRUE(world.step().warnings.empty());
+  // Of the two senses one draws the rope.
+  std::vector<std::string> told;
+  for (const double speed : {1.0, -1.0}) {
+    ASSERT_TRUE(world.set_speed(*world.body("drum"), speed).empty());
+    for (int i = 0; i < 60; ++i) {
+      const LiveReport report = world.step();
+      ASSERT_TRUE(report.ok());
+      for (const Warning& warning : report.warnings) {
+        told.push_back(warning.kind);
+        EXPECT_EQ(warning.kind, "stalled");
+        EXPECT_EQ(warning.subject, "rope");
+        EXPECT_NE(warning.message.find("link 0 on \"drum\" stalled"), std::string::npos);
+      }
+    }
+  }
+  EXPECT_EQ(told.size(), 1U);
+}
+
 TEST(LiveWorld, LoadsScenes) {
   const std::string machines = std::string(SHEAVE_SOURCE_DIR) + "/scenes/machines/";
   Result<LiveWorld> crane = load(machines + "crane.json");

@@ -217,6 +217,47 @@ TEST(LiveSession, GoesBackToSnapshots) {
   EXPECT_EQ(ask(session, R"({"type":"restore","name":"a"})")["ok"], false);
 }
 
+// A motion that is over before time goes on is no motion: it is refused when it is set, and so there
+// is no state that cannot be gone back to. What is refused changes nothing, whatever has been edited
+// since.
+TEST(LiveSession, HasNoStateThatItCouldNotGoBackTo) {
+  live::Session session = session_of(live_scene);
+  done(session, R"({"type":"step","count":5})");
+  for (const char* over : {"5e-324", "1e-320", "1e-18"}) {
+    const std::uint64_t before = hash_of(session);
+    for (const char* rest : {"", R"(,"velocity":[0,1,0])"}) {
+      const json refused = ask(
+          session,
+          fmt::format(R"({{"type":"set","controls":[{{"type":"motion","body":"hand","position":)"
+                      R"([3,1,0],"over":{}{}}}]}})",
+                      over, rest));
+      EXPECT_EQ(refused["ok"], false) << over << rest;
+      EXPECT_EQ(hash_of(session), before);
+    }
+  }
+  done(session, R"({"type":"snapshot","name":"a"})");
+  const std::uint64_t kept = hash_of(session);
+  done(session, R"({"type":"edit","changes":[{"type":"remove_cable","cable":"string"}]})");
+  done(session, R"({"type":"step","count":3})");
+  done(session, R"({"type":"restore","name":"a"})");
+  EXPECT_EQ(hash_of(session), kept);
+}
+
+// Energies beyond the range of numbers are no change that anybody could tell: refused, all of it.
+TEST(LiveSession, RefusesEnergiesThatAreNoNumbers) {
+  live::Session session = session_of(live_scene);
+  const std::uint64_t before = hash_of(session);
+  const json edited =
+      ask(session,
+          R"({"type":"edit","changes":[{"type":"add_body","body":{"name":"heavy","mass":1e308,)"
+          R"("position":[0,100,0],"shape":{"type":"sphere","radius":0.1}}}]})");
+  EXPECT_EQ(edited["ok"], false);
+  EXPECT_THAT(edited["errors"][0]["message"].get<std::string>(), HasSubstr("beyond the range"));
+  const json placed = ask(session, R"({"type":"place","body":"load","position":[0,1e308,0]})");
+  EXPECT_EQ(placed["ok"], false);
+  EXPECT_EQ(hash_of(session), before);
+}
+
 TEST(LiveSession, PutsBodiesElsewhere) {
   live::Session session = session_of(live_scene);
   const json placed =

@@ -183,6 +183,41 @@ def test_states_are_saved_and_loaded(atwood, tmp_path):
         sheave.load(ATWOOD, set={"/step": {"dt": 0.01}}).load_state(tmp_path / "state")
 
 
+def test_states_that_have_been_changed_are_refused(atwood):
+    atwood.step(3)
+    good = atwood.state_bytes()
+    other = sheave.load(ATWOOD)
+    before = other.hash
+    for place in range(len(good)):
+        changed = bytearray(good)
+        changed[place] ^= 1 + place % 255
+        with pytest.raises(sheave.StateError):
+            other.set_state_bytes(bytes(changed))
+    assert other.hash == before
+    # Those of versions without a checksum, and of other machines of this kind, are warned of.
+    with pytest.warns(UserWarning, match="without a checksum"):
+        other.set_state_bytes(b"SHSTATE2" + good[32:-8])
+    assert other.hash == atwood.hash
+    with pytest.warns(UserWarning, match="other settings"):
+        sheave.load(ATWOOD, set={"/bodies/heavy/mass": 7}).set_state_bytes(good)
+
+
+def test_steps_warn_of_what_they_could_not_do():
+    sim = sheave.load({
+        "format": "sheave-scene/1", "gravity": [0, 0, 0], "duration": 1, "step": {"dt": 0.01},
+        "bodies": [{"name": "winch", "mobility": "rotor", "axis": [0, 0, 1], "mass": 1,
+                    "shape": {"type": "cylinder", "radius": 0.1, "length": 0.1}, "drive": "speed",
+                    "drive_times": [0, 0.02, 0.03], "drive_values": [1, 1, -1]}],
+        "cables": [{"name": "rope", "links": [
+            {"type": "spool", "body": "winch", "winding": "clockwise", "stored_length": 1},
+            {"type": "attachment", "body": "world", "point": [0, -2, 0]}]}]})
+    assert sim.warnings == []
+    sim.step(20)
+    assert [warning["kind"] for warning in sim.warnings] == ["stalled"]
+    assert sim.warnings[0]["subject"] == "rope"
+    assert "its drive draws more cable than there is" in sim.warnings[0]["message"]
+
+
 def test_a_divergence_is_raised():
     sim = sheave.load(ATWOOD)
     sim.bodies["heavy"].set_force((0, -1e300, 0))

@@ -194,6 +194,37 @@ TEST(Supervisor, ReplaysFromASavedState) {
   EXPECT_FALSE(rest.world.restore(other).empty());
 }
 
+// What no run leaves in the memory is refused, and changes nothing: flags are 0 or 1, counts are
+// whole, nothing has been done in the future, and no number is infinite.
+TEST(Supervisor, RefusesAMemoryThatIsNotItsOwn) {
+  Simulation simulation = start(rotor_scene(follower));
+  run(simulation, 0.9);
+  const State good = simulation.world.state();
+  const std::uint64_t before = hash(good);
+  const auto fault = [&](std::size_t place, double value) {
+    State bad = good;
+    bad.memory[place] = value;
+    const Errors errors = simulation.world.restore(bad);
+    EXPECT_EQ(hash(simulation.world.state()), before);
+    return errors.empty() ? std::string() : errors[0].message;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  // Stopped, refused; acted at and holds of three triggers; on, samples, sampled at and 3 numbers of
+  // the first controller.
+  for (const double value : {0.5, -1.0, 1e300, nan}) {
+    for (const std::size_t flag : {0U, 3U, 5U, 7U, 8U}) EXPECT_NE(fault(flag, value), "") << flag;
+    EXPECT_NE(fault(1, value), "");
+  }
+  for (const double time : {-2.0, 0.91, 1e300, nan}) {
+    for (const std::size_t place : {2U, 4U, 6U, 10U}) EXPECT_NE(fault(place, time), "") << place;
+  }
+  EXPECT_NE(fault(9, -1.0), "");
+  EXPECT_NE(fault(11, std::numeric_limits<double>::infinity()), "");
+  EXPECT_THAT(fault(3, 2.0), testing::HasSubstr("trigger \"late\""));
+  EXPECT_THAT(fault(8, 2.0), testing::HasSubstr("controller \"servo\""));
+  EXPECT_THAT(simulation.world.restore(good), IsEmpty());
+}
+
 TEST(Supervisor, ActsAtEachSubstep) {
   // Twice the substeps at twice the step: the same samples, the same motion.
   const char* const servo = R"("controllers": [{"type": "pid", "name": "servo",

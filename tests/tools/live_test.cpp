@@ -41,6 +41,18 @@ std::vector<json> parsed_lines(const std::string& text) {
   return lines;
 }
 
+// What is read goes to where there is room: a stack of 64 KiB is enough for a session.
+TEST(Live, NeedsLittleStack) {
+  if (SHEAVE_SANITIZED) GTEST_SKIP() << "sanitizers need a stack of their own";
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("atwood.json", atwood_scene);
+  const std::string requests = "{\"type\":\"step\"}\n{\"type\":\"hash\"}\n";
+  const ProcessResult little =
+      run_sheave({"live", scene}, {.input = requests, .stack_limit = 64 * 1024});
+  EXPECT_EQ(little.exit_code, 0) << little.signal;
+  EXPECT_EQ(little.out, hold({scene}, requests).out);
+}
+
 TEST(Live, AnswersEachLineAsItComes) {
   const TemporaryFolder folder;
   PipedProcess process({"live", folder.write("atwood.json", atwood_scene)});

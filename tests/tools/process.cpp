@@ -84,11 +84,13 @@ Process::Process(const std::vector<std::string>& arguments, const ProcessOptions
     for (const std::string& variable : options.environment) {
       ::putenv(const_cast<char*>(variable.c_str()));  // NOLINT(*-const-cast): exec follows
     }
-    if (options.file_size_limit >= 0) {
-      const auto limit = static_cast<rlim_t>(options.file_size_limit);
-      const rlimit both{limit, limit};
-      ::setrlimit(RLIMIT_FSIZE, &both);
-    }
+    const auto limit = [](auto resource, std::int64_t bytes) {
+      if (bytes < 0) return;
+      const rlimit both{static_cast<rlim_t>(bytes), static_cast<rlim_t>(bytes)};
+      ::setrlimit(resource, &both);
+    };
+    limit(RLIMIT_FSIZE, options.file_size_limit);
+    limit(RLIMIT_STACK, options.stack_limit);
     ::execv(SHEAVE_COMMAND, pointers.data());
     ::_exit(127);
   }

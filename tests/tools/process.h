@@ -25,6 +25,7 @@ struct ProcessOptions {
   std::string stdout_path{};               ///< its standard output goes to this file instead
   bool terminal_stderr = false;            ///< its standard error is a terminal
   std::int64_t file_size_limit = -1;       ///< bytes that a file of it may have; -1: no limit
+  std::int64_t stack_limit = -1;           ///< bytes of its stack; -1: as that of the test
 };
 
 /// The command, running.

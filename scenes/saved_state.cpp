@@ -1,0 +1,122 @@
+#include "scenes/saved_state.h"
+
+#include <cmath>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "engine/number_text.h"
+#include "scenes/control/scene_supervisor.h"
+#include "scenes/scene.h"
+
+namespace sheave {
+namespace {
+
+/// FNV-1a; never 0, which says that nobody has told.
+std::uint64_t hash_of_text(std::string_view text) {
+  std::uint64_t value = 0xcbf29ce484222325;
+  for (const char c : text) {
+    value = (value ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  }
+  return value == 0 ? 1 : value;
+}
+
+/// What the simulation is made of, as a scene, but for its step settings.
+Scene scene_of(const Simulation& simulation) {
+  Scene scene;
+  scene.model = simulation.world.model();
+  scene.model.step = {};
+  scene.cables = *simulation.cable_definitions;
+  if (const auto* own = dynamic_cast<const SceneSupervisor*>(simulation.supervisor.get())) {
+    own->append_to(scene);
+  }
+  return scene;
+}
+
+/// A line for each thing that numbers of a state belong to.
+std::string layout_text(const Scene& scene) {
+  std::string text;
+  const auto add = [&](std::string_view kind, std::string_view name) {
+    text += fmt::format("{} {}:{}\n", kind, name.size(), name);
+  };
+  for (const BodyDef& body : scene.model.bodies) {
+    add(mobility_names[static_cast<std::size_t>(body.mobility)], body.name);
+  }
+  for (const auto& joint : scene.model.joints) add(joint->type(), joint->name);
+  for (const CableDef& cable : scene.cables) {
+    add(cable.closed ? "belt" : "cable", cable.name);
+    for (const auto& link : cable.links)
+      text += fmt::format("{} {}\n", link->type(), link->body.index);
+  }
+  for (const ColliderDef& collider : scene.model.colliders) {
+    text += fmt::format("collider {}\n", collider.body.index);
+  }
+  for (const auto& controller : scene.controllers) add(controller->type(), controller->name);
+  for (const TriggerDef& trigger : scene.triggers) add("trigger", trigger.name);
+  return text;
+}
+
+StateOrigin origin_of_scene(const Scene& scene) {
+  return {hash_of_text(write_scene(scene)), hash_of_text(layout_text(scene))};
+}
+
+}  // namespace
+
+StateOrigin origin_of(const Simulation& simulation) {
+  return origin_of_scene(scene_of(simulation));
+}
+
+std::string saved_state(const Simulation& simulation) {
+  return to_bytes(simulation.world.state(), origin_of(simulation));
+}
+
+Result<std::vector<std::string>> check_saved_state(const Simulation& simulation,
+                                                   const std::string& bytes, State& state) {
+  Result<SavedState> saved = saved_state_from_bytes(bytes);
+  if (!saved) return saved.errors();
+  std::vector<std::string> warnings;
+  if (!saved->checked) {
+    warnings.emplace_back(
+        "the state was saved by an earlier version, without a checksum: nobody can tell whether it "
+        "is as it was written; save it anew");
+  }
+  if (saved->origin.layout != 0) {
+    const StateOrigin own = origin_of(simulation);
+    if (saved->origin.layout != own.layout) {
+      return Error{
+          "",
+          "the state is one of another machine: bodies, joints, cables, colliders, "
+          "controllers and triggers must have the same names and kinds, in the same order"};
+    }
+    if (saved->origin.scene != own.scene) {
+      warnings.emplace_back(
+          "the state was saved of a machine with other settings; what follows is what this one "
+          "does "
+          "from there, and not how that one would have gone on");
+    }
+  }
+  state = std::move(saved->state);
+  const double dt = simulation.world.model().step.dt;
+  constexpr std::int64_t most_steps = std::int64_t{1} << 53;
+  const double time = static_cast<double>(state.steps) * dt;
+  const bool counted = state.steps >= 0 && state.steps <= most_steps &&
+                       std::abs(state.time - time) <= 1e-6 * dt + 1e-12 * time;
+  if (!counted) {
+    return Error{"", fmt::format("its time {} s is not that of {} steps of {} s: it was saved with "
+                                 "another dt, or in the middle of a step",
+                                 number_text(state.time), state.steps, number_text(dt))};
+  }
+  return warnings;
+}
+
+Result<std::vector<std::string>> load_saved_state(Simulation& simulation,
+                                                  const std::string& bytes) {
+  State state;
+  Result<std::vector<std::string>> warnings = check_saved_state(simulation, bytes, state);
+  if (!warnings) return warnings;
+  Errors errors = simulation.world.restore(state);
+  if (!errors.empty()) return errors;
+  return warnings;
+}
+
+}  // namespace sheave
