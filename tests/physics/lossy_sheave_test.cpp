@@ -161,6 +161,17 @@ void expect_coasting(const test::Machine& m, const Weights& w, double time, bool
   const std::vector<double> t = tensions(s, turned);
   EXPECT_NEAR(t[0], w.m1 * (g + a), tolerance * w.m1 * g);
   EXPECT_NEAR(t[1], w.m2 * (g - a), tolerance * w.m2 * g);
+  // The link takes (T_out - T_in) x travel.
+  const auto reactions = Reactions::of(s);
+  ASSERT_TRUE(reactions.has_value());
+  const double h = s.world.last_substep()->h;
+  const bool rattle = m.model.step.integrator == IntegratorKind::rattle;
+  const double travelled = w.speed + a * (rattle ? time - 0.5 * h : time);
+  EXPECT_NEAR(reactions->friction(), (t[1] - t[0]) * travelled,
+              100.0 * tolerance * std::abs(w.speed) * g);
+  const auto certificate = s.certificate();
+  ASSERT_TRUE(certificate.has_value());
+  EXPECT_TRUE(certificate->clean(1e-6)) << certificate->worst()->sentence();
 }
 
 TEST_P(EfficiencyOfTravel, WeightsThatCoastSlowDown) {
