@@ -58,7 +58,7 @@ MovingSpan CableSystem::moving_span(const AffineBodies& bodies, const State& ini
 
 bool CableSystem::append_affine(const AffineBodies& bodies, AffineRows& rows) {
   moving_ = {};
-  if (has_layers_) return false;
+  if (has_layers_ || !bearings_.empty()) return false;
   for (const CompiledCable& cable : cables_) {
     if (!cable.candidates.empty() || cable.may_lock) return false;
   }

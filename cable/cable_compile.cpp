@@ -132,7 +132,15 @@ void CableCompiler::make_room() {
   s.references_.resize(spans);
   s.strains_.resize(spans);
   s.end_strains_.assign(spans, -1.0);
-  s.multipliers_.resize(spans);
+  s.bearing_places_.assign(links, -1);
+  for (std::size_t i = 0; i < links; ++i) {
+    if (!(s.definitions_[i].bearing_arm > 0.0)) continue;
+    s.bearing_places_[i] = static_cast<int>(s.bearings_.size());
+    cable_parts::Bearing& bearing = s.bearings_.emplace_back();
+    bearing.link = static_cast<int>(i);
+    bearing.rotor = s.definitions_[i].body;
+  }
+  s.multipliers_.resize(spans + s.bearings_.size());
   s.start_values_.resize(spans);
   s.run_work_.means.resize(s.links_.size());
   s.start_tensions_.resize(spans);
@@ -172,7 +180,8 @@ void CableCompiler::store_strains() {
     }
   }
   s.stored_.resize(at(places));
-  s.initial_.reals.resize(s.strain_index(places), 0.0);
+  s.strains_in_state = places;
+  s.initial_.reals.resize(s.bearing_index(static_cast<int>(s.bearings_.size())), 0.0);
   for (std::size_t i = 0; i < s.links_.size(); ++i) {
     s.fit_strain(static_cast<int>(i), StoredStrain::End::outgoing, start_strains_[i], s.initial_);
   }

@@ -48,7 +48,7 @@ void CableCompiler::find_candidates(const CableDef& def, CompiledCable& cable) {
     // First, for looking at every link for every body takes minutes with 10^5 wheels.
     if (!bodies_.definition(body).wrappable) continue;
     const bool listed = std::any_of(links_.begin(), links_.end(), [&](const LinkGeometry& link) {
-      return link.body == body && link.wraps();
+      return link.touched() == body && link.wraps();
     });
     if (listed) continue;
     cable.candidates.push_back(wrap_candidate(bodies_, body));
@@ -83,7 +83,8 @@ void CableCompiler::check_candidates(const CompiledCable& cable) {
     const SpanGeometry& span = geometry_[at(k)];
     const int second = next_touched(k);
     for (const WrapCandidate& candidate : cable.candidates) {
-      if (links_[at(k)].body == candidate.body || links_[at(second)].body == candidate.body) {
+      if (links_[at(k)].touched() == candidate.body ||
+          links_[at(second)].touched() == candidate.body) {
         continue;
       }
       const WrapSide side = wrap_side(*now_, candidate, span);

@@ -80,18 +80,14 @@ void CableCompiler::check_massless(const LinkGeometry& link, bool end, const std
     fail(field + "/body", "nothing can be fixed to \"" + bodies_.name(link.body) +
                               "\", which has no spin inertia: it would turn without resistance");
   }
-  if (link.loss_exponent > 0.0 && (end || !link.massless)) {
-    fail(field + "/efficiency",
-         end ? "at the end of a cable nothing passes; leave efficiency out"
-             : "\"" + bodies_.name(link.body) +
-                   "\" has spin inertia; only a rotor whose \"spin_inertia\" is 0 has an "
-                   "efficiency (one that has inertia may have joint friction, or \"friction\")");
+  if (end && (link.loss_exponent > 0.0 || link.bearing_arm > 0.0)) {
+    fail(field + "/efficiency", "at the end of a cable nothing passes; leave efficiency out");
   }
   if (!link.massless) return;
-  const std::string& wheel = bodies_.name(link.body);
+  const std::string& wheel = bodies_.name(link.touched());
   if (end) fail(field, "a cable cannot end on \"" + wheel + "\", which has no spin inertia");
   if (link.outline) fail(field, "the massless wheel \"" + wheel + "\" must be circular");
-  if (!massless_wheels_.insert(link.body).second) {
+  if (!massless_wheels_.insert(link.touched()).second) {
     fail(field, "the massless wheel \"" + wheel +
                     "\" can carry only one cable once: nothing would hold two together");
   }
@@ -115,7 +111,8 @@ void CableCompiler::check_stored_length(const LinkGeometry& link, bool end,
 }
 
 std::string CableCompiler::link_name(int link) const {
-  return "link " + std::to_string(link) + " on \"" + bodies_.name(links_[at(link)].body) + "\"";
+  return "link " + std::to_string(link) + " on \"" + bodies_.name(links_[at(link)].touched()) +
+         "\"";
 }
 
 }  // namespace sheave

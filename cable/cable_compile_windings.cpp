@@ -57,7 +57,8 @@ void CableCompiler::find_wrong_windings(const CableDef& def) {
     const SpanGeometry from = span_geometry(*now_, out, other, links_[at(after)]);
     if (!to.has_tangent || !from.has_tangent || cross_each_other(to, from, normal)) continue;
     const Winding better = other.side > 0 ? Winding::counter_clockwise : Winding::clockwise;
-    std::string body = wheel.body == bodies_.count() ? "world" : bodies_.name(wheel.body);
+    const int on = wheel.touched();
+    std::string body = on == bodies_.count() ? "world" : bodies_.name(on);
     system_->winding_warnings_.push_back({name_, i, std::move(body), better});
   }
 }

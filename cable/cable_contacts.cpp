@@ -35,7 +35,7 @@ void CableSystem::record(const Substep& substep, const CompiledCable& cable, int
   knows_lengths_ = false;
   const int listed = link - cable.first_link;
   CableEvent event{substep.next.time, cable.name, listed < cable.listed_links ? listed : -1, kind};
-  const int body = links_[at(link)].body;
+  const int body = links_[at(link)].touched();
   if (body != substep.bodies.count()) event.body = substep.bodies.name(body);
   events_.push_back(std::move(event));
 }
@@ -182,7 +182,7 @@ bool CableSystem::leave(const Substep& substep, const CompiledCable& cable, int 
   if (link <= cable.last_listed_link()) {
     next.integers[mode_index(link)] = RunningLink::lifted_mode;
   } else {
-    left_bodies_.push_back(links_[at(link)].body);
+    left_bodies_.push_back(links_[at(link)].touched());
     forget_plane(cable, link, next);
     next.reals[slip_index(link)] = 0.0;
   }
@@ -232,8 +232,8 @@ bool CableSystem::touch_wrappable(const Substep& substep, int cable_index, int s
   const WrapCandidate& candidate = cable.candidates[at(candidate_index)];
   const WrapSide before = sides_[at(span)][at(candidate_index)];
   const int body = candidate.body;
-  if (links_[at(spans_[at(span)].first)].body == body ||
-      links_[at(spans_[at(span)].second)].body == body || before.moment.isZero(0.0) ||
+  if (links_[at(spans_[at(span)].first)].touched() == body ||
+      links_[at(spans_[at(span)].second)].touched() == body || before.moment.isZero(0.0) ||
       std::find(left_bodies_.begin(), left_bodies_.end(), body) != left_bodies_.end()) {
     return false;
   }

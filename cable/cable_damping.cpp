@@ -54,7 +54,7 @@ namespace {
 /// What a span that begins at the link gains from the rim of a massless wheel that goes on turning
 /// [m], and one that ends there loses, where its row does not have it.
 double spun_off(const Substep& substep, const LinkGeometry& link, const Row& row) {
-  if (!link.massless) return 0.0;
+  if (!link.massless || link.wheel >= 0) return 0.0;
   for (const RowTerm& term : row.active_terms()) {
     if (term.body == link.body) return 0.0;
   }

@@ -393,7 +393,7 @@ std::vector<CableSystem::LinkWarning> CableSystem::link_warnings(
       const int link = cable.first_link + i;
       const Fallback& observed = of_links[at(link)].observed;
       if (observed.substeps == 0) continue;
-      warnings.push_back({cable.name, i < cable.listed_links ? i : -1, links_[at(link)].body,
+      warnings.push_back({cable.name, i < cable.listed_links ? i : -1, links_[at(link)].touched(),
                           observed.substeps, observed.first_time});
     }
   }

@@ -464,7 +464,7 @@ bool CableSystem::revise(Substep& substep) {
     changed = changed || !std::equal(revised_.begin(), revised_.end(), begin);
     changed = has_other_given(substep, cable) || changed;
   }
-  return changed;
+  return revise_bearings(substep) || changed;
 }
 
 }  // namespace sheave

@@ -11,6 +11,7 @@
 #include "cable/cable.h"
 #include "cable/link_geometry.h"
 #include "cable/span_row.h"
+#include "engine/followed_pressure.h"
 #include "engine/math/portable.h"
 #include "engine/substep.h"
 
@@ -97,6 +98,16 @@ struct SlipChanges {
   bool done = false;
   bool refused = false;
   bool means = false;  ///< a link slides by the means of strains from now on
+};
+
+/// Of a wheel with inertia that loses tension: cable/cable_bearings.cpp.
+struct Bearing {
+  int link = 0;   ///< among those of all cables
+  int rotor = 0;  ///< its wheel
+  std::array<int, 2> spans{-1,
+                           -1};  ///< before it and behind it, in this substep; -1: there is none
+  double pressed = 0.0;  ///< sum of the tensions beside it, as multipliers of a whole substep
+  FollowedPressure pressure;
 };
 
 /// With what open runs turn wheels between their spans: cable/cable_held.cpp.

@@ -62,14 +62,14 @@ CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start
   begin(substep, own);
   std::fill(fed_.begin(), fed_.end(), std::array<double, 2>{});
   std::vector<double> stretches(spans_.size(), 0.0);
-  for (int k = 0; k < row_count(); ++k) {
+  for (int k = 0; k < span_count(); ++k) {
     if (!spans_[at(k)].active) continue;
     stretches[at(k)] = geometry_of(substep, k).length - own.reals[rest_length_index(k)];
   }
   move_bodies(end, substep);
   if (!stored_.empty()) stored_end_ = stored_;
   std::fill(end_strains_.begin(), end_strains_.end(), -1.0);
-  for (int k = 0; k < row_count(); ++k) {
+  for (int k = 0; k < span_count(); ++k) {
     if (!spans_[at(k)].active) continue;
     if (is_affine_[at(k)] != 0) {
       finish_affine(substep, k, next);

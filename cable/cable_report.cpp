@@ -76,7 +76,8 @@ LinkReport CableSystem::link_report(const CableView& view, int index, int incomi
   const FeatureState& own = view.own;
   const LinkGeometry& link = view.current.links[at(index)];
   LinkReport report;
-  report.body = link.body == now.bodies.count() ? BodyId::world() : BodyId{link.body};
+  const int body = link.touched();
+  report.body = body == now.bodies.count() ? BodyId::world() : BodyId{body};
   report.center = link_center(now, link);
   report.normal = now.orientation(link.carrier) * link.normal;
   report.radius = std::abs(link.signed_radius);
@@ -88,6 +89,8 @@ LinkReport CableSystem::link_report(const CableView& view, int index, int incomi
   report.most_strain = stored_strain(own, index).most_strain();
   if (link.wraps()) report.wrap_angle = wound_angle(definition, link, arc);
   const double passed = own.reals[slip_index(index)];
+  const int bearing = bearing_of(index);
+  if (bearing >= 0) report.bearing_torque = own.reals[bearing_index(bearing)];
   report.stalled = notes_.stalls[at(index)].now;
   (definitions_[at(index)].feeds ? report.fed : report.slip) = passed;
   const bool lifted = own.integers[mode_index(index)] >= RunningLink::lifted_mode;
@@ -207,7 +210,7 @@ std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State&
   const Geometry current = geometry_for(bodies, own);
   std::vector<SpanGeometry> ends(spans_.size());
   std::vector<int> incoming(links_.size(), -1);  // span that ends at the link
-  for (int k = 0; k < row_count(); ++k) {
+  for (int k = 0; k < span_count(); ++k) {
     const SpanSetup& setup = current.spans[at(k)];
     if (!setup.active) continue;
     incoming[at(setup.second)] = k;

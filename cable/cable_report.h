@@ -38,6 +38,9 @@ struct LinkReport {
   /// Cable that has slid over the link towards the next span since time 0 [m]; what rolled with a
   /// wheel is not counted.
   double slip = 0.0;
+  /// Of a wheel with spin inertia that loses tension: the torque of its bearing on it about its axle
+  /// in the last substep [N m]; the opposite acts on what holds the bearing.
+  double bearing_torque = 0.0;
   /// The drive of the link's body, or the link's feed, stood still or slowed down in the last
   /// substep, for want of cable.
   bool stalled = false;

@@ -418,6 +418,9 @@ const std::vector<double>& CableSystem::run_spare(const Substep& substep,
 void CableSystem::share_lengths(Substep& substep, const CompiledCable& cable, FeatureState& next) {
   std::vector<char>& rests = run_work_.rests;
   rests.assign(at(cable.link_count), 0);
+  for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
+    if (links_[at(i)].wheel >= 0) stop_wheel(substep, links_[at(i)].wheel);
+  }
   for_each_run(cable, [&](Run run) {
     if (run.count > 1) share_run(substep, cable, run, next);
   });
@@ -462,16 +465,29 @@ void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run ru
   }
 }
 
+void CableSystem::stop_wheel(Substep& substep, int wheel) const {
+  // The prediction lets it go on turning, which its bearing does not.
+  const BodyProperties& properties = substep.bodies[wheel];
+  BodyState& next = substep.next.bodies[at(wheel)];
+  next.angle = substep.start.bodies[at(wheel)].angle;
+  next.orientation = rotation_by(next.angle * properties.axis) * properties.start_orientation;
+  next.angular_velocity = Vector3::Zero();
+  if (properties.mount < 0) return;
+  const BodyState& carrier = substep.next.bodies[at(properties.mount)];
+  next.orientation = carrier.orientation * next.orientation;
+  next.angular_velocity = carrier.angular_velocity;
+}
+
 void CableSystem::turn_massless_wheel(Substep& substep, int link, double length) const {
   if (length == 0.0) return;
   const LinkGeometry& geometry = links_[at(link)];
-  const BodyProperties& wheel = substep.bodies[geometry.body];
-  BodyState& next = substep.next.bodies[at(geometry.body)];
-  const bool mounted = wheel.mount >= 0;
-  const Quaternion carrier = mounted ? substep.next.bodies[at(wheel.mount)].orientation
-                                     : Quaternion(Quaternion::Identity());
+  const int turned = geometry.touched();
+  const BodyProperties& wheel = substep.bodies[turned];
+  BodyState& next = substep.next.bodies[at(turned)];
+  const Quaternion carrier = wheel.mount >= 0 ? substep.next.bodies[at(wheel.mount)].orientation
+                                              : Quaternion(Quaternion::Identity());
   const Vector3 axis = carrier * wheel.axis;
-  const Quaternion& link_frame = geometry.carrier == geometry.body ? next.orientation : carrier;
+  const Quaternion& link_frame = geometry.carrier == turned ? next.orientation : carrier;
   const double sense = axis.dot(link_frame * geometry.normal) > 0.0 ? 1.0 : -1.0;
   const double turn = sense * length / geometry.signed_radius;
   next.angle += turn;

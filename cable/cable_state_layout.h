@@ -14,7 +14,8 @@ namespace sheave {
 /// link [m]: cable that has slid over it towards the next span, of an attachment cable that was
 /// fed, angle of a hybrid end's attachment per link [rad], plane per place for a wrap: centre [m]
 /// and normal, own frame of the body. Then per link on which cable of a material can lie what
-/// StoredStrain saves, and what has been lost there by creep since time 0 [J].
+/// StoredStrain saves, and what has been lost there by creep since time 0 [J]. Then per wheel with
+/// inertia that loses tension the torque of its bearing on it about its axle [N m].
 ///
 /// integers: per link with friction which way the cable slides: +1 towards the next span, -1
 /// towards the last, 0 not at all; per link its mode: 0 as defined, 1 wound the other way round, 2
@@ -57,6 +58,10 @@ class CableStateLayout {
   [[nodiscard]] std::size_t creep_index(int place) const {
     return strain_index(place) + StoredStrain::real_count;
   }
+  /// Of the bearing that is the `bearing`th of those that brake wheels.
+  [[nodiscard]] std::size_t bearing_index(int bearing) const {
+    return strain_index(strains_in_state) + static_cast<std::size_t>(bearing);
+  }
   // And in FeatureState::integers.
   [[nodiscard]] static std::size_t slip_state_index(int link) {
     return static_cast<std::size_t>(link);
@@ -83,6 +88,7 @@ class CableStateLayout {
   std::size_t spans_in_state = 0;
   std::size_t links_in_state = 0;
   int planes_in_state = 0;
+  int strains_in_state = 0;
   int cables_in_state = 0;
 };
 

@@ -117,6 +117,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     if (!cable.candidates.empty()) remember_sides(substep, cable);
     if (cable.shares && cable.compliance > 0.0) hold_drained(cable, state);
   }
+  begin_bearings(substep);
   known_.forget();
 }
 
@@ -156,7 +157,7 @@ double CableSystem::sweep(Substep& substep) {
                                                         : sweep_spans(substep, cables_[i]));
   }
   given_.knows_multipliers = true;
-  return correction;
+  return std::max(correction, sweep_bearings(substep));
 }
 
 double CableSystem::solve_affine(Substep& substep, int span) {
@@ -191,6 +192,7 @@ double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
 void CableSystem::linearise(Substep& substep, RowList& rows) {
   // Only `rattle` asks before anything has moved.
   const bool at_start = substep.time == substep.start.time;
+  const std::size_t first = rows.size();
   for (const CompiledCable& cable : cables_) {
     if (!cable.shares) {
       linearise_spans(substep, cable, rows);
@@ -199,6 +201,7 @@ void CableSystem::linearise(Substep& substep, RowList& rows) {
     for_each_run(cable, [&](Run run) { linearise_run(substep, cable, run, rows); });
     if (at_start && cable.has_friction) remember_friction(substep, cable);
   }
+  linearise_bearings(substep, first, rows);
   knows_start_ = knows_start_ || at_start;
 }
 
@@ -278,7 +281,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
   }
   if (!stored_.empty()) stored_end_ = stored_;
   keep_end_strains(substep);
-  for (int k = 0; k < row_count(); ++k) {
+  for (int k = 0; k < span_count(); ++k) {
     if (!spans_[at(k)].active) continue;
     if (is_affine_[at(k)] != 0) {
       finish_affine(substep, k, next);
@@ -287,6 +290,10 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
     }
   }
   if (!stored_end_.empty()) keep_strains(next);
+  for (std::size_t b = 0; b < bearings_.size(); ++b) {
+    next.reals[bearing_index(static_cast<int>(b))] =
+        multipliers_[spans_.size() + b] / (substep.h * substep.h);
+  }
   if (driven_ || notes_.slides) record_stalls(substep, next);
   for (const CompiledCable& cable : cables_) {
     if (cable.shares) share_lengths(substep, cable, next);
@@ -305,7 +312,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
 }
 
 void CableSystem::count_numerical_damping(Substep& substep, const FeatureState& next) const {
-  for (int k = 0; k < row_count(); ++k) {
+  for (int k = 0; k < span_count(); ++k) {
     const CompiledCable& cable = cables_[at(spans_[at(k)].cable)];
     if (!spans_[at(k)].active || (cable.compliance == 0.0 && cable.inverse_stiffness == 0.0)) {
       continue;
@@ -383,7 +390,7 @@ double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
   const Substep now(bodies, state, 1.0, 1);
   const Geometry current = geometry_for(bodies, own);
   double energy = stored_energy(own);
-  for (int k = 0; k < row_count(); ++k) {
+  for (int k = 0; k < span_count(); ++k) {
     const SpanSetup& setup = current.spans[at(k)];
     if (!setup.active) continue;
     const double rest_length = own.reals[rest_length_index(k)];
@@ -399,7 +406,7 @@ double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
 
 std::vector<CableSystem::TangentWarning> CableSystem::tangent_warnings() const {
   std::vector<TangentWarning> warnings;
-  for (int k = 0; k < row_count(); ++k) {
+  for (int k = 0; k < span_count(); ++k) {
     const Fallback& fallback = notes_.fallbacks[at(k)];
     if (fallback.substeps == 0) continue;
     const CompiledCable& cable = cables_[at(spans_[at(k)].cable)];

@@ -99,7 +99,10 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] bool accepts(const FeatureState& state) const override;
   [[nodiscard]] bool accepts_controls(const Controls& controls) const override;
   [[nodiscard]] bool takes_cables() const override { return true; }
-  [[nodiscard]] int row_count() const override { return static_cast<int>(spans_.size()); }
+  [[nodiscard]] int row_count() const override { return static_cast<int>(multipliers_.size()); }
+  [[nodiscard]] int span_count() const { return static_cast<int>(spans_.size()); }
+  /// The number of the bearing that brakes the wheel of a link, for bearing_index(); -1: none does.
+  [[nodiscard]] int bearing_of(int link) const { return bearing_places_[at(link)]; }
   void begin(const Substep& substep, const FeatureState& state) override;
   [[nodiscard]] double longest() const override;
   [[nodiscard]] bool limits_drives() const override { return driven_; }
@@ -246,6 +249,15 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   void hold_between(const Substep& substep, const CompiledCable& cable, Held what,
                     std::size_t first, std::size_t last);
   void apply_held(const Substep& substep, const CompiledCable& cable, const Piece&, double pull);
+  // Bearings that brake wheels with inertia: cable/cable_bearings.cpp.
+  void begin_bearings(const Substep& substep);
+  /// The sum of the tensions beside its wheel, by the multipliers of now, for a whole substep.
+  [[nodiscard]] double pressing(const Substep& substep, const cable_parts::Bearing&) const;
+  void evaluate_bearing(const Substep& substep, std::size_t bearing, Row& row) const;
+  double sweep_bearings(Substep& substep);
+  /// Behind the rows of the spans, which begin at `first`.
+  void linearise_bearings(const Substep& substep, std::size_t first, RowList& rows);
+  bool revise_bearings(const Substep& substep);
   // Drums with layers: cable/cable_layers.cpp.
   using LayeredSpan = cable_parts::LayeredSpan;
   [[nodiscard]] bool layered(int span) const;
@@ -409,6 +421,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   void cut(const Substep& substep, FeatureState& next);
   void feed(const FeatureState& state, double h, int span);
   void turn_massless_wheel(Substep& substep, int link, double length) const;
+  void stop_wheel(Substep& substep, int wheel) const;
   void count_numerical_damping(Substep& substep, const FeatureState& next) const;
   /// Energy that implicit Euler takes from a span's vibration in a substep [J], from its tensions
   /// before and now [N].
@@ -455,6 +468,9 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   std::vector<double> multipliers_;
   std::vector<double> start_tensions_;  ///< per span [N]
   cable_parts::GivenPulls given_;
+  std::vector<cable_parts::Bearing> bearings_;
+  std::vector<int> bearing_places_;         ///< per link its place among them, or -1
+  std::vector<std::size_t> row_places_;     ///< scratch: per span, where its row is
   std::vector<std::array<double, 2>> fed_;  ///< per span, of its ends, in this substep [m]
   std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
   std::vector<int> pending_slip_;

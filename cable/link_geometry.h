@@ -23,7 +23,7 @@ struct LinkOutline {
 /// plane fixed to a body; a point is a circle of radius 0, and an outline has one such circle at
 /// each corner.
 struct LinkGeometry {
-  int body = 0;     ///< the body the cable touches: its turning moves cable
+  int body = 0;     ///< the body whose turning moves cable: the one the cable touches, or `wheel`
   int carrier = 0;  ///< the body that carries `center` and `normal`: of a wheel on a mounted rotor
                     ///< the rotor's carrier, otherwise `body`
   bool mounted = false;               ///< whether `body` is a mounted rotor
@@ -40,9 +40,16 @@ struct LinkGeometry {
   bool slides = false;
   /// Capstan coefficient of a link over which the cable can slide; NaN: it cannot.
   double friction = std::numeric_limits<double>::quiet_NaN();
-  /// Of a massless wheel that takes a part of the tension whichever way it turns: -ln of its
-  /// efficiency, the exponent of its capstan whatever the wrap angle; 0: it takes none.
+  /// Of a massless wheel that takes a part of the tension: -ln of its efficiency, the exponent of
+  /// its capstan whatever the wrap angle; 0: it takes none. The bearing that holds it, or lets it
+  /// turn, is the carrier's, so `body` is the carrier: the cable slides over a post that stands on
+  /// it. (A wheel that went on turning as in the substep before would hold the cable at a speed.)
   double loss_exponent = 0.0;
+  /// Of a wheel with inertia: its bearing holds it, or brakes it, with at most this times the sum of
+  /// the tensions on both sides [m]; 0: it turns freely (cable/cable_bearings.cpp).
+  double bearing_arm = 0.0;
+  /// The rotor that the cable turns as it slides, where `body` is its carrier; -1: there is none.
+  int wheel = -1;
   /// The link's rotor has no inertia, so the tension is the same on both sides and the cable's
   /// motion turns it.
   bool massless = false;
@@ -65,6 +72,8 @@ struct LinkGeometry {
     rim_center = center;
     rim_normal = normal;
   }
+  /// The body that a user sees the cable on.
+  [[nodiscard]] int touched() const { return wheel >= 0 ? wheel : body; }
   [[nodiscard]] bool wraps() const { return side != 0; }
   /// Whether geometry depends on the cable's state, not only on the bodies.
   [[nodiscard]] bool changes() const { return hybrid || layer_pitch > 0.0; }

@@ -194,14 +194,26 @@ double Reactions::joint_friction(int joint) const {
   return sum;
 }
 
+namespace {
+
+/// Power that a bearing takes from its wheel [W].
+double loss_of(const Evidence& e, const certify::BearingEvidence& bearing) {
+  return -(bearing.torque[0] + bearing.torque[1]) * bearing.turn / e.h;
+}
+
+}  // namespace
+
 double Reactions::link_friction(int cable, int link) const {
   const Evidence& e = content_->evidence;
   const certify::CableEvidence& found = e.cables[at(cable)];
   double sum = 0.0;
+  for (const certify::BearingEvidence& bearing : e.bearings) {
+    if (bearing.cable == found.name && bearing.link == link) sum += loss_of(e, bearing);
+  }
   for (const certify::PassEvidence& pass : found.passes) {
     if (pass.link != link) continue;
     // Friction pulls back what slides on: the tension that it comes on with is the smaller one.
-    sum += pass.slip / e.h *
+    sum += pass.travel / e.h *
            (found.spans[at(pass.after)].tension() - found.spans[at(pass.before)].tension());
   }
   return sum;
@@ -213,10 +225,11 @@ double Reactions::friction() const {
   for (std::size_t j = 0; j < e.joints.size(); ++j) sum += joint_friction(static_cast<int>(j));
   for (const certify::CableEvidence& cable : e.cables) {
     for (const certify::PassEvidence& pass : cable.passes) {
-      sum += pass.slip / e.h *
+      sum += pass.travel / e.h *
              (cable.spans[at(pass.after)].tension() - cable.spans[at(pass.before)].tension());
     }
   }
+  for (const certify::BearingEvidence& bearing : e.bearings) sum += loss_of(e, bearing);
   for (const certify::ContactEvidence& contact : e.contacts) {
     for (const End when : {first_end, last_end}) {
       const Vector3 way = e.displacement(contact.body_a, contact.point_a[at(when)], when) -

@@ -97,9 +97,11 @@ struct Row {
   /// one [m/s]: its velocity is not stopped.
   double rebound_speed = unbounded;
   /// Of a row of friction, whose bounds are +- this times the multiplier of the row `pressed_by`
-  /// places before it [1].
+  /// places before it [1, or m if the row is an angle].
   double friction = 0.0;
   int pressed_by = 0;
+  /// The same of a second row, whose multiplier is added to that of the first; 0: there is none.
+  int pressed_also = 0;
   /// Friction in several directions: of the first of its rows their number, 2 or 3, of the others 0.
   /// They follow each other, touch the same bodies in the same order, are of directions that are
   /// perpendicular to each other, and have the same bounds, which are those of the norm of their
@@ -138,7 +140,7 @@ struct Row {
 
   /// Makes the row empty: no terms, rigid, bilateral, value 0.
   void clear() {
-    index = pressed_by = shares = 0;
+    index = pressed_by = pressed_also = shares = 0;
     source = nullptr;
     friction = 0.0;
     active = tied = curved = told = idle = false;

@@ -7,6 +7,7 @@
 #include "cable/cable_system.h"
 #include "cable/certificate/free_rotation.h"
 #include "cable/certificate/pushes.h"
+#include "cable/links/rolling.h"
 #include "cable/links/spool.h"
 #include "engine/constraint_batch.h"
 #include "engine/dynamics/mounted_drive.h"
@@ -83,6 +84,7 @@ Evidence::Evidence(const Simulation& observed, const LastSubstep& last)
       moments{Moment{&bodies, &start.bodies}, Moment{&bodies, &end.bodies}} {
   balances.resize(at(bodies.count()) + 1);
   for (int i = 0; i < bodies.count(); ++i) turns_.push_back(counted_turn(*this, i));
+  find_brakes();
   if (simulation.cables != nullptr) collect_cables(last);
   if (!model.joints.empty()) collect_joints(last);
   for (std::size_t f = 0; f < observed.world.features().size(); ++f) {
@@ -95,6 +97,7 @@ Evidence::Evidence(const Simulation& observed, const LastSubstep& last)
   apply_cables();
   apply_joints();
   apply_mounted_drives();
+  apply_bearings();
   apply_contacts();
   for (const Balance& balance : balances) {
     largest_force = std::max(largest_force, balance.largest_force);
@@ -102,6 +105,19 @@ Evidence::Evidence(const Simulation& observed, const LastSubstep& last)
   force_rounding = rounding_of_forces();
   // Spans that depend on each other share a load as if each yielded by 1e-9 of what it moves.
   shared_rounding = std::numeric_limits<double>::epsilon() / 1e-9 * largest_force;
+}
+
+void Evidence::find_brakes() {
+  brakes_.assign(at(bodies.count()), 0);
+  if (simulation.cables == nullptr) return;
+  for (const CableDef& cable : *simulation.cable_definitions) {
+    for (const auto& link : cable.links) {
+      const auto* rolling = dynamic_cast<const RollingLink*>(link.get());
+      const int body = bodies.index(link->body);
+      if (rolling == nullptr || body == bodies.count()) continue;
+      if (rolling->efficiency.value_or(1.0) < 1.0 && bodies[body].massless()) brakes_[at(body)] = 1;
+    }
+  }
 }
 
 double Evidence::rounding_of_forces() const {
@@ -130,6 +146,8 @@ double Evidence::size_of(int body) const {
   const double moment = std::max(bodies[body].inertia.trace() / 3.0, bodies[body].axis_inertia);
   return std::sqrt(moment / bodies[body].mass);
 }
+
+bool Evidence::brakes(int body) const { return body < bodies.count() && brakes_[at(body)] != 0; }
 
 Vector3 Evidence::turn_of(int body) const {
   return body == bodies.count() ? Vector3(Vector3::Zero()) : turns_[at(body)];
@@ -161,6 +179,10 @@ void Evidence::push(End when, int body, const Vector3& point, const Vector3& for
   balances[at(body)].own_torque[at(when)] += (point - now.center(body)).cross(force);
   if (mount < 0) {
     add(body, force, (point - now.center(body)).cross(force));
+  } else if (brakes(body)) {
+    // What its bearing does not let turn it turns what holds the bearing.
+    add(mount, force, (point - now.center(mount)).cross(force));
+    balances[at(body)].largest_force = std::max(balances[at(body)].largest_force, size);
   } else {
     // The bearing passes on all but the torque about the axle.
     const Vector3 axle = now.orientation(mount) * bodies[body].axis;
@@ -210,12 +232,16 @@ void Evidence::collect_cables(const LastSubstep& last) {
   const std::size_t feature = end.features.size() - 1;
   const FeatureState& before = start.features[feature];
   const FeatureState& now = end.features[feature];
-  const auto spans = static_cast<std::size_t>(system.row_count());
+  const auto spans = static_cast<std::size_t>(system.span_count());
   const auto tensions = std::span(now.reals).subspan(system.tension_index(0), spans);
+  const auto bearing_count = static_cast<std::size_t>(system.row_count()) - spans;
+  const auto torques = std::span(now.reals).subspan(system.bearing_index(0), bearing_count);
   const auto late = last.late_forces.size() > feature
                         ? std::span<const double>(last.late_forces[feature])
                         : std::span<const double>();
-  const auto force = parts(tensions, rattle, late);
+  const bool has_late = late.size() == spans + bearing_count;
+  const auto force = parts(tensions, rattle, has_late ? late.first(spans) : late);
+  const auto torque = parts(torques, rattle, has_late ? late.subspan(spans) : late);
   // The course of a substep is that of its start.
   FeatureState first = before;
   FeatureState second = before;
@@ -223,6 +249,10 @@ void Evidence::collect_cables(const LastSubstep& last) {
     first.reals[system.tension_index(static_cast<int>(k))] = force[first_end][k];
     second.reals[system.tension_index(static_cast<int>(k))] = force[last_end][k];
     second.reals[system.rest_length_index(static_cast<int>(k))] = now.reals[k];
+  }
+  for (std::size_t b = 0; b < bearing_count; ++b) {
+    first.reals[system.bearing_index(static_cast<int>(b))] = torque[first_end][b];
+    second.reals[system.bearing_index(static_cast<int>(b))] = torque[last_end][b];
   }
   let_drums_grow(simulation, now, second);
   follow_controls();
@@ -336,8 +366,23 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
   collect_passes(cable, from, to, places);
 }
 
+namespace {
+
+/// The way of a braked wheel's rim over its carrier, towards the next span [m]; 0 of other links.
+double braked_travel(const Evidence& evidence, const LinkReport& link) {
+  const int body = evidence.bodies.index(link.body);
+  if (link.winding == 0 || !evidence.brakes(body)) return 0.0;
+  const BodyProperties& wheel = evidence.bodies[body];
+  Vector3 axis = wheel.axis;
+  if (wheel.mount >= 0) axis = evidence.moments[first_end].orientation(wheel.mount) * axis;
+  const double turn = evidence.end.bodies[at(body)].angle - evidence.start.bodies[at(body)].angle;
+  return (axis.dot(link.normal) > 0.0 ? turn : -turn) * link.winding * link.radius;
+}
+
+}  // namespace
+
 void Evidence::collect_passes(CableEvidence& cable, const CableReport& first,
-                              const CableReport& second, const std::vector<int>& places) const {
+                              const CableReport& second, const std::vector<int>& places) {
   const CableReport after = cable.has_changed ? first : cable.end.with_wraps_in_place();
   const auto change = [&](int link, double LinkReport::*of) {
     return after.links[at(link)].*of - first.links[at(link)].*of;
@@ -358,7 +403,52 @@ void Evidence::collect_passes(CableEvidence& cable, const CableReport& first,
     pass.cable = cable.name;
     pass.slip = change(link, &LinkReport::slip);
     describe_pass(*this, cable, first.links[at(link)], second.links[at(link)], pass);
+    pass.travel = pass.slip + braked_travel(*this, first.links[at(link)]);
     cable.passes.push_back(pass);
+    collect_bearing(cable, pass, {&first.links[at(link)], &second.links[at(link)]});
+  }
+}
+
+void Evidence::collect_bearing(const CableEvidence& cable, const PassEvidence& pass,
+                               const std::array<const LinkReport*, 2>& link) {
+  if (pass.link < 0 || cable.has_changed) return;
+  const auto* rolling =
+      dynamic_cast<const RollingLink*>(cable.definition->links[at(pass.link)].get());
+  const int body = bodies.index(link[0]->body);
+  if (rolling == nullptr || body == bodies.count() || brakes(body)) return;
+  const double efficiency = rolling->efficiency.value_or(1.0);
+  if (efficiency == 1.0) return;
+  BearingEvidence& bearing = bearings.emplace_back();
+  bearing.cable = cable.name;
+  bearing.link = pass.link;
+  bearing.rotor = body;
+  bearing.arm = link[0]->radius * (1.0 - efficiency) / (1.0 + efficiency);
+  for (const End when : {first_end, last_end}) {
+    bearing.torque[at(when)] = link[at(when)]->bearing_torque;
+    for (const int k : {pass.before, pass.after}) {
+      bearing.pressed[at(when)] += cable.spans[at(k)].force[at(when)];
+    }
+  }
+  bearing.turn = end.bodies[at(body)].angle - start.bodies[at(body)].angle;
+  const int mount = bodies[body].mount;
+  Vector3 spin = end.bodies[at(body)].angular_velocity;
+  Vector3 axle = bodies[body].axis;
+  if (mount >= 0) {
+    spin -= end.bodies[at(mount)].angular_velocity;
+    axle = end.bodies[at(mount)].orientation * axle;
+  }
+  bearing.rate = axle.dot(spin);
+}
+
+void Evidence::apply_bearings() {
+  for (const BearingEvidence& bearing : bearings) {
+    const int mount = bodies[bearing.rotor].mount;
+    for (const End when : {first_end, last_end}) {
+      Vector3 axle = bodies[bearing.rotor].axis;
+      if (mount >= 0) axle = moments[at(when)].orientation(mount) * axle;
+      twist(when, bearing.rotor, bearing.torque[at(when)] * axle);
+      if (mount >= 0) twist(when, mount, -bearing.torque[at(when)] * axle);
+    }
   }
 }
 

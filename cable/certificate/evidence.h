@@ -90,8 +90,24 @@ struct PassEvidence {
   double friction = 0.0;               ///< capstan coefficient, if it passes
   std::array<double, 2> wrap_angle{};  ///< [rad], at the ends of the substep
   double slip = 0.0;                   ///< in the substep, towards the next span [m]
-  int link = 0;                        ///< within the list; -1: a wrap
+  /// What friction has worked against: the way of the cable over what rubs it, towards the next
+  /// span [m]. That is the slip, or where a bearing brakes a wheel the way of its rim over the
+  /// carrier.
+  double travel = 0.0;
+  int link = 0;  ///< within the list; -1: a wrap
   std::string_view cable;
+};
+
+/// The bearing of a wheel with inertia that brakes it.
+struct BearingEvidence {
+  std::string_view cable;
+  int link = 0;  ///< within the cable's list
+  int rotor = 0;
+  double arm = 0.0;                 ///< most torque per sum of the tensions beside the wheel [m]
+  std::array<double, 2> torque{};   ///< on the wheel, about its axle [N m]
+  std::array<double, 2> pressed{};  ///< sum of the tensions beside it [N]
+  double turn = 0.0;                ///< of the wheel on what carries it, in the substep [rad]
+  double rate = 0.0;                ///< and how fast it turns there at the end [rad/s]
 };
 
 struct CableEvidence {
@@ -180,6 +196,7 @@ class Evidence {
   std::vector<JointEvidence> joints;
   std::vector<ContactEvidence> contacts;
   std::vector<MountedDriveEvidence> mounted_drives;
+  std::vector<BearingEvidence> bearings;
   std::vector<Balance> balances;  ///< per body and the world
   double largest_force = 0.0;     ///< of all [N]
   /// What no force is told apart from nothing by: the rounding of positions, as a force that moves
@@ -198,6 +215,9 @@ class Evidence {
   /// How far the body has turned in the substep [rad], as the integrator counts it: a rotation
   /// vector (cable/certificate/free_rotation.h).
   [[nodiscard]] Vector3 turn_of(int body) const;
+  /// Whether it is a wheel without inertia whose bearing takes a part of its cable's tension: it
+  /// turns as far as cable has passed, no further.
+  [[nodiscard]] bool brakes(int body) const;
   [[nodiscard]] std::string body_name(int body) const {
     return "body \"" + bodies.name(body) + "\"";
   }
@@ -206,10 +226,11 @@ class Evidence {
   [[nodiscard]] Vector3 displacement(int body, const Vector3& point, End end) const;
 
  private:
+  void find_brakes();
   void collect_cables(const LastSubstep& last);
   void collect_cable(CableEvidence& cable, const CableReport& first, const CableReport& second);
   void collect_passes(CableEvidence& cable, const CableReport& first, const CableReport& second,
-                      const std::vector<int>& places) const;
+                      const std::vector<int>& places);
   void collect_joints(const LastSubstep& last);
   void collect_mounted_drives(const LastSubstep& last, std::size_t feature);
   void collect_ground(const LastSubstep& last, std::size_t feature);
@@ -219,6 +240,9 @@ class Evidence {
   void apply_cables();
   void apply_joints();
   void apply_mounted_drives();
+  void collect_bearing(const CableEvidence& cable, const PassEvidence& pass,
+                       const std::array<const LinkReport*, 2>& link);
+  void apply_bearings();
   void apply_contacts();
   void push(End when, int body, const Vector3& point, const Vector3& force);
   void twist(End when, int body, const Vector3& torque);
@@ -228,6 +252,7 @@ class Evidence {
   void follow_controls();
 
   std::vector<Vector3> turns_;  ///< per body
+  std::vector<char> brakes_;    ///< per body
   std::vector<CableDef>
       controlled_;  ///< definitions of cables with what has been set; empty if nothing is
 };

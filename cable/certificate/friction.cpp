@@ -64,16 +64,40 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
            " of \"" + std::string(pass.cable) + "\"";
   };
   findings.note(Kind::friction, "N", std::max(high - bound * low, 0.0), scale, rounding, name);
-  if (pass.slip == 0.0 || pass.friction == 0.0 || !(scale > 0.0)) return;
+  if (pass.travel == 0.0 || pass.friction == 0.0 || !(scale > 0.0)) return;
   // Slipping: the side to which it goes pulls harder by all of the bound.
-  const SpanEvidence& pulling = cable.spans[at(pass.slip > 0.0 ? pass.after : pass.before)];
-  const SpanEvidence& held = cable.spans[at(pass.slip > 0.0 ? pass.before : pass.after)];
+  const SpanEvidence& pulling = cable.spans[at(pass.travel > 0.0 ? pass.after : pass.before)];
+  const SpanEvidence& held = cable.spans[at(pass.travel > 0.0 ? pass.before : pass.after)];
   const double asked = carried(pass, held);
   const double missing = missing_pull(evidence, cable, pass, held, pulling);
   const double creep = 1e-7 * std::min(cable.free_length, evidence.bodies.scale());
-  const double weight = std::abs(pass.slip) / (std::abs(pass.slip) + creep);
+  const double weight = std::abs(pass.travel) / (std::abs(pass.travel) + creep);
   findings.note(Kind::friction, "N", weight * std::max(missing, 0.0), std::max(scale, asked),
                 rounding, name);
+}
+
+/// A bearing takes no more than its bound, and all of it, against the turning, where it turns: in
+/// the first half of a substep by the way, in the second one of `rattle` by the speed at the end.
+void check_bearing(const Evidence& evidence, const BearingEvidence& bearing, Findings& findings) {
+  const auto name = [&] {
+    return "the bearing of " + evidence.body_name(bearing.rotor) + " under \"" +
+           std::string(bearing.cable) + "\"";
+  };
+  const double size = std::max(evidence.size_of(bearing.rotor), bearing.arm);
+  for (const End when : {first_end, last_end}) {
+    const double bound = bearing.arm * bearing.pressed[at(when)];
+    const double torque = bearing.torque[at(when)];
+    const double scale = std::max(bound, 1e-3 * bearing.arm * evidence.largest_force);
+    // Rounds end when bounds have settled to this.
+    const double rounding = 1e-7 * scale + size * evidence.force_rounding;
+    findings.note(Kind::friction, "N m", std::max(std::abs(torque) - bound, 0.0), scale, rounding,
+                  name);
+    const bool by_rate = evidence.rattle && when == last_end;
+    const double way = by_rate ? evidence.h * bearing.rate : bearing.turn;
+    const double missing = way > 0.0 ? bound + torque : bound - torque;
+    const double weight = std::abs(way) / (std::abs(way) + 1e-7);
+    findings.note(Kind::friction, "N m", weight * std::max(missing, 0.0), scale, rounding, name);
+  }
 }
 
 void check_contact(const Evidence& evidence, const ContactEvidence& contact, Findings& findings) {
@@ -129,6 +153,9 @@ void check_friction(const Evidence& evidence, Findings& findings) {
     for (const PassEvidence& pass : cable.passes) {
       if (pass.passes) check_pass(evidence, cable, pass, largest, findings);
     }
+  }
+  for (const BearingEvidence& bearing : evidence.bearings) {
+    check_bearing(evidence, bearing, findings);
   }
   for (const ContactEvidence& contact : evidence.contacts) {
     check_contact(evidence, contact, findings);

@@ -144,13 +144,14 @@ double turn_on_axle(const Evidence& evidence, int body) {
 }
 
 /// Of what the rim of a massless wheel has travelled what passing cable has turned it by [m]: all
-/// but what it goes on turning by as in the substep before.
+/// but what it goes on turning by as in the substep before, if its bearing does not brake it.
 double passed_travel(const Evidence& evidence, const SpanSide& side, double sense) {
   const BodyProperties& wheel = evidence.bodies[side.body];
   Vector3 axis = wheel.axis;
   if (wheel.mount >= 0) axis = evidence.moments[first_end].orientation(wheel.mount) * axis;
   double goes_on = evidence.h * axis.dot(evidence.start.bodies[at(side.body)].angular_velocity);
   if (wheel.mount >= 0) goes_on -= axis.dot(evidence.turn_of(wheel.mount));
+  if (evidence.brakes(side.body)) goes_on = 0.0;
   const double turned = turn_on_axle(evidence, side.body) - goes_on;
   return -sense * side.winding * side.radius[first_end] * about_normal(evidence, side, turned);
 }

@@ -9,7 +9,6 @@
 
 #include "cable/certificate/checks.h"
 #include "cable/certificate/free_rotation.h"
-#include "cable/links/rolling.h"
 #include "engine/body_drive.h"
 #include "engine/math/portable.h"
 
@@ -337,20 +336,9 @@ class MomentumCheck {
     return energy(to.orientation) - energy(replay.orientation);
   }
 
-  /// Whether cable loses tension on the wheel, whose bearing then brakes it.
-  [[nodiscard]] bool brakes(int i) const {
-    return std::any_of(e_.cables.begin(), e_.cables.end(), [&](const CableEvidence& cable) {
-      const auto& links = cable.definition->links;
-      return std::any_of(links.begin(), links.end(), [&](const auto& link) {
-        const auto* rolling = dynamic_cast<const RollingLink*>(link.get());
-        return rolling != nullptr && rolling->efficiency && e_.bodies.index(rolling->body) == i;
-      });
-    });
-  }
-
   /// Nothing may be left to turn a wheel without inertia.
   void check_massless(int i) {
-    if (brakes(i)) return;
+    if (e_.brakes(i)) return;
     const Balance& balance = e_.balances[at(i)];
     for (const End when : {first_end, last_end}) {
       const Vector3 axis =

@@ -1,5 +1,9 @@
 #include "cable/links/rolling.h"
 
+#include <cmath>
+#include <string>
+#include <utility>
+
 #include "cable/link_geometry.h"
 #include "engine/body_set.h"
 #include "engine/math/portable.h"
@@ -21,8 +25,8 @@ std::span<const Field> RollingLink::field_table() {
           field<&RollingLink::efficiency>(
               "efficiency", "", {.minimum = 0.0, .maximum = 1.0, .minimum_allowed = false},
               optional,
-              "of a wheel without spin inertia: tension of the cable that comes to it over that of "
-              "the cable that goes from it; default: 1"),
+              "of a rotor's bearing: tension of the cable that comes to it over that of the cable "
+              "that goes from it, while it turns steadily; default: 1"),
           field<&RollingLink::lifted>(
               "lifted", "", {}, optional,
               "whether the cable passes the wheel by at time 0; it is wound on "
@@ -32,6 +36,25 @@ std::span<const Field> RollingLink::field_table() {
       });
   return table;
 }
+
+namespace {
+
+/// Why the wheel of a link has no bearing that could take a part of a tension; empty: it has one.
+std::string bearing_fault(const BodySet& bodies, const LinkGeometry& link) {
+  const bool rotor = link.body != bodies.count() && bodies[link.body].mobility == Mobility::rotor;
+  if (!rotor) return "only a rotor has a bearing that takes a part of the tension";
+  const std::string name = "\"" + bodies.name(link.body) + "\"";
+  if (bodies[link.body].prescribed()) {
+    return name + " turns as its drive says, whatever its bearing takes; leave efficiency out";
+  }
+  if (link.outline) return name + " must be circular to have an efficiency; give a \"radius\"";
+  if (link.carrier == link.body) {
+    return "the bearing of " + name + " is at its centre; put the link's centre on the axle";
+  }
+  return {};
+}
+
+}  // namespace
 
 Result<LinkGeometry> RollingLink::compile(const BodySet& bodies, const std::string& path) const {
   Result<LinkGeometry> link = place(bodies, path);
@@ -43,7 +66,16 @@ Result<LinkGeometry> RollingLink::compile(const BodySet& bodies, const std::stri
   link->extra_turns = turns;
   link->starts_lifted = lifted;
   link->friction = friction.value_or(std::numeric_limits<double>::quiet_NaN());
-  if (efficiency) link->loss_exponent = -portable::log(*efficiency);
+  if (!efficiency || *efficiency == 1.0) return link;
+  const std::string fault = bearing_fault(bodies, *link);
+  if (!fault.empty()) return Error{path + "/efficiency", fault};
+  if (!link->massless) {
+    link->bearing_arm = std::abs(link->signed_radius) * (1.0 - *efficiency) / (1.0 + *efficiency);
+    return link;
+  }
+  link->loss_exponent = -portable::log(*efficiency);
+  link->wheel = std::exchange(link->body, link->carrier);
+  link->mounted = link->body != bodies.count() && bodies[link->body].mount >= 0;
   return link;
 }
 

@@ -17,9 +17,11 @@ class RollingLink final : public WheelLink {
   /// Capstan coefficient, >= 0; default: the cable does not slip. With it, it slips as soon as the
   /// ratio of the tensions passes e^(friction x wrap angle), any number of turns.
   std::optional<double> friction;
-  /// Of a wheel without spin inertia: the tension of the cable that comes to it over that of the
-  /// cable that goes from it, in (0, 1]; default: 1. What is lost in bearing and rope is told as
-  /// one number, 0.98 for wire rope on roller bearings.
+  /// Of a rotor: the tension of the cable that comes to it over that of the cable that goes from it
+  /// while it turns steadily, in (0, 1]; default: 1. What is lost in bearing and rope is told as one
+  /// number, 0.98 for wire rope on roller bearings. At rest the ratio is anything between it and
+  /// its inverse. A wheel with spin inertia is braked by a torque of at most radius (1 - e) / (1 +
+  /// e) times the sum of both tensions, which is the same.
   std::optional<double> efficiency;
   /// The cable passes the wheel by at time 0; it is wound on, as `winding` says, when it comes to
   /// touch it.

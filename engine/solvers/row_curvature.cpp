@@ -64,14 +64,18 @@ void RowSystem::find_rubbing_rows() {
 double RowSystem::follow_pressure(bool first) {
   const std::span<const double> change = active_set_.solution();
   const auto unknown = [&](std::size_t g) { return groups_[g].multiplier + change[g]; };
+  const auto pressure = [&](std::size_t row) {
+    return rows_[row].weight * std::max(unknown(at(group_of_[row])), 0.0);
+  };
   // Bounds b follow pressures that follow bounds: a linear fixed point b = f(b), of which the last
   // two steps tell the next (Anderson's method).
   double product = 0.0;
   double square = 0.0;
   for (Rubbing& rubbing : rubbing_) {
     const auto i = at(rubbing.row);
-    const std::size_t normal = at(group_of_[i - at(rows_[i].pressed_by)]);
-    rubbing.wanted = rows_[i].friction * std::max(unknown(normal), 0.0);
+    double pressed = pressure(i - at(rows_[i].pressed_by));
+    if (rows_[i].pressed_also > 0) pressed += pressure(i - at(rows_[i].pressed_also));
+    rubbing.wanted = rows_[i].friction * pressed;
     const double off = rubbing.wanted - rubbing.bound;
     product += off * (off - rubbing.off);
     square += (off - rubbing.off) * (off - rubbing.off);

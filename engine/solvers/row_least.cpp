@@ -16,7 +16,7 @@ void RowSystem::leave_geometry_alone() {
     row.weight = row.start_weight = 1.0;
     if (!yields) continue;
     row.lower = row.upper = row.friction = 0.0;
-    row.shares = row.pressed_by = 0;
+    row.shares = row.pressed_by = row.pressed_also = 0;
   }
 }
 

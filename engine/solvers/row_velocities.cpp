@@ -138,13 +138,18 @@ bool RowSystem::bound_friction() {
   constexpr double settled_share = 1e-7;  // as between the rounds of the positions
   const std::span<const double> change = active_set_.solution();
   const auto impulse = [&](std::size_t g) { return groups_[g].multiplier + change[g]; };
+  const auto pressure = [&](std::size_t row) {
+    return rows_[row].weight * std::max(impulse(at(group_of_[row])), 0.0);
+  };
   bool changed = false;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!(rows_[i].friction > 0.0)) continue;
     const std::size_t g = at(group_of_[i]);
     const std::size_t normal = at(group_of_[i - at(rows_[i].pressed_by)]);
     if (groups_[normal].elastic) continue;  // whose force is that of the first half
-    const double bound = rows_[i].friction * std::max(impulse(normal), 0.0);
+    double pressed = pressure(i - at(rows_[i].pressed_by));
+    if (rows_[i].pressed_also > 0) pressed += pressure(i - at(rows_[i].pressed_also));
+    const double bound = rows_[i].friction * pressed;
     const double before = problem_.upper[g] + groups_[g].multiplier;
     // Where friction does not use what it has, having more or less changes nothing.
     const double used = std::abs(impulse(g));

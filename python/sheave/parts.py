@@ -1562,8 +1562,8 @@ class RollingLink(Link):
         elsewhere it follows from the tangents (a number >= 0 [m])
     friction: capstan coefficient: the cable slips when the ratio of the tensions passes e^(friction
         x wrap angle); default: no slip (a number >= 0)
-    efficiency: of a wheel without spin inertia: tension of the cable that comes to it over that of
-        the cable that goes from it; default: 1 (a number > 0 and <= 1)
+    efficiency: of a rotor's bearing: tension of the cable that comes to it over that of the cable
+        that goes from it, while it turns steadily; default: 1 (a number > 0 and <= 1)
     lifted: whether the cable passes the wheel by at time 0; it is wound on when it comes to touch
         it (true or false; default: false)
     turns: whole turns in addition to the arc between the tangents (an integer 0 ... 1000; default:

@@ -29,12 +29,15 @@ double advantage(int parts, double efficiency) {
 }
 
 /// A tackle of `parts` between a beam and a block of `load` kg; sheaves without inertia.
+/// `speed`: of the block, upwards [m/s].
 Simulation tackle(int parts, double efficiency, double load, double effort, int substeps = 0,
-                  IntegratorKind integrator = IntegratorKind::rattle) {
+                  IntegratorKind integrator = IntegratorKind::rattle, double speed = 0.0) {
   std::string bodies = fmt::format(
-      R"({{"name": "block", "mobility": "slider", "axis": [0, 1, 0], "position": [0, -3, 0], "mass": {}}},
-{{"name": "effort", "mobility": "slider", "axis": [0, 1, 0], "position": [{}, -2, 0], "mass": {}}})",
-      load, 0.4 * parts, effort);
+      R"({{"name": "block", "mobility": "slider", "axis": [0, 1, 0], "position": [0, -3, 0], "mass": {},
+"velocity": [0, {}, 0]}},
+{{"name": "effort", "mobility": "slider", "axis": [0, 1, 0], "position": [{}, -2, 0], "mass": {},
+"velocity": [0, {}, 0]}})",
+      load, speed, 0.4 * parts, effort, -parts * speed);
   std::string links = R"({"type": "attachment", "body": "world", "point": [0, 0, 0]})";
   for (int k = 0; k < parts; ++k) {
     const bool below = k % 2 == 0;
@@ -150,17 +153,56 @@ TEST(Efficiency, WheelsTurnWithTheRope) {
   EXPECT_NEAR(state.bodies[5].angle, way / 0.2, 1e-9);
 }
 
-TEST(Efficiency, NeedsAWheelWithoutInertia) {
-  const char* text =
-      R"({"format": "sheave-scene/1", "duration": 1, "gravity": [0, -10, 0], "bodies": [
-    {"name": "wheel", "mobility": "rotor", "mass": 1, "shape": {"type": "cylinder", "radius": 0.5, "length": 0.1}},
-    {"name": "l", "mobility": "slider", "axis": [0, 1, 0], "mass": 1, "position": [-0.5, -2, 0]},
-    {"name": "r", "mobility": "slider", "axis": [0, 1, 0], "mass": 1, "position": [0.5, -2, 0]}],
-    "cables": [{"name": "rope", "links": [{"type": "attachment", "body": "l"},
-      {"type": "rolling", "body": "wheel", "winding": "clockwise", "efficiency": 0.9}, {"type": "attachment", "body": "r"}]}]})";
+// Moving blocks that coast lose by the way they go, whatever pulls: up with e^k on the parts, down
+// with its reciprocals. Forces are constant until it stops.
+TEST(Efficiency, TacklesThatCoastLoseByTheWayTheyGo) {
+  for (const double speed : {0.5, -0.5}) {
+    for (const double effort : {2.0, 3.0, 4.0, 5.0}) {
+      for (const int substeps : {1, 4, 64}) {
+        for (const IntegratorKind integrator : {IntegratorKind::xpbd, IntegratorKind::rattle}) {
+          Simulation simulation = tackle(4, 0.9, 12.0, effort, substeps, integrator, speed);
+          for (int i = 0; i < 6; ++i) ASSERT_TRUE(simulation.step().ok());
+          const State& state = simulation.world.state();
+          const double load = 12.0 + 2.0 * 0.001;
+          const double carried = effort * advantage(4, speed > 0.0 ? 0.9 : 1.0 / 0.9);
+          const double a = expected_acceleration(carried, 4, load, effort);
+          ASSERT_GT(speed * (speed + a * state.time), 0.0);
+          EXPECT_NEAR(state.bodies[0].velocity.y(), speed + a * state.time, 1e-7)
+              << speed << " m/s, " << effort << " kg, " << substeps << " substeps";
+          const std::optional<Certificate> certificate = simulation.certificate();
+          ASSERT_TRUE(certificate.has_value());
+          EXPECT_TRUE(certificate->clean()) << certificate->worst()->sentence();
+        }
+      }
+    }
+  }
+}
+
+/// An Atwood machine over a wheel with these settings and this link: the first fault's message.
+std::string fault_of(const char* wheel, const char* link) {
+  const std::string text = fmt::format(
+      R"({{"format": "sheave-scene/1", "duration": 1, "gravity": [0, -10, 0], "bodies": [
+    {{"name": "wheel", "mass": 1, "shape": {{"type": "cylinder", "radius": 0.5, "length": 0.1}}, {}}},
+    {{"name": "l", "mobility": "slider", "axis": [0, 1, 0], "mass": 1, "position": [-0.5, -2, 0]}},
+    {{"name": "r", "mobility": "slider", "axis": [0, 1, 0], "mass": 1, "position": [0.5, -2, 0]}}],
+    "cables": [{{"name": "rope", "links": [{{"type": "attachment", "body": "l"}},
+      {{"type": "rolling", "body": "wheel", "winding": "clockwise", "efficiency": 0.9{}}}, {{"type": "attachment", "body": "r"}}]}}]}})",
+      wheel, link);
   const SceneResult scene = load_scene_text(text, "test");
-  ASSERT_FALSE(scene);
-  EXPECT_NE(scene.errors[0].message.find("spin_inertia"), std::string::npos);
+  return scene ? std::string() : scene.errors[0].message;
+}
+
+TEST(Efficiency, NeedsABearing) {
+  EXPECT_EQ(fault_of(R"("mobility": "rotor")", ""), "");
+  EXPECT_EQ(fault_of(R"("mobility": "rotor", "spin_inertia": 0)", ""), "");
+  EXPECT_NE(fault_of(R"("mobility": "static")", "").find("rotor"), std::string::npos);
+  EXPECT_NE(fault_of(R"("mobility": "rotor", "drive": "speed", "drive_times": [0, 1],
+"drive_values": [1, 1])",
+                     "")
+                .find("drive"),
+            std::string::npos);
+  EXPECT_NE(fault_of(R"("mobility": "rotor")", R"(, "center": [0.1, 0, 0])").find("axle"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -107,6 +107,13 @@ FAULTS = [
     one("drive-speed", "drives of joints 2 % slow", "engine/joints/joint_effect.cpp",
         "row.value = now - start - drive.integral(from, to);",
         "row.value = now - start - 0.98 * drive.integral(from, to);"),
+    one("loss-by-force", "lossy wheels that go on turning, so that losses oppose the force and not the travel",
+        "cable/links/rolling.cpp", "link->wheel = std::exchange(link->body, link->carrier);", "link->wheel = -1;"),
+    one("bearing-torque", "bearings of wheels with inertia that take twice as much", "cable/cable_bearings.cpp",
+        "row.upper = link.bearing_arm * own.pressed;", "row.upper = 2.0 * link.bearing_arm * own.pressed;"),
+    one("bearing-carrier", "bearings that turn the wheel and not what carries it", "cable/cable_bearings.cpp",
+        "row.add(wheel.mount, Vector3::Zero(), -axle);", "row.add(wheel.mount, Vector3::Zero(), Vector3::Zero());",
+        why="no scene of the table has such a wheel on a body that turns"),
     one("joint-friction", "dry friction of joints twice as large", "engine/joints/joint_effect.cpp",
         "if (settings.friction > 0.0) add(Kind::friction).limit = settings.friction;",
         "if (settings.friction > 0.0) add(Kind::friction).limit = 2.0 * settings.friction;"),
@@ -213,5 +220,6 @@ REPOSITORY += [f"scenes/paper/{name}.json" for name in ("bow", "elastic", "hybri
 REPOSITORY += [f"scenes/machines/{name}.json" for name in ("elevator-brake", "geared-hoist", "winch")]
 REPOSITORY += [f"tools/faults/{name}.json" for name in ("a1-drum-and-post", "a1-eyelets", "a1-feed", "brake-wheel",
                "a1-holes", "a2-post", "a3-drum", "a4-strained", "a5-cart", "a5-cart-1", "axles", "feed", "levers",
-               "sliding-plate", "strained")]
+               "sliding-plate", "strained", "lossy-winch", "lossy-coasting", "lossy-throw",
+               "lossy-heavy")]
 SCENES = [(scene, "direct", integrator) for scene in REPOSITORY for integrator in ("xpbd", "rattle")]

@@ -1,0 +1,130 @@
+// Bearings that brake wheels with inertia.
+//
+// A rolling link with the efficiency e: at a steady speed the cable that comes to the wheel has e
+// times the tension of the cable that goes from it, T1 = e T2. A wheel without inertia is a capstan
+// with this ratio (cable/cable_friction.cpp). One with inertia passes on all but what its bearing
+// takes, a torque M against its turning on the carrier, and its equation
+//
+//   I w' = R (T2 - T1) - M
+//
+// has that ratio at w' = 0 if M = R (1 - e) / (1 + e) (T1 + T2): dry friction, whose bound follows
+// the sum of both tensions, so that it is the same from whichever side the cable comes. For half a
+// turn that is the load of the pin, and the law that of a journal, M = r mu (T1 + T2), with r mu =
+// R (1 - e) / (1 + e). At rest M is anything within the bound.
+//
+// So it is one row per wheel along its turn c on the carrier, C = c - c0, whose bounds are those of
+// friction (Row::friction) pressed by the rows of both spans; the carrier feels -M.
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/cable_system.h"
+#include "engine/index.h"
+
+namespace sheave {
+namespace {
+
+/// Changes of the bound that are done.
+constexpr double settled_bound = 1e-10;
+
+}  // namespace
+
+double CableSystem::pressing(const Substep& substep, const cable_parts::Bearing& bearing) const {
+  double sum = 0.0;
+  for (const int k : bearing.spans) {
+    if (k >= 0) sum += multipliers_[at(k)] / substep.load_share;
+  }
+  return sum;
+}
+
+void CableSystem::begin_bearings(const Substep& substep) {
+  if (bearings_.empty()) return;
+  for (cable_parts::Bearing& bearing : bearings_) {
+    bearing.spans = {-1, -1};
+    bearing.pressed = 0.0;
+    bearing.pressure = {};
+  }
+  const auto press = [&](int link, std::size_t side, int span) {
+    if (bearing_of(link) < 0) return;
+    cable_parts::Bearing& bearing = bearings_[at(bearing_of(link))];
+    bearing.spans[side] = span;
+    bearing.pressed += substep.h * substep.h * start_tensions_[at(span)];
+  };
+  for (int k = 0; k < span_count(); ++k) {
+    if (!spans_[at(k)].active) continue;
+    press(spans_[at(k)].second, 0, k);
+    press(spans_[at(k)].first, 1, k);
+  }
+}
+
+void CableSystem::evaluate_bearing(const Substep& substep, std::size_t bearing, Row& row) const {
+  const cable_parts::Bearing& own = bearings_[bearing];
+  const LinkGeometry& link = links_[at(own.link)];
+  const BodyProperties& wheel = substep.bodies[own.rotor];
+  Vector3 axle = wheel.axis;
+  Vector3 turn = substep.moving[at(own.rotor)].turn;
+  if (wheel.mount >= 0) {
+    const MovingBody& carrier = substep.moving[at(wheel.mount)];
+    axle = rotated(carrier.orientation, axle);
+    turn -= carrier.turn;
+    row.add(wheel.mount, Vector3::Zero(), -axle);
+  }
+  row.add(own.rotor, Vector3::Zero(), axle);
+  row.value = dot(axle, turn);
+  row.lever = std::abs(link.signed_radius);
+  row.friction = link.bearing_arm;
+  row.upper = link.bearing_arm * own.pressed;
+  row.lower = -row.upper;
+  row.told = wheel.mount < 0;
+  row.index = span_count() + static_cast<int>(bearing);
+}
+
+double CableSystem::sweep_bearings(Substep& substep) {
+  double correction = 0.0;
+  for (std::size_t b = 0; b < bearings_.size(); ++b) {
+    bearings_[b].pressed = pressing(substep, bearings_[b]);
+    row_.clear();
+    evaluate_bearing(substep, b, row_);
+    double& multiplier = multipliers_[spans_.size() + b];
+    const double error = solve_row(row_, substep.h, multiplier, substep.moving);
+    correction = std::max(correction, error * row_.lever);
+  }
+  return correction;
+}
+
+void CableSystem::linearise_bearings(const Substep& substep, std::size_t first, RowList& rows) {
+  if (bearings_.empty()) return;
+  row_places_.assign(spans_.size(), 0);
+  for (std::size_t i = first; i < rows.size(); ++i) row_places_[at(rows[i].index)] = i;
+  for (std::size_t b = 0; b < bearings_.size(); ++b) {
+    const std::size_t place = rows.size();
+    Row& row = rows.emplace_back();
+    evaluate_bearing(substep, b, row);
+    const std::array<int, 2>& beside = bearings_[b].spans;
+    const auto distance = [&](int span) { return static_cast<int>(place - row_places_[at(span)]); };
+    if (beside[0] < 0 || beside[1] < 0) {
+      row.friction = row.lower = row.upper = 0.0;
+      continue;
+    }
+    row.pressed_by = distance(beside[0]);
+    row.pressed_also = distance(beside[1]);
+  }
+}
+
+bool CableSystem::revise_bearings(const Substep& substep) {
+  bool changed = false;
+  for (std::size_t b = 0; b < bearings_.size(); ++b) {
+    cable_parts::Bearing& bearing = bearings_[b];
+    const double now = pressing(substep, bearing);
+    // Where friction does not use what it has, having more or less changes nothing.
+    const double used = std::abs(multipliers_[spans_.size() + b]) / substep.load_share;
+    const double arm = links_[at(bearing.link)].bearing_arm;
+    const bool matters = used >= (1.0 - 1e-9) * arm * std::min(now, bearing.pressed);
+    const double off = std::abs(now - bearing.pressed);
+    changed = changed || (matters && off > settled_bound * std::max(now, bearing.pressed));
+    bearing.pressed = bearing.pressure.next(bearing.pressed, now);
+  }
+  return changed;
+}
+
+}  // namespace sheave
