@@ -275,6 +275,10 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
 }
 
 void CableSystem::finish(Substep& substep, FeatureState& next) {
+  // Before anything is noted.
+  substep.failed =
+      substep.resort != Resort::anything && !changing_links_.empty() && turns_too_far(substep);
+  if (substep.failed) return;
   knows_lengths_ = true;
   known_.expect(spans_.size());
   for (const CompiledCable& cable : cables_) {

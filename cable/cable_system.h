@@ -345,6 +345,10 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] SpanGeometry attached_span(const Substep& substep, int index, int span,
                                            double angle) const;
   void change_ends(const Substep& substep, FeatureState& next);
+  /// Whether the rim that a cable ends on turns too far for its rows, which are linear.
+  [[nodiscard]] bool turns_too_far(const Substep& substep) const;
+  [[nodiscard]] bool end_turns_too_far(const Substep& substep, int index, int span,
+                                       bool first) const;
   void change_end(const Substep& substep, const CompiledCable& cable, int index, int span,
                   bool first, FeatureState& next);
   // The order in which a cable runs over its links: cable/cable_course.cpp.
