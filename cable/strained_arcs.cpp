@@ -16,7 +16,7 @@
 //
 // Without friction that is l / (1 + e) of all that is between the ends of the run: a rope round a
 // smooth post is as long a spring as one without the post. The arc's stretch a - A and its yield
-// mean of a k / (1 + k e) / EA belong to the row of a span beside it. The gradient stays what it
+// mean of a k / (1 + k e) / EA belong to the rows of the spans beside it. The gradient stays what it
 // is: what a tangent point moves along the arc the span loses, with the strain that both have there.
 //
 // On an outline (cable/outline.h) friction acts at the corners, and what lies along an edge has one
@@ -198,11 +198,14 @@ void CableSystem::add_arcs(const Substep& substep, const CompiledCable& cable,
     // A slack run has what it has too much on its links, too.
     const double stretch =
         strain > 0.0 ? arc.length - sum.unstretched : arc.length - arc.before.length;
-    // The heavier side tells the unknown better.
+    // Both sides have their parts, so that a mirror image has the same rows.
     const std::size_t behind = i + 1 < rows.size() ? i + 1 : 0;
-    const std::size_t row = weights[behind] > weights[i] ? behind : i;
-    const double yield = sum.pull * cable.inverse_stiffness / weights[row];
-    add_spring(stretch, arc.before.stretch, yield, substep.h, knows_start_, rows[row]);
+    const double both = weights[i] + weights[behind];
+    const double yield = both > 0.0 ? sum.pull * cable.inverse_stiffness / both : 0.0;
+    for (const std::size_t row : {i, behind}) {
+      add_spring(0.5 * stretch, 0.5 * arc.before.stretch, yield, substep.h, knows_start_,
+                 rows[row]);
+    }
   }
 }
 
