@@ -25,14 +25,15 @@ struct CableDef {
   bool closed = false;  ///< a last span joins the last link and the first: a belt
   /// Of each span [m/N], >= 0, 0 is rigid. Excludes axial_stiffness. As in the paper a span has it
   /// whatever its length, so a cable that touches a body and is divided becomes softer; a
-  /// material's does not.
+  /// material's does not. What lies on wheels and posts has none.
   std::optional<double> compliance;
   /// Of the cable's material, EA [N], > 0: a span then has the compliance rest length / EA, and
   /// what comes onto a wheel keeps its strain there, so that a belt creeps
-  /// (cable/cable_material.cpp). At time 0 what lies on a wheel has the strain of the spans beside
+  /// (cable/cable_material.cpp); where it slides over an arc, that is stretched with the spans
+  /// (cable/strained_arcs.cpp). At time 0 what lies on a wheel has the strain of the spans beside
   /// it, of two their mean. Rest lengths and stored lengths are unstretched.
   std::optional<double> axial_stiffness;
-  double damping = 0.0;  ///< of each span [N s/m], >= 0; needs an elastic cable
+  double damping = 0.0;  ///< of each free span [N s/m], >= 0; needs an elastic cable
   TangentUpdate tangent_update = TangentUpdate::iteration;
   /// Rest length of each span at time 0 [m], one per span; default: its length, so that the cable
   /// is just taut. Shorter than the length only for elastic cables.

@@ -86,8 +86,12 @@ CableSystem::SpanDamping CableSystem::damping_of(const Substep& substep, const C
     const auto [value, compliance] = start_values_[at(span)];
     // A material's strain is the same, whatever the length is at either end.
     start = compliance > 0.0 ? value * (row.compliance / compliance) : value;
+  } else if (const SpanSetup& setup = spans_[at(span)];
+             slides_on(setup.first) || slides_on(setup.second)) {
+    // What a tangent point moves along an arc is not in the value.
+    damping.start = strains_[at(span)];
+    return damping;
   } else {
-    const SpanSetup& setup = spans_[at(span)];
     start -= substep_change(row, substep.moving);
     start -= spun_off(substep, links_[at(setup.first)], row);
     start += spun_off(substep, links_[at(setup.second)], row);

@@ -16,6 +16,14 @@
 // attachment lies where the free cable is |s| shorter than from the tangent point. The attachment
 // moves along the rim by those r a^3 / 6, the one way at one end of its winding and the other way
 // at the other.
+//
+// That is a law of small angles. The last of the cable runs off, and the rim with the attachment
+// turns, within a substep by what its force and speed make of it, and a row is linear: beyond a
+// part of a radian the arm that the cable has at the end of the substep is not the one that it has
+// had, an attachment that has gone round is taken for one that has gone back, and lengths would
+// have to be less than nothing. Load and light drum jerk each other at the end of a cable, so that
+// is the rule there, and it made energy without a bound. So such a substep has failed, and is done
+// in parts in which the rim turns by no more (engine/substep_driver.h).
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +38,15 @@ namespace {
 constexpr int wound = 0;       ///< as defined
 constexpr int wound_back = 1;  ///< the other way round
 constexpr int attached = 2;
+
+/// The most that a rim may turn in a substep while the cable's end is at a point of it [rad], by
+/// the way it goes and by its speeds at both ends, and be turned beyond the end of what was wound.
+/// The trapezoidal rule does the work of a force whose arm turns by an angle a with an error of its
+/// share a^2 / 12, and the half impulse p of a force before the turn and the one behind it leave
+/// kinetic energies p^2 J W J^T / 2 that differ by their share a^2. Implicit Euler takes a share
+/// a^2 / 2, and gives none as long as it is on the right side of the turn.
+constexpr double most_turn = 0.1;
+constexpr double most_turn_of_euler = 0.3;
 
 struct PlaneAxes {
   Vector3 x;
@@ -108,6 +125,47 @@ void CableSystem::change_ends(const Substep& substep, FeatureState& next) {
       change_end(substep, cable, last_link, span_before(cable, last_link, spans_), false, next);
     }
   }
+}
+
+bool CableSystem::turns_too_far(const Substep& substep) const {
+  for (const CompiledCable& cable : cables_) {
+    if (cable.closed) continue;
+    for (const bool first : {true, false}) {
+      const int index = first ? cable.first_link : cable.last_listed_link();
+      if (!definitions_[at(index)].hybrid) continue;
+      const int span = first ? cable.first_span : span_before(cable, index, spans_);
+      if (span >= 0 && spans_[at(span)].active && end_turns_too_far(substep, index, span, first)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+bool CableSystem::end_turns_too_far(const Substep& substep, int index, int span, bool first) const {
+  const LinkGeometry& link = links_[at(index)];
+  if (link.body == substep.bodies.count() || is_affine_[at(span)] != 0) return false;
+  const double limit = substep.load_share == 1.0 ? most_turn_of_euler : most_turn;
+  const Vector3 normal = substep.orientation(link.body) * link.rim_normal;
+  const double turn = std::abs(dot(normal, substep.moving[at(link.body)].turn));
+  if (!link.wraps()) {
+    double most = turn;
+    for (const State* state : {&substep.start, static_cast<const State*>(&substep.next)}) {
+      const Vector3& speed = state->bodies[at(link.body)].angular_velocity;
+      most = std::max(most, substep.h * std::abs(dot(normal, speed)));
+    }
+    return most > limit;
+  }
+  const double stored = stored_arcs_[at(index)];
+  const double radius = std::abs(link.signed_radius);
+  if (stored > radius * (turn + 2.0 * pi)) return false;
+  const SpanSetup& setup = spans_[at(span)];
+  const SpanTransport transport =
+      layered(span)
+          ? layered_span(substep, span).transport
+          : span_transport(substep, setup, links_[at(setup.first)], links_[at(setup.second)],
+                           references_[at(span)], geometry_of(substep, span));
+  return (first ? transport.from_first : transport.from_second) - stored > limit * radius;
 }
 
 SpanGeometry CableSystem::attached_span(const Substep& substep, int index, int span,

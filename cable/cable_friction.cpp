@@ -364,9 +364,10 @@ double CableSystem::hold_ring(const Substep& substep, const CompiledCable& cable
   int held = -1;
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     passed = i + 1 < run.count ? passed + spare[at(i)] : 0.0;
+    const double slid = i + 1 < run.count ? pass_arc(at(i), passed) : 0.0;
     const int link = spans_[at(k)].second;
-    if (slip_[at(link)] != way || passed * way >= least) continue;
-    least = passed * way;
+    if (slip_[at(link)] != way || slid * way >= least) continue;
+    least = slid * way;
     held = link;
   }
   pending_slip_[at(held)] = 0;
@@ -401,13 +402,14 @@ void CableSystem::look_at_links(const Substep& substep, const CompiledCable& cab
     double passed = hold_ring(substep, cable, run, spare);
     for (int i = 0, k = run.first; i + 1 < run.count; ++i, k = next_span(cable, k)) {
       passed += spare[at(i)];
+      const double slid = pass_arc(at(i), passed);
       const int link = spans_[at(k)].second;
       int& slip = pending_slip_[at(link)];
       if (links_[at(link)].frictionless() || slip == 0) continue;
-      if (passed * slip > rounding) continue;
+      if (slid * slip > rounding) continue;
       if (may_slide_by_means(cable, link)) continue;
       // One that does not hold either, but over which nothing passes, is at its bound.
-      if (passed * slip >= -rounding && flips_[at(link)] >= resting_flips) continue;
+      if (slid * slip >= -rounding && flips_[at(link)] >= resting_flips) continue;
       if (!may_change(link)) continue;
       slip_changes_.done = true;
       slip = 0;

@@ -3,7 +3,8 @@
 // Lengths in the state are unstretched: L of a span, s of a link. A rim that turns by an arc moves
 // arc / (1 + strain) of that, with the strain e = l / L - 1 of the span for what comes onto the
 // link, and the strain w with which it lies there for what comes off (cable/stored_strain.h). With
-// the arcs `on` and G = the unstretched length that `off` brings,
+// the arcs `on` and G = the unstretched length that `off` brings (where the cable slides over the
+// rim instead: cable/strained_arcs.cpp),
 //   dL = dG - d(on) / (1 + e)     =>     L de = dl + d(on) - (1 + e) dG.
 // Energy: of the span EA e^2 L / 2, of what is stored EA / 2 times the integral of w^2 over its
 // unstretched length. With the tension T = EA e and d(off) = (1 + w) dG,
@@ -90,7 +91,9 @@ CableSystem::StretchedSpan CableSystem::stretched(int span, const SpanTransport&
   const SpanReference& reference = references_[at(span)];
   const double strain = strains_[at(span)];
   StretchedSpan result;
+  result.arcs = {arcs.from_first, arcs.from_second};
   const auto gain = [&](double arc, int link, End end) {
+    if (slides_on(link)) return 0.0;  // cable/strained_arcs.cpp
     if (!(arc > 0.0)) {
       result.on -= arc;
       return 0.0;
@@ -115,7 +118,7 @@ double CableSystem::rest_length_at(const StretchedSpan& span, double strain) {
 }
 
 std::optional<double> CableSystem::run_strain(std::span<const StretchedSpan> spans,
-                                              std::span<const double> weights) {
+                                              std::span<const double> weights) const {
   // F is concave and rises: Newton's method comes to its zero from below.
   constexpr double rounding = 1e-15;
   constexpr int most_rounds = 50;
@@ -134,6 +137,13 @@ std::optional<double> CableSystem::run_strain(std::span<const StretchedSpan> spa
       slope += weights[i] / (1.0 + span.damping.share) *
                (rest_length / (1.0 + own) + 0.5 * onto / (1.0 + 0.5 * (span.start_strain + own)));
     }
+    for (const SlidingArc& arc : run_work_.arcs) {
+      if (arc.link < 0) continue;
+      const cable_parts::ArcSum sum = arc_with(arc, strain);
+      missing += sum.unstretched - arc.before.length;
+      whole += sum.unstretched;
+      slope += sum.slope;
+    }
     if (!(missing > rounding * whole)) return strain;
     if (!(slope > 0.0)) return std::nullopt;
     strain += missing / slope;
@@ -142,8 +152,10 @@ std::optional<double> CableSystem::run_strain(std::span<const StretchedSpan> spa
   return std::nullopt;
 }
 
-void CableSystem::strain_rows(const CompiledCable& cable, std::span<const StretchedSpan> spans,
+void CableSystem::strain_rows(const Substep& substep, const CompiledCable& cable, Run run,
                               std::span<const double> weights, std::span<Row> rows) {
+  const std::span<const StretchedSpan> spans = run_work_.stretched;
+  find_arcs(substep, cable, run, weights);
   const std::optional<double> strain = run_strain(spans, weights);
   if (!strain) return;
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -154,6 +166,7 @@ void CableSystem::strain_rows(const CompiledCable& cable, std::span<const Stretc
     rows[i].compliance = compliance_of(cable, spring_length);
     damp_row(cable, &spans[i], spans[i].damping, rows[i]);
   }
+  add_arcs(substep, cable, weights, *strain, rows);
 }
 
 std::optional<double> CableSystem::end_strain(const Substep& substep, const CompiledCable& cable,
@@ -173,9 +186,12 @@ std::optional<double> CableSystem::end_strain(const Substep& substep, const Comp
   }
   const std::span weights = std::span(run_work_.weights).first(at(run.count));
   for (double& weight : weights) weight = heaviest > 0.0 ? weight / heaviest : 1.0;
-  const std::optional<double> strain = run_strain(run_work_.stretched, weights);
+  find_arcs(substep, cable, run, weights);
+  std::optional<double> strain = run_strain(run_work_.stretched, weights);
   // What would be stretched without a pull keeps its own strains.
-  return heaviest > 0.0 || strain == 0.0 ? strain : std::nullopt;
+  if (!(heaviest > 0.0) && strain != 0.0) strain.reset();
+  settle_arcs(strain);
+  return strain;
 }
 
 void CableSystem::keep_end_strains(const Substep& substep) {
@@ -227,8 +243,11 @@ SpanTransport CableSystem::material_transport(const CompiledCable& cable, int sp
     onto = result.before - (shared < 0.0
                                 ? rest_length_under(result.value, result.spring_length, length)
                                 : rest_length_at(result, shared));
-    if (arcs.from_first < 0.0) moved.from_first = onto * (arcs.from_first / result.on);
-    if (arcs.from_second < 0.0) moved.from_second = onto * (arcs.from_second / result.on);
+    const auto share = [&](double arc, int link) {
+      return arc < 0.0 && !slides_on(link) ? onto * (arc / result.on) : 0.0;
+    };
+    if (arcs.from_first < 0.0) moved.from_first = share(arcs.from_first, setup.first);
+    if (arcs.from_second < 0.0) moved.from_second = share(arcs.from_second, setup.second);
   }
   double end_strain =
       result.spring_length > 0.0 ? std::max(-result.value, 0.0) / result.spring_length : 0.0;

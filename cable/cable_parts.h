@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cable/cable.h"
 #include "cable/link_geometry.h"
 #include "cable/span_row.h"
+#include "cable/stored_strain.h"
 #include "engine/followed_pressure.h"
 #include "engine/math/portable.h"
 #include "engine/substep.h"
@@ -168,7 +170,34 @@ struct StretchedSpan {
   double before = 0.0;             ///< rest length at the start, and what was gained [m]
   double start_strain = 0.0;       ///< >= 0
   double length = 0.0;             ///< [m]
+  std::array<double, 2> arcs{};    ///< that have come off its links since the start [m]
   SpanDamping damping;             ///< of a run
+};
+
+/// A part of an arc over which cable of a material slides: cable/strained_arcs.cpp.
+struct ArcNode {
+  double share = 0.0;   ///< of the arc
+  double weight = 0.0;  ///< tension there over that of the run
+  int slice = 0;        ///< nodes of one are one piece of StoredStrain
+};
+
+/// What covers such an arc at a strain of the run.
+struct ArcSum {
+  double unstretched = 0.0;  ///< [m]
+  double pull = 0.0;         ///< the same times its tension over that of the run [m]
+  double slope = 0.0;        ///< by how much less it is, per strain of the run [m]
+};
+
+/// The link behind a span of a run, where cable of a material slides.
+struct SlidingArc {
+  int link = -1;                 ///< -1: nothing slides there, or it has no arc
+  double start = 0.0;            ///< at the start of the substep [m]
+  double length = 0.0;           ///< now [m]
+  StoredStrain::Piece before;    ///< what lay there at the start
+  std::size_t first_node = 0;    ///< in RunWork::nodes
+  std::size_t node_count = 0;    ///< > 0
+  std::optional<double> strain;  ///< of the run at the end; none: it keeps its own
+  double gain = 0.0;             ///< unstretched, over the substep [m]
 };
 
 /// What a drive does to the rest lengths of a chain if it does its whole share.
@@ -255,8 +284,10 @@ struct RunWork {
   std::vector<SpanDamping> dampings;
   std::vector<RowTerm> gradient;  ///< per body; `body` is not used
   std::vector<double> spare, lengths, tensions;
-  std::vector<char> rests;  ///< per link of the cable: nothing has passed over it
-  std::vector<char> means;  ///< per link: in this substep it slides by the means of strains
+  std::vector<SlidingArc> arcs;  ///< per span of the run, behind it
+  std::vector<ArcNode> nodes;    ///< of all of them
+  std::vector<char> rests;       ///< per link of the cable: nothing has passed over it
+  std::vector<char> means;       ///< per link: in this substep it slides by the means of strains
 };
 
 }  // namespace sheave::cable_parts

@@ -182,17 +182,19 @@ double CableSystem::evaluate_run(const Substep& substep, const CompiledCable& ca
   return heaviest;
 }
 
-double CableSystem::weigh_run(const CompiledCable& cable, std::size_t count, double heaviest,
-                              double h) {
+double CableSystem::weigh_run(const Substep& substep, const CompiledCable& cable, Run run,
+                              double heaviest) {
+  const auto count = at(run.count);
   for (std::size_t i = 0; i < count; ++i) {
     run_work_.weights[i] = portable::exp(run_work_.weights[i] - heaviest);
   }
   const std::span<Row> rows = std::span<Row>(run_work_.rows).first(count);
-  if (strains_runs(cable)) strain_rows(cable, run_work_.stretched, run_work_.weights, rows);
+  const std::span<const double> weights = std::span(run_work_.weights).first(count);
+  if (strains_runs(cable)) strain_rows(substep, cable, run, weights, rows);
   double sum = 0.0;
   for (Row& row : rows) {
     if (cable.damping > 0.0) {
-      const double own = row.compliance * row.damping / h;
+      const double own = row.compliance * row.damping / substep.h;
       row.value -= own / (1.0 + own) * row.past;
       row.compliance /= 1.0 + own;
     }
@@ -211,7 +213,7 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   const double inverse_square = 1.0 / (substep.h * substep.h);
 
   const double heaviest = evaluate_run(substep, cable, run);
-  double numerator = -weigh_run(cable, count, heaviest, substep.h);
+  double numerator = -weigh_run(substep, cable, run, heaviest);
   double denominator = 0.0;
   double parts = 0.0;  // the same without what cancels between the spans
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
@@ -329,14 +331,15 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
   if (acts) give(substep, cable, heaviest, rows[start]);
   if (strains && rows.size() > start) {
     Row* const first = &*rows.begin() + start;
-    strain_shared(cable, {first, rows.size() - start});
+    strain_shared(substep, cable, run, {first, rows.size() - start});
   }
 }
 
-void CableSystem::strain_shared(const CompiledCable& cable, std::span<Row> rows) {
+void CableSystem::strain_shared(const Substep& substep, const CompiledCable& cable, Run run,
+                                std::span<Row> rows) {
   run_work_.weights.clear();
   for (const Row& row : rows) run_work_.weights.push_back(row.start_weight);
-  strain_rows(cable, run_work_.stretched, run_work_.weights, rows);
+  strain_rows(substep, cable, run, run_work_.weights, rows);
 }
 
 bool CableSystem::shorten_run(const Substep& substep, const CompiledCable& cable, Run run) {
@@ -385,9 +388,11 @@ const std::vector<double>& CableSystem::run_spare(const Substep& substep,
   std::vector<double>& lengths = run_work_.lengths;
   spare.clear();
   lengths.clear();
+  if (!strains_runs(cable)) run_work_.arcs.assign(at(run.count), SlidingArc{});
   const bool taut =
       strains_runs(cable) ? stretch_run(substep, cable, run) : shorten_run(substep, cable, run);
   double total = 0.0;
+  for (const SlidingArc& arc : run_work_.arcs) total -= arc.gain;
   double length = 0.0;
   for (std::size_t i = 0; i < spare.size(); ++i) {
     spare[i] -= lengths[i];
@@ -396,9 +401,11 @@ const std::vector<double>& CableSystem::run_spare(const Substep& substep,
   }
   if (!taut) {
     std::vector<double>& kept = lengths;
+    count_arcs(1.0);
     kept = spare;
     pull_slack(kept);
     for (std::size_t i = 0; i < spare.size(); ++i) spare[i] -= kept[i];
+    count_arcs(-1.0);
     return spare;
   }
   // What the solver has left over is spread evenly over spans that it has something to do with.
@@ -436,17 +443,29 @@ void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run ru
   const std::vector<double>& spare = run_spare(substep, cable, run);
   double passed = 0.0;         // over the link after span i
   double passed_before = 0.0;  // over the link before it, as moved
-  for (int i = 0, k = run.first; i + 1 < run.count; ++i, k = next_span(cable, k)) {
+  for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     double& rest_length = next.reals[rest_length_index(k)];
+    const bool arcs = run_work_.arcs[at(i)].link >= 0;
+    if (i + 1 == run.count && !arcs) {
+      rest_length += passed_before;
+      break;
+    }
     passed += spare[at(i)];
     // A multiple of the quantum, and no more than there is.
-    const double moved = std::min(cable.quantised(passed), rest_length + passed_before);
+    double moved = std::min(cable.quantised(passed), rest_length + passed_before);
     rest_length += passed_before - moved;
     passed_before = moved;
     const int link = spans_[at(k)].second;
+    double over = passed;
+    if (arcs) {
+      const double slid = pass_arc(at(i), over);
+      passed_before = lay_arc(cable, at(i), moved, passed, next);
+      moved = 0.5 * (moved + passed_before);
+      over = slid;
+    }
     // Cable at the bound over which nothing passes is looked at anew in the next substep: what holds
     // from then on is found from where all holds.
-    if (std::abs(passed) <= cable_parts::length_rounding * substep.bodies.scale()) {
+    if (std::abs(over) <= cable_parts::length_rounding * substep.bodies.scale()) {
       run_work_.rests[at(link - cable.first_link)] = 1;
     }
     if (links_[at(link)].massless) {
@@ -460,8 +479,6 @@ void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run ru
     } else {
       next.reals[slip_index(link)] += moved;
     }
-    const int last = next_span(cable, k);
-    if (i + 2 == run.count) next.reals[rest_length_index(last)] += moved;
   }
 }
 

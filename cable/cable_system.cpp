@@ -35,9 +35,12 @@ void freeze_where_asked(std::vector<CompiledCable>& cables) {
 /// Whether the attachment of a span cannot keep its place on a link for a substep. Where the span
 /// leans to the link's plane it would do work with the arm r cos(lean) while the rim takes on cable
 /// with the arm r, at any step size; below 1e-6 that is less than rounding, 5e-13 of it. On an
-/// outline it jumps by an edge.
-bool must_follow(const Substep& substep, const LinkGeometry& link, const SpanGeometry& span) {
+/// outline it jumps by an edge. And what a material is stretched by on a link over which it slides
+/// needs to know how long the arc is.
+bool must_follow(const Substep& substep, const LinkGeometry& link, const SpanGeometry& span,
+                 const CompiledCable& cable) {
   if (!link.wraps()) return false;
+  if (cable.inverse_stiffness > 0.0 && link.slides_over()) return true;
   constexpr double least = 1e-6;
   const Vector3 normal = rotated(substep.orientation(link.carrier), link.normal);
   return link.outline || std::abs(dot(normal, span.direction)) > least;
@@ -109,7 +112,8 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     }
     if (cable.tangent_update == TangentUpdate::substep) {
       keep_places(substep, first, second, span, references_[k]);
-      const bool follows = must_follow(substep, first, span) || must_follow(substep, second, span);
+      const bool follows =
+          must_follow(substep, first, span, cable) || must_follow(substep, second, span, cable);
       cable.frozen = cable.frozen && !follows;
     }
   }
@@ -274,6 +278,10 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
 }
 
 void CableSystem::finish(Substep& substep, FeatureState& next) {
+  // Before anything is noted.
+  substep.failed =
+      substep.resort != Resort::anything && !changing_links_.empty() && turns_too_far(substep);
+  if (substep.failed) return;
   knows_lengths_ = true;
   known_.expect(spans_.size());
   for (const CompiledCable& cable : cables_) {

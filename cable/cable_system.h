@@ -192,14 +192,15 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   /// Makes the weights of a run of `count` spans relative to the heaviest, so that no number of
   /// turns overflows, and returns the sum of its rows' values [m]; of a material those with the
   /// run's strain, which it finds. Damped rows it makes those of springs with the same forces.
-  double weigh_run(const CompiledCable& cable, std::size_t count, double heaviest, double h);
+  double weigh_run(const Substep& substep, const CompiledCable& cable, Run run, double heaviest);
   double solve_run(Substep& substep, const CompiledCable& cable, Run run);
   /// Into run_work_.spare the rest lengths before anything passes the links [m], into
   /// run_work_.lengths those with the tensions; whether any has one at the end.
   bool shorten_run(const Substep& substep, const CompiledCable& cable, Run run);
   /// The same of a material.
   bool stretch_run(const Substep& substep, const CompiledCable& cable, Run run);
-  /// Per span of the run: rest length that has to leave it [m], so that all have their tensions.
+  /// Per span of the run: rest length that has to leave it [m], so that all have their tensions;
+  /// together what the arcs gain.
   const std::vector<double>& run_spare(const Substep& substep, const CompiledCable& cable, Run run);
   void share_lengths(Substep& substep, const CompiledCable& cable, FeatureState& next);
   void share_run(Substep& substep, const CompiledCable& cable, Run run, FeatureState& next);
@@ -293,16 +294,46 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] static bool strains_runs(const CompiledCable& cable) {
     return cable.inverse_stiffness > 0.0 && !cable.frozen;
   }
+  // Links over which cable of a material slides: cable/strained_arcs.cpp.
+  using SlidingArc = cable_parts::SlidingArc;
+  /// Whether what lies on the link is stretched with the spans on both sides.
+  [[nodiscard]] bool slides_on(int link) const {
+    return strain_places_[at(link)] >= 0 && links_[at(link)].slides_over() && shared(link);
+  }
+  /// Into run_work_.arcs those of a run whose spans are in run_work_.stretched.
+  void find_arcs(const Substep& substep, const CompiledCable& cable, Run run,
+                 std::span<const double> weights);
+  /// Of the arc behind a span; tensions over that of the run at its ends.
+  void add_nodes(const Substep& substep, int span, double from, double to);
+  void add_outline(const Substep& substep, int span, double from, double rise);
+  [[nodiscard]] std::span<const cable_parts::ArcNode> nodes_of(const SlidingArc& arc) const;
+  [[nodiscard]] cable_parts::ArcSum arc_with(const SlidingArc& arc, double strain) const;
+  /// Adds them to the rows of the spans before them.
+  void add_arcs(const Substep& substep, const CompiledCable& cable, std::span<const double> weights,
+                double strain, std::span<Row> rows) const;
+  [[nodiscard]] StoredStrain strained_arc(const SlidingArc& arc, double strain) const;
+  /// Finds what they gain in the substep, with the strain with which the run ends.
+  void settle_arcs(std::optional<double> strain);
+  /// Takes this share of what arcs gain out of run_work_.spare, half from either side.
+  void count_arcs(double share);
+  /// What slides over the link behind a span of the run, as friction sees it [m], of the length
+  /// `passed` that comes to it and becomes that which goes on from it.
+  [[nodiscard]] double pass_arc(std::size_t span, double& passed) const;
+  /// The same of the end of the substep: puts what stays there into the state. `moved` comes, as a
+  /// multiple of the quantum; returns the one that goes on.
+  double lay_arc(const CompiledCable& cable, std::size_t span, double moved, double& passed,
+                 FeatureState& next);
   /// Rest length of a material's span with `strain` at the end [m], before anything passes links.
   [[nodiscard]] static double rest_length_at(const StretchedSpan& span, double strain);
   /// The strain e of a run whose spans end with what their dampers make of weight x e each; 0 if it
   /// is slack, none if it is used up.
-  [[nodiscard]] static std::optional<double> run_strain(std::span<const StretchedSpan> spans,
-                                                        std::span<const double> weights);
+  [[nodiscard]] std::optional<double> run_strain(std::span<const StretchedSpan> spans,
+                                                 std::span<const double> weights) const;
   /// Gives the rows of a run that strain.
-  void strain_rows(const CompiledCable& cable, std::span<const StretchedSpan> spans,
+  void strain_rows(const Substep& substep, const CompiledCable& cable, Run run,
                    std::span<const double> weights, std::span<Row> rows);
-  void strain_shared(const CompiledCable& cable, std::span<Row> rows);
+  void strain_shared(const Substep& substep, const CompiledCable& cable, Run run,
+                     std::span<Row> rows);
   /// The strain with which a run ends, with the ratios of its tensions as weights; leaves these and
   /// the spans in run_work_.weights and run_work_.stretched. None if its spans keep strains of their own.
   std::optional<double> end_strain(const Substep& substep, const CompiledCable& cable, Run run);
@@ -328,6 +359,10 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] SpanGeometry attached_span(const Substep& substep, int index, int span,
                                            double angle) const;
   void change_ends(const Substep& substep, FeatureState& next);
+  /// Whether the rim that a cable ends on turns too far for its rows, which are linear.
+  [[nodiscard]] bool turns_too_far(const Substep& substep) const;
+  [[nodiscard]] bool end_turns_too_far(const Substep& substep, int index, int span,
+                                       bool first) const;
   void change_end(const Substep& substep, const CompiledCable& cable, int index, int span,
                   bool first, FeatureState& next);
   // The order in which a cable runs over its links: cable/cable_course.cpp.

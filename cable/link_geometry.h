@@ -80,6 +80,8 @@ struct LinkGeometry {
   /// Whether cable can pass from the span before the link to the one after it other than by
   /// rolling.
   [[nodiscard]] bool passes() const { return massless || !std::isnan(friction); }
+  /// Whether what passes slides along the link's arc.
+  [[nodiscard]] bool slides_over() const { return wraps() && !massless && !std::isnan(friction); }
   [[nodiscard]] bool frictionless() const {
     return loss_exponent == 0.0 && (massless || friction == 0.0);
   }

@@ -57,9 +57,8 @@ StoredStrain::Piece StoredStrain::take(End end, double length) {
 }
 
 void StoredStrain::put(End end, double length, double strain) {
-  if (!(length > 0.0)) return;
   const Piece piece{length, strain * length, strain * strain * length};
-  if (count_ > 0) {
+  if (count_ > 0 && length > 0.0) {
     Piece& last = pieces_[end == End::incoming ? 0 : count_ - 1];
     if (last.strain() == strain) {
       last.length += piece.length;
@@ -68,6 +67,11 @@ void StoredStrain::put(End end, double length, double strain) {
       return;
     }
   }
+  put(end, piece);
+}
+
+void StoredStrain::put(End end, const Piece& piece) {
+  if (!(piece.length > 0.0)) return;
   if (end == End::incoming) {
     std::copy_backward(pieces_.begin(), pieces_.begin() + static_cast<std::ptrdiff_t>(count_),
                        pieces_.begin() + static_cast<std::ptrdiff_t>(count_) + 1);

@@ -46,6 +46,8 @@ class StoredStrain {
   Piece take(End end, double length);
   /// Puts cable onto an end: `length` [m, >= 0] unstretched, with this strain.
   void put(End end, double length, double strain);
+  /// Puts a piece of several strains onto an end.
+  void put(End end, const Piece& piece);
   /// Makes the unstretched length `length` [m; below 0 counts as 0] by taking from an end or
   /// putting onto it.
   void fit(End end, double length, double strain);

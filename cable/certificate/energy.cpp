@@ -196,8 +196,8 @@ class EnergyCheck {
   static double passed_into(const CableEvidence& cable, int span) {
     double passed = 0.0;
     for (const PassEvidence& pass : cable.passes) {
-      if (pass.after == span) passed += pass.slip;
-      if (pass.before == span) passed -= pass.slip;
+      if (pass.after == span) passed += pass.came();
+      if (pass.before == span) passed -= pass.left();
     }
     return passed;
   }

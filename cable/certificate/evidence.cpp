@@ -358,12 +358,15 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
     cable.free_length += span.length[last_end];
     find_directions(span);
   }
-  cable.frozen = cable.definition->tangent_update == TangentUpdate::substep &&
+  collect_passes(cable, from, to, places);
+  const auto follows = [](const PassEvidence& pass) { return pass.passes && pass.has_arc; };
+  const bool arcs = cable.definition->axial_stiffness &&
+                    std::any_of(cable.passes.begin(), cable.passes.end(), follows);
+  cable.frozen = cable.definition->tangent_update == TangentUpdate::substep && !arcs &&
                  std::none_of(cable.spans.begin(), cable.spans.end(), must_follow);
   if (cable.frozen) {
     for (SpanEvidence& span : cable.spans) freeze(span);
   }
-  collect_passes(cable, from, to, places);
 }
 
 namespace {
@@ -404,6 +407,14 @@ void Evidence::collect_passes(CableEvidence& cable, const CableReport& first,
     pass.slip = change(link, &LinkReport::slip);
     describe_pass(*this, cable, first.links[at(link)], second.links[at(link)], pass);
     pass.travel = pass.slip + braked_travel(*this, first.links[at(link)]);
+    pass.has_arc = first.links[at(link)].winding != 0 && !pass.massless;
+    pass.stretches = pass.passes && pass.has_arc && cable.definition->axial_stiffness &&
+                     (pass.friction == 0.0 || pass.slip != 0.0);
+    if (pass.stretches) {
+      pass.laid = after.links[at(link)];
+      pass.gained = change(link, &LinkReport::stored_length);
+      cable.spans[at(pass.before)].to.slides = cable.spans[k].from.slides = true;
+    }
     cable.passes.push_back(pass);
     collect_bearing(cable, pass, {&first.links[at(link)], &second.links[at(link)]});
   }

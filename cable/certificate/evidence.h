@@ -59,6 +59,7 @@ struct SpanSide {
   std::array<double, 2> radius{};  ///< at either end of the substep [m]: drums grow by layers
   int winding = 0;
   bool outlined = false;
+  bool slides = false;            ///< PassEvidence::stretches: it does not roll there
   std::array<Vector3, 2> point;   ///< at either end of the substep [m]: where its force acts
   Vector3 laid;                   ///< at its end, where what is frozen has been laid anew [m]
   std::array<Vector3, 2> center;  ///< of its circle [m]
@@ -94,6 +95,15 @@ struct PassEvidence {
   /// span [m]. That is the slip, or where a bearing brakes a wheel the way of its rim over the
   /// carrier.
   double travel = 0.0;
+  /// Whether cable of a material slides over an arc, and is stretched there: at the end so much of
+  /// it lies on the link, and it has gained so much [m, unstretched].
+  bool stretches = false;
+  bool has_arc = false;  ///< it is a wheel or a post, and none that cable turns
+  LinkReport laid;
+  double gained = 0.0;
+  /// What has left the span before, and come into the one behind [m].
+  [[nodiscard]] double left() const { return slip + 0.5 * gained; }
+  [[nodiscard]] double came() const { return slip - 0.5 * gained; }
   int link = 0;  ///< within the list; -1: a wrap
   std::string_view cable;
 };

@@ -109,8 +109,8 @@ void check_spans_of(const Evidence& evidence, const CableEvidence& cable, Findin
     if (!span.has_tangent || span.from.outlined || span.to.outlined) continue;
     double passed = span.fed;
     for (const PassEvidence& pass : cable.passes) {
-      if (at(pass.after) == k) passed += pass.slip;
-      if (at(pass.before) == k) passed -= pass.slip;
+      if (at(pass.after) == k) passed += pass.came();
+      if (at(pass.before) == k) passed -= pass.left();
     }
     const double rolled = span.rest_length[last_end] - span.rest_length[first_end] - passed;
     const auto [first, second] = rim_travels(evidence, cable, span, rolled);
@@ -182,7 +182,8 @@ std::array<double, 2> gain_by_passing(const CableEvidence& cable, const PassEvid
 /// gives to the span at its first end (sense -1) or its second (1). `reported` chooses among whole
 /// turns.
 double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, double reported) {
-  if (side.winding == 0 || !(side.radius[first_end] > 0.0)) return 0.0;
+  // What slides over an arc is no matter of the rim: check_arcs() and check_arc() of spans.cpp.
+  if (side.winding == 0 || side.slides || !(side.radius[first_end] > 0.0)) return 0.0;
   const Moment& start = evidence.moments[first_end];
   const Moment& end = evidence.moments[last_end];
   // In the wheel's own frame the contact moves by what rolls.

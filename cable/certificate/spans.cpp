@@ -12,6 +12,7 @@
 
 #include "cable/certificate/checks.h"
 #include "cable/certificate/pushes.h"
+#include "engine/math/portable.h"
 
 namespace sheave::certify {
 namespace {
@@ -58,6 +59,9 @@ class SpanCheck {
       if (rigid) check_rigid(span);
     }
     if (!rigid) check_chains();
+    for (const PassEvidence& pass : cable_.passes) {
+      if (pass.stretches) check_arc(pass);
+    }
   }
 
  private:
@@ -107,6 +111,43 @@ class SpanCheck {
          std::max(tension * rounding * 100.0, e_.force_rounding), span);
   }
 
+  /// Cable that slides over an arc is stretched with the spans on both sides, and its strain goes
+  /// from that of the one to that of the other by e^(m phi): with their ratio q the unstretched
+  /// length is arc (1 - ln((1 + e1) / (1 + e0)) / ln q). Where links are judged by the means of both
+  /// ends of a substep, where dampers pull, and on outlines, which have no friction between their
+  /// corners, it has strains of both.
+  void check_arc(const PassEvidence& pass) {
+    const SpanEvidence& before = cable_.spans[at(pass.before)];
+    const SpanEvidence& after = cable_.spans[at(pass.after)];
+    if (!(before.tension() > 0.0) && !(after.tension() > 0.0)) return;
+    const double first = strain_of(before, last_end);
+    const double last = strain_of(after, last_end);
+    double least = std::min(first, last);
+    double most = std::max(first, last);
+    const double lies = pass.laid.stored_length;
+    const double arc = lies + pass.laid.stored_stretch;
+    const bool by_means = e_.rattle && pass.friction > 0.0;
+    const bool exact = !by_means && !(cable_.definition->damping > 0.0);
+    if (!exact) {
+      for (const SpanEvidence* span : {&before, &after}) {
+        least = std::min(least, strain_of(*span, first_end));
+        most = std::max(most, strain_of(*span, first_end));
+      }
+    }
+    double low = arc / (1.0 + most);
+    double high = arc / (1.0 + least);
+    if (exact && least > 0.0 && pass.laid.path.empty()) {
+      const double ratio = portable::log(most / least);
+      // The logarithms of what is alike leave rounding.
+      constexpr double alike = 1e-6;
+      if (ratio > alike) {
+        low = high = arc * (1.0 - portable::log((1.0 + most) / (1.0 + least)) / ratio);
+      }
+    }
+    note(CertificateItem::Kind::span, "m", std::abs(lies - std::clamp(lies, low, high)),
+         std::max(arc - low, 1e-6 * size_), rounding * 1e3 * e_.bodies.scale(), before);
+  }
+
   void check_rigid(const SpanEvidence& span) {
     const double stretch = span.length[last_end] - span.rest_length[last_end];
     note(CertificateItem::Kind::span, "m", std::max(stretch, 0.0), size_,
@@ -148,7 +189,31 @@ class SpanCheck {
            at_bound * carried(pass, forwards ? before : after);
   }
 
+  static double strain_of(const SpanEvidence& span, End when) {
+    const double rest = span.rest_length[at(when)];
+    return rest > 0.0 ? std::max(span.length[at(when)] / rest - 1.0, 0.0) : 0.0;
+  }
+
+  /// Whether cable has begun to slide over an arc: the spans beside it began the substep with
+  /// strains that did not have the ratio of its end. With `rattle` the arc's strain at the start
+  /// then counts, too, which spans do not tell.
+  [[nodiscard]] bool begins_apart(const std::vector<std::size_t>& chain) const {
+    constexpr double alike = 1e-6;
+    return std::any_of(cable_.passes.begin(), cable_.passes.end(), [&](const PassEvidence& pass) {
+      if (!pass.stretches ||
+          std::find(chain.begin(), chain.end(), at(pass.before)) == chain.end()) {
+        return false;
+      }
+      const SpanEvidence& before = cable_.spans[at(pass.before)];
+      const SpanEvidence& after = cable_.spans[at(pass.after)];
+      const double as_it_was = strain_of(before, first_end) * strain_of(after, last_end);
+      const double as_it_is = strain_of(before, last_end) * strain_of(after, first_end);
+      return std::abs(as_it_was - as_it_is) > alike * std::max(as_it_was, as_it_is);
+    });
+  }
+
   void check_chain(const CableDef& cable, const std::vector<std::size_t>& chain) {
+    if (e_.rattle && begins_apart(chain)) return;
     ChainSum sum;
     for (const std::size_t k : chain) {
       if (!cable_.spans[k].has_tangent) return;
@@ -231,8 +296,8 @@ class SpanCheck {
   [[nodiscard]] double slid_into(int span) const {
     double passed = 0.0;
     for (const PassEvidence& pass : cable_.passes) {
-      if (pass.after == span) passed += pass.slip;
-      if (pass.before == span) passed -= pass.slip;
+      if (pass.after == span) passed += pass.came();
+      if (pass.before == span) passed -= pass.left();
     }
     return passed;
   }

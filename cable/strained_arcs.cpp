@@ -1,0 +1,290 @@
+// Cable of a material on links over which it slides: posts, wrappable bodies, wheels that slip.
+//
+// Within a run (cable/cable_runs.cpp) cable slides over a link that it wraps, so what lies there
+// has no strain of its own: with T the tension that enters at one end of the arc, that at the angle
+// phi from there is T e^(+-m phi), and with it goes the strain, e = T / EA. The arc a, which
+// geometry says, is covered by the unstretched length
+//
+//   A(e) = mean over the arc of a / (1 + k e),   k: the tension there over that of the run,
+//
+// and what a run has, its spans' and that on its links, is conserved. So of cable_material.cpp's F
+// the parts G_i and on_i count links at which nothing slides (the ends of the run, massless wheels)
+// alone, and the cable on the others counts as a whole, at the start s_j:
+//
+//   F(e) = sum over spans (L0_i + G_i - on_i / (1 + (e0_i + k_i e) / 2) - l_i / (1 + k_i e))
+//        + sum over arcs (s_j - A_j(e)).
+//
+// Without friction that is l / (1 + e) of all that is between the ends of the run: a rope round a
+// smooth post is as long a spring as one without the post. The arc's stretch a - A and its yield
+// mean of a k / (1 + k e) / EA belong to the rows of the spans beside it. The gradient stays what it
+// is: what a tangent point moves along the arc the span loses, with the strain that both have there.
+//
+// On an outline (cable/outline.h) friction acts at the corners, and what lies along an edge has one
+// tension.
+//
+// Where the link sticks, what lies on it keeps its strain; at the ends of its arc cable comes on and
+// off as on any wheel (cable/stored_strain.h). Arcs are springs without dampers: a `damping` is one
+// of free spans. A constant `compliance` is one of free spans, too; what lies on links has none.
+//
+// A massless wheel turns with the cable instead, which lies on it without sliding, and keeps the
+// strain with which it has come on, as on a wheel with inertia.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cable/cable_system.h"
+#include "cable/span_contact.h"
+#include "engine/index.h"
+#include "engine/math/portable.h"
+
+namespace sheave {
+namespace {
+
+using cable_parts::ArcNode;
+using cable_parts::ArcSum;
+using cable_parts::SlidingArc;
+
+/// Gauss-Legendre quadrature over [0, 1]: exact to rounding for e^x / (1 + c e^x) over a slice
+/// within which the exponent changes by no more than slice_exponent.
+constexpr std::array<double, 5> gauss_places{0.04691007703066800, 0.23076534494715845, 0.5,
+                                             0.76923465505284155, 0.95308992296933200};
+constexpr std::array<double, 5> gauss_weights{0.11846344252809454, 0.23931433524968324,
+                                              0.28444444444444444, 0.23931433524968324,
+                                              0.11846344252809454};
+constexpr double slice_exponent = 0.5;
+constexpr int most_slices = 8;
+
+ArcSum sum_up(std::span<const ArcNode> nodes, double length, double strain) {
+  ArcSum sum;
+  for (const ArcNode& node : nodes) {
+    const double own = node.weight * strain;
+    const double part = length * node.share / (1.0 + own);
+    sum.unstretched += part;
+    sum.pull += node.weight * part;
+    sum.slope += node.weight * part / (1.0 + own);
+  }
+  return sum;
+}
+
+/// Adds nodes of a part of an arc along which the tension grows evenly, by e^rise in all.
+void add_slices(double from, double rise, double share, std::vector<ArcNode>& nodes) {
+  const double wanted = std::ceil(std::abs(rise) / slice_exponent);
+  const int slices = static_cast<int>(std::clamp(wanted, 1.0, double{most_slices}));
+  const int before = nodes.empty() ? 0 : nodes.back().slice + 1;
+  for (int slice = 0; slice < slices; ++slice) {
+    for (std::size_t n = 0; n < gauss_places.size(); ++n) {
+      const double place = (slice + gauss_places[n]) / slices;
+      nodes.push_back(
+          {share * gauss_weights[n] / slices, from * portable::exp(rise * place), before + slice});
+    }
+  }
+}
+
+/// Adds a spring that is not damped to a row that may be (engine/solvers/row_system.h): `stretch`
+/// at the end and `before` at the start [m], `yield` [m/N]. The row's own share of damping g stays.
+void add_spring(double stretch, double before, double yield, double h, bool midpoint, Row& row) {
+  row.value -= stretch;
+  if (!(row.damping > 0.0) || !(row.compliance > 0.0)) {
+    row.compliance += yield;
+    return;
+  }
+  const double share = (midpoint ? 2.0 : 1.0) * row.compliance * row.damping / h;
+  if (midpoint) row.value -= before;
+  const double whole = row.compliance + (1.0 + share) * yield;
+  row.damping *= row.compliance / whole;
+  row.compliance = whole;
+}
+
+}  // namespace
+
+std::span<const ArcNode> CableSystem::nodes_of(const SlidingArc& arc) const {
+  return std::span<const ArcNode>(run_work_.nodes).subspan(arc.first_node, arc.node_count);
+}
+
+ArcSum CableSystem::arc_with(const SlidingArc& arc, double strain) const {
+  return sum_up(nodes_of(arc), arc.length, strain);
+}
+
+void CableSystem::find_arcs(const Substep& substep, const CompiledCable& cable, Run run,
+                            std::span<const double> weights) {
+  run_work_.nodes.clear();
+  run_work_.arcs.assign(at(run.count), SlidingArc{});
+  for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
+    const bool last = i + 1 == run.count;
+    const int link = spans_[at(k)].second;
+    if (last && (!cable.closed || next_span(cable, k) != run.first)) break;
+    if (!slides_on(link)) continue;
+    const std::size_t behind = last ? 0 : at(i + 1);
+    SlidingArc& arc = run_work_.arcs[at(i)];
+    arc.link = link;
+    arc.start = stored_arcs_[at(link)];
+    arc.length =
+        arc.start - run_work_.stretched[at(i)].arcs[1] - run_work_.stretched[behind].arcs[0];
+    arc.before = stored_[at(strain_places_[at(link)])].total();
+    arc.before.length = arc.start - arc.before.stretch;  // also where the cable is about to leave
+    arc.first_node = run_work_.nodes.size();
+    add_nodes(substep, k, weights[at(i)], weights[behind]);
+    arc.node_count = run_work_.nodes.size() - arc.first_node;
+  }
+}
+
+void CableSystem::add_nodes(const Substep& substep, int span, double from, double to) {
+  const double rise = from > 0.0 && to > 0.0 && from != to ? portable::log(to / from) : 0.0;
+  if (rise == 0.0) {
+    run_work_.nodes.push_back({1.0, from, 0});
+    return;
+  }
+  if (!links_[at(spans_[at(span)].second)].outline) {
+    add_slices(from, rise, 1.0, run_work_.nodes);
+    return;
+  }
+  const std::size_t first = run_work_.nodes.size();
+  add_outline(substep, span, from, rise);
+  double whole = 0.0;
+  for (std::size_t i = first; i < run_work_.nodes.size(); ++i) whole += run_work_.nodes[i].share;
+  for (std::size_t i = first; i < run_work_.nodes.size(); ++i) run_work_.nodes[i].share /= whole;
+  // At a single corner there is no arc.
+  if (!(whole > 0.0)) {
+    run_work_.nodes.resize(first);
+    run_work_.nodes.push_back({1.0, from, 0});
+  }
+}
+
+void CableSystem::add_outline(const Substep& substep, int span, double from, double rise) {
+  // Friction acts at the corners, in proportion to the angles by which they bend the cable.
+  const int index = spans_[at(span)].second;
+  const LinkGeometry& link = links_[at(index)];
+  const Outline& curve = link.outline->curve;
+  const SpanGeometry in = geometry_of(substep, span);
+  const SpanGeometry out =
+      geometry_of(substep, next_span(cables_[at(spans_[at(span)].cable)], span));
+  const double entry = normal_angle(substep, link, in.direction);
+  const double whole = wrap_angle(substep, link, in, out, stored_arcs_[at(index)]);
+  const auto corner_part = [&](double start, double end) {
+    const double length = curve.corner_radius() * (end - start);
+    if (!(length > 0.0)) return;
+    const double here = from * portable::exp(rise * start / whole);
+    add_slices(here, rise * (end - start) / whole, length, run_work_.nodes);
+  };
+  const int count = curve.corner_count();
+  int corner = in.second_corner;
+  double bent = 0.0;
+  const int most = count * (2 + static_cast<int>(std::min(whole, 1e3)));
+  for (int walked = 0; walked < most && whole > 0.0; ++walked) {
+    const int next = (corner + (link.side > 0 ? 1 : count - 1)) % count;
+    const Vector3& a = curve.corner(link.side > 0 ? corner : next);
+    const Vector3& b = curve.corner(link.side > 0 ? next : corner);
+    const double normal = portable::atan2(a.x() - b.x(), b.y() - a.y());  // of the edge, outward
+    double turned = link.side * (normal - entry);
+    turned -= 2.0 * pi * std::floor((turned - bent) / (2.0 * pi));
+    if (turned >= whole) break;
+    corner_part(bent, turned);
+    const int slice = run_work_.nodes.empty() ? 0 : run_work_.nodes.back().slice + 1;
+    run_work_.nodes.push_back({(b - a).norm(), from * portable::exp(rise * turned / whole), slice});
+    bent = turned;
+    corner = next;
+  }
+  corner_part(bent, whole);
+}
+
+void CableSystem::add_arcs(const Substep& substep, const CompiledCable& cable,
+                           std::span<const double> weights, double strain,
+                           std::span<Row> rows) const {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const SlidingArc& arc = run_work_.arcs[i];
+    if (arc.link < 0) continue;
+    const ArcSum sum = arc_with(arc, strain);
+    // A slack run has what it has too much on its links, too.
+    const double stretch =
+        strain > 0.0 ? arc.length - sum.unstretched : arc.length - arc.before.length;
+    // Both sides have their parts, so that a mirror image has the same rows.
+    const std::size_t behind = i + 1 < rows.size() ? i + 1 : 0;
+    const double both = weights[i] + weights[behind];
+    const double yield = both > 0.0 ? sum.pull * cable.inverse_stiffness / both : 0.0;
+    for (const std::size_t row : {i, behind}) {
+      add_spring(0.5 * stretch, 0.5 * arc.before.stretch, yield, substep.h, knows_start_,
+                 rows[row]);
+    }
+  }
+}
+
+StoredStrain CableSystem::strained_arc(const SlidingArc& arc, double strain) const {
+  StoredStrain stored;
+  StoredStrain::Piece piece;
+  int slice = nodes_of(arc).front().slice;
+  for (const ArcNode& node : nodes_of(arc)) {
+    if (node.slice != slice) {
+      stored.put(StoredStrain::End::outgoing, piece);
+      piece = {};
+      slice = node.slice;
+    }
+    const double own = node.weight * strain;
+    const double length = arc.length * node.share / (1.0 + own);
+    piece.length += length;
+    piece.stretch += own * length;
+    piece.square += own * own * length;
+  }
+  stored.put(StoredStrain::End::outgoing, piece);
+  return stored;
+}
+
+void CableSystem::settle_arcs(std::optional<double> strain) {
+  for (SlidingArc& arc : run_work_.arcs) {
+    if (arc.link < 0) continue;
+    arc.strain = strain;  // what would be stretched without a pull keeps its own
+    const double own = arc.before.strain();
+    arc.gain = strain ? arc_with(arc, *strain).unstretched - arc.before.length
+                      : (arc.length - arc.start) / (1.0 + own);
+  }
+}
+
+void CableSystem::count_arcs(double share) {
+  const std::size_t count = run_work_.arcs.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const double gain = run_work_.arcs[i].gain;
+    if (gain == 0.0) continue;
+    run_work_.spare[i] -= 0.5 * share * gain;
+    run_work_.spare[i + 1 < count ? i + 1 : 0] -= 0.5 * share * gain;
+  }
+}
+
+double CableSystem::pass_arc(std::size_t span, double& passed) const {
+  const SlidingArc& arc = run_work_.arcs[span];
+  if (arc.link < 0) return passed;
+  const double slid = passed - 0.5 * arc.gain;
+  passed -= arc.gain;
+  if (!arc.strain || !(arc.start > 0.0)) return slid;
+  // Friction takes (T2 - T1) slid + (mean of T) x stretch - energy of the arc, which counts where
+  // the arc's strains come to the ratio of the tensions at once.
+  const std::span<const ArcNode> nodes = nodes_of(arc);
+  const double first = nodes.front().weight * *arc.strain;
+  const double last = nodes.back().weight * *arc.strain;
+  if (first == last) return slid;
+  const StoredStrain::Piece now = strained_arc(arc, *arc.strain).total();
+  const double grown = arc.length / arc.start;
+  const double stretched = now.stretch - grown * arc.before.stretch;
+  const double square = now.square - grown * arc.before.square;
+  const StretchedSpan& before = run_work_.stretched[span];
+  const StretchedSpan& behind =
+      run_work_.stretched[span + 1 < run_work_.arcs.size() ? span + 1 : 0];
+  const double mean = 0.25 * (first + last + before.start_strain + behind.start_strain);
+  return slid + (mean * stretched - 0.5 * square) / (last - first);
+}
+
+double CableSystem::lay_arc(const CompiledCable& cable, std::size_t span, double moved,
+                            double& passed, FeatureState& next) {
+  const SlidingArc& arc = run_work_.arcs[span];
+  double& stored = next.reals[stored_length_index(arc.link)];
+  passed -= arc.gain;
+  // Round a ring nothing goes on over the last link of the run: what comes to it stays.
+  const bool last = span + 1 == run_work_.arcs.size();
+  const double moved_on = last ? 0.0 : std::min(cable.quantised(passed), stored + moved);
+  stored += moved - moved_on;
+  StoredStrain lies = arc.strain ? strained_arc(arc, *arc.strain) : stored_strain(next, arc.link);
+  lies.fit(StoredStrain::End::outgoing, stored, lies.total().strain());
+  save_strain(lies, arc.link, next);
+  return moved_on;
+}
+
+}  // namespace sheave
