@@ -36,7 +36,8 @@ void CableCompiler::add(const CableDef& def, const CableStart& start) {
   }
   compile_spans(def);
   if (errors_.size() > before) return;
-  if (!runs_) find_wrong_windings(def);
+  if (!runs_) check_windings(def);
+  if (errors_.size() > before) return;
   store(def);
 }
 
