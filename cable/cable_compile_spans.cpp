@@ -149,8 +149,8 @@ double CableCompiler::start_wrap(int link, const SpanGeometry& incoming,
     angle -= 2.0 * pi * std::floor((angle + touch) / (2.0 * pi));
   } else {
     const LinkCircle circle = circle_of(*now_, wheel);
-    angle = wheel.side * angle_between(radial(circle, incoming.end),
-                                       radial(circle, outgoing.start),
+    angle = wheel.side * angle_between(radial(circle, incoming.end, incoming.direction),
+                                       radial(circle, outgoing.start, outgoing.direction),
                                        circle.normal);
     if (angle < -touch) angle += 2.0 * pi;
     angle = std::max(angle, 0.0);
