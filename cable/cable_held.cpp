@@ -22,7 +22,7 @@ namespace sheave {
 namespace {
 
 /// Nothing pulls, as the logarithm of a tension.
-constexpr double no_pull = -std::numeric_limits<double>::infinity();
+constexpr double no_force = -std::numeric_limits<double>::infinity();
 
 /// Rounds that change a given force by less than this share of it are done.
 constexpr double settled_share = 1e-10;
@@ -108,8 +108,8 @@ void CableSystem::hold_between(const Substep& substep, const CompiledCable& cabl
     return p.kind != Piece::Kind::moves && !(what == Held::reported && p.turns);
   };
   // The cone that what lies behind leaves for each of them.
-  double low = no_pull;
-  double high = -no_pull;
+  double low = no_force;
+  double high = -no_force;
   for (std::size_t i = last + 1; i-- > first;) {
     Piece& piece = pieces_[i];
     const double held = i < last ? grip(substep, i) : 0.0;
@@ -119,7 +119,7 @@ void CableSystem::hold_between(const Substep& substep, const CompiledCable& cabl
       low = high = piece.first_pull;
       continue;
     }
-    if (piece.kind == Piece::Kind::too_long) low = high = no_pull;
+    if (piece.kind == Piece::Kind::too_long) low = high = no_force;
     low -= piece.rise;
     high -= piece.rise;
     piece.low = low;

@@ -105,14 +105,15 @@ void append_joint_warnings(const Simulation& simulation, const RunStatistics& st
   }
 }
 
-void append_cable_warnings(const CableSystem& cables, std::vector<Warning>& warnings) {
+void append_cable_warnings(const CableSystem& cables, const BodySet& bodies,
+                           std::vector<Warning>& warnings) {
   warnings = scene_warnings(cables);
   for (const CableSystem::TangentWarning& warning : cables.tangent_warnings()) {
     std::string span = warning.span < 0 ? fmt::format("{} behind a wrap", warning.cable)
                                         : fmt::format("{}.{}", warning.cable, warning.span);
     std::string message = fmt::format(
-        "span {} had no tangent in {} substeps, first at {} s: its wheels overlap, and its "
-        "numbers mean little there",
+        "span {} had no tangent in {} substeps, first at {} s: its wheels overlap, or it leans so "
+        "far out of a wheel's plane that no groove would hold it; its numbers mean little there",
         span, warning.substeps, number_text(warning.first_time));
     warnings.push_back({"no_tangent", std::move(span), std::move(message)});
   }
@@ -122,6 +123,16 @@ void append_cable_warnings(const CableSystem& cables, std::vector<Warning>& warn
         "the body; raise its most_wraps",
         warning.cable, warning.substeps, number_text(warning.first_time));
     warnings.push_back({"too_many_wraps", warning.cable, std::move(message)});
+  }
+  for (const CableSystem::LeanWarning& warning : cables.lean_warnings()) {
+    std::string message = fmt::format(
+        "cable {} lies on {} in the plane in which it came onto it, and its spans left that plane "
+        "by up to {:.3g} degrees ({} substeps, by more than 1 degree first at {} s): it lies as in "
+        "a "
+        "groove there, where on a smooth body it would slide sideways to a shorter way",
+        warning.cable, bodies.name(warning.body), warning.angle * 180.0 / pi, warning.substeps,
+        number_text(warning.first_time));
+    warnings.push_back({"wrap_off_plane", warning.cable, std::move(message)});
   }
 }
 
@@ -410,7 +421,7 @@ std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simu
                                       const RunStatistics& statistics, const RunMonitor& monitor) {
   std::vector<Warning> warnings;
   if (simulation.cables != nullptr) {
-    append_cable_warnings(*simulation.cables, warnings);
+    append_cable_warnings(*simulation.cables, simulation.world.bodies(), warnings);
     append_shortage_warnings(*simulation.cables, simulation.world.bodies(), warnings);
     append_stretch_warnings(simulation, statistics, monitor, warnings);
   }
