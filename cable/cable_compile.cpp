@@ -36,7 +36,8 @@ void CableCompiler::add(const CableDef& def, const CableStart& start) {
   }
   compile_spans(def);
   if (errors_.size() > before) return;
-  if (!runs_) find_wrong_windings(def);
+  if (!runs_) check_windings(def);
+  if (errors_.size() > before) return;
   store(def);
 }
 
@@ -54,6 +55,7 @@ void CableCompiler::take(int then) {
   cable.first_plane = planes_;
   if (!cable.candidates.empty()) planes_ += cable.link_count - cable.listed_links;
   for (int& link : cable.driven_links) link += cable.first_link - was.first_link;
+  for (int& link : cable.grips) link += cable.first_link - was.first_link;
   cable.course_changes = !cable.candidates.empty() || std::isfinite(cable.breaking_tension) ||
                          std::isfinite(cable.cut_time);
   path_ = "/cables/" + std::to_string(index_++);
@@ -164,8 +166,10 @@ void CableCompiler::make_room() {
   s.pending_slip_ = s.flips_ = s.slip_;
   s.sweeps_.assign(s.cables_.size(), 0);
   s.notes_.crowded.resize(s.cables_.size());
+  s.notes_.leans.resize(s.cables_.size());
   s.notes_.edition = 1;
   s.stored_arcs_.resize(links);
+  s.geodesic_starts_.resize(links);
 }
 
 void CableCompiler::store_strains() {

@@ -115,6 +115,7 @@ void CableCompiler::set_course(CompiledCable& cable) {
     cable.has_outlines = cable.has_outlines || link.outline;
     const bool stays = !link.starts_lifted && (cable.closed || i + 1 < cable.listed_links);
     next_links_.push_back(stays ? next_touched(i) : -1);
+    if (!end && !link.wraps() && !link.passes()) cable.grips.push_back(cable.first_link + i);
     if (end || !link.passes()) continue;
     cable.shares = true;
     cable.has_friction = cable.has_friction || !link.frictionless();

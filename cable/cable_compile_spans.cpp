@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "cable/cable_compiler.h"
+#include "cable/link_contact.h"
 #include "engine/index.h"
 
 namespace sheave {
@@ -137,8 +138,8 @@ void CableCompiler::check_rest_length(const CableDef& def, int span, const SpanG
            " apart and the rest length is only " + metres(rest_length));
 }
 
-double CableCompiler::arc(int link, const SpanGeometry& incoming,
-                          const SpanGeometry& outgoing) const {
+double CableCompiler::start_wrap(int link, const SpanGeometry& incoming,
+                                 const SpanGeometry& outgoing) const {
   constexpr double touch = 1e-9;  // [rad] just below 0 is a touch, not a full turn
   const LinkGeometry& wheel = links_[at(link)];
   double angle = 0.0;
@@ -148,13 +149,21 @@ double CableCompiler::arc(int link, const SpanGeometry& incoming,
     angle -= 2.0 * pi * std::floor((angle + touch) / (2.0 * pi));
   } else {
     const LinkCircle circle = circle_of(*now_, wheel);
-    const double radius = std::abs(wheel.signed_radius);
-    angle = wheel.side * angle_between((incoming.end - circle.center) / radius,
-                                       (outgoing.start - circle.center) / radius, circle.normal);
+    angle = wheel.side * angle_between(radial(circle, incoming.end, incoming.direction),
+                                       radial(circle, outgoing.start, outgoing.direction),
+                                       circle.normal);
     if (angle < -touch) angle += 2.0 * pi;
     angle = std::max(angle, 0.0);
   }
-  return arc_between(*now_, wheel, incoming, outgoing, angle) +
+  // A cable that is bent away from the wheel lies on it for so much less than its whole turns.
+  const bool away = wheel.extra_turns > 0 && angle > longest_wrap;
+  return away ? angle - 2.0 * pi : angle;
+}
+
+double CableCompiler::arc(int link, const SpanGeometry& incoming,
+                          const SpanGeometry& outgoing) const {
+  const LinkGeometry& wheel = links_[at(link)];
+  return arc_between(*now_, wheel, incoming, outgoing, start_wrap(link, incoming, outgoing)) +
          wheel.extra_turns * wheel.perimeter();
 }
 

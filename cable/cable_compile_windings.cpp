@@ -1,13 +1,25 @@
-// Windings that look as if they were entered the wrong way round.
+// Windings that cannot be meant, or look as if they were entered the wrong way round.
 //
-// A cable that comes to a wheel and leaves it with both spans in the wheel's plane cannot pass
-// through itself, but rows know nothing of that: with the wrong winding the two spans cross beside
-// the wheel, and everything runs. Some machines mean it: a belt that is crossed between two wheels,
-// a rope with whole turns, a figure of eight. So a link is named only if its two spans cross, if
-// they would not with the other winding, if it has no whole turns, and if the spans do not join the
-// same two wheels.
+// Ghost turns. Where a cable is bent away from a wheel, by an angle a, no tight cable touches it;
+// but tangents on the side that the winding says exist all the same, and between them lies an arc
+// of 2 pi - a. So a wrap of almost a whole turn is one of two things: a cable that does not reach
+// its wheel, or one that has been laid round it once on purpose. Geometry cannot tell them apart,
+// the user can: the one is "lifted", the other has "turns". Without either, wraps of more than
+// `longest_wrap` are refused, in one plane or in space. That bound, 300 degrees, leaves band
+// brakes, bollards and crossed belts alone, which are wrapped by up to 270. Between two spans that
+// join the same two wheels nothing could be lifted: crossed belts round wheels that nearly touch.
+//
+// The other winding. A cable that comes to a wheel and leaves it with both spans in the wheel's
+// plane cannot pass through itself, but rows know nothing of that: with the wrong winding the two
+// spans cross beside the wheel, and everything runs. Some machines mean it: a belt that is crossed,
+// a rope with whole turns, a figure of eight, a band that goes round three quarters of its drum.
+// Wound the wrong way, a wheel that turns a cable back, as most do, gets a little more than half a
+// turn. So a link is named only if its two spans cross, if they would not with the other winding,
+// if it has no whole turns and no more than 5/8 of one, and if the spans do not join the same two
+// wheels.
 
 #include <cmath>
+#include <cstdio>
 
 #include "cable/cable_compiler.h"
 #include "engine/index.h"
@@ -31,7 +43,8 @@ bool cross_each_other(const SpanGeometry& a, const SpanGeometry& b, const Vector
 
 }  // namespace
 
-void CableCompiler::find_wrong_windings(const CableDef& def) {
+void CableCompiler::check_windings(const CableDef& def) {
+  constexpr double most_turned_back = 2.0 * pi * 5.0 / 8.0;
   const auto count = static_cast<int>(links_.size());
   for (int i = 0; i < count; ++i) {
     const LinkGeometry& wheel = links_[at(i)];
@@ -41,26 +54,43 @@ void CableCompiler::find_wrong_windings(const CableDef& def) {
     while (links_[at(before)].starts_lifted) before = (before + count - 1) % count;
     const int after = next_touched(i);
     if (before == after) continue;
-    SpanSetup in;
-    SpanSetup out;
-    choose_kind(in, links_[at(before)], wheel);
-    choose_kind(out, wheel, links_[at(after)]);
-    if (in.kind != SpanKind::planar || out.kind != SpanKind::planar) continue;
-    const Vector3 normal = now_->orientation(wheel.carrier) * wheel.normal;
-    if (!cross_each_other(geometry_[at(before)], geometry_[at(i)], normal)) continue;
-    LinkGeometry other = wheel;
-    other.side = -wheel.side;
-    other.signed_radius = -wheel.signed_radius;
-    choose_kind(in, links_[at(before)], other);
-    choose_kind(out, other, links_[at(after)]);
-    const SpanGeometry to = span_geometry(*now_, in, links_[at(before)], other);
-    const SpanGeometry from = span_geometry(*now_, out, other, links_[at(after)]);
-    if (!to.has_tangent || !from.has_tangent || cross_each_other(to, from, normal)) continue;
-    const Winding better = other.side > 0 ? Winding::counter_clockwise : Winding::clockwise;
-    const int on = wheel.touched();
-    std::string body = on == bodies_.count() ? "world" : bodies_.name(on);
-    system_->winding_warnings_.push_back({name_, i, std::move(body), better});
+    const double wrap = start_wrap(i, geometry_[at(before)], geometry_[at(i)]);
+    if (wrap <= most_turned_back) find_wrong_winding(i, before, after);
+    if (wrap <= longest_wrap) continue;
+    char degrees[32];
+    std::snprintf(degrees, sizeof degrees, "%.0f", wrap * 180.0 / pi);
+    fail("/links/" + std::to_string(i),
+         link_name(i) +
+             ": the cable does not reach the wheel on the side that \"winding\" says, and "
+             "would be wound round it by " +
+             degrees +
+             " degrees; give \"lifted\": true if it passes the wheel by at time 0, the other "
+             "\"winding\" if it runs on the other side, or \"turns\": 1 if it is meant to go all "
+             "the way round");
   }
+}
+
+void CableCompiler::find_wrong_winding(int link, int before, int after) {
+  const LinkGeometry& wheel = links_[at(link)];
+  SpanSetup in;
+  SpanSetup out;
+  choose_kind(in, links_[at(before)], wheel);
+  choose_kind(out, wheel, links_[at(after)]);
+  if (in.kind != SpanKind::planar || out.kind != SpanKind::planar) return;
+  const Vector3 normal = now_->orientation(wheel.carrier) * wheel.normal;
+  if (!cross_each_other(geometry_[at(before)], geometry_[at(link)], normal)) return;
+  LinkGeometry other = wheel;
+  other.side = -wheel.side;
+  other.signed_radius = -wheel.signed_radius;
+  choose_kind(in, links_[at(before)], other);
+  choose_kind(out, other, links_[at(after)]);
+  const SpanGeometry to = span_geometry(*now_, in, links_[at(before)], other);
+  const SpanGeometry from = span_geometry(*now_, out, other, links_[at(after)]);
+  if (!to.has_tangent || !from.has_tangent || cross_each_other(to, from, normal)) return;
+  const Winding better = other.side > 0 ? Winding::counter_clockwise : Winding::clockwise;
+  const int on = wheel.touched();
+  std::string body = on == bodies_.count() ? "world" : bodies_.name(on);
+  system_->winding_warnings_.push_back({name_, link, std::move(body), better});
 }
 
 }  // namespace sheave

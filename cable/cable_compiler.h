@@ -52,11 +52,18 @@ class CableCompiler {
   [[nodiscard]] int next_touched(int link) const;
   /// Planar if the geometry of the bodies' mobilities guarantees it for ever.
   void choose_kind(SpanSetup& setup, const LinkGeometry& a, const LinkGeometry& b) const;
-  /// cable/cable_compile_windings.cpp.
-  void find_wrong_windings(const CableDef& def);
+  // Windings: cable/cable_compile_windings.cpp.
+  void check_windings(const CableDef& def);
+  void find_wrong_winding(int link, int before, int after);
   void check_span(const CableDef& def, int first, int second);
   void explain_missing_tangent(int first, int second);
   void check_rest_length(const CableDef& def, int span, const SpanGeometry& geometry);
+  /// From here on a wrap without whole turns is one that the cable would not have [rad].
+  static constexpr double longest_wrap = 2.0 * pi - pi / 3.0;
+  /// Angle of the cable on a wheel at time 0 without its whole turns [rad], in [0, 2 pi); beside
+  /// whole turns in [longest_wrap - 2 pi, longest_wrap].
+  [[nodiscard]] double start_wrap(int link, const SpanGeometry& incoming,
+                                  const SpanGeometry& outgoing) const;
   /// Cable on the wheel between the incoming and the outgoing tangent.
   [[nodiscard]] double arc(int link, const SpanGeometry& incoming,
                            const SpanGeometry& outgoing) const;

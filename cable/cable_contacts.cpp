@@ -329,13 +329,4 @@ bool CableSystem::split(const Substep& substep, const CompiledCable& cable, int 
   return true;
 }
 
-std::vector<CableSystem::WrapWarning> CableSystem::wrap_warnings() const {
-  std::vector<WrapWarning> warnings;
-  for (std::size_t c = 0; c < cables_.size(); ++c) {
-    if (notes_.crowded[c].substeps == 0) continue;
-    warnings.push_back({cables_[c].name, notes_.crowded[c].substeps, notes_.crowded[c].first_time});
-  }
-  return warnings;
-}
-
 }  // namespace sheave

@@ -28,7 +28,8 @@ void CableSystem::follow_state(const Substep& substep, const FeatureState& state
   const Controls& controls = substep.start.controls;
   if (controlled_ || controls.cables_any()) follow_controls(controls);
   if (!course_changes_ && has_cut(state)) expect_cuts();
-  if (course_changes_ && !follows(state)) {
+  // Planes of geodesics have turned in an attempt at this substep.
+  if (course_changes_ && (!follows(state) || has_geodesics())) {
     follow_course(substep.bodies, state);
   } else if (!changing_links_.empty()) {
     refresh_ends(state, links_, spans_);

@@ -90,6 +90,7 @@ void CableSystem::place_wraps(const BodySet& bodies, const FeatureState& own,
       link.side = wrap > 0 ? 1 : -1;
       link.signed_radius = link.side * std::abs(link.signed_radius);
       link.friction = cable.wrap_friction;
+      link.geodesic = candidate.ball && !candidate.planar && cable.wrap_friction == 0.0;
     }
   }
 }

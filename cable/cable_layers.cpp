@@ -8,10 +8,7 @@
 // hand, by the secant method, since it hardly depends on itself (by p / 2 pi over the span's length
 // and by p angle / 2 pi q).
 //
-// In one plane the row's gradient is exact. In skew planes, with the span's direction u and the
-// wheel's tangent t, a radius that grows by dq moves the tangent point along the rim, and the row
-// misses (1 - u.t) q dpsi of that: 3e-5 of a torque at a tilt of 0.3 rad and a pitch of a fifth of
-// the radius.
+// The row's gradient is exact (cable/span_row.h).
 
 #include <algorithm>
 #include <cmath>

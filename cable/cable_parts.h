@@ -34,6 +34,16 @@ struct WrapWarning {
   double first_time = 0.0;  ///< [s]
 };
 
+/// A cable that lies on a wrappable body in a plane which its spans have left: a rope on a smooth
+/// body would have slid sideways to a shorter way.
+struct LeanWarning {
+  std::string cable;
+  int body = 0;        ///< on which it was farthest off
+  double angle = 0.0;  ///< largest between a span and the plane [rad]
+  long substeps = 0;
+  double first_time = 0.0;  ///< [s]
+};
+
 /// A link at which the cable crosses itself at time 0 and would not with the other winding.
 struct WindingWarning {
   std::string cable;
@@ -57,6 +67,14 @@ struct Fallback {
   double first_time = 0.0;  ///< [s]
 };
 
+/// How far spans have left the plane of a wrap, and on which body most.
+struct Lean {
+  Fallback observed;
+  double last_time = 0.0;  ///< [s]
+  double sine = 0.0;       ///< largest
+  int body = 0;
+};
+
 struct Stall {
   bool now = false;  ///< in the last substep
   Fallback observed;
@@ -67,6 +85,7 @@ struct Stall {
 struct Notes {
   std::vector<Fallback> fallbacks;  ///< per span that had no tangent
   std::vector<Fallback> crowded;    ///< per cable: wraps that found no place
+  std::vector<Lean> leans;          ///< per cable
   std::vector<Stall> stalls;        ///< per link
   std::vector<Stall> slides_at;     ///< per link: over which cable slid that ought not to
   bool slides = false;              ///< whether it does over any link, or did in the last substep
@@ -237,8 +256,8 @@ struct DriveWork {
   std::vector<char> slid;   ///< per link, in this substep
 };
 
-/// Where spans are. Within begin() and within finish() of the system bodies stay where they are, and
-/// what is found of the spans can be kept.
+/// Where spans are. Within begin() and within finish() of the system bodies stay where they are,
+/// and what is found of the spans can be kept.
 class KnownSpans {
  public:
   /// Begins anew.

@@ -67,6 +67,7 @@ CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start
     stretches[at(k)] = geometry_of(substep, k).length - own.reals[rest_length_index(k)];
   }
   move_bodies(end, substep);
+  turn_geodesics(substep);
   if (!stored_.empty()) stored_end_ = stored_;
   std::fill(end_strains_.begin(), end_strains_.end(), -1.0);
   for (int k = 0; k < span_count(); ++k) {
@@ -97,6 +98,7 @@ CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start
     if (!placed.fault.empty()) break;
   }
   if (placed.fault.empty()) {
+    keep_geodesics(substep, next);
     if (!changing_links_.empty()) change_ends(substep, next);
     if (course_changes_) leave_and_touch(substep, next);
   }

@@ -67,6 +67,7 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
   known_.expect(spans_.size());
   knows_start_ = given_.knows_multipliers = false;
   given_.changes = 0;
+  arrived_ = -1;
   std::fill(multipliers_.begin(), multipliers_.end(), 0.0);
   std::fill(sweeps_.begin(), sweeps_.end(), 0);
   std::fill(flips_.begin(), flips_.end(), 0);
@@ -122,6 +123,8 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     if (cable.shares && cable.compliance > 0.0) hold_drained(cable, state);
   }
   begin_bearings(substep);
+  begin_geodesics(substep);
+  begin_grips(substep);
   known_.forget();
 }
 
@@ -155,6 +158,7 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row,
 }
 
 double CableSystem::sweep(Substep& substep) {
+  turn_geodesics(substep);
   double correction = 0.0;
   for (std::size_t i = 0; i < cables_.size(); ++i) {
     correction = std::max(correction, cables_[i].shares ? sweep_runs(substep, static_cast<int>(i))
@@ -194,6 +198,7 @@ double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
 }
 
 void CableSystem::linearise(Substep& substep, RowList& rows) {
+  turn_geodesics(substep);
   // Only `rattle` asks before anything has moved.
   const bool at_start = substep.time == substep.start.time;
   const std::size_t first = rows.size();
@@ -251,12 +256,7 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
       grows ? layered_.transport
             : span_transport(substep, setup, first, second, references_[at(k)], span);
   known_.keep(k, span);
-  if (!span.has_tangent) {
-    ++notes_.edition;
-    if (notes_.fallbacks[at(k)].substeps++ == 0)
-      notes_.fallbacks[at(k)].first_time = substep.next.time;
-    ++substep.statistics.geometry_fallbacks;
-  }
+  if (!span.has_tangent) note_missing_tangent(substep, k);
   if (cable.inverse_stiffness > 0.0) {
     transport = material_transport(cable, k, transport, span.length, next);
   }
@@ -283,6 +283,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
       substep.resort != Resort::anything && !changing_links_.empty() && turns_too_far(substep);
   if (substep.failed) return;
   knows_lengths_ = true;
+  turn_geodesics(substep);
   known_.expect(spans_.size());
   for (const CompiledCable& cable : cables_) {
     if (cable.has_friction) hold_tensions(substep, cable);
@@ -297,6 +298,7 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
       finish_span(substep, k, next);
     }
   }
+  check_grips(substep);
   if (!stored_end_.empty()) keep_strains(next);
   for (std::size_t b = 0; b < bearings_.size(); ++b) {
     next.reals[bearing_index(static_cast<int>(b))] =
@@ -304,9 +306,11 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
   }
   if (driven_ || notes_.slides) record_stalls(substep, next);
   for (const CompiledCable& cable : cables_) {
+    if (!cable.candidates.empty()) note_leans(substep, cable);
     if (cable.shares) share_lengths(substep, cable, next);
   }
   if (substep.load_share == 1.0) count_numerical_damping(substep, next);
+  keep_geodesics(substep, next);
   if (!changing_links_.empty()) {
     known_.forget();
     if (has_layers_) refresh_ends(next, links_, spans_);
@@ -410,19 +414,6 @@ double CableSystem::elastic_energy(const BodySet& bodies, const State& state,
     if (compliance > 0.0 && stretch > 0.0) energy += 0.5 * stretch * stretch / compliance;
   }
   return energy;
-}
-
-std::vector<CableSystem::TangentWarning> CableSystem::tangent_warnings() const {
-  std::vector<TangentWarning> warnings;
-  for (int k = 0; k < span_count(); ++k) {
-    const Fallback& fallback = notes_.fallbacks[at(k)];
-    if (fallback.substeps == 0) continue;
-    const CompiledCable& cable = cables_[at(spans_[at(k)].cable)];
-    const int span = k - cable.first_span;
-    warnings.push_back({cable.name, span < cable.listed_spans ? span : -1, fallback.substeps,
-                        fallback.first_time});
-  }
-  return warnings;
 }
 
 }  // namespace sheave

@@ -60,6 +60,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] std::vector<TangentWarning> tangent_warnings() const;
   using WrapWarning = cable_parts::WrapWarning;
   [[nodiscard]] std::vector<WrapWarning> wrap_warnings() const;
+  using LeanWarning = cable_parts::LeanWarning;
+  [[nodiscard]] std::vector<LeanWarning> lean_warnings() const;
   using WindingWarning = cable_parts::WindingWarning;
   [[nodiscard]] const std::vector<WindingWarning>& winding_warnings() const {
     return winding_warnings_;
@@ -115,6 +117,7 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   bool revise_impulses(const Substep& substep) override;
   void end_impulses() override;
   void finish(Substep& substep, FeatureState& next) override;
+  [[nodiscard]] std::string dead_end(const Substep& substep) const override;
   void mark_notes(NoteMark mark) override;
   void return_to(NoteMark mark) override;
   [[nodiscard]] bool append_affine(const AffineBodies& bodies, AffineRows& rows) override;
@@ -182,6 +185,27 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   double solve_affine(Substep& substep, int span);
   void finish_affine(const Substep& substep, int span, FeatureState& next);
   void finish_span(Substep& substep, int k, FeatureState& next);
+  // Wraps on balls without friction: cable/cable_geodesics.cpp.
+  [[nodiscard]] bool has_geodesics() const;
+  template <class Visit>
+  void for_each_geodesic(Visit visit) const;
+  /// At the start of a substep, or of what else begins with references_.
+  void begin_geodesics(const Substep& substep);
+  /// Turns their planes to where spans are now.
+  void turn_geodesics(const Substep& substep);
+  /// Puts the planes into the state.
+  void keep_geodesics(const Substep& substep, FeatureState& next);
+  // What cannot be vouched for: cable/cable_doubts.cpp.
+  /// Visits (attachment, span from it to a wheel, the wheel, the span beyond the attachment).
+  template <class Visit>
+  void for_each_grip(Visit visit) const;
+  /// At the start of a substep: which attachments are clear of their wheels.
+  void begin_grips(const Substep& substep);
+  void check_grips(const Substep& substep);
+  /// Of a span that has no tangent at the end of the substep.
+  void note_missing_tangent(Substep& substep, int span);
+  /// Of wraps in space.
+  void note_leans(const Substep& substep, const CompiledCable& cable);
   void linearise_spans(Substep& substep, const CompiledCable& cable, RowList& rows);
   double sweep_runs(Substep& substep, int cable_index);
   using RunWeights = cable_parts::RunWeights;
@@ -335,7 +359,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   void strain_shared(const Substep& substep, const CompiledCable& cable, Run run,
                      std::span<Row> rows);
   /// The strain with which a run ends, with the ratios of its tensions as weights; leaves these and
-  /// the spans in run_work_.weights and run_work_.stretched. None if its spans keep strains of their own.
+  /// the spans in run_work_.weights and run_work_.stretched. None if its spans keep strains of
+  /// their own.
   std::optional<double> end_strain(const Substep& substep, const CompiledCable& cable, Run run);
   void keep_end_strains(const Substep& substep);
   /// Lets the link's strain follow a stored length that has changed at `end`, by what has `strain`.
@@ -540,8 +565,11 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   // Diagnostics, no part of the simulation.
   using Fallback = cable_parts::Fallback;
   using Notes = cable_parts::Notes;
-  Notes notes_;                        ///< but for the events
-  std::array<Notes, 2> marked_notes_;  ///< per NoteMark
+  Notes notes_;                          ///< but for the events
+  std::array<Notes, 2> marked_notes_;    ///< per NoteMark
+  std::vector<double> geodesic_starts_;  ///< per link: angle of the wrap at the start [rad]
+  std::vector<char> clear_grips_;        ///< as for_each_grip() visits them
+  int arrived_ = -1;  ///< span whose attachment has come to its wheel in this substep; -1: none
   std::vector<CableEvent> events_;
   std::vector<WindingWarning> winding_warnings_;
 };

@@ -40,6 +40,7 @@ struct CompiledCable {
   std::vector<double> senses;  ///< per link: +1 if its normal is `normal`, -1 if opposite
   /// Of its listed links those whose body a drive turns, and those that feed.
   std::vector<int> driven_links;
+  std::vector<int> grips;     ///< attachments between its ends, of all links
   bool may_lock = false;      ///< rigid, and drives alone may decide how long some of its spans are
   bool has_outlines = false;  ///< one of its links is no circle or point
   bool shares = false;        ///< cable can pass at one of its links other than by rolling

@@ -48,21 +48,24 @@ namespace sheave {
   row.turning = 1.0 / span.length;
 }
 
-/// Unit vector from the centre of `circle` to `point` on it.
-inline Vector3 radial(const LinkCircle& circle, const Vector3& point) {
-  return (point - circle.center) / std::abs(circle.signed_radius);
+/// Unit vector from the centre of `circle` to `point`, where a span along `direction` meets it: a
+/// span that leans out of the circle's plane does so farther from the axle (cable/span_geometry.h).
+inline Vector3 radial(const LinkCircle& circle, const Vector3& point, const Vector3& direction) {
+  const double lean = dot(circle.normal, direction);
+  const Vector3 arm = point - circle.center;
+  return arm / (lean * lean < 1e-16 ? std::abs(circle.signed_radius) : arm.norm());
 }
 
 /// Outward unit normal at the contact of a span with its link, in the link's plane. On a circle the
 /// tangent point tells it; a corner of an outline may have no radius, but there the direction does.
 inline Vector3 contact_normal(const Substep& substep, const LinkGeometry& link, int corner,
                               const Vector3& point, const Vector3& direction) {
-  if (!link.outline) return radial(circle_of(substep, link), point);
+  if (!link.outline) return radial(circle_of(substep, link), point, direction);
   const Vector3 normal = substep.orientation(link.carrier) * link.normal;
   const Vector3 outward = -link.side * cross(normal, direction);
   const double length = outward.norm();
   return length > 0.0 ? Vector3(outward / length)
-                      : radial({center_of(substep, link, corner), normal, 1.0}, point);
+                      : Vector3(point - center_of(substep, link, corner));
 }
 
 /// By how much less than the radius at the end times the angle a drum takes on when it is wound by

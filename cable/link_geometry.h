@@ -65,6 +65,12 @@ struct LinkGeometry {
   double feed_speed = 0.0;  ///< cable that enters the scene there [m/s]: the mean of a substep, ...
   double feed_end_speed = 0.0;  ///< ... and at its end
   int extra_turns = 0;          ///< whole turns beyond the arc between the tangents
+  /// A ball without friction: the cable lies on it the shortest way, whose plane turns with the
+  /// spans beside it (cable/cable_geodesics.cpp).
+  bool geodesic = false;
+  /// Of a geodesic: what its outgoing span gains over it in the substep, up to where bodies are now
+  /// [m].
+  double passed_on = 0.0;
 
   /// Makes the link hybrid; its centre and normal are in the own frame of `body`.
   void hold_end() {

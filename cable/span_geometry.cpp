@@ -7,37 +7,37 @@ namespace sheave {
 namespace {
 
 /// Where a cable that runs from `circle` to the point `target` leaves the circle (or, with
-/// `incoming`, where one that comes from there meets it). False if the target, seen along the
-/// normal, is not outside the circle.
+/// `incoming`, where one that comes from there meets it). False if no rope is held there: then it
+/// is the point to which that goes at the bound.
 bool tangent_point(const LinkCircle& circle, const Vector3& target, bool incoming, Vector3& point) {
   const double off_plane = circle.normal.dot(target - circle.center);
   const Vector3 projected = target - off_plane * circle.normal;
-  const SpanGeometry span =
-      incoming ? planar_span(projected, 0.0, circle.center, circle.signed_radius, circle.normal)
-               : planar_span(circle.center, circle.signed_radius, projected, 0.0, circle.normal);
-  point = incoming ? span.end : span.start;
-  return span.has_tangent;
-}
-
-/// An end on its circle: `radial` from the centre to the tangent point and `tangent`
-/// counter-clockwise along the circle, unit vectors in its plane.
-struct RimPoint {
-  Vector3 radial;
-  Vector3 tangent;
-
-  /// The point of the circle that is nearest to the direction of `radial`.
-  void settle(const Vector3& normal) {
-    tangent = cross(normal, radial);
-    tangent *= 1.0 / std::sqrt(dot(tangent, tangent));
-    radial = cross(tangent, normal);
+  double radius = circle.signed_radius;
+  bool held = true;
+  if (off_plane != 0.0) {
+    const double distance_squared = (projected - circle.center).squaredNorm();
+    const double planar = distance_squared - radius * radius;
+    const double across = 2.0 * radius * off_plane;
+    const double discriminant = planar * planar - across * across;
+    held = planar > 0.0 && discriminant >= 0.0;
+    const double seen_squared =
+        0.5 * (std::max(planar, 0.0) + std::sqrt(std::max(discriminant, 0.0)));
+    radius = held
+                 ? radius * std::sqrt(1.0 + off_plane * off_plane / seen_squared)
+                 : std::copysign(std::sqrt(distance_squared - 0.5 * std::max(planar, 0.0)), radius);
   }
-};
+  const SpanGeometry span = incoming
+                                ? planar_span(projected, 0.0, circle.center, radius, circle.normal)
+                                : planar_span(circle.center, radius, projected, 0.0, circle.normal);
+  point = incoming ? span.end : span.start;
+  return held && span.has_tangent;
+}
 
 /// How far Newton's method may go.
 struct NewtonLimits {
   int rounds;
-  double step;  ///< of an end in one round [rad]
-  /// Of the share of an error that solving for the ends in turn leaves per round: below 1 that
+  double step;  ///< of the direction in one round [rad]
+  /// Of the share of an error that taking the direction from its own ends would leave: below 1 that
   /// would find this solution.
   double contraction;
   /// Whether a longer step tells that there is no solution near; otherwise it is shortened
@@ -48,58 +48,86 @@ constexpr NewtonLimits anywhere{30, 0.5, std::numeric_limits<double>::infinity()
 /// From where the span was: only to the solution that the search from anywhere would find, too.
 constexpr NewtonLimits nearby{6, 0.1, 0.5, true};
 
-/// Newton's method on the tangency conditions G1 = e1.(a2 - c1) - r1 and G2 = e2.(a1 - c2) - r2
-/// (matrix: cable/span_row.h). Moves `start` and `end` to a solution; false if there is none near
-/// them that runs the way the windings ask for.
+/// Of a rope along u, where it leaves a wheel: from the centre [m].
+struct RimArm {
+  double radius;     ///< q / cos^2 b [m]
+  double lean;       ///< n.u
+  double share;      ///< cos^2 b
+  Vector3 outwards;  ///< u x n
+  Vector3 normal;
+
+  RimArm(const LinkCircle& circle, const Vector3& u)
+      : lean(dot(circle.normal, u)),
+        share(1.0 - lean * lean),
+        outwards(cross(u, circle.normal)),
+        normal(circle.normal) {
+    radius = circle.signed_radius / share;
+  }
+  [[nodiscard]] Vector3 arm() const { return radius * outwards; }
+  /// By how much it moves with u along the unit vector s.
+  [[nodiscard]] Vector3 moved(const Vector3& s) const {
+    return radius * (cross(s, normal) + (2.0 * lean * dot(normal, s) / share) * outwards);
+  }
+};
+
+/// Newton's method on u = (a2(u) - a1(u)) / l. Moves `start` and `end` to a solution; false if
+/// there is none near them.
 bool refine_tangents(const LinkCircle& first, const LinkCircle& second, const NewtonLimits& limits,
                      Vector3& start, Vector3& end) {
-  constexpr double tolerance = 1e-14;
+  constexpr double tolerance = 1e-15;
   // The step after one of this size is smaller than rounding.
   constexpr double last_step = 3e-8;
-  const double r1 = std::abs(first.signed_radius);
-  const double r2 = std::abs(second.signed_radius);
-  RimPoint rim1{start - first.center, {}};
-  RimPoint rim2{end - second.center, {}};
+  const Vector3 apart = second.center - first.center;
+  const double size =
+      std::sqrt(dot(apart, apart)) + std::abs(first.signed_radius) + std::abs(second.signed_radius);
+  Vector3 u = end - start;
   bool solved = false;
   for (int round = 0; round <= limits.rounds; ++round) {
-    rim1.settle(first.normal);
-    rim2.settle(second.normal);
-    start = sum(first.center, r1, rim1.radial);
-    end = sum(second.center, r2, rim2.radial);
-    if (solved) break;
-    const Vector3 to_end = end - first.center;
-    const Vector3 to_start = start - second.center;
-    const double g1 = dot(rim1.radial, to_end) - r1;
-    const double g2 = dot(rim2.radial, to_start) - r2;
-    const double a = dot(rim1.tangent, to_end);
-    const double b = r2 * dot(rim1.radial, rim2.tangent);
-    const double c = r1 * dot(rim2.radial, rim1.tangent);
-    const double d = dot(rim2.tangent, to_start);
-    const double determinant = a * d - b * c;
-    if (std::abs(b * c) > limits.contraction * std::abs(a * d)) return false;
-    const double largest = std::max(std::abs(g1), std::abs(g2));
-    const double size_squared = dot(to_end, to_end) + dot(to_start, to_start);
-    if (largest * largest <= tolerance * tolerance * size_squared) {
-      solved = true;
-      break;
-    }
+    u *= 1.0 / std::sqrt(dot(u, u));
+    const RimArm arm1(first, u);
+    const RimArm arm2(second, u);
+    start = first.center + arm1.arm();
+    end = second.center + arm2.arm();
+    const Vector3 line = end - start;
+    const double length = dot(line, u);
+    // A direction along an axle is of no use, and one that is no number of none, either.
+    if (!(length > 0.0) || !(arm1.share > 0.0) || !(arm2.share > 0.0)) return false;
+    const Vector3 s1 = any_perpendicular(u);
+    const Vector3 s2 = cross(u, s1);
+    const double f1 = dot(s1, line);
+    const double f2 = dot(s2, line);
+    // Where ends hardly move with u, or very much, steps are short wherever u is.
+    const double off = std::abs(f1) + std::abs(f2);
+    if (off <= tolerance * size || (solved && off <= 1e3 * tolerance * size)) return true;
+    const Vector3 moved1 = arm2.moved(s1) - arm1.moved(s1);
+    const Vector3 moved2 = arm2.moved(s2) - arm1.moved(s2);
+    const double m11 = dot(s1, moved1);
+    const double m12 = dot(s1, moved2);
+    const double m21 = dot(s2, moved1);
+    const double m22 = dot(s2, moved2);
+    const double sizes = m11 * m11 + m12 * m12 + m21 * m21 + m22 * m22;
+    if (sizes > limits.contraction * limits.contraction * length * length) return false;
+    const double a = m11 - length;
+    const double d = m22 - length;
+    const double determinant = a * d - m12 * m21;
     if (!(std::abs(determinant) > 0.0)) return false;
-    const double step1 = (b * g2 - d * g1) / determinant;
-    const double step2 = (c * g1 - a * g2) / determinant;
+    double step1 = (m12 * f2 - d * f1) / determinant;
+    double step2 = (m21 * f1 - a * f2) / determinant;
     const double larger = std::max(std::abs(step1), std::abs(step2));
     solved = larger <= last_step;
-    if (larger > limits.step && limits.from_near) return false;
-    // No more, so that a nearly singular step cannot jump to the other tangent.
-    rim1.radial = sum(rim1.radial, std::clamp(step1, -limits.step, limits.step), rim1.tangent);
-    rim2.radial = sum(rim2.radial, std::clamp(step2, -limits.step, limits.step), rim2.tangent);
+    if (larger > limits.step) {
+      if (limits.from_near) return false;
+      // No more, so that a nearly singular step cannot jump to another solution.
+      step1 *= limits.step / larger;
+      step2 *= limits.step / larger;
+    }
+    u += step1 * s1 + step2 * s2;
   }
-  const Vector3 direction = end - start;
-  return solved && first.signed_radius * dot(direction, rim1.tangent) >= 0.0 &&
-         second.signed_radius * dot(direction, rim2.tangent) >= 0.0;
+  return false;
 }
 
-/// What the last round left where there is no tangent: the straight line between the points of the
-/// rims, which is where the tangent's ends go as it ceases to exist.
+/// The straight line between two ends, be they a tangent's or what the last round left where there
+/// is none.
 SpanGeometry line_between(const Vector3& start, const Vector3& end, bool has_tangent) {
   SpanGeometry span = straight_span(start, end);
   span.has_tangent = has_tangent;

@@ -9,12 +9,25 @@
 // branches or inverse trigonometry. There is none for d <= |q| (nested circles, or the crossing
 // tangent of overlapping ones); then the length is 0 and u the limit direction, -sign(q) n x D / d.
 //
-// Circles in different planes. Each end lies on its own circle, a_i = c_i + r_i e_i with a unit
-// vector e_i in plane i, and the span is tangent to both circles in the sense of the paper, section
-// 3.4: seen along the normal of its plane, e_i . (a_j - c_i) = r_i. For a fixed other end this is
-// the point-circle tangent with the end projected into the plane. Solving the two in turn gets near
-// from anywhere, Newton's method on both from there, or from where the span was a moment ago, to
-// rounding in a few rounds.
+// Circles in different planes. A wheel without friction on the rope's sides, a surface of
+// revolution, can exert no moment about its axle on the rope that lies still in its groove. So the
+// rope leaves with the moment with which it lies there: its line has the moment q about the axle,
+// per unit of tension, whatever its lean b out of the wheel's plane (Clairaut's law). The rope
+// leaves from the wheel's plane, perpendicular to the radius there, and so at the radius |q| / cos
+// b: it has climbed the groove's flank by as much. With the unit direction u of the span and cos^2
+// b = 1 - (n.u)^2,
+//   a_i = c_i + q_i u x n_i / cos^2 b_i,   u = (a_2 - a_1) / l.
+// In one plane this is the tangent above. It is what makes arc + span a length that is stationary:
+// with the angle f of the end about the axle u.da = q df, whatever else moves, so only the motion
+// of the bodies' material counts (cable/span_row.h), and all that a span does is to pull along
+// itself. (The paper, section 3.4, leaves at |q| itself. Such lines have the moment q cos b; what
+// is missing would have to be a force across the span at its other end, which no rope exerts.)
+//
+// From a circle to a point at the distance d from the axle and z from the plane, m = l cos b solves
+// m^4 - (d^2 - q^2) m^2 + q^2 z^2 = 0; the rope leaves on the branch that is the tangent at z = 0.
+// There is none where |z| > (d^2 - q^2) / 2 |q|: no depth of groove holds a rope that leans so far.
+// Between two circles each end is found so for the other in turn, from anywhere, and Newton's
+// method for u finishes it, or begins where the span was a moment ago.
 
 #include "engine/math/portable.h"
 #include "engine/vector.h"

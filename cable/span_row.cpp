@@ -272,12 +272,6 @@ SpanGeometry evaluate_span(const Substep& substep, const SpanSetup& setup,
   transport = span_transport(substep, setup, first, second, reference, span);
   row.value = reference.rest_length + transport.from_first + transport.from_second - span.length;
   if (on_one_body(first, second)) return span;
-  if (setup.kind == SpanKind::spatial) {
-    add_skew_span(substep, first, second, circle_of(substep, first, span.first_corner),
-                  circle_of(substep, second, span.second_corner), span, row);
-    tell_turning(span, row);
-    return span;
-  }
   add_link_force(substep, row, first, span.start, span.direction);
   add_link_force(substep, row, second, span.end, -span.direction);
   tell_turning(span, row);

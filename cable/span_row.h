@@ -10,28 +10,20 @@
 // In one plane A1 = A2 is the change of the span's direction. So C is a function of the positions,
 // and nothing drifts.
 //
-// Gradient, coplanar: moving the tangent points along the circles changes l and L alike, so only
-// the material points count (envelope theorem): grad C = +u at the start, -u at the end. (Where
-// there is no tangent, the centres count, too; see add_turning_terms.)
+// Gradient: moving a tangent point along its wheel changes l and L alike, so only the material
+// points count (envelope theorem): grad C = +u at the start, -u at the end. In one plane because
+// the span is tangent to the circle; in different planes because its line has the moment q about
+// the axle (cable/span_geometry.h), so that its end, moving by da in the wheel's frame about which
+// it turns by df, changes l by u.da = q df, which is what L changes by. The row is all of the
+// force: the span pulls its ends together, the wheel turns by q T, and the groove's flank, which
+// bends the rope, does so on the wheel itself. C's gradient is exact, hence the motion
+// energy-conserving and the tension equal on both sides of a skew wheel. (Where there is no tangent
+// in one plane, the centres count, too; see add_turning_terms. In space nothing is added there.)
 //
 // A drum with layers has the radius q of its outermost one, which depends on the angle psi = A - B
 // by which it is wound: dq = pitch / 2 pi dpsi (cable/cable_layers.cpp). What it takes on is the
-// integral of q dpsi. With a tangent to a circle, dl + q dA = 0 if only the radius changes (l =
-// sqrt(d^2 - q^2), dA / dq = 1 / l for a point at the other end), so a radius that follows the
-// angle adds nothing to the gradient.
-//
-// Gradient, different planes: at the end of a span on a wheel, the span's direction u and the
-// wheel's tangent t = o n x e (o = sign q) need not agree, and moving the tangent point by
-// r dpsi along t changes l - L by r (u.t - 1) dpsi. Where psi moves follows from differentiating
-// the tangency conditions G1 = e1.(a2 - c1) - r1 = 0 and G2 = e2.(a1 - c2) - r2 = 0:
-//   M (dpsi1, dpsi2) = -(g1, g2),   M = [ t1'.(a2-c1)   r2 e1.t2' ;  r1 e2.t1'   t2'.(a1-c2) ],
-//   g1 = e1.(v2(a2) - v1(a2)),   g2 = e2.(v1(a1) - v2(a1)),   t' = n x e,
-// with v_i(p) the motion of the material point of body i at p. So with y = M^-T k,
-// k = (-(r1 u.t1' - q1), r2 u.t2' - q2), the row has, besides +-u, a pair of opposite forces along
-// e1 between the bodies at a2 and a pair along e2 at a1. This keeps C's gradient exact, hence the
-// motion energy-conserving and the tension equal on both sides of a skew wheel, as a frictionless
-// flange that guides the cable into the groove does. (The paper uses +-u alone, whose torque on the
-// wheel is too small by the factor u.t.)
+// integral of q dpsi. If only the radius changes, the end moves perpendicular to u but for q df, so
+// a radius that follows the angle adds nothing to the gradient.
 
 #include <cstddef>
 

@@ -20,13 +20,6 @@ struct LinkFrame {
                                    const LinkFrame& frame, const Vector3& start_outward,
                                    const Vector3& outward);
 
-/// Adds to `row` the unit forces of the span's ends and the forces that its moving tangent points
-/// add. Nothing of the latter without a tangent. Circles are those at the corners where the span
-/// ends.
-void add_skew_span(const Substep& substep, const LinkGeometry& first, const LinkGeometry& second,
-                   const LinkCircle& first_circle, const LinkCircle& second_circle,
-                   const SpanGeometry& span, Row& row);
-
 /// span_transport() and evaluate_span() for a span of kind `spatial` without outlines.
 [[nodiscard]] SpanTransport skew_transport(const Substep& substep, const LinkGeometry& first,
                                            const LinkGeometry& second,

@@ -45,6 +45,7 @@ WrapCandidate wrap_candidate(const BodySet& bodies, int body) {
   const PlacedShape& form = wheel != nullptr ? *wheel : shapes.front();
   const std::string_view type = form.shape->type();
   const bool rotor = bodies[body].mobility == Mobility::rotor;
+  candidate.ball = type == "sphere" && shapes.size() == 1 && !rotor;
   if (wheel == nullptr && shapes.size() > 1 && !rotor) return candidate;
   const auto add_axis = [&](const Vector3& axis) {
     candidate.axes.push_back({axis, half_length_along(shapes, center, axis)});

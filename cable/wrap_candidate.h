@@ -5,10 +5,12 @@
 // its plane and its winding. In a planar scene the plane is the cable's. Otherwise it is fixed to
 // the body when the cable touches: perpendicular to the axis of a cylinder or prism, or to that of
 // a box's axes which fits best, where the span comes nearest to the axis; for other forms it is the
-// plane of the span and the body's centre. The winding puts the body on the side of the span on
-// which it was at the start of the substep, as the sign of the moment m = u x (c - a) of its centre
-// c about the span a + t u tells: about a plane's normal n the cable runs counter-clockwise if n .
-// m > 0. So a body that the span has gone right through in one substep is caught, too.
+// plane of the span and the body's centre. On a ball without friction it goes on being that of the
+// spans and the centre (cable/cable_geodesics.cpp). The winding puts the body on the side of the
+// span on which it was at the start of the substep, as the sign of the moment m = u x (c - a) of
+// its centre c about the span a + t u tells: about a plane's normal n the cable runs
+// counter-clockwise if n . m > 0. So a body that the span has gone right through in one substep is
+// caught, too.
 
 #include <optional>
 #include <vector>
@@ -38,6 +40,7 @@ struct WrapCandidate {
   Vector3 center = Vector3::Zero();  ///< of its form, own frame [m]
   double reach = 0.0;                ///< of its form from the centre [m]
   std::vector<WrapAxis> axes;        ///< empty: a form without an axis
+  bool ball = false;                 ///< nothing but a sphere
   /// The wrap's plane is the cable's for ever, and `link` the wrap wound counter-clockwise.
   bool planar = false;
   LinkGeometry link;

@@ -2,6 +2,7 @@
 // All constraints of one type: one virtual call per batch and stage, a plain loop inside.
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -90,6 +91,9 @@ class ConstraintBatch {
   virtual void correct_velocities(Substep& /*substep*/) {}
   /// Called when positions are final: writes the feature's state at the end of the substep.
   virtual void finish(Substep& substep, FeatureState& next) = 0;
+  /// Why the motion cannot go on from the substep that finish() has ended, as a sentence; empty: it
+  /// can.
+  [[nodiscard]] virtual std::string dead_end(const Substep& /*substep*/) const { return {}; }
   /// Keeps where its notes are, for return_to(); one place per mark.
   virtual void mark_notes(NoteMark /*mark*/) {}
   /// Forgets what it has noted since, when the motion that this belongs to is discarded.

@@ -68,7 +68,10 @@ std::optional<Divergence> find_divergence(
   for (std::size_t i = 0; i < features.size(); ++i) {
     const std::vector<double>& reals = substep.next.features[i].reals;
     if (std::all_of(reals.begin(), reals.end(), [](double x) { return std::isfinite(x); })) {
-      continue;
+      std::string why = features[i]->dead_end(substep);
+      if (why.empty()) continue;
+      return Divergence{BodyId::world(), time, std::move(why) + when(),
+                        std::string(features[i]->name())};
     }
     const std::string name(features[i]->name());
     return Divergence{BodyId::world(), time, name + ": the state is not finite" + when(), name};

@@ -14,7 +14,8 @@ class ConstraintBatch;
 struct State;
 struct Substep;
 
-/// A state that no longer means anything: not finite, or out of all proportion to the scene.
+/// A state that no longer means anything: not finite, out of all proportion to the scene, or one
+/// that a feature cannot go on from (ConstraintBatch::dead_end()).
 struct Divergence {
   /// The first bad body; the world if all bodies are well and a feature is not.
   BodyId body;

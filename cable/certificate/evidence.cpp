@@ -473,9 +473,7 @@ void Evidence::apply_cables() {
       }
       for (const End when : {first_end, last_end}) {
         if (span.force[at(when)] == 0.0) continue;
-        const SpanPushes pushes = pushes_of(span, when, !cable.frozen);
-        for (int i = 0; i < pushes.count; ++i) {
-          const SpanPush& one = pushes.all[at(i)];
+        for (const SpanPush& one : pushes_of(span, when)) {
           push(when, one.body, one.point, one.force);
         }
       }

@@ -9,59 +9,10 @@
 
 namespace sheave::certify {
 
-SpanPushes pushes_of(const SpanEvidence& span, End when, bool guided) {
-  SpanPushes result;
-  const auto add = [&](int body, const Vector3& point, const Vector3& force) {
-    result.all[at(result.count++)] = {body, point, span.force[at(when)] * force};
-  };
-  const Vector3& u = span.direction[at(when)];
-  const Vector3& a1 = span.from.point[at(when)];
-  const Vector3& a2 = span.to.point[at(when)];
-  add(span.from.body, a1, u);
-  add(span.to.body, a2, -u);
-  if (!guided) return result;
-
-  // y of the head of the declaration; a point has no angle.
-  struct Rim {
-    double r;
-    Vector3 e = Vector3::Zero();
-    Vector3 t = Vector3::Zero();
-    Vector3 center = Vector3::Zero();
-    double k = 0.0;
-  };
-  const auto rim = [&](const SpanSide& side, double sense) {
-    const double radius = side.radius[at(when)];
-    Rim own{radius};
-    if (!(radius > 0.0)) return own;
-    own.center = side.center[at(when)];
-    own.e = (side.point[at(when)] - own.center) / radius;
-    if (side.outlined) {
-      // Round a corner, whose centre follows from where the span touches it; a sharp one is a
-      // point.
-      own.e = side.winding * u.cross(side.normal[at(when)]).normalized();
-      own.center = side.point[at(when)] - radius * own.e;
-    }
-    own.t = side.normal[at(when)].cross(own.e);
-    own.k = sense * radius * (side.winding - u.dot(own.t));
-    return own;
-  };
-  const Rim first = rim(span.from, -1.0);
-  const Rim second = rim(span.to, 1.0);
-  const double negligible = 1e-13 * (first.r + second.r);
-  if (std::abs(first.k) <= negligible && std::abs(second.k) <= negligible) return result;
-  const double m11 = first.r > 0.0 ? first.t.dot(a2 - first.center) : 1.0;
-  const double m22 = second.r > 0.0 ? second.t.dot(a1 - second.center) : 1.0;
-  const double m12 = second.r * first.e.dot(second.t);
-  const double m21 = first.r * second.e.dot(first.t);
-  const double determinant = m11 * m22 - m12 * m21;
-  if (determinant == 0.0) return result;
-  const double y1 = (m22 * first.k - m21 * second.k) / determinant;
-  const double y2 = (m11 * second.k - m12 * first.k) / determinant;
-  add(span.to.body, a2, -y1 * first.e);
-  add(span.from.body, a2, y1 * first.e);
-  add(span.from.body, a1, -y2 * second.e);
-  add(span.to.body, a1, y2 * second.e);
-  return result;
+SpanPushes pushes_of(const SpanEvidence& span, End when) {
+  const Vector3 pull = span.force[at(when)] * span.direction[at(when)];
+  return {SpanPush{span.from.body, span.from.point[at(when)], pull},
+          SpanPush{span.to.body, span.to.point[at(when)], -pull}};
 }
 
 JointPushes pushes_of(const Evidence& evidence, const JointEvidence& joint, End when) {

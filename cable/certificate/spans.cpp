@@ -27,13 +27,10 @@ bool is_rigid(const CableDef& cable) {
 }
 
 /// Change of the stretch as damping sees it: what a unit of tension works at the end, backwards.
-/// Where a wheel's plane is not that of the span, that is more than the way of its ends along it.
-double linear_stretch(const Evidence& evidence, SpanEvidence span, bool guided) {
+double linear_stretch(const Evidence& evidence, SpanEvidence span) {
   span.force[last_end] = 1.0;
-  const SpanPushes pushes = pushes_of(span, last_end, guided);
   double work = 0.0;
-  for (int i = 0; i < pushes.count; ++i) {
-    const SpanPush& push = pushes.all[at(i)];
+  for (const SpanPush& push : pushes_of(span, last_end)) {
     work += push.force.dot(evidence.displacement(push.body, push.point, last_end));
   }
   return -work;
@@ -67,7 +64,8 @@ class SpanCheck {
  private:
   static constexpr double rounding = 1e-13;
 
-  /// The reported ends lie on their circles, and the span touches them there.
+  /// The reported ends lie in the planes of their wheels, where the span comes nearest to the
+  /// centre, and the span has the moment of the wheel's radius about the axle.
   void check_geometry(const SpanEvidence& span) {
     if (!span.has_tangent || span.length[last_end] <= 0.0) return;
     double off = std::abs((span.to.laid - span.from.laid).norm() - span.length[last_end]);
@@ -76,10 +74,11 @@ class SpanCheck {
       if (side->outlined || !(radius > 0.0)) continue;
       const SpanSide& other = side == &span.from ? span.to : span.from;
       const Vector3 arm = side->laid - side->center[last_end];
-      off = std::max(off, std::abs(arm.norm() - radius));
+      const Vector3 to_other = other.laid - side->laid;
+      const double moment = side->normal[last_end].dot(arm.cross(to_other)) / to_other.norm();
+      off = std::max(off, std::abs(std::abs(moment) - radius));
       off = std::max(off, std::abs(arm.dot(side->normal[last_end])));
       // Seen along the plane's normal the other end lies on the tangent.
-      const Vector3 to_other = other.laid - side->laid;
       off = std::max(off, std::abs(to_other.dot(arm)) / radius);
       const double way = side->winding * side->normal[last_end].cross(arm).dot(
                                              side == &span.from ? to_other : Vector3(-to_other));
@@ -283,7 +282,7 @@ class SpanCheck {
       length = rest_length - passed;
       start = stretch + passed;
       if (cable.damping > 0.0) {
-        start -= linear_stretch(e_, span, !cable_.frozen);
+        start -= linear_stretch(e_, span);
       }
     }
     // A material's force is that of its strain, whatever the length is at either end.

@@ -134,14 +134,13 @@ TEST(Degenerate, EncountersOfOutlinesInOnePlaneAreContinuousUntilTheyOverlap) {
   });
 }
 
-// The gradient has two more pairs of forces y = M^-T k (cable/span_row.h), |k| <= 2 r, |M| about
-// the length of the tangent as seen along the normals, which is at least sqrt(3) r cos 0.6 if the
-// centres are 2 (r1 + r2) apart: 1.4 each.
+// The span's ends lie at r / cos b from the axles (cable/span_geometry.h), and b is below 0.6 if
+// the centres are 2 (r1 + r2) apart: 1.22 r.
 TEST(Degenerate, EncountersOfSkewWheelsAreContinuousAtADistance) {
   run_campaign("encounters of skew wheels", {}, [](const Machine&, std::uint64_t seed) {
     Encounter encounter = random_encounter(seed, 0.3, false);
     encounter.clearance = 2.0;
-    encounter.gradient = 3.8;
+    encounter.gradient = 1.3;
     return encounter_finding(encounter);
   });
 }

@@ -43,6 +43,47 @@ TEST(Equilibrium, WeightFallsIntoTwoRopes) {
   EXPECT_EQ(rest.neutral_motions, 3);
 }
 
+TEST(Equilibrium, RopeOutOfAWheelsPlanePullsAlongItself) {
+  // A load on two ropes, from a point and from a locked wheel of 1 m with an upright axle, which
+  // its rope leaves 45 degrees out of the wheel's plane. Where it rests is the lowest of all places
+  // that the lengths allow, found by itself: the rope's way is r phi + l, it leaves at D = r / cos
+  // b, and in plan the line from (6, 1) in the direction g has the distance D = 6 sin g + cos g
+  // from the axle, along which lie the stay (s in plan, sqrt(18) long) and the rope (m in plan).
+  // Bisection of g:
+  //   g = 0.07317232315258, b = 0.8184, T = 981 / (sin b + cos b y / s), S = T cos b sqrt(18) / s.
+  // (Before, it rested at z = 1.19335, and the forces that were told came to -63 N along z.)
+  Simulation simulation = simulation_of(R"("bodies": [
+    {"name": "wheel", "mobility": "rotor", "mass": 10, "rotation": {"axis": [1, 0, 0], "degrees": -90},
+     "shape": {"type": "cylinder", "radius": 1, "length": 0.1}, "drive": "speed", "drive_values": [0]},
+    {"name": "load", "mass": 100, "position": [3, -3, 1], "shape": {"type": "sphere", "radius": 0.1}}],
+    "cables": [
+    {"name": "rope", "links": [{"type": "attachment", "body": "world", "point": [6, 0, -1]},
+      {"type": "rolling", "body": "wheel", "winding": "counter-clockwise"},
+      {"type": "attachment", "body": "load"}]},
+    {"name": "stay", "links": [{"type": "attachment", "body": "load"},
+      {"type": "attachment", "body": "world", "point": [6, 0, 1]}]}])",
+                                        "[0,-9.81,0]");
+  const Equilibrium rest = find_equilibrium(simulation);
+  ASSERT_TRUE(rest.converged) << rest.message;
+  const Vector3 place = simulation.world.state().bodies[1].position;
+  EXPECT_NEAR(place.x(), 3.016523829407698, exact);
+  EXPECT_NEAR(place.y(), -3.0084948023734412, exact);
+  EXPECT_NEAR(place.z(), 1.2186983392709694, exact);
+  EXPECT_NEAR(tension(simulation, 0, 1), 691.8124518860091, 700.0 * exact);
+  EXPECT_NEAR(tension(simulation, 1, 0), 683.2727487016248, 700.0 * exact);
+  // All that pulls at the load is told.
+  const auto ropes = simulation.cable_reports();
+  const SpanReport& rope = ropes[0].spans[1];
+  const SpanReport& stay = ropes[1].spans[0];
+  const Vector3 sum = rope.tension / rope.length * (rope.start - rope.end) +
+                      stay.tension / stay.length * (stay.end - stay.start) +
+                      Vector3(0.0, -981.0, 0.0);
+  EXPECT_LT(sum.norm(), 700.0 * exact);
+  Vector3 held = Vector3::Zero();
+  for (const SupportReaction& one : support_reactions(simulation, rest.forces)) held += one.force;
+  EXPECT_LT((held - Vector3(0.0, 110.0 * 9.81, 0.0)).norm(), 1100.0 * exact);
+}
+
 TEST(Equilibrium, SlackRopeIsFound) {
   Simulation simulation = simulation_of(R"("bodies": [
     {"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 2, "position": [0, -1, 0]}],
@@ -145,12 +186,12 @@ TEST(Equilibrium, UprightPendulumIsUnstable) {
 }
 
 /// The worked example of DAVE's manual: a grommet of EA = 3000 kN, doubled, carries 100 kN in four
-/// parts. Its friction of 0.1 at a circle means tensions in the ratio r = 1.1 / 0.9 of both sides; with
-/// the directions -, +, + (and what is left at the fourth, -) they are r x, x, r x, r^2 x with the sum
-/// (1 + r)^2 x = 100 kN: the largest is 100 kN (r / (1 + r))^2 = 30.25 kN.
+/// parts. Its friction of 0.1 at a circle means tensions in the ratio r = 1.1 / 0.9 of both sides;
+/// with the directions -, +, + (and what is left at the fourth, -) they are r x, x, r x, r^2 x with
+/// the sum (1 + r)^2 x = 100 kN: the largest is 100 kN (r / (1 + r))^2 = 30.25 kN.
 ///
-/// Which way cable has slid before is not in the pose, so statics leaves these directions open: they
-/// are given by how much of the cable is in which part.
+/// Which way cable has slid before is not in the pose, so statics leaves these directions open:
+/// they are given by how much of the cable is in which part.
 TEST(Equilibrium, FourPartsOfAGrommetWithFriction) {
   constexpr double stiffness = 3e6;
   constexpr double height = 10.0;
@@ -197,10 +238,11 @@ TEST(Equilibrium, FourPartsOfAGrommet) {
   EXPECT_NEAR(sum, 1e5, 1e5 * exact);
 }
 
-/// The four-bar linkage of the IFToMM library of benchmarks, as a parallelogram of rods of 1 m whose
-/// spring along the diagonal is relaxed at 1.2 m: rods of m = 1 kg, k = 100 N/m. With the angle a of
-/// the cranks from the horizontal the energy is 2 m g sin a (two cranks, and the coupler on top) and
-/// k (l - 1.2 m)^2 / 2 with l^2 = 2 + 2 cos a; the derivative's zero is found by bisection.
+/// The four-bar linkage of the IFToMM library of benchmarks, as a parallelogram of rods of 1 m
+/// whose spring along the diagonal is relaxed at 1.2 m: rods of m = 1 kg, k = 100 N/m. With the
+/// angle a of the cranks from the horizontal the energy is 2 m g sin a (two cranks, and the coupler
+/// on top) and k (l - 1.2 m)^2 / 2 with l^2 = 2 + 2 cos a; the derivative's zero is found by
+/// bisection.
 TEST(Equilibrium, FourBarLinkageWithADiagonalSpring) {
   Simulation simulation = simulation_of(R"("bodies": [
     {"name": "left", "mobility": "planar", "axis": [0, 0, 1], "mass": 1, "inertia": [0.1, 0.1, 0.1], "position": [0, 0.5, 0]},
@@ -257,8 +299,8 @@ TEST(Equilibrium, AgreesWithMotionThatDampingHasSettled) {
 }
 
 TEST(Equilibrium, RowsThatMoveNothingAreNoFault) {
-  // A slider that holds a planar body has rows for what that cannot do: without gradients. A trolley
-  // of 3 kg that its drive holds, 2 kg below it: 50 N on the rail.
+  // A slider that holds a planar body has rows for what that cannot do: without gradients. A
+  // trolley of 3 kg that its drive holds, 2 kg below it: 50 N on the rail.
   Simulation simulation = simulation_of(R"("bodies": [
     {"name": "trolley", "mobility": "planar", "axis": [0, 0, 1], "mass": 3, "inertia": [1, 1, 1]},
     {"name": "rod", "mobility": "planar", "axis": [0, 0, 1], "mass": 2, "position": [0, -0.5, 0], "inertia": [0.1, 0.1, 0.1]}],
@@ -309,8 +351,8 @@ TEST(Equilibrium, BearingBearsBothPartsOfARope) {
 }
 
 TEST(Equilibrium, GuideBearsWhatIsMountedToo) {
-  // A block of 3 kg on a level guide, pulled by 10 N, with a sheave of 0.5 kg in a level rope of two
-  // parts: 5 N each. The bearing bears 10 N and 5 N of weight, the guide all the weight, 35 N.
+  // A block of 3 kg on a level guide, pulled by 10 N, with a sheave of 0.5 kg in a level rope of
+  // two parts: 5 N each. The bearing bears 10 N and 5 N of weight, the guide all the weight, 35 N.
   Simulation simulation = simulation_of(R"("bodies": [
     {"name": "block", "mobility": "slider", "axis": [1, 0, 0], "mass": 3, "force": [10, 0, 0]},
     {"name": "sheave", "mobility": "rotor", "mount": "block", "mass": 0.5,
