@@ -89,6 +89,9 @@ class ConstraintBatch {
   /// Called when velocities follow from positions, for what positions do not tell of them (a
   /// bounce).
   virtual void correct_velocities(Substep& /*substep*/) {}
+  /// Why the substep that has just been done is void, as a sentence that names the bodies; empty if
+  /// it is not.
+  [[nodiscard]] virtual std::string fault() const { return {}; }
   /// Called when positions are final: writes the feature's state at the end of the substep.
   virtual void finish(Substep& substep, FeatureState& next) = 0;
   /// Why the motion cannot go on from the substep that finish() has ended, as a sentence; empty: it

@@ -66,6 +66,10 @@ std::optional<Divergence> find_divergence(
         "body \"" + bodies.name(i) + "\": " + what + " is not finite or has run away" + when()};
   }
   for (std::size_t i = 0; i < features.size(); ++i) {
+    if (const std::string fault = features[i]->fault(); !fault.empty()) {
+      const std::string name(features[i]->name());
+      return Divergence{BodyId::world(), time, name + when() + ": " + fault, name};
+    }
     const std::vector<double>& reals = substep.next.features[i].reals;
     if (std::all_of(reals.begin(), reals.end(), [](double x) { return std::isfinite(x); })) {
       std::string why = features[i]->dead_end(substep);

@@ -89,6 +89,9 @@ struct Row {
   /// Added to the row's yield w [1/kg], >= 0: shares a load among rows of which fewer would do.
   /// Unlike a compliance it is no spring; the multiplier l leaves the row off by softness x l.
   double softness = 0.0;
+  /// Of a row with compliance whose damper `rattle` lets act on the velocities at the end of the
+  /// substep: the share of its rate that the damper takes if nothing else does, 0 ... 1.
+  double settling = 0.0;
   /// What slips and what holds is judged by its force: where it is redundant, rows do not go back
   /// to the least forces that will do, but stay near the last round's
   /// (engine/solvers/row_sharing.cpp).
@@ -146,7 +149,7 @@ struct Row {
     active = tied = curved = told = idle = false;
     turning = 0.0;
     weight = start_weight = lever = 1.0;
-    softness = 0.0;
+    softness = settling = 0.0;
     judged = false;
     rebound_speed = unbounded;
     value = rate = compliance = damping = past = 0.0;

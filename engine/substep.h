@@ -57,6 +57,9 @@ struct Substep {
   /// No time passes while bodies are moved: it is asked where they would rest, and dampers have no
   /// part in that.
   bool at_rest = false;
+  /// Solvers ask one feature after another, and what others will answer to it is not known yet: it
+  /// must not decide what it cannot take back.
+  bool tentative = false;
   WorkLimit work;
 
   /// A substep of `bodies` from `state_at_start`; both must outlive it. Bodies are placed at the

@@ -224,13 +224,32 @@ class EnergyCheck {
     });
   }
 
+  /// The damper of a compliant contact acts at the end of a substep of `rattle`, against the motion
+  /// there.
+  void check_damper(const ContactEvidence& contact) {
+    if (!e_.rattle) return;
+    const Moment& now = e_.moments[last_end];
+    const double speed =
+        contact.normal.dot(now.velocity(contact.body_a, contact.point_a[last_end]) -
+                           now.velocity(contact.body_b, contact.point_b[last_end]));
+    const double damper = contact.press[last_end] - contact.press[first_end];
+    const double press = contact.press[first_end] + contact.press[last_end];
+    add(std::max(damper * speed, 0.0) * e_.h, press * std::abs(speed) * e_.h, [&] {
+      return "the damper of the contact of " + e_.body_name(contact.body_a) + " and " +
+             e_.body_name(contact.body_b);
+    });
+  }
+
   void check_contact(const ContactEvidence& contact) {
     check_rubbing(contact);
     double compliance = 0.0;
     for (const ColliderDef* collider : {contact.collider_a, contact.collider_b}) {
       if (collider != nullptr) compliance += collider->compliance;
     }
-    if (compliance > 0.0) return;
+    if (compliance > 0.0) {
+      check_damper(contact);
+      return;
+    }
     // A bounce is in the velocities: its energy is that of all of them.
     if (bounces(contact) && !e_.rattle) return;
     const auto speed_at = [&](End when) {

@@ -179,10 +179,12 @@ void check_contacts(const Evidence& evidence, Findings& findings) {
     }
     double compliance = 0.0;
     bool bounces = false;
+    bool damped = true;
     for (const ColliderDef* collider : {contact.collider_a, contact.collider_b}) {
       if (collider == nullptr) continue;
       compliance += collider->compliance;
       bounces = bounces || collider->restitution > 0.0;
+      damped = damped && collider->restitution < 1.0;
     }
     findings.note(Kind::complementarity, "N", std::max(-press, 0.0), evidence.largest_force, 0.0,
                   name);
@@ -191,7 +193,16 @@ void check_contacts(const Evidence& evidence, Findings& findings) {
     if (compliance > 0.0) {
       const double from = std::min(contact.gap[first_end], 0.0);
       const double mean = evidence.rattle ? 0.5 * (from + gap) : gap;
-      const double off = press > 0.0 ? std::abs(mean + compliance * press) : std::max(-mean, 0.0);
+      // The first half of `rattle` has none of the damper that acts at the end. A damper's part is
+      // against the way of the gap; within a substep of `rattle` it is at most that of implicit Euler.
+      const double spring = evidence.rattle ? 2.0 * contact.press[first_end] : press;
+      const double way = gap - from;
+      double left = mean + compliance * spring;
+      if (damped && left * way < 0.0) {
+        const double most = evidence.rattle ? 0.5 * std::abs(way) : std::abs(left);
+        left = std::copysign(std::max(std::abs(left) - most, 0.0), left);
+      }
+      const double off = spring > 0.0 ? std::abs(left) : std::max(-left, 0.0);
       findings.note(Kind::contact, "m", off, std::max(compliance * press, size), slop, name);
       continue;
     }

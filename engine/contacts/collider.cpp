@@ -18,8 +18,10 @@ std::span<const Field> ColliderDef::field_table() {
                                            "the same while sticking (default: friction)"),
       field<&ColliderDef::restitution>(
           "restitution", "", between(0.0, 1.0), optional,
-          "speed of parting over speed of meeting; of a pair the larger one. Bodies that meet more "
-          "slowly than gravity would make them in two substeps do not bounce"),
+          "speed of parting over speed of meeting; of a pair the larger one. Rigid bodies that "
+          "meet "
+          "more slowly than gravity would make them in two substeps do not bounce; a compliant "
+          "contact has a damper that leaves this share, and is critical below 0.135"),
       field<&ColliderDef::compliance>("compliance", "m/N", at_least(0.0), optional,
                                       "of each point of contact; of a pair the sum; 0 is rigid"),
       field<&ColliderDef::groups>("groups", "", {}, optional,

@@ -15,6 +15,21 @@
 // enough to stop, or sticks, has two, which bound the norm of the force (engine/friction_rows.h). They begin
 // with the direction of the force that the whole manifold holds, along which it will slip.
 //
+// A compliant contact is a spring 1 / a with a damper b = 2 z / sqrt(a w) beside it that together
+// never pull: with the yield w of the point a mass 1 / w on it has the damping ratio z. It leaves it
+// at e times the speed of meeting, with cos c = z,
+//   e = exp(-(z / sin c) atan2(sin 2c, cos 2c)),
+// where the force of spring and damper is 0; z is that of the restitution e, but no more than 1, which
+// is critical and leaves e^-2 of the speed. `xpbd` has the damper as any other (engine/row.h).
+// `rattle` has it in two parts, so that a substep h of any length shrinks the area in phase space by
+// as much as it should, e^(-2 z omega h) with omega^2 = w / a, and the swing with it. The midpoint rule
+// with a damper b1 = s h / 2a shrinks it by
+//   D = (1 + k (1 - s) / 4) / (1 + k (1 + s) / 4),  k = omega^2 h^2,
+// and the rest is taken from the velocity at the end. s is such that D is half of the whole, in
+// logarithms, but no more than 1, which is implicit Euler's spring. A damper at the end alone would
+// leave a spring that is much faster than the substep, which the midpoint rule turns over each time,
+// for ever; one within the rule alone its velocity.
+//
 // A rigid contact that overlaps at the start is opened by a fiftieth per substep only, because the
 // velocity that opening it at once would leave behind is energy that nobody has put in. Where it
 // bounces it does so at once, from where it is, c = 0 above, and the way of its rebound opens it.
@@ -23,6 +38,8 @@
 
 #include <algorithm>
 #include <cmath>
+
+#include "engine/math/portable.h"
 
 namespace sheave {
 namespace {
@@ -43,6 +60,10 @@ constexpr double most_softened = 1e-6;
 /// for them goes on and on (373 changes per substep for a rope of 100 segments, 61 with this, 10
 /// with a hundred times as much); with more, a box on a slope creeps by more than 1e-9 m/s.
 constexpr double softened_friction = 1e-7;
+/// A point whose friction is all that it may be slides only if it moves: beside points that hold it
+/// does not, but for their softness, by which it may move so many times as far as by its own. That
+/// is 1e-5 of the way that its friction takes in a substep from what slides.
+constexpr double let_go = 100.0;
 
 /// Rotation of a body since the start of the substep [rad]; a mounted rotor has its own about its
 /// axle.
@@ -102,6 +123,26 @@ void meet(const Substep& substep, double restitution, double rate, double accele
   contact.acceleration = acceleration;
 }
 
+/// `yield` [1/kg] is that of the row along the normal.
+void damp(const Substep& substep, const ContactMaterial& material, double yield, Contact& contact) {
+  contact.damping = contact.settling = 0.0;
+  const double ratio = material.damping_ratio;
+  if (!(material.compliance > 0.0) || !(yield > 0.0) || !(ratio > 0.0)) return;
+  if (substep.load_share == 1.0) {
+    contact.damping = 2.0 * ratio / std::sqrt(material.compliance * yield);
+    return;
+  }
+  const double h = substep.h;
+  const double quarter = 0.25 * h * h * yield / material.compliance;  // k / 4
+  const double half = 2.0 * ratio * std::sqrt(quarter);               // z omega h
+  const double kept = portable::exp(-half);
+  const double share =
+      std::min(1.0, -portable::expm1(-half) * (1.0 + quarter) / (quarter * (1.0 + kept)));
+  const double area = (1.0 + quarter * (1.0 - share)) / (1.0 + quarter * (1.0 + share));
+  contact.damping = 0.5 * share * h / material.compliance;
+  contact.settling = std::max(0.0, 1.0 - kept * kept / area);
+}
+
 }  // namespace
 
 Vector3 start_velocity(const Substep& substep, int body, const Vector3& point) {
@@ -134,6 +175,7 @@ void prepare_contact(const Substep& substep, const ContactMaterial& material,
       choose_tangents(held.squaredNorm() > 0.0 ? Vector3(-held) : free_acceleration, contact);
     }
     contact.friction = contact.stuck ? material.static_friction : material.friction;
+    contact.sliding_friction = material.friction;
   }
   contact.target = 0.0;
   if (material.compliance == 0.0) {
@@ -155,6 +197,7 @@ void prepare_contact(const Substep& substep, const ContactMaterial& material,
                          softened_share, most_softened);
     }
     contact.softness[at(i)] = share * response.inverse_mass;
+    if (i == 0) damp(substep, material, response.inverse_mass, contact);
   }
 }
 
@@ -171,10 +214,29 @@ Vector3 Contact::slip(const Substep& substep) const {
   return slipped + path_a - path_b;
 }
 
-Vector3 Contact::held_slip(const Substep& substep) const {
-  const Vector3 all = slip(substep);
+Vector3 Contact::held(const Vector3& all) const {
   if (rows == 2) return tangents[0] * dot(tangents[0], all);
   return all - normal * dot(normal, all);
+}
+
+double Contact::yielding(const Substep& substep) const {
+  const double bound = substep.load_share * friction * pressed;
+  return std::max(softness[1], softness[2]) * bound;
+}
+
+bool Contact::moves(const Substep& substep) const {
+  return held(slip(substep) - slipped).norm() > let_go * yielding(substep);
+}
+
+bool Contact::moves_on(const Substep& substep) const {
+  const auto velocity = [&](int body, const Vector3& point) {
+    const BodyState& state = substep.next.bodies[at(body)];
+    return Vector3(state.velocity + cross(state.angular_velocity, point - state.position));
+  };
+  const Vector3 surface_a = substep.point(body_a, own_a) - radius_a * normal;
+  const Vector3 surface_b = substep.point(body_b, own_b) + radius_b * normal;
+  const Vector3 sliding = velocity(body_a, surface_a) - velocity(body_b, surface_b);
+  return substep.h * held(sliding).norm() > let_go * yielding(substep);
 }
 
 void Contact::evaluate(const Substep& substep, int index, Row& row) const {
@@ -184,6 +246,8 @@ void Contact::evaluate(const Substep& substep, int index, Row& row) const {
   if (index == 0) {
     row.value = dot(normal, surface_a - surface_b) - target;
     row.compliance = compliance;
+    row.damping = damping;
+    row.settling = settling;
     row.lower = 0.0;
     row.rebound_speed = rebound_speed;
     substep.add_force(row, body_a, surface_a, normal);

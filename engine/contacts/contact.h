@@ -39,8 +39,11 @@ struct Contact {
   std::optional<Vector3>
       plane_axis;  ///< unit normal of the only plane they move in (planar_contact.h)
   Vector3 slipped = Vector3::Zero();  ///< s
-  double friction = 0.0;              ///< coefficient that counts in this substep
+  double friction = 0.0;              ///< coefficient that counts now
+  double sliding_friction = 0.0;      ///< what it becomes when the point begins to slide
   double compliance = 0.0;            ///< [m/N]
+  double damping = 0.0;               ///< Row::damping [N s/m]
+  double settling = 0.0;              ///< Row::settling
   double target = 0.0;                ///< gap at the end of the substep
   /// Normal velocity after an impact in this substep [m/s]; 0: none. Refined when velocities are
   /// known (rebound.h).
@@ -60,6 +63,7 @@ struct Contact {
   // What the solver has found so far.
   double pressed = 0.0;       ///< l_n that bounds friction
   FollowedPressure pressure;  ///< what `pressed` becomes from round to round
+  double last_change = 0.0;   ///< of l_n against that, in the last round; 0: none yet
   bool slips = false;
   bool slid = false;  ///< on the way of the substep, whatever velocities have been given since
 
@@ -69,9 +73,19 @@ struct Contact {
   /// s + d_a - d_b
   [[nodiscard]] Vector3 slip(const Substep& substep) const;
   /// Its part in the directions in which friction acts: it holds nothing across them.
-  [[nodiscard]] Vector3 held_slip(const Substep& substep) const;
+  [[nodiscard]] Vector3 held_slip(const Substep& substep) const { return held(slip(substep)); }
+  /// Whether the surfaces have moved past each other in the substep by more than friction that
+  /// holds lets them.
+  [[nodiscard]] bool moves(const Substep& substep) const;
+  /// The same of their velocities at the end of the substep.
+  [[nodiscard]] bool moves_on(const Substep& substep) const;
+  /// What friction that holds all that it may yields to it by Row::softness [m].
+  [[nodiscard]] double yielding(const Substep& substep) const;
   /// Row 0 is the normal, 1 and 2 are friction along the tangents.
   void evaluate(const Substep& substep, int index, Row& row) const;
+
+ private:
+  [[nodiscard]] Vector3 held(const Vector3& all) const;
 };
 
 /// Velocity [m/s] of the body's surface at a world point at the start of the substep.

@@ -12,6 +12,7 @@
 #include <map>
 
 #include "engine/contacts/contact_state.h"
+#include "engine/contacts/crowd.h"
 #include "engine/contacts/planar_contact.h"
 #include "engine/contacts/rebound.h"
 #include "engine/friction_rows.h"
@@ -23,6 +24,9 @@ namespace {
 
 /// Relative change of a normal force below which the bounds of friction count as found.
 constexpr double settled_share = 1e-9;
+/// What rounding leaves of a gap, relative to the scene's size. How corners of a box share its load is
+/// known to this over their softness.
+constexpr double rounding_share = 1e-15;
 /// A point of contact is the same as one of the last substep if it is no farther away on one of the
 /// bodies than this share of the smaller form.
 constexpr double same_point = 0.05;
@@ -74,10 +78,15 @@ class ContactBatch final : public ConstraintBatch {
 
   void begin(const Substep& substep, const FeatureState& state) override {
     contacts_.clear();
+    crowd_.begin(substep.bodies.count());
     std::size_t old = 0;
     finder_.find(substep, [&](const FormPair& pair, Manifold& manifold) {
       add_manifold(substep, state, pair, manifold, old);
+      crowd_.add(substep, finder_.forms()[at(pair.a)].body, finder_.forms()[at(pair.b)].body);
+      return !crowd_.too_many();
     });
+    // The substep is void: fault().
+    if (crowd_.too_many()) contacts_.clear();
     multipliers_.assign(3 * contacts_.size(), 0.0);
   }
 
@@ -135,12 +144,20 @@ class ContactBatch final : public ConstraintBatch {
           portable::hypot(multipliers_[3 * i + 1], multipliers_[3 * i + 2]) / substep.load_share;
       const bool matters = contact.slips || needed > contact.friction * now;
       const double change = std::abs(now - contact.pressed);
-      if (matters && change > settled_share * std::max(now, contact.pressed)) changed = true;
+      const double rounding = rounding_share * substep.bodies.scale() / contact.softness[0];
+      // What is small and becomes no less is rounding.
+      const bool rounded =
+          change <= rounding && contact.last_change > 0.0 && 2.0 * change >= contact.last_change;
+      if (matters && change > settled_share * std::max(now, contact.pressed) && !rounded) {
+        changed = true;
+      }
+      contact.last_change = change;
       contact.pressed = contact.pressure.next(contact.pressed, now);
     }
-    return changed;
+    return changed || let_go(substep);
   }
 
+  [[nodiscard]] std::string fault() const override { return crowd_.fault(); }
   [[nodiscard]] bool is_stiff() const override { return true; }
   [[nodiscard]] bool meets() const override {
     return std::any_of(contacts_.begin(), contacts_.end(),
@@ -174,11 +191,8 @@ class ContactBatch final : public ConstraintBatch {
       }
       record.gap = contact.gap(substep);
       const bool touches = multipliers_[3 * i] > 0.0;
-      record.sticks =
-          contact.friction > 0.0 && (touches ? !contact.slips && !is_at_bound(i) : contact.stuck);
-      if (record.sticks && touches && !contact.slid && !has_slid(substep, i)) {
-        record.slipped = contact.held_slip(substep);
-      }
+      record.sticks = contact.friction > 0.0 && (touches ? !slides(substep, i) : contact.stuck);
+      if (record.sticks && touches && !contact.slid) record.slipped = kept_slip(substep, i);
       statistics.deepest_overlap = std::max(statistics.deepest_overlap, -record.gap);
       append_contact(record, next);
     }
@@ -190,7 +204,10 @@ class ContactBatch final : public ConstraintBatch {
     double energy = 0.0;
     for (std::size_t i = 0; i < contact_count(own); ++i) {
       const ContactRecord record = read_contact(own, i);
-      energy += 0.5 * finder_.material(record.forms).compliance * record.force * record.force;
+      const double compliance = finder_.material(record.forms).compliance;
+      // Not by the force, which is a mean and has that of the damper in it.
+      const double depth = std::max(-record.gap, 0.0);
+      if (compliance > 0.0) energy += 0.5 * depth * depth / compliance;
     }
     return energy;
   }
@@ -314,6 +331,40 @@ class ContactBatch final : public ConstraintBatch {
     return portable::hypot(own[1] - late[1], own[2] - late[2]) >= limit;
   }
 
+  /// Lets go what is held by all the friction there may be and moves all the same: from the
+  /// beginning of the substep it has the friction of what slides. Returns whether there was any.
+  bool let_go(const Substep& substep) {
+    bool any = false;
+    if (substep.tentative) return any;
+    for (Contact& contact : contacts_) {
+      if (!contact.slips || contact.friction == contact.sliding_friction) continue;
+      if (!contact.moves(substep)) continue;
+      contact.friction = contact.sliding_friction;
+      any = true;
+    }
+    return any;
+  }
+
+  /// Whether the point slides at the end of the substep. One that others hold may have all the
+  /// friction that the normal force allows, and does not move.
+  [[nodiscard]] bool slides(const Substep& substep, std::size_t i) const {
+    const Contact& contact = contacts_[i];
+    if (!contact.slips && !is_at_bound(i)) return false;
+    return contact.moves(substep) || contact.moves_on(substep);
+  }
+
+  /// Contact::slipped of a point that sticks, for the next substep. Where friction has used all of
+  /// its bound it begins anew, or, if others have held the point, with what its bound yields.
+  [[nodiscard]] Vector3 kept_slip(const Substep& substep, std::size_t i) const {
+    const Contact& contact = contacts_[i];
+    const bool full = contact.slips || is_at_bound(i) || has_slid(substep, i);
+    if (full && contact.moves(substep)) return Vector3::Zero();
+    const Vector3 slip = contact.held_slip(substep);
+    const double most = contact.yielding(substep);
+    const double size = slip.norm();
+    return full && size > most ? Vector3(slip * (most / size)) : slip;
+  }
+
   /// Whether friction has let slip what it acted against on the way of the substep. What the second
   /// half of `rattle` adds may bring that to rest, not back.
   [[nodiscard]] bool has_slid(const Substep& substep, std::size_t i) const {
@@ -348,6 +399,7 @@ class ContactBatch final : public ConstraintBatch {
   std::vector<double> multipliers_;  // three per contact
   std::vector<ContactRecord> records_;
   std::vector<double> late_;
+  Crowd crowd_;
   Rebound rebound_;
 };
 

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "engine/integrators/loads.h"
+#include "engine/math/portable.h"
 #include "engine/model.h"
 
 namespace sheave {
@@ -100,12 +101,35 @@ void ContactFinder::exclude_pairs(const Model& model, const BodySet& bodies) {
   }
 }
 
+double damping_ratio_of(double restitution) {
+  if (!(restitution > 0.0)) return 1.0;
+  if (!(restitution < 1.0)) return 0.0;
+  double low = 0.0;
+  double high = 1.0;
+  while (true) {
+    const double ratio = 0.5 * (low + high);
+    if (!(ratio > low && ratio < high)) return ratio;
+    const double sine = std::sqrt((1.0 - ratio) * (1.0 + ratio));
+    const double phase = portable::atan2(2.0 * ratio * sine, (2.0 * ratio * ratio) - 1.0);
+    const bool throws_less = portable::exp(-ratio / sine * phase) < restitution;
+    (throws_less ? high : low) = ratio;
+  }
+}
+
 void ContactFinder::combine_materials(const Model& model) {
+  std::vector<double> ratios;  // per collider; only springs have one
+  for (const ColliderDef& c : model.colliders) {
+    ratios.push_back(c.compliance > 0.0 || c.restitution > 0.0 ? damping_ratio_of(c.restitution)
+                                                               : 1.0);
+  }
   const auto resting = [](const ColliderDef& c) { return c.static_friction.value_or(c.friction); };
-  for (const ColliderDef& a : model.colliders) {
-    for (const ColliderDef& b : model.colliders) {
+  for (std::size_t i = 0; i < model.colliders.size(); ++i) {
+    for (std::size_t k = 0; k < model.colliders.size(); ++k) {
+      const ColliderDef& a = model.colliders[i];
+      const ColliderDef& b = model.colliders[k];
       materials_.push_back({std::sqrt(a.friction * b.friction), std::sqrt(resting(a) * resting(b)),
-                            std::max(a.restitution, b.restitution), a.compliance + b.compliance});
+                            std::max(a.restitution, b.restitution), a.compliance + b.compliance,
+                            std::min(ratios[i], ratios[k])});
     }
   }
 }
@@ -116,6 +140,16 @@ bool ContactFinder::may_touch(const FormPair& pair) const {
 
 const ContactMaterial& ContactFinder::material(const FormPair& pair) const {
   return materials_[pair_of_colliders(pair.a, pair.b)];
+}
+
+SolidMotion ContactFinder::motion(const Substep& substep, int form) const {
+  const int body = forms_[at(form)].body;
+  const BodyState& state = substep.start.bodies[at(body)];
+  SolidMotion motion{substep.position(body), substep.h * state.velocity};
+  if (!is_zero(state.angular_velocity)) {
+    motion.turn = rotation_by(substep.h * state.angular_velocity).toRotationMatrix();
+  }
+  return motion;
 }
 
 void ContactFinder::place(const Substep& substep) {

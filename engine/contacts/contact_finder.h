@@ -33,8 +33,13 @@ struct ContactMaterial {
   double friction = 0.0;
   double static_friction = 0.0;
   double restitution = 0.0;
-  double compliance = 0.0;  ///< [m/N]
+  double compliance = 0.0;     ///< [m/N]
+  double damping_ratio = 0.0;  ///< of a compliant contact; 1 is critical
 };
+
+/// The damping ratio of a spring that never pulls and throws a mass back at `restitution` times the
+/// speed at which it came; 1 where that would have to be more (engine/contacts/contact.cpp).
+[[nodiscard]] double damping_ratio_of(double restitution);
 
 /// One manifold and the forms that it lies between; `b` is the later one, or a half-space.
 struct FormPair {
@@ -46,7 +51,7 @@ class ContactFinder {
  public:
   ContactFinder(const Model& model, const BodySet& bodies);
 
-  /// Calls `use(pair, manifold)` for every pair of forms with points that touch or may do so within
+  /// Calls `use(pair, manifold)`, until it returns false, for every pair of forms with points that touch or may do so within
   /// the substep, which is at its start, in ascending order of the pairs. Points may be apart by
   /// what the motion of the substep can close.
   template <class Use>
@@ -57,8 +62,9 @@ class ContactFinder {
       if (!may_touch(pair)) continue;
       if (forms_[at(i)].solid.kind == ConvexSolid::Kind::half_space) std::swap(pair.a, pair.b);
       const double margin = margins_[at(i)] + margins_[at(j)];
-      find_contacts(placed_[at(pair.a)], placed_[at(pair.b)], margin, manifold_);
-      if (!manifold_.points.empty()) use(pair, manifold_);
+      find_contacts(placed_[at(pair.a)], placed_[at(pair.b)], margin, manifold_,
+                    motion(substep, pair.a), motion(substep, pair.b));
+      if (!manifold_.points.empty() && !use(pair, manifold_)) return;
     }
   }
 
@@ -74,6 +80,8 @@ class ContactFinder {
   void exclude_pairs(const Model& model, const BodySet& bodies);
   void combine_materials(const Model& model);
   void place(const Substep& substep);
+  /// How a form goes on as its body moves at the start of the substep.
+  [[nodiscard]] SolidMotion motion(const Substep& substep, int form) const;
   [[nodiscard]] bool may_touch(const FormPair& pair) const;
   [[nodiscard]] std::size_t pair_of_colliders(int a, int b) const {
     return at(forms_[at(a)].collider) * collider_count_ + at(forms_[at(b)].collider);

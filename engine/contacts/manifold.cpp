@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "engine/contacts/contact_axis.h"
 #include "engine/math/portable.h"
@@ -17,6 +18,11 @@ namespace {
 /// facing the other solid.
 constexpr double faces_it = 0.99;
 constexpr double lies_along_it = 0.02;
+/// How many points span an area.
+constexpr std::size_t spread_points = 4;
+/// Slope up to which points lie in one plane: far above what rounding tilts a body by, far below
+/// the angle between the sides of the roundest prism.
+constexpr double flat = 1e-6;
 
 /// What a solid turns towards a direction.
 struct Side {
@@ -52,11 +58,11 @@ Side face_side(const PlacedSolid& solid, std::size_t face) {
 Side end_side(const PlacedSolid& cylinder, const Vector3& center, const Vector3& outward,
               const Vector3& direction) {
   // Below this slope the end is flat and any corner is the deepest.
-  constexpr double flat = 1e-6;
+  constexpr double level = 1e-6;
   Side side;
   side.normal = outward;
   Vector3 x = direction - outward * dot(outward, direction);
-  x = x.norm() > flat ? Vector3(x.normalized()) : Vector3(cylinder.rotation.col(0));
+  x = x.norm() > level ? Vector3(x.normalized()) : Vector3(cylinder.rotation.col(0));
   const Vector3 y = cross(outward, x);
   for (int i = 0; i < 8; ++i) {
     const double angle = 0.25 * pi * i;
@@ -144,6 +150,28 @@ void stand_on_face(const Side& above, const Side& face, bool above_is_a, double 
   }
 }
 
+/// The same of the side that a solid turns towards the face now, in the direction `down`, and, if
+/// another one is nearer to it when both have moved, of that, which is in the direction `later`.
+void stand_on_face(const PlacedSolid& above, const Vector3& down, const Vector3& later,
+                   const Side& face, bool above_is_a, double margin, Manifold& manifold) {
+  stand_on_face(side_towards(above, down), face, above_is_a, margin, manifold);
+  if (above.solid->faces.empty() || above.is(ConvexSolid::Kind::cylinder)) return;
+  const std::size_t now = best_face(above, down);
+  const std::size_t next = best_face(above, later);
+  if (next == now) return;
+  // Sides with an edge in common have its corners twice.
+  const std::size_t first = manifold.points.size();
+  stand_on_face(face_side(above, next), face, above_is_a, margin, manifold);
+  const auto begin = manifold.points.begin();
+  const auto known = [&](const ContactPoint& point) {
+    return std::any_of(begin, begin + static_cast<std::ptrdiff_t>(first),
+                       [&](const ContactPoint& other) { return other.core_a == point.core_a; });
+  };
+  manifold.points.erase(
+      std::remove_if(begin + static_cast<std::ptrdiff_t>(first), manifold.points.end(), known),
+      manifold.points.end());
+}
+
 void add_pair(const Side& a, const Side& b, const Vector3& p, const Vector3& q, double margin,
               Manifold& manifold) {
   const double gap = dot(manifold.normal, p - q) - a.radius - b.radius;
@@ -220,36 +248,29 @@ void shrink_to_edge(const PlacedSolid& solid, const Vector3& direction, Side& si
   side.points = {extreme};
 }
 
-}  // namespace
-
-void reduce_points(Manifold& manifold) {
-  std::vector<ContactPoint>& points = manifold.points;
-  if (points.size() <= Manifold::most_points) return;
-  const auto position = [&](std::size_t i) -> const Vector3& { return points[i].core_a; };
-  // Of points as deep as each other the first one, whatever rounding says.
-  double size = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    size = std::max(size, (position(i) - position(0)).norm());
-  }
+/// Four that span about the same area as all, among points that are apart.
+std::vector<std::size_t> spanning_points(const Manifold& manifold, double size) {
+  const std::vector<ContactPoint>& points = manifold.points;
   // The corners of two squares that are turned against each other by a little come in pairs. One of
   // each will do, and then it is no matter of rounding which four are kept.
-  std::vector<ContactPoint> distinct;
-  for (const ContactPoint& point : points) {
-    if (std::none_of(distinct.begin(), distinct.end(), [&](const ContactPoint& other) {
-          return (other.core_a - point.core_a).norm() < 0.05 * size;
+  std::vector<std::size_t> apart;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (std::none_of(apart.begin(), apart.end(), [&](std::size_t other) {
+          return (points[other].core_a - points[i].core_a).norm() < 0.05 * size;
         })) {
-      distinct.push_back(point);
+      apart.push_back(i);
     }
   }
-  points = distinct;
-  if (points.size() <= Manifold::most_points) return;
+  if (apart.size() <= spread_points) return apart;
+  const auto position = [&](std::size_t i) -> const Vector3& { return points[apart[i]].core_a; };
+  // Of points as deep as each other the first one, whatever rounding says.
   std::size_t deepest = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    if (points[i].gap < points[deepest].gap - 1e-3 * size) deepest = i;
+  for (std::size_t i = 1; i < apart.size(); ++i) {
+    if (points[apart[i]].gap < points[apart[deepest]].gap - 1e-3 * size) deepest = i;
   }
   const auto farthest = [&](const auto& measure) {
     std::size_t best = 0;
-    for (std::size_t i = 1; i < points.size(); ++i) {
+    for (std::size_t i = 1; i < apart.size(); ++i) {
       if (measure(position(i)) > measure(position(best)) + 1e-9 * size) best = i;
     }
     return best;
@@ -257,9 +278,70 @@ void reduce_points(Manifold& manifold) {
   const Vector3 origin = position(deepest);
   const std::size_t second = farthest([&](const Vector3& p) { return (p - origin).norm(); });
   const Vector3 across = cross(manifold.normal, position(second) - origin).normalized();
-  const std::array chosen{deepest, second,
-                          farthest([&](const Vector3& p) { return dot(across, p - origin); }),
-                          farthest([&](const Vector3& p) { return -dot(across, p - origin); })};
+  return {apart[deepest], apart[second],
+          apart[farthest([&](const Vector3& p) { return dot(across, p - origin); })],
+          apart[farthest([&](const Vector3& p) { return -dot(across, p - origin); })]};
+}
+
+/// Those on which it will come to lie: the lowest one, the first one that it meets when it tips about
+/// that, and the first ones when it tips about the line through both to either side. Of what it
+/// meets at once, as on a flat side, the farthest.
+std::vector<std::size_t> bearing_points(const Manifold& manifold, double size) {
+  const std::vector<ContactPoint>& points = manifold.points;
+  std::size_t lowest = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (points[i].due < points[lowest].due - flat * size) lowest = i;
+  }
+  std::vector<std::size_t> found{lowest};
+  const Vector3 origin = points[lowest].core_a;
+  // The point with the least rise per distance; `rise` and `distance` are functions of its number.
+  const auto first_met = [&](const auto& rise, const auto& distance) -> std::optional<std::size_t> {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!(distance(i) > 1e-6 * size)) continue;
+      const double slope = rise(i) / distance(i);
+      const double least = best ? rise(*best) / distance(*best) : 0.0;
+      const bool level = best && std::abs(slope - least) <= flat;
+      if (!best || (level ? distance(i) > distance(*best) + 1e-9 * size : slope < least)) best = i;
+    }
+    return best;
+  };
+  const Vector3& n = manifold.normal;
+  const auto level_way = [&](std::size_t i) {
+    const Vector3 way = points[i].core_a - origin;
+    return Vector3(way - n * dot(n, way));
+  };
+  const auto height = [&](std::size_t i) { return points[i].due - points[lowest].due; };
+  const auto second = first_met(height, [&](std::size_t i) { return level_way(i).norm(); });
+  if (!second) return found;
+  found.push_back(*second);
+  const Vector3 along = level_way(*second).normalized();
+  const double slope = height(*second) / level_way(*second).norm();
+  const auto rise = [&](std::size_t i) { return height(i) - slope * dot(along, level_way(i)); };
+  for (const double side : {1.0, -1.0}) {
+    const Vector3 across = side * cross(n, along);
+    const auto next = first_met(rise, [&](std::size_t i) { return dot(across, level_way(i)); });
+    if (next) found.push_back(*next);
+  }
+  return found;
+}
+
+}  // namespace
+
+void reduce_points(Manifold& manifold) {
+  std::vector<ContactPoint>& points = manifold.points;
+  if (points.size() <= spread_points) return;
+  double size = 0.0;
+  double lowest = points.front().due;
+  for (const ContactPoint& point : points) {
+    size = std::max(size, (point.core_a - points.front().core_a).norm());
+    lowest = std::min(lowest, point.due);
+  }
+  std::vector<std::size_t> chosen = spanning_points(manifold, size);
+  if (std::any_of(chosen.begin(), chosen.end(),
+                  [&](std::size_t i) { return points[i].due > lowest + flat * size; })) {
+    for (const std::size_t i : bearing_points(manifold, size)) chosen.push_back(i);
+  }
   std::vector<ContactPoint> kept;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (std::find(chosen.begin(), chosen.end(), i) != chosen.end()) kept.push_back(points[i]);
@@ -267,23 +349,22 @@ void reduce_points(Manifold& manifold) {
   points = kept;
 }
 
-void find_contacts(const PlacedSolid& a, const PlacedSolid& b, double margin, Manifold& manifold) {
-  manifold.points.clear();
-  if (b.is(ConvexSolid::Kind::half_space)) {
-    stand_on_half_space(a, b, margin, manifold);
-    reduce_points(manifold);
-    return;
-  }
+namespace {
+
+/// Of two solids that are both bounded.
+void meet_solids(const PlacedSolid& a, const PlacedSolid& b, double margin,
+                 const SolidMotion& motion_a, const SolidMotion& motion_b, Manifold& manifold) {
   const ContactAxis axis = contact_axis(a, b, margin);
   manifold.normal = axis.normal;
   if (!(axis.gap <= margin)) return;
   using Kind = ContactAxis::Kind;
   const Vector3 down = -axis.normal;
   if (axis.kind == Kind::face_b) {
-    stand_on_face(side_towards(a, down), face_side(b, at(axis.face)), true, margin, manifold);
+    const Vector3 later = times(motion_a.turn.transpose(), times(motion_b.turn, down));
+    stand_on_face(a, down, later, face_side(b, at(axis.face)), true, margin, manifold);
   } else if (axis.kind == Kind::face_a) {
-    stand_on_face(side_towards(b, axis.normal), face_side(a, at(axis.face)), false, margin,
-                  manifold);
+    const Vector3 later = times(motion_b.turn.transpose(), times(motion_a.turn, axis.normal));
+    stand_on_face(b, axis.normal, later, face_side(a, at(axis.face)), false, margin, manifold);
   } else if (axis.kind == Kind::points) {
     Side side_a{{axis.core_a}, Vector3::Zero(), a.solid->radius};
     Side side_b{{axis.core_b}, Vector3::Zero(), b.solid->radius};
@@ -312,6 +393,22 @@ void find_contacts(const PlacedSolid& a, const PlacedSolid& b, double margin, Ma
     Side side_a{{a.vertices[a.extreme(down)]}, {}, a.round_reach(down)};
     Side side_b{{b.vertices[b.extreme(axis.normal)]}, {}, b.round_reach(axis.normal)};
     cross_lines(side_a, side_b, margin, manifold);
+  }
+}
+
+}  // namespace
+
+void find_contacts(const PlacedSolid& a, const PlacedSolid& b, double margin, Manifold& manifold,
+                   const SolidMotion& motion_a, const SolidMotion& motion_b) {
+  manifold.points.clear();
+  if (b.is(ConvexSolid::Kind::half_space)) {
+    stand_on_half_space(a, b, margin, manifold);
+  } else {
+    meet_solids(a, b, margin, motion_a, motion_b, manifold);
+  }
+  for (ContactPoint& point : manifold.points) {
+    const Vector3 apart = motion_a.moved(point.core_a) - motion_b.moved(point.core_b);
+    point.due = dot(manifold.normal, apart) - point.radius_a - point.radius_b;
   }
   reduce_points(manifold);
 }

@@ -42,6 +42,7 @@ void GaussSeidelSolver::solve(Substep& substep, Features features) {
     // What no sweep mends is told by who looks at the whole substep.
     if (iteration % look == look - 1 && !is_finite(substep)) break;
     correction = 0.0;
+    substep.tentative = features.size() > 1 && 2 * iteration < substep.iterations;
     for (std::size_t i = 0; i < features.size(); ++i) {
       const bool stiff = features[i]->is_stiff() && features[i]->row_count() > 0;
       correction = std::max(
@@ -49,6 +50,7 @@ void GaussSeidelSolver::solve(Substep& substep, Features features) {
                             : features[i]->sweep(substep));
     }
   }
+  substep.tentative = false;
   StepStatistics& statistics = substep.statistics;
   statistics.rows = rows;
   statistics.row_solves += static_cast<std::int64_t>(rows) * substep.iterations;

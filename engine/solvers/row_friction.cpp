@@ -210,7 +210,7 @@ bool RowSystem::turn_friction() {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     problem_.diagonal[g] = 0.0;
     for (int i = groups_[g].first_row; i < groups_[g].first_row + groups_[g].row_count; ++i) {
-      problem_.diagonal[g] += rows_[at(i)].weight * rows_[at(i)].softness;
+      problem_.diagonal[g] += rows_[at(i)].weight * yield_of_rate(at(i));
     }
   }
   assembled_ = false;

@@ -140,7 +140,7 @@ class RowSystem {
   void remember_places(const Substep& substep);
   /// The problem of the velocities in substep.next, with K = J at the current positions: the
   /// impulses m [N s] for which dC/dt = 0 (or >= 0) on rows that have acted or are closed. Springs
-  /// have acted and get none. Rows are those of `positions`, whose last linearise() must have been
+  /// have acted and get none, but dampers that act at the end do (Row::settling). Rows are those of `positions`, whose last linearise() must have been
   /// at the current positions; it takes them from there.
   void linearise_velocities(Substep& substep, RowSystem& positions);
 
@@ -235,7 +235,7 @@ class RowSystem {
   /// Takes from the rows what is no geometry.
   void leave_geometry_alone();
   /// Bounds what is friction by the impulses that were just found. Whether that makes a difference.
-  [[nodiscard]] bool bound_friction();
+  [[nodiscard]] bool bound_friction(double h);
   /// Gives the rows the gradients and weights of the start to act along; false if they touch other
   /// bodies than there.
   bool match_start();
@@ -328,6 +328,8 @@ class RowSystem {
   /// just found.
   void find_motion();
   void act_springs(Substep& substep);
+  /// By how much a row of the velocities gives: Row::softness, and what its damper lets go on.
+  [[nodiscard]] double yield_of_rate(std::size_t row) const;
   /// The problem of the velocities with the rows that there are.
   void pose_velocities(const Substep& substep, const RowSystem& positions);
   /// Multiplier of a row for the forces of both halves of the substep.

@@ -39,6 +39,12 @@ void RowSystem::linearise_velocities(Substep& substep, RowSystem& positions) {
   if (!shared_.empty()) begin_shared_friction();
 }
 
+double RowSystem::yield_of_rate(std::size_t row) const {
+  const double settling = rows_[row].settling;
+  const double own = slots_.yield(static_cast<int>(row));
+  return rows_[row].softness + (settling > 0.0 ? (1.0 / settling - 1.0) * own : 0.0);
+}
+
 void RowSystem::pose_velocities(const Substep& substep, const RowSystem& positions) {
   const double closed = DirectSolver::closed * substep.bodies.scale();
   const double share =
@@ -54,7 +60,16 @@ void RowSystem::pose_velocities(const Substep& substep, const RowSystem& positio
     for (int i = group.first_row; i < group.first_row + group.row_count; ++i) {
       value += rows_[at(i)].value;
       rate += rate_of(substep, rows_[at(i)]);
-      problem_.diagonal[g] += rows_[at(i)].weight * rows_[at(i)].softness;
+      problem_.diagonal[g] += rows_[at(i)].weight * yield_of_rate(at(i));
+    }
+    // A damper beside a spring that pushes; in the whole substep both together do not pull.
+    if (first.settling > 0.0 && group.multiplier > 0.0) {
+      problem_.constant[g] = rate;
+      problem_.lower[g] = -2.0 * group.multiplier / substep.h;
+      problem_.upper[g] = Row::unbounded;
+      problem_.free[g] = 1;
+      group.multiplier = 0.0;
+      continue;
     }
     const bool acts = !group.elastic && !(rate < -first.rebound_speed) &&
                       (group.multiplier != 0.0 || std::abs(value) * first.lever <= closed ||
@@ -98,7 +113,9 @@ double RowSystem::impulse_of(std::size_t g) const {
 double RowSystem::whole_multiplier(double h, int row) const {
   const auto i = at(row);
   const Group& group = groups_[at(group_of_[i])];
-  if (group.elastic) return 2.0 * previous_[i];
+  if (group.elastic) {
+    return 2.0 * previous_[i] + h * rows_[i].weight * impulse_of(at(group_of_[i]));
+  }
   return previous_[i] + h * rows_[i].weight * impulse_of(at(group_of_[i]));
 }
 
@@ -134,7 +151,7 @@ bool RowSystem::revise_impulses(Substep& substep, Features features, const RowSy
   return true;
 }
 
-bool RowSystem::bound_friction() {
+bool RowSystem::bound_friction(double h) {
   constexpr double settled_share = 1e-7;  // as between the rounds of the positions
   const std::span<const double> change = active_set_.solution();
   const auto impulse = [&](std::size_t g) { return groups_[g].multiplier + change[g]; };
@@ -146,8 +163,12 @@ bool RowSystem::bound_friction() {
     if (!(rows_[i].friction > 0.0)) continue;
     const std::size_t g = at(group_of_[i]);
     const std::size_t normal = at(group_of_[i - at(rows_[i].pressed_by)]);
-    if (groups_[normal].elastic) continue;  // whose force is that of the first half
-    double pressed = pressure(i - at(rows_[i].pressed_by));
+    // The force of a spring is that of the first half; its damper acts in both.
+    const std::size_t pressing = i - at(rows_[i].pressed_by);
+    const bool elastic = groups_[normal].elastic != 0;
+    if (elastic && !(rows_[pressing].settling > 0.0)) continue;
+    double pressed =
+        elastic ? std::max(previous_[pressing] / h + impulse(normal), 0.0) : pressure(pressing);
     if (rows_[i].pressed_also > 0) pressed += pressure(i - at(rows_[i].pressed_also));
     const double bound = rows_[i].friction * pressed;
     const double before = problem_.upper[g] + groups_[g].multiplier;
@@ -181,7 +202,7 @@ bool RowSystem::solve_velocities(Substep& substep, bool direct, int sweeps) {
     } else if (!solve(substep, true)) {
       return false;
     }
-    const bool bounds = bound_friction();
+    const bool bounds = bound_friction(substep.h);
     const bool directions = !shared_.empty() && turn_friction();
     if (!bounds && !directions) break;
   }
@@ -232,11 +253,11 @@ void RowSystem::apply_impulses(Substep& substep, Features features) {
     for (int r = feature_rows_[f]; r < feature_rows_[f + 1]; ++r) {
       const auto i = at(r);
       const Group& group = groups_[at(group_of_[i])];
-      const double impulse =
-          group.elastic ? previous_[i] / substep.h : rows_[i].weight * impulse_of(at(group_of_[i]));
+      const double found = rows_[i].weight * impulse_of(at(group_of_[i]));
+      const double impulse = group.elastic ? previous_[i] / substep.h + found : found;
       multipliers[at(rows_[i].index)] = previous_[i] + substep.h * impulse;
       late[at(rows_[i].index)] = impulse / substep.h;
-      if (!group.elastic) slots_.add_row(r, impulse, motion_.data());
+      if (found != 0.0) slots_.add_row(r, found, motion_.data());
     }
     for (const SharedFriction& friction : shared_) {
       if (friction.feature != f || !friction.turned) continue;

@@ -1949,8 +1949,9 @@ class Collider(Part):
     body: a body with at least one shape (the name of a body, or "world"; required)
     friction: coefficient while sliding; of a pair the geometric mean (a number >= 0; default: 0.0)
     static_friction: the same while sticking (default: friction) (a number >= 0)
-    restitution: speed of parting over speed of meeting; of a pair the larger one. Bodies that meet
-        more slowly than gravity would make them in two substeps do not bounce (a number 0 ... 1;
+    restitution: speed of parting over speed of meeting; of a pair the larger one. Rigid bodies that
+        meet more slowly than gravity would make them in two substeps do not bounce; a compliant
+        contact has a damper that leaves this share, and is critical below 0.135 (a number 0 ... 1;
         default: 0.0)
     compliance: of each point of contact; of a pair the sum; 0 is rigid (a number >= 0 [m/N];
         default: 0.0)

@@ -82,6 +82,25 @@ TEST(Contact, ARestoredStateGoesOnBitForBit) {
   }
 }
 
+// What n bodies in one place need grows with n^4, so it is refused before it is taken. One body may
+// touch any number of small ones.
+TEST(Contact, BodiesInOnePlaceAreNamed) {
+  Heap heap(SolverKind::direct);
+  for (int i = 0; i < 300; ++i) heap.put(test::box({0.5, 0.5, 0.5}), {1e-3 * i, 0.0, 0.0});
+  World world = heap.start();
+  const StepReport report = world.step();
+  ASSERT_TRUE(report.divergence.has_value());
+  EXPECT_NE(report.divergence->message.find("too many bodies touch each other"), std::string::npos);
+  EXPECT_NE(report.divergence->message.find("\"body 0\""), std::string::npos);
+  EXPECT_EQ(report.divergence->feature, "contacts");
+
+  Heap tray(SolverKind::direct);
+  tray.put(test::box({12.0, 0.1, 12.0}), {0.0, -0.05, 0.0}, 100.0);
+  for (int i = 0; i < 100; ++i) tray.put(test::ball(0.3), {i % 10 - 5.0, 0.3, i / 10 - 5.0});
+  World other = tray.start();
+  EXPECT_TRUE(other.step().ok());
+}
+
 TEST(Contact, GroupsAndJointsKeepBodiesApart) {
   for (const bool apart : {false, true}) {
     Heap heap;

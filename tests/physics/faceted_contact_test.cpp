@@ -1,0 +1,177 @@
+// Prisms of many sides touch with the corner that is lowest, whichever it is from substep to substep.
+// The support of a polygon with n corners on a circle of radius r is between r cos(pi / n) and r: what
+// it does comes to what a round body does with the square of the angle of a side.
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "engine/contacts/manifold.h"
+#include "engine/joints/hinge.h"
+#include "engine/joints/slider.h"
+#include "engine/shapes/half_space.h"
+#include "tests/support/heaps.h"
+#include "tests/support/shapes.h"
+
+namespace sheave {
+namespace {
+
+using test::Heap;
+
+/// Of a prism on a plane: the lowest corner is there, at both ends, now and when it has turned on.
+TEST(FacetedContact, HasTheCornersThatWillBeLowest) {
+  HalfSpace below;
+  below.normal = Vector3::UnitY();
+  const ConvexSolid plane = below.solid();
+  PlacedSolid floor;
+  floor.place(plane, Vector3::Zero(), Quaternion::Identity());
+  for (const int sides : {7, 40, 600}) {
+    const auto prism = test::polygon(test::ring(sides, 0.04, 0.0), 0.02);
+    const ConvexSolid solid = prism->solid();
+    for (int i = 0; i < 50; ++i) {
+      const double angle = 0.0137 * i;
+      for (const double turn : {0.0, 0.003, -0.05}) {
+        PlacedSolid placed;
+        placed.place(solid, {0.0, 0.0402, 0.0}, rotation_by({0.0, 0.0, angle}));
+        SolidMotion motion;
+        motion.center = {0.0, 0.0402, 0.0};
+        motion.turn = rotation_by({0.0, 0.0, turn}).toRotationMatrix();
+        Manifold manifold;
+        find_contacts(placed, floor, 2e-3, manifold, motion);
+        double lowest = 1.0;
+        for (const Vector3& corner : placed.vertices) {
+          lowest = std::min(lowest, motion.moved(corner).y());
+        }
+        const auto at_lowest = [&](double z) {
+          return std::any_of(
+              manifold.points.begin(), manifold.points.end(), [&](const ContactPoint& point) {
+                return motion.moved(point.core_a).y() < lowest + 1e-8 && point.core_a.z() * z > 0.0;
+              });
+        };
+        EXPECT_TRUE(at_lowest(1.0)) << sides << " " << angle << " " << turn;
+        EXPECT_TRUE(at_lowest(-1.0)) << sides << " " << angle << " " << turn;
+      }
+    }
+  }
+}
+
+/// The highest corner above the axle of an eccentric of the radius r about (e, 0) that has turned.
+double support(const std::vector<Vector3>& outline, double angle) {
+  double most = -1.0;
+  for (const Vector3& corner : outline) {
+    most = std::max(most, corner.x() * std::sin(angle) + corner.y() * std::cos(angle));
+  }
+  return most;
+}
+
+// An eccentric disc of n sides lifts a weight whose face is a box.
+TEST(FacetedContact, ACamLiftsByItsSupport) {
+  constexpr double radius = 0.04;
+  constexpr double off = 0.012;
+  for (const test::Method& method : test::methods) {
+    for (const int sides : {24, 96, 480}) {
+      SCOPED_TRACE(test::name_of(method) + ", sides " + std::to_string(sides));
+      Heap heap(method.solver, method.integrator);
+      std::vector<Vector3> outline = test::ring(sides, radius, 0.0);
+      for (Vector3& corner : outline) corner.x() += off;
+      BodyDef cam;
+      cam.name = "cam";
+      cam.mobility = Mobility::rotor;
+      cam.axis = Vector3::UnitZ();
+      cam.mass = 1.0;
+      cam.drive = DriveKind::speed;
+      cam.drive_values = {1.7};
+      cam.shapes.push_back({test::polygon(outline, 0.02)});
+      const BodyId shaft = heap.add(cam);
+      const double start = support(outline, 0.0);
+      const BodyId tappet = heap.put(test::box({0.2, 0.02, 0.03}), {0.0, start + 0.01, 0.0}, 0.5);
+      heap.last().mobility = Mobility::slider;
+      heap.last().axis = Vector3::UnitY();
+      World world = heap.start();
+      double worst = 0.0;
+      double round = 0.0;
+      for (int i = 0; i < 120; ++i) {
+        ASSERT_TRUE(world.step().ok());
+        const double angle = world.state().bodies[static_cast<std::size_t>(shaft.index)].angle;
+        const double lift = world.position(tappet).y() - 0.01;
+        worst = std::max(worst, std::abs(lift - support(outline, angle)));
+        round = std::max(round, std::abs(lift - off * std::sin(angle) - radius));
+      }
+      // Rows are met to 1e-10 of the scene, of some 0.2 m, and an overlap that a corner has by
+      // rounding is opened by a fiftieth per substep.
+      EXPECT_LT(worst, 1e-8);
+      EXPECT_LT(round, radius * (1.0 - std::cos(pi / sides)) + 1e-8);
+    }
+  }
+}
+
+// A cam on a stem that is pulled along a wall: its outline is a logarithmic spiral of the angle c, so
+// that it locks and presses against the wall with F / tan c. A corner is off the point in which the
+// spiral touches by half a side at most, s / 2, and F / N = tan c is off by s / (2 d), with d the
+// distance of the wall.
+TEST(FacetedContact, ASelfLockingCamPressesByItsAngle) {
+  constexpr double c = 0.2342;  // 13.42 degrees, less than the friction holds
+  constexpr double pulled = 1000.0;
+  for (const int sides : {60, 240, 960}) {
+    SCOPED_TRACE(sides);
+    std::vector<Vector3> outline;
+    double longest = 0.0;
+    for (int i = 0; i <= sides; ++i) {
+      const double angle = -1.4 + 2.8 * i / sides;
+      const double r = 0.0377 * std::exp(-std::tan(c) * angle);
+      outline.emplace_back(r * std::cos(angle), r * std::sin(angle), 0.0);
+      if (i > 0) longest = std::max(longest, (outline[i] - outline[i - 1]).norm());
+    }
+    const auto reach = [&] {
+      double most = 0.0;
+      for (const Vector3& p : outline) most = std::max(most, p.x());
+      return most;
+    };
+    const double distance = reach();
+    Heap heap(SolverKind::direct, IntegratorKind::rattle);
+    heap.model.gravity = Vector3::Zero();
+    heap.surface.friction = 0.3;
+    BodyDef wall;
+    wall.name = "wall";
+    wall.mobility = Mobility::fixed;
+    wall.position = {distance, 0.0, 0.0};
+    const auto half = test::make<HalfSpace>([](HalfSpace& s) { s.normal = -Vector3::UnitX(); });
+    wall.shapes.push_back({half});
+    heap.add(wall);
+    BodyDef stem;
+    stem.name = "stem";
+    stem.mobility = Mobility::slider;
+    stem.axis = Vector3::UnitY();
+    stem.mass = 10.0;
+    stem.damping = 2000.0;
+    stem.force = {0.0, -pulled, 0.0};
+    const BodyId stem_id = heap.model.add(stem);
+    BodyDef cam;
+    cam.name = "cam";
+    cam.mobility = Mobility::planar;
+    cam.mass = 0.1;
+    cam.inertia = Vector3::Constant(1e-4);
+    cam.shapes.push_back({test::polygon(outline, 0.02)});
+    const BodyId cam_id = heap.add(cam);
+    auto axle = std::make_shared<HingeJoint>();
+    axle->name = "axle";
+    axle->body_a = stem_id;
+    axle->body_b = cam_id;
+    axle->axis = Vector3::UnitZ();
+    axle->angle.stiffness = 0.02;  // holds it to the wall
+    axle->angle.rest = 0.5;
+    heap.model.joints.push_back(axle);
+    World world = heap.start();
+    test::run(world, 0.5);
+    double normal = 0.0;
+    for (const ContactReport& contact : world.contacts()) normal += contact.normal_force;
+    // With the torque of the spring, 0.01 N m.
+    const double ratio = (pulled + 0.01 / distance) / normal;
+    EXPECT_NEAR(ratio, std::tan(c), 0.5 * longest / distance + 1e-5);
+    EXPECT_LT(std::abs(world.position(stem_id).y()), 2.0 * longest);
+  }
+}
+
+}  // namespace
+}  // namespace sheave
