@@ -93,7 +93,7 @@ class EquilibriumSearch {
     NewtonStep step;
     for (int i = 0; i < most_revisions; ++i) {
       const VectorX before = Configuration::unknowns_of(rows, forces_);
-      const ForceTurn turn = turn_of_forces(configuration, before);
+      const ForceTurn turn = turn_of_forces(configuration, before, size_);
       step = limited_step(configuration, rows, turn, before);
       if (!step.finite) return false;
       line_search(configuration, rows, before, step);
@@ -282,7 +282,7 @@ class EquilibriumSearch {
         acts[g] = std::abs(force) < (1.0 - acceptable) * bound ? 1 : 0;
       }
     }
-    const ForceTurn turn = turn_of_forces(configuration, unknowns);
+    const ForceTurn turn = turn_of_forces(configuration, unknowns, size_);
     const Tangent tangent = make_tangent(configuration, rows, turn, acts);
     result.freedoms = configuration.freedoms();
     result.constraints = static_cast<int>(tangent.constraints.rows());
