@@ -290,7 +290,8 @@ std::vector<Vector3> Configuration::forces_on_bodies(const RowForces& forces, st
   return sums;
 }
 
-State Configuration::finish(const RowForces& forces) {
+State Configuration::finish(const RowForces& forces, bool lets_go) {
+  substep_.at_rest = !lets_go;
   const auto features = simulation_.world.features();
   for (std::size_t f = 0; f < features.size(); ++f) {
     const std::span<double> multipliers = features[f]->multipliers();
@@ -373,6 +374,17 @@ Configuration::Reach Configuration::reach(const VectorX& displacement) const {
     largest = std::max(largest, turn);
   }
   return reach;
+}
+
+double Configuration::moved(int body, double arm, const VectorX& displacement) const {
+  if (body >= substep_.bodies.count()) return 0.0;
+  const int mount = substep_.bodies[body].mount;
+  const int carrier = mount >= 0 ? mount : body;
+  const BodyFreedom& freedom = substep_.bodies.coordinates()[carrier];
+  if (size_of(freedom.kind) == 0 || freedom.kind == Freedom::angle) return 0.0;
+  const double* motion = displacement.data() + freedom.first - 1;
+  return linear_motion(freedom, motion).norm() +
+         arm * angular_motion(freedom, substep_.moving[at(carrier)], motion).norm();
 }
 
 }  // namespace sheave

@@ -94,8 +94,9 @@ class Configuration {
   /// What the rows of all features but `except` do to bodies, and to the world, which comes last
   /// [N].
   [[nodiscard]] std::vector<Vector3> forces_on_bodies(const RowForces& forces, std::size_t except);
-  /// The state of this pose with these forces, at rest.
-  [[nodiscard]] State finish(const RowForces& forces);
+  /// The state of this pose with these forces, at rest. A pose on the way of a search is none that
+  /// the machine is ever in: no cable leaves a wheel, breaks or is used up there, unless `lets_go`.
+  [[nodiscard]] State finish(const RowForces& forces, bool lets_go = false);
 
   [[nodiscard]] MatrixX mass() const;       ///< [kg, kg m2]
   [[nodiscard]] MatrixX body_drag() const;  ///< [N s/m, N m s]
@@ -114,6 +115,9 @@ class Configuration {
     double spin = 0.0;  ///< of rotors [rad]
   };
   [[nodiscard]] Reach reach(const VectorX& displacement) const;
+  /// How far a displacement moves what is `arm` [m] away from the centre of mass of a body, or of
+  /// that which it is mounted on, at most [m].
+  [[nodiscard]] double moved(int body, double arm, const VectorX& displacement) const;
 
  private:
   void linearise();
