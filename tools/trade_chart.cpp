@@ -50,6 +50,7 @@ class TradeChart {
  public:
   explicit TradeChart(const TradeTable& table)
       : table_(table), least_(std::max(table.doubt.position, rounding_error)) {
+    if (table.tensions_known()) least_ = std::max(least_, table.doubt.tension);
     for (const TradeRow& row : table_.rows) {
       if (!row.measured()) continue;
       errors_.add(error_of(row));
@@ -77,7 +78,10 @@ class TradeChart {
     text += levels();
     text += "set title " + gnuplot_quoted(title()) + " noenhanced\n";
     text += "set xlabel 'CPU time per simulated second [s]'\n";
-    text += "set ylabel 'largest position error [size of the scene]'\n";
+    text += table_.tensions_known()
+                ? "set ylabel 'error of positions [size of the scene] or of tensions [their mean], "
+                  "the larger one'\n"
+                : "set ylabel 'largest position error [size of the scene]'\n";
     if (plots_.empty()) plots_ = "1/0 notitle";
     return text + "plot " + plots_ + "\nset output\n";
   }
@@ -85,7 +89,8 @@ class TradeChart {
  private:
   /// Errors end where the reference knows no more.
   [[nodiscard]] double error_of(const TradeRow& row) const {
-    return std::max(row.error.position, least_);
+    const double tension = table_.tensions_known() ? row.error.tension : 0.0;
+    return std::max({row.error.position, std::isnan(tension) ? 0.0 : tension, least_});
   }
   /// Per simulated second, of a run that has no time.
   [[nodiscard]] double expected(const TradeRow& row) const {
