@@ -95,6 +95,7 @@ RunJson cables(const RunSummary& summary) {
                     {"total_length", reports[i].total_length},
                     {"length_error", summary.monitor.cables()[i].length_error},
                     {"max_stretch", summary.monitor.cables()[i].max_stretch},
+                    {"max_strain", summary.monitor.cables()[i].max_strain},
                     {"cut", reports[i].cut},
                     {"spans", std::move(spans)},
                     {"links", std::move(links)},
