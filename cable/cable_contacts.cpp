@@ -34,14 +34,19 @@
 
 namespace sheave {
 
-void CableSystem::record(const Substep& substep, const CompiledCable& cable, int link,
+void CableSystem::record(const BodySet& bodies, double time, const CompiledCable& cable, int link,
                          CableEvent::Kind kind) {
   knows_lengths_ = false;
   const int listed = link - cable.first_link;
-  CableEvent event{substep.next.time, cable.name, listed < cable.listed_links ? listed : -1, kind};
+  CableEvent event{time, cable.name, listed < cable.listed_links ? listed : -1, kind};
   const int body = links_[at(link)].body;
-  if (body != substep.bodies.count()) event.body = substep.bodies.name(body);
+  if (body != bodies.count()) event.body = bodies.name(body);
   events_.push_back(std::move(event));
+}
+
+void CableSystem::record(const Substep& substep, const CompiledCable& cable, int link,
+                         CableEvent::Kind kind) {
+  record(substep.bodies, substep.next.time, cable, link, kind);
 }
 
 void CableSystem::remember_sides(const Substep& substep, const CompiledCable& cable) {
