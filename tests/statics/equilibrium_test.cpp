@@ -395,7 +395,7 @@ TEST(Equilibrium, TellsWhichWheelARopeHasLeft) {
 }
 
 TEST(Equilibrium, RopesBreakAtRestAndNotOnTheWayThere) {
-  // 100 kg fall into an elastic rope from 3 m of stretch too much, 31 kN, and rest at 1 kN. A rope that
+  // 100 kg on an elastic rope that is stretched by 4 m at first, 40 kN, rest at 1 kN. A rope that
   // bears 2 kN holds that, one that bears 900 N parts, and then nothing holds the load.
   const auto rest_of = [](double bears) {
     Simulation simulation = simulation_of(fmt::format(
