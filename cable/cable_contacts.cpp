@@ -21,6 +21,10 @@
 // neighbour, each along the cable; what has left or touched does nothing else in the same substep.
 // So there is at most one event per link and substep, and their order is the same in every run. A
 // span does not touch the bodies that its own two links are on.
+//
+// While it is asked where a machine rests (Substep::at_rest) nothing is left: a wheel that has been
+// touched is kept, with a stored length that may be below 0, as if it held the cable on its side.
+// So the cable keeps on which side of which wheels it lies, whatever poses the search goes through.
 
 #include <algorithm>
 #include <cmath>
@@ -30,14 +34,19 @@
 
 namespace sheave {
 
-void CableSystem::record(const Substep& substep, const CompiledCable& cable, int link,
+void CableSystem::record(const BodySet& bodies, double time, const CompiledCable& cable, int link,
                          CableEvent::Kind kind) {
   knows_lengths_ = false;
   const int listed = link - cable.first_link;
-  CableEvent event{substep.next.time, cable.name, listed < cable.listed_links ? listed : -1, kind};
+  CableEvent event{time, cable.name, listed < cable.listed_links ? listed : -1, kind};
   const int body = links_[at(link)].touched();
-  if (body != substep.bodies.count()) event.body = substep.bodies.name(body);
+  if (body != bodies.count()) event.body = bodies.name(body);
   events_.push_back(std::move(event));
+}
+
+void CableSystem::record(const Substep& substep, const CompiledCable& cable, int link,
+                         CableEvent::Kind kind) {
+  record(substep.bodies, substep.next.time, cable, link, kind);
 }
 
 void CableSystem::remember_sides(const Substep& substep, const CompiledCable& cable) {
@@ -58,10 +67,10 @@ void CableSystem::leave_and_touch(const Substep& substep, FeatureState& next) {
     if (!cables_[at(c)].course_changes || next.integers[cut_index(c)] != 0) continue;
     if (keeps_course(cables_[at(c)], next)) continue;
     left_bodies_.clear();
-    leave_all(substep, cables_[at(c)], next);
+    if (!substep.at_rest) leave_all(substep, cables_[at(c)], next);
     touch_all(substep, c, next);
     // A touch can take the cable off a neighbour.
-    leave_all(substep, cables_[at(c)], next);
+    if (!substep.at_rest) leave_all(substep, cables_[at(c)], next);
   }
 }
 

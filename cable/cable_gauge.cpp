@@ -22,10 +22,11 @@ bool CableSystem::gauge(const FeatureState& own, std::vector<CableGauge>& gauges
     for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
       const double rest_length = own.reals[rest_length_index(k)];
       gauge.total_length += rest_length;
-      if (!rigid || cut || !spans_[at(k)].active) continue;
+      if (cut || !spans_[at(k)].active) continue;
       const double stretch = ends_[at(k)][1] - rest_length;
-      gauge.excess += std::max(stretch, 0.0);
-      gauge.max_stretch = std::max(gauge.max_stretch, stretch / std::max(rest_length, shortest));
+      if (rigid) gauge.excess += std::max(stretch, 0.0);
+      double& largest = rigid ? gauge.max_stretch : gauge.max_strain;
+      largest = std::max(largest, stretch / std::max(rest_length, shortest));
     }
     for (int i = cable.first_link; i < cable.first_link + cable.link_count; ++i) {
       gauge.total_length += own.reals[stored_length_index(i)];

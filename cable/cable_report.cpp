@@ -152,10 +152,10 @@ void CableSystem::measure(const CableView& view, const CompiledCable& cable, int
   constexpr double shortest = 1e-6;
   const auto add_span = [&](const SpanReport& span) {
     report.total_length += span.rest_length;
-    if (rigid && !report.cut) {
-      const double from = std::max(span.rest_length, shortest * cable.start_length);
-      report.max_stretch = std::max(report.max_stretch, (span.length - span.rest_length) / from);
-    }
+    if (report.cut) return;
+    const double from = std::max(span.rest_length, shortest * cable.start_length);
+    double& largest = rigid ? report.max_stretch : report.max_strain;
+    largest = std::max(largest, (span.length - span.rest_length) / from);
   };
   const auto index = static_cast<int>(&cable - cables_.data());
   const CableControl* set = view.now.start.controls.cables.find(index);
@@ -252,7 +252,7 @@ std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State&
 }
 
 CableGauge CableReport::gauge() const {
-  CableGauge gauge{total_length, length_error, max_stretch, 0.0};
+  CableGauge gauge{total_length, length_error, max_stretch, max_strain, 0.0};
   // Only rigid cables report a stretch.
   if (!(max_stretch > 0.0) || cut) return gauge;
   const auto add = [&](const SpanReport& span) {

@@ -92,6 +92,7 @@ struct CableGauge {
   double total_length = 0.0;  ///< as CableReport::total_length [m]
   double length_error = 0.0;  ///< as CableReport::length_error
   double max_stretch = 0.0;   ///< as CableReport::max_stretch
+  double max_strain = 0.0;    ///< as CableReport::max_strain
   /// How much longer than allowed the spans of a rigid cable are, all together [m]. What is left of
   /// one that is cut hangs free.
   double excess = 0.0;
@@ -119,6 +120,8 @@ struct CableReport {
   /// Largest (length - rest length) / rest length of a rigid span; of one shorter than 1e-6 of the
   /// cable over that.
   double max_stretch = 0.0;
+  /// The same of an elastic cable, whose spans may be longer than their rest lengths; 0 if none is.
+  double max_strain = 0.0;
 
   /// The part of it that a gauge has.
   [[nodiscard]] CableGauge gauge() const;

@@ -314,10 +314,12 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
   if (!changing_links_.empty()) {
     known_.forget();
     if (has_layers_) refresh_ends(next, links_, spans_);
-    change_ends(substep, next);
+    // A pose on the way to a rest is none that the machine is ever in: nothing comes off there, no
+    // end is used up, nothing breaks (statics/equilibrium.cpp).
+    if (!substep.at_rest) change_ends(substep, next);
   }
   if (course_changes_) {
-    cut(substep, next);
+    if (!substep.at_rest) cut(substep, next);
     leave_and_touch(substep, next);
   }
   known_.forget();

@@ -52,6 +52,10 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] Placed place(const BodySet& bodies, const State& start, const State& end,
                              const FeatureState& own, bool keeps_tension);
 
+  /// Cuts a cable between two substeps, in the span that pulled most in the last one, and tells of
+  /// it as an event. False, and nothing has changed, if it is cut already or no span has pulled.
+  bool part(int cable, const BodySet& bodies, double time, FeatureState& own);
+
   /// Measures of each cable at the end of the last substep, whose part of the state is `own`; false
   /// if it does not know, because the course of one has changed there.
   bool gauge(const FeatureState& own, std::vector<CableGauge>& gauges) const;
@@ -436,6 +440,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   bool split(const Substep& substep, const CompiledCable& cable, int span, int link,
              FeatureState& next);
   void record(const Substep& substep, const CompiledCable& cable, int link, CableEvent::Kind kind);
+  void record(const BodySet& bodies, double time, const CompiledCable& cable, int link,
+              CableEvent::Kind kind);
   void remember_sides(const Substep& substep, const CompiledCable& cable);
   // Drives that need more cable than there is: cable/cable_drives.cpp.
   using Pull = cable_parts::Pull;
@@ -479,6 +485,10 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] std::vector<LinkWarning> link_warnings(const std::vector<Stall>& of_links) const;
   // Cutting: cable/cable_cut.cpp.
   void cut(const Substep& substep, FeatureState& next);
+  /// The active span that pulled most; -1: there is none.
+  [[nodiscard]] int strongest_span(const CompiledCable& cable, const FeatureState& own) const;
+  void part_at(const CompiledCable& cable, int span, const BodySet& bodies, double time,
+               FeatureState& own);
   void feed(const FeatureState& state, double h, int span);
   void turn_massless_wheel(Substep& substep, int link, double length) const;
   void stop_wheel(Substep& substep, int wheel) const;

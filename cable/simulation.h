@@ -90,6 +90,9 @@ struct Simulation {
   /// Mean tension over a substep at which the cable breaks [N], > 0.
   [[nodiscard]] Errors set_breaking_tension(int cable, double tension);
   [[nodiscard]] Errors clear_breaking_tension(int cable);
+  /// Parts the cable before the next substep; one that pulls nothing, or of which nothing is known
+  /// yet (time 0), as soon as it pulls. There is no way back.
+  [[nodiscard]] Errors cut_cable(int cable);
   /// Capstan coefficient on wrappable bodies, > 0; of a cable that has one above 0.
   [[nodiscard]] Errors set_wrap_friction(int cable, double friction);
   [[nodiscard]] Errors clear_wrap_friction(int cable);

@@ -76,6 +76,15 @@ Errors Simulation::clear_breaking_tension(int cable) {
   return change_cable(*this, cable, [](CableControl& set) { set.breaking_tension = not_set; });
 }
 
+Errors Simulation::cut_cable(int cable) {
+  constexpr double no_tension = 1e-300;
+  if (Errors errors = set_breaking_tension(cable, no_tension); !errors.empty()) return errors;
+  State state = world.state();
+  auto* system = static_cast<CableSystem*>(world.features().back().get());
+  if (!system->part(cable, world.bodies(), state.time, state.features.back())) return {};
+  return world.restore(state);
+}
+
 Errors Simulation::set_wrap_friction(int cable, double friction) {
   if (!has_cable(*this, cable)) return refuse(cable, "wrap_friction", cable_fault(*this, cable));
   std::string fault = cables->wrap_friction_fault(cable, friction);

@@ -54,8 +54,9 @@ struct Substep {
   /// Set by a solver that gives up: what it found is no solution, and the stages end here.
   bool failed = false;
   Resort resort = Resort::anything;
-  /// No time passes while bodies are moved: it is asked where they would rest, and dampers have no
-  /// part in that.
+  /// No time passes while bodies are moved: it is asked where they would rest. Dampers have no part
+  /// in that, and no pose on the way is one of the machine: cables leave no wheel, break and run out
+  /// in none of them.
   bool at_rest = false;
   /// Solvers ask one feature after another, and what others will answer to it is not known yet: it
   /// must not decide what it cannot take back.

@@ -5,9 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "cable/cable_system.h"
 #include "engine/body_set.h"
-#include "engine/joint_report.h"
 #include "measure/error_growth.h"
 #include "measure/run_error.h"
 #include "scenes/control/scene_supervisor.h"
@@ -18,13 +16,6 @@ namespace {
 constexpr double trusted_level = 1e-3;
 constexpr int most_substeps = 100'000;
 
-std::size_t touching_points(const World& world) {
-  const std::vector<ContactReport> contacts = world.contacts();
-  return static_cast<std::size_t>(
-      std::count_if(contacts.begin(), contacts.end(),
-                    [](const ContactReport& contact) { return contact.normal_force > 0.0; }));
-}
-
 /// The larger of the sizes of what the bodies and what the spans' ends fill [m].
 double size_of(const Simulation& simulation) {
   Eigen::AlignedBox3d box;
@@ -33,6 +24,13 @@ double size_of(const Simulation& simulation) {
   }
   const double bodies = simulation.world.bodies().scale();
   return box.isEmpty() ? bodies : std::max(bodies, box.diagonal().norm());
+}
+
+/// An order says nothing where more may have moved than the differences show.
+StepDifference with_unseen(StepDifference difference, double unseen) {
+  difference.unseen = unseen;
+  if (difference.order && unseen > difference.error()) difference.order.reset();
+  return difference;
 }
 
 double scale_of_turn(const TrackedBody& body, double scale) {
@@ -68,7 +66,7 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, std::vector<Simulation> finer
       finer_(std::move(finer)),
       bodies_(tracked_bodies(finer_.front().world.bodies())),
       start_(frame_of(finer_.front(), bodies_)),
-      touching_(touching_points(finer_.front().world)),
+      watch_(finer_.back(), bodies_),
       end_(finer_.front().world.state().time) {
   const std::vector<CableReport> reports = finer_.front().cable_reports();
   for (std::size_t i = 0; i < reports.size(); ++i) {
@@ -81,23 +79,51 @@ ErrorEstimator::ErrorEstimator(const Scene& scene, std::vector<Simulation> finer
   turns_.resize(bodies_.size());
   tensions_.resize(span_names_.size());
   square_tensions_.resize(span_names_.size());
-  first_events_ = events_of(finer_.front());
+  unseen_positions_.resize(bodies_.size());
+  unseen_turns_.resize(bodies_.size());
+}
+
+bool ErrorEstimator::follow(Simulation& finer, bool is_finest, const StopRequest& stop) {
+  StepReport report = finer.world.step(stop, [&] {
+    if (is_finest) watch_.observe(finer);
+    if (finer.supervisor != nullptr) finer.supervisor->supervise(finer);
+  });
+  if (is_finest && report.ok()) watch_.observe(finer);
+  if (report.ok()) return true;
+  stopped_ = report.stopped;
+  divergence_ = std::move(report.divergence);
+  return false;
 }
 
 void ErrorEstimator::observe(const Simulation& run, const StopRequest& stop) {
   if (divergence_ || stopped_) return;
   for (Simulation& finer : finer_) {
-    StepReport report = finer.step(stop);
-    if (report.ok()) continue;
-    stopped_ = report.stopped;
-    divergence_ = std::move(report.divergence);
-    return;
+    if (!follow(finer, &finer == &finer_.back(), stop)) return;
   }
   const Frame frame = frame_of(run, bodies_);
   end_ = run.world.state().time;
   ++frames_;
   compare(frame, frame_of(finer_[0], bodies_), frame_of(finer_[1], bodies_), end_);
-  look_for_changes(run, frame);
+  if (watch_.changes().sudden > 0) look_for_unseen();
+}
+
+void ErrorEstimator::look_for_unseen() {
+  // A delay by dt, of which the finest run shows none that is less than its substep, moves what
+  // comes after it by dt times its speed.
+  const double delay = 0.25 * step_.dt / step_.substeps;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const TrackedBody& body = bodies_[i];
+    const BodyState& state =
+        finer_.back().world.state().bodies[static_cast<std::size_t>(body.id.index)];
+    const double moved = delay * state.velocity.norm();
+    const double turned = delay * state.angular_velocity.norm();
+    unseen_positions_[i] = std::max(unseen_positions_[i], moved);
+    unseen_turns_[i] = std::max(unseen_turns_[i], turned);
+    sum += moved * moved + body.reach * body.reach * turned * turned;
+  }
+  const auto count = static_cast<double>(std::max<std::size_t>(bodies_.size(), 1));
+  unseen_ = std::max(unseen_, std::sqrt(sum / count));
 }
 
 void ErrorEstimator::compare(const Frame& run, const Frame& finer, const Frame& finest,
@@ -142,35 +168,14 @@ void ErrorEstimator::compare_tensions(const std::array<const Frame*, 3>& frames,
   tension_.end_frame(time);
 }
 
-std::size_t ErrorEstimator::events_of(const Simulation& run) const {
-  std::size_t events = run.cables == nullptr ? 0 : run.cables->events().size();
-  if (run.world.model().joints.empty()) return events;
-  for (const JointReport& joint : joint_reports(run.world)) {
-    if (joint.broken_at) ++events;
-  }
-  return events;
-}
-
-void ErrorEstimator::look_for_changes(const Simulation& run, const Frame& frame) {
-  changes_.events = events_of(run) - first_events_;
-  const std::size_t touching = touching_points(run.world);
-  if (touching != touching_) ++changes_.contacts;
-  touching_ = touching;
-  taut_.resize(frame.tensions.size());
-  for (std::size_t k = 0; k < frame.tensions.size(); ++k) {
-    const bool taut = frame.tensions[k] > 0.0;
-    // Before the first step nobody knows.
-    if (!first_ && taut != taut_[k]) ++changes_.slack;
-    taut_[k] = taut;
-  }
-  first_ = false;
-}
-
 StepErrorKind ErrorEstimator::kind_of(const StepDifference& difference,
                                       const std::optional<double>& growth) const {
-  if (!(difference.relative() > negligible_difference)) return StepErrorKind::rounding;
+  const bool hidden = difference.unseen > negligible_difference * difference.scale;
+  if (difference.negligible() && !hidden) return StepErrorKind::rounding;
   if (difference.order) return StepErrorKind::regular;
-  if (changes_.count() > 0) return StepErrorKind::events;
+  if (hidden || watch_.changes().count() + watch_.changes().sudden > 0) {
+    return StepErrorKind::events;
+  }
   if (growth) return StepErrorKind::chaos;
   if (step_.solver == SolverKind::gauss_seidel) return StepErrorKind::sweeps;
   return StepErrorKind::coarse;
@@ -201,14 +206,17 @@ ErrorEstimate ErrorEstimator::estimate() const {
       .substeps = {step_.substeps, 2 * step_.substeps, 4 * step_.substeps},
       .end = end_,
       .motion = motion_,
-      .changes = changes_,
+      .changes = watch_.changes(),
       .divergence = divergence_,
   };
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    estimate.bodies.push_back({bodies_[i].name, positions_[i].result(scale_),
-                               turns_[i].result(scale_of_turn(bodies_[i], scale_))});
+    const double turn_scale = scale_of_turn(bodies_[i], scale_);
+    estimate.bodies.push_back({bodies_[i].name,
+                               with_unseen(positions_[i].result(scale_), unseen_positions_[i]),
+                               with_unseen(turns_[i].result(turn_scale), unseen_turns_[i])});
   }
-  estimate.position = position_.result(scale_, std::max<std::size_t>(bodies_.size(), 1));
+  estimate.position =
+      with_unseen(position_.result(scale_, std::max<std::size_t>(bodies_.size(), 1)), unseen_);
   estimate_tensions(estimate);
   const ErrorGrowth growth = error_growth(course_, step_.dt, trusted_level);
   estimate.growth = growth.rate;

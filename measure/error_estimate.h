@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "measure/event_watch.h"
 #include "measure/step_difference.h"
 #include "measure/trajectory.h"
 
@@ -30,7 +31,7 @@ enum class StepErrorKind {
   rounding,
   regular,  ///< the step: they have an order
   /// No order, and things happened at moments that depend on the step: contacts, slack, links left,
-  /// breaks
+  /// breaks; or sudden ones may have moved more than the differences show (StepDifference::unseen)
   events,
   chaos,   ///< no order, no events, and differences that grow exponentially
   sweeps,  ///< no order, and Gauss-Seidel sweeps, of which half the step has twice as many
@@ -56,16 +57,6 @@ struct SpanDifference {
   StepDifference tension;
 };
 
-/// Things that happen at a moment, which a step finds to within itself.
-struct RunChanges {
-  std::size_t events = 0;  ///< of cables' links, cuts, broken joints
-  std::size_t slack = 0;   ///< spans that went slack or taut, between two frames
-  std::size_t contacts =
-      0;  ///< the number of points at which bodies touch changed, between two frames
-
-  [[nodiscard]] std::size_t count() const { return events + slack + contacts; }
-};
-
 struct ErrorEstimate {
   std::array<int, 3> substeps{};  ///< of the run, and of those beside it
   double end = 0.0;               ///< of what was compared [s]
@@ -79,7 +70,7 @@ struct ErrorEstimate {
   StepErrorKind tension_kind = StepErrorKind::rounding;
   double motion =
       0.0;  ///< how far the bodies of the run get from where they started, the same measure [m]
-  RunChanges changes;  ///< of the run
+  RunChanges changes;  ///< of the run with the shortest substep, looked at after each of them
   std::optional<double>
       growth{};  ///< of differences of positions, if they grow exponentially [1/s]
   /// If kinds are neither `rounding` nor `regular`: until when differences of positions stay below
@@ -107,9 +98,11 @@ class ErrorEstimator {
   ErrorEstimator(const Scene& scene, std::vector<Simulation> finer);
   void compare(const Frame& run, const Frame& finer, const Frame& finest, double time);
   void compare_tensions(const std::array<const Frame*, 3>& frames, double time);
-  void look_for_changes(const Simulation& run, const Frame& frame);
+  /// Takes a finer run as far as the run; false if that has ended the comparison.
+  bool follow(Simulation& finer, bool is_finest, const StopRequest& stop);
+  /// How far what came after sudden events has moved within the moment that no run can tell them to.
+  void look_for_unseen();
   void estimate_tensions(ErrorEstimate& estimate) const;
-  [[nodiscard]] std::size_t events_of(const Simulation& run) const;
   [[nodiscard]] StepErrorKind kind_of(const StepDifference& difference,
                                       const std::optional<double>& growth) const;
 
@@ -120,14 +113,12 @@ class ErrorEstimator {
   std::vector<std::string> span_names_;
   std::vector<std::size_t> cable_of_span_;
   Frame start_;
-  std::vector<bool> taut_;
-  std::size_t touching_ = 0;
-  std::size_t first_events_ = 0;
-  bool first_ = true;
+  EventWatch watch_;                                     // of the finest run
+  double unseen_ = 0.0;                                  // of all bodies, as StepDifference::unseen
+  std::vector<double> unseen_positions_, unseen_turns_;  // of each body
   double end_ = 0.0;
   double motion_ = 0.0;
   std::int64_t frames_ = 0;
-  RunChanges changes_;
   StepDifferenceSum position_;
   StepDifferenceSum tension_;
   std::vector<StepDifferenceSum> positions_, turns_, tensions_;

@@ -10,44 +10,77 @@ LoadCycle cycle(double from, double to, double count) {
   return {std::abs(to - from), 0.5 * (from + to), count};
 }
 
-}  // namespace
-
-void Rainflow::close(std::vector<double>& points, std::vector<LoadCycle>& cycles) {
-  // With the last three points, range X between the last two and Y between the two before: Y is
-  // closed once X is no smaller. If it has the first point of all, it is a half cycle.
-  while (points.size() >= 3) {
+/// A range between two turning points that is no larger than those before and after it is a whole
+/// cycle.
+void close_whole(std::vector<double>& points, std::vector<LoadCycle>& cycles) {
+  while (points.size() >= 4) {
     const std::size_t n = points.size();
     const double last = std::abs(points[n - 1] - points[n - 2]);
-    const double before = std::abs(points[n - 2] - points[n - 3]);
-    if (last < before) break;
-    if (n == 3) {
-      cycles.push_back(cycle(points[0], points[1], 0.5));
-      points.erase(points.begin());
-    } else {
-      cycles.push_back(cycle(points[n - 3], points[n - 2], 1.0));
-      points.erase(points.end() - 3, points.end() - 1);
-    }
+    const double inner = std::abs(points[n - 2] - points[n - 3]);
+    const double first = std::abs(points[n - 3] - points[n - 4]);
+    if (inner > last || inner > first) break;
+    cycles.push_back(cycle(points[n - 3], points[n - 2], 1.0));
+    points.erase(points.end() - 3, points.end() - 1);
   }
 }
 
-void Rainflow::add(double value) {
-  const std::size_t n = points_.size();
-  if (n > 0 && value == points_.back()) return;
-  if (n >= 2 && (value > points_[n - 1]) == (points_[n - 1] > points_[n - 2])) {
-    points_.back() = value;  // it goes on the same way
-    return;
+/// Adds a value to turning points: as a new one, or as the end of a way that goes on.
+void turn_to(double value, std::vector<double>& points) {
+  const std::size_t n = points.size();
+  if (n > 0 && value == points.back()) return;
+  if (n >= 2 && (value > points[n - 1]) == (points[n - 1] > points[n - 2])) {
+    points.back() = value;
+  } else {
+    points.push_back(value);
   }
-  // The last point was a turning point.
-  close(points_, cycles_);
-  points_.push_back(value);
+}
+
+}  // namespace
+
+void Rainflow::add(double value) {
+  const std::size_t before = points_.size();
+  if (before > 0 && value == points_.back()) return;
+  const bool goes_on =
+      before >= 2 && (value > points_[before - 1]) == (points_[before - 1] > points_[before - 2]);
+  // Otherwise the last point was a turning point.
+  if (!goes_on) close_whole(points_, cycles_);
+  turn_to(value, points_);
 }
 
 std::vector<LoadCycle> Rainflow::cycles() const {
   std::vector<LoadCycle> result = cycles_;
-  std::vector<double> points = points_;
-  close(points, result);
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    result.push_back(cycle(points[i - 1], points[i], 0.5));
+  std::vector<double> rest = points_;
+  close_whole(rest, result);
+  // Of what is left ranges grow, then shrink. One with the first point of all is a half cycle once
+  // the next is no smaller, and so are all that are left.
+  for (std::size_t i = 1; i < rest.size(); ++i) {
+    result.push_back(cycle(rest[i - 1], rest[i], 0.5));
+  }
+  return result;
+}
+
+std::vector<LoadCycle> Rainflow::closed_cycles() const {
+  std::vector<LoadCycle> result = cycles_;
+  std::vector<double> rest = points_;
+  close_whole(rest, result);
+  if (rest.size() < 2) return result;
+  // From its largest value on and round to it again, no range is larger than the first one: every
+  // one that the next is no smaller than is whole.
+  const auto largest = std::max_element(rest.begin(), rest.end());
+  std::vector<double> ring;
+  for (auto i = largest; i != rest.end(); ++i) turn_to(*i, ring);
+  for (auto i = rest.begin(); i != largest + 1; ++i) turn_to(*i, ring);
+  std::vector<double> points;
+  for (const double value : ring) {
+    points.push_back(value);
+    while (points.size() >= 3) {
+      const std::size_t n = points.size();
+      const double last = std::abs(points[n - 1] - points[n - 2]);
+      const double inner = std::abs(points[n - 2] - points[n - 3]);
+      if (last < inner) break;
+      result.push_back(cycle(points[n - 3], points[n - 2], 1.0));
+      points.erase(points.end() - 3, points.end() - 1);
+    }
   }
   return result;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Cycles of a load over time, by the rainflow method (ASTM E1049-85, 5.4.4).
+// Cycles of a load over time, by the rainflow method (ASTM E1049-85, 5.4.4 and 5.4.5).
 
 #include <vector>
 
@@ -15,15 +15,15 @@ struct LoadCycle {
 class Rainflow {
  public:
   void add(double value);
-  /// The cycles so far; what has not closed counts as halves.
+  /// The cycles so far; what has not closed counts as halves (5.4.4).
   [[nodiscard]] std::vector<LoadCycle> cycles() const;
+  /// The cycles of a history that repeats itself (5.4.5): all are whole, loading and unloading are
+  /// one. What has not come back when it ends comes back when it begins again.
+  [[nodiscard]] std::vector<LoadCycle> closed_cycles() const;
 
  private:
-  /// Counts what the last turning points close.
-  static void close(std::vector<double>& points, std::vector<LoadCycle>& cycles);
-
-  std::vector<double> points_;  ///< turning points; the last one may still move on
-  std::vector<LoadCycle> cycles_;
+  std::vector<double> points_;     ///< turning points; the last one may still move on
+  std::vector<LoadCycle> cycles_;  ///< whole ones
 };
 
 /// Cycles in bins of equal widths from 0 to the largest range: their counts.

@@ -10,11 +10,18 @@ namespace {
 
 /// The cable's way as places in order: links that it touches, and spans, each with where it ends.
 struct Place {
-  int number = 0;    ///< 2 x link, or that + 1 of the span behind it
-  double end = 0.0;  ///< [m]
+  int number = 0;      ///< 2 x link, or that + 1 of the span behind it
+  double start = 0.0;  ///< [m]
+  double end = 0.0;    ///< [m]
   double tension = 0.0;
   double diameter = 0.0;
+  Vector3 sense = Vector3::Zero();  ///< in which it bends
 };
+
+/// Beyond the edge of a place, as a share of its length, a section's middle is elsewhere.
+constexpr double edge = 0.1;
+/// Cycles below this share of the largest tension are not told.
+constexpr double least_cycle = 1e-3;
 
 std::vector<Place> places_of(const CableReport& report) {
   std::vector<Place> places;
@@ -26,32 +33,52 @@ std::vector<Place> places_of(const CableReport& report) {
     const double after = has_span ? report.spans[k].tension : before;
     if (!link.touched) continue;
     const auto number = static_cast<int>(2 * k);
-    length += link.stored_length;
-    places.push_back({number, length,
-                      k == 0     ? after
-                      : has_span ? 0.5 * (before + after)
-                                 : before,
-                      link.winding != 0 ? 2.0 * link.radius : 0.0});
+    const double tension = k == 0 ? after : has_span ? 0.5 * (before + after) : before;
+    Place on_link{
+        .number = number, .start = length, .end = length + link.stored_length, .tension = tension};
+    if (link.winding != 0) {
+      on_link.diameter = 2.0 * link.radius;
+      on_link.sense = link.winding * link.normal;
+    }
+    length = on_link.end;
+    places.push_back(on_link);
     if (has_span) {
-      length += report.spans[k].rest_length;
-      places.push_back({number + 1, length, after, 0.0});
+      const double end = length + report.spans[k].rest_length;
+      places.push_back({.number = number + 1, .start = length, .end = end, .tension = after});
+      length = end;
       before = after;
     }
   }
   return places;
 }
 
-void count_bend(std::vector<SectionBends>& bends, int link, double diameter, double tension) {
+void count_bend(std::vector<SectionBends>& bends, const Place& on, Vector3& sense) {
+  const int link = on.number / 2;
   auto found = std::find_if(bends.begin(), bends.end(),
                             [&](const SectionBends& one) { return one.link == link; });
   if (found == bends.end()) {
-    bends.push_back({link, 0, 0.0, 0.0, 0.0});
+    bends.push_back({.link = link});
     found = bends.end() - 1;
   }
   ++found->bends;
-  found->diameter = diameter;
-  found->most_tension = std::max(found->most_tension, tension);
-  found->mean_tension += (tension - found->mean_tension) / found->bends;
+  if (on.sense.dot(sense) < 0.0) ++found->reverse;
+  sense = on.sense;
+  found->diameter = on.diameter;
+  found->most_tension = std::max(found->most_tension, on.tension);
+  found->mean_tension += (on.tension - found->mean_tension) / found->bends;
+}
+
+/// Where the middle of a section is that was at `before` (-1: nobody knows): still there as long as
+/// it is not clearly beyond an edge.
+const Place& place_of(const std::vector<Place>& places, double middle, int before, double slop) {
+  for (const Place& place : places) {
+    if (place.number == before && middle >= place.start - slop && middle <= place.end + slop) {
+      return place;
+    }
+  }
+  const auto here = std::find_if(places.begin(), places.end(),
+                                 [&](const Place& place) { return middle <= place.end; });
+  return here == places.end() ? places.back() : *here;
 }
 
 }  // namespace
@@ -88,20 +115,24 @@ void RopeHistory::observe(const Simulation& simulation) {
 
 void RopeHistory::follow(const CableReport& report, bool tensions_known, Cable& cable) {
   const std::vector<Place> places = places_of(report);
+  const double slop = edge * cable.section_length;
   for (Section& section : cable.sections) {
-    const auto here = std::find_if(places.begin(), places.end(),
-                                   [&](const Place& p) { return section.middle <= p.end; });
-    const Place& place = here == places.end() ? places.back() : *here;
-    if (section.place >= 0 && place.number != section.place) {
+    const Place& place = place_of(places, section.middle, section.place, slop);
+    const auto look = [&](const Place& passed) {
+      // What it was on it has left; what lies between it has passed over.
       const int low = std::min(section.place, place.number);
       const int high = std::max(section.place, place.number);
-      for (const Place& passed : places) {
-        // What it was on it has left; what lies between it has passed over.
-        const bool between = passed.number > low && passed.number < high;
-        const bool wheel = passed.number % 2 == 0 && passed.diameter > 0.0;
-        if (!wheel || !(between || passed.number == place.number)) continue;
-        count_bend(section.bends, passed.number / 2, passed.diameter, passed.tension);
-      }
+      const bool between = passed.number > low && passed.number < high;
+      const bool wheel = passed.number % 2 == 0 && passed.diameter > 0.0;
+      if (!wheel || !(between || passed.number == place.number)) return;
+      count_bend(section.bends, passed, section.sense);
+    };
+    if (section.place < 0) {
+      section.sense = place.sense;
+    } else if (section.place < place.number) {
+      std::for_each(places.begin(), places.end(), look);
+    } else if (section.place > place.number) {
+      std::for_each(places.rbegin(), places.rend(), look);
     }
     section.place = place.number;
     if (!tensions_known) continue;
@@ -164,7 +195,10 @@ std::vector<CableHistory> RopeHistory::history() const {
       history.to = static_cast<double>(i + 1) * cable.section_length;
       history.bends = section.bends;
       history.most_tension = section.most_tension;
-      history.cycles = section.tension.cycles();
+      history.cycles = section.tension.closed_cycles();
+      std::erase_if(history.cycles, [&](const LoadCycle& one) {
+        return one.range < least_cycle * section.most_tension;
+      });
       told.sections.push_back(std::move(history));
     }
     result.push_back(std::move(told));

@@ -4,8 +4,10 @@
 // A cable is divided into sections of equal unstretched lengths, which move along it as it runs:
 // the place of a section's middle follows from what is stored on links and what lies between them,
 // counted from the cable's first end. One that comes onto a wheel, or passes over it between two
-// steps, is bent there once. It says what has happened and claims no life of a rope by any
-// standard.
+// steps, is bent there once, with what follows when it comes off again: straight, bent, straight. Its
+// middle has come to another place when it is there by a tenth of the section's length: where it
+// lies at an edge, rounding and vibrations that are smaller than that move nothing. It says what has
+// happened and claims no life of a rope by any standard.
 
 #include <string>
 #include <vector>
@@ -17,8 +19,10 @@ namespace sheave::measure {
 
 /// What one sheave has done to one section.
 struct SectionBends {
-  int link = 0;               ///< of the cable's list
-  int bends = 0;              ///< how often it has come onto the wheel
+  int link = 0;   ///< of the cable's list
+  int bends = 0;  ///< how often it has come onto the wheel
+  /// Of these, how often it had last been bent in the opposite sense, on this wheel or on another.
+  int reverse = 0;
   double diameter = 0.0;      ///< of the wheel, to the rope's middle, when it last did [m]
   double most_tension = 0.0;  ///< at a bend [N]
   double mean_tension = 0.0;  ///< of all bends [N]
@@ -28,8 +32,10 @@ struct SectionHistory {
   double from = 0.0;  ///< unstretched, from the cable's first end [m]
   double to = 0.0;    ///< [m]
   std::vector<SectionBends> bends;
-  double most_tension = 0.0;      ///< [N]
-  std::vector<LoadCycle> cycles;  ///< of its tension, by rainflow counting
+  double most_tension = 0.0;  ///< [N]
+  /// Of its tension, by rainflow counting of a run that repeats: loading and unloading are one cycle
+  /// (Rainflow::closed_cycles()). Those of less than a thousandth of `most_tension` are not told.
+  std::vector<LoadCycle> cycles;
 };
 
 struct SpanSlack {
@@ -67,6 +73,8 @@ class RopeHistory {
   struct Section {
     double middle = 0.0;  ///< [m]
     int place = -1;       ///< 2 k: on link k; 2 k + 1: on the span behind it
+    /// About which axis it was bent last, by the right-hand rule along the cable; 0: not yet.
+    Vector3 sense = Vector3::Zero();
     std::vector<SectionBends> bends;
     double most_tension = 0.0;
     Rainflow tension;

@@ -114,20 +114,17 @@ VectorX Configuration::loads() {
 }
 
 VectorX Configuration::by_drive(int body) {
-  const BodyProperties& rotor = substep_.bodies[body];
-  MovingBody& moving = substep_.moving[at(body)];
-  constexpr double angle = 1e-3;
-  const auto values = [&](double turn) {
-    moving.turn = turn * rotor.axis;
-    const ConfigurationRows there = rows();
-    VectorX result(static_cast<Eigen::Index>(there.unknowns.size()));
-    for (std::size_t g = 0; g < there.unknowns.size(); ++g) {
-      result[static_cast<Eigen::Index>(g)] = there.unknowns[g].value;
+  const ConfigurationRows here = rows();
+  const Vector3& axis = substep_.bodies[body].axis;
+  VectorX change = VectorX::Zero(static_cast<Eigen::Index>(here.unknowns.size()));
+  for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
+    for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
+      const Row& row = rows_[at(i)];
+      for (const RowTerm& term : row.active_terms()) {
+        if (term.body == body) change[unknown_at_[f][at(row.index)]] += axis.dot(term.angular);
+      }
     }
-    return result;
-  };
-  const VectorX change = (values(angle) - values(-angle)) / (2.0 * angle);
-  moving.turn.setZero();
+  }
   return change;
 }
 
@@ -206,10 +203,9 @@ ConfigurationRows Configuration::rows() {
   return result;
 }
 
-void Configuration::forces_at(const VectorX& unknowns, VectorX& sum, VectorX& yields) {
+VectorX Configuration::forces_at(const VectorX& unknowns) {
   linearise();
-  sum = loads();
-  yields = VectorX::Zero(unknowns.size());
+  VectorX sum = loads();
   std::array<double, 6> parts{};
   for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
     for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
@@ -218,7 +214,6 @@ void Configuration::forces_at(const VectorX& unknowns, VectorX& sum, VectorX& yi
       const Eigen::Index unknown = unknown_at_[f][at(row.index)];
       if (unknown < 0 || unknowns[unknown] == 0.0) continue;
       const double force = row.weight * unknowns[unknown];
-      if (!is_damper(f, row)) yields[unknown] += row.compliance * force;
       for (const RowTerm& term : row.active_terms()) {
         const BodyFreedom& freedom = substep_.bodies.coordinates()[term.body];
         project(freedom, substep_.moving[at(term.body)], term.linear, term.angular, parts.data());
@@ -228,6 +223,7 @@ void Configuration::forces_at(const VectorX& unknowns, VectorX& sum, VectorX& yi
       }
     }
   }
+  return sum;
 }
 
 RowForces Configuration::no_forces() const {
@@ -294,7 +290,8 @@ std::vector<Vector3> Configuration::forces_on_bodies(const RowForces& forces, st
   return sums;
 }
 
-State Configuration::finish(const RowForces& forces) {
+State Configuration::finish(const RowForces& forces, bool lets_go) {
+  substep_.at_rest = !lets_go;
   const auto features = simulation_.world.features();
   for (std::size_t f = 0; f < features.size(); ++f) {
     const std::span<double> multipliers = features[f]->multipliers();
@@ -377,6 +374,17 @@ Configuration::Reach Configuration::reach(const VectorX& displacement) const {
     largest = std::max(largest, turn);
   }
   return reach;
+}
+
+double Configuration::moved(int body, double arm, const VectorX& displacement) const {
+  if (body >= substep_.bodies.count()) return 0.0;
+  const int mount = substep_.bodies[body].mount;
+  const int carrier = mount >= 0 ? mount : body;
+  const BodyFreedom& freedom = substep_.bodies.coordinates()[carrier];
+  if (size_of(freedom.kind) == 0 || freedom.kind == Freedom::angle) return 0.0;
+  const double* motion = displacement.data() + freedom.first - 1;
+  return linear_motion(freedom, motion).norm() +
+         arm * angular_motion(freedom, substep_.moving[at(carrier)], motion).norm();
 }
 
 }  // namespace sheave

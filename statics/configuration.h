@@ -7,6 +7,12 @@
 //   loads + P^T l = 0           P: the gradients along which the unknown acts, rows times weights
 //   C + A l = 0                 where the row acts, with its compliance A
 //
+// and a displacement dq changes C + A l by J dq with l fixed, where J are the rows' own gradients:
+// of joints, contacts and cables with a constant compliance A does not change, and of a cable of a
+// material (cable/cable_material.cpp) the change of A is in J. There what a wheel gives a span is
+// taken to have the strain of that span. A machine that vibrates has seen to that after its first
+// swing there and back, for what comes off a wheel last in, first out, has come onto it from there.
+//
 // Rows are those that the solvers of the step ask features for, in a substep of no time: what has
 // been driven stays where it is, dampers do nothing, dry friction holds.
 
@@ -57,7 +63,10 @@ struct ForceUnknown {
 struct ConfigurationRows {
   VectorX loads;  ///< per degree of freedom [N or N m]
   std::vector<ForceUnknown> unknowns;
-  MatrixX gradients;      ///< J, dC/dq: unknowns x degrees of freedom
+  /// J = d(C + A l)/dq with l fixed, from where the pose is that of the state: unknowns x degrees of
+  /// freedom. (Of a cable of a material with `axial_stiffness` C and A both change with what a wheel
+  /// takes and gives; only their sum has the gradient that the forces act along.)
+  MatrixX gradients;
   MatrixX actions;        ///< P: the same with weights
   bool weighted = false;  ///< J and P differ: cable slides with friction
 };
@@ -73,9 +82,8 @@ class Configuration {
   void place(const VectorX& displacement);
   /// What acts there. `forces` tell which friction slides.
   [[nodiscard]] ConfigurationRows rows();
-  /// Loads and the forces `unknowns` of rows(), P^T l, at the place of now; with the values A l in
-  /// `yields`.
-  void forces_at(const VectorX& unknowns, VectorX& sum, VectorX& yields);
+  /// Loads and the forces `unknowns` of rows(), P^T l, at the place of now.
+  [[nodiscard]] VectorX forces_at(const VectorX& unknowns);
   /// The unknowns that row forces stand for, and back.
   [[nodiscard]] static VectorX unknowns_of(const ConfigurationRows& rows, const RowForces& forces);
   [[nodiscard]] RowForces forces_of(const ConfigurationRows& rows, const VectorX& unknowns) const;
@@ -86,15 +94,17 @@ class Configuration {
   /// What the rows of all features but `except` do to bodies, and to the world, which comes last
   /// [N].
   [[nodiscard]] std::vector<Vector3> forces_on_bodies(const RowForces& forces, std::size_t except);
-  /// The state of this pose with these forces, at rest.
-  [[nodiscard]] State finish(const RowForces& forces);
+  /// The state of this pose with these forces, at rest. A pose on the way of a search is none that
+  /// the machine is ever in: no cable leaves a wheel, breaks or is used up there, unless `lets_go`.
+  [[nodiscard]] State finish(const RowForces& forces, bool lets_go = false);
 
   [[nodiscard]] MatrixX mass() const;       ///< [kg, kg m2]
   [[nodiscard]] MatrixX body_drag() const;  ///< [N s/m, N m s]
   /// What a force [N] and a torque [N m] on a body (about its centre of mass) are along the degrees
   /// of freedom.
   [[nodiscard]] VectorX along(int body, const Vector3& force, const Vector3& torque) const;
-  /// Change of each unknown's C per turn of a prescribed rotor [m/rad].
+  /// Change of each unknown's C + A l per turn of a prescribed rotor, at the place of now, with the
+  /// unknowns l fixed [m/rad].
   [[nodiscard]] VectorX by_drive(int body);
   /// Gives the bodies of a state these velocities along the degrees of freedom.
   void set_velocities(const VectorX& rates, State& state) const;
@@ -105,6 +115,9 @@ class Configuration {
     double spin = 0.0;  ///< of rotors [rad]
   };
   [[nodiscard]] Reach reach(const VectorX& displacement) const;
+  /// How far a displacement moves what is `arm` [m] away from the centre of mass of a body, or of
+  /// that which it is mounted on, at most [m].
+  [[nodiscard]] double moved(int body, double arm, const VectorX& displacement) const;
 
  private:
   void linearise();

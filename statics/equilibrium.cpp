@@ -1,14 +1,18 @@
 #include "statics/equilibrium.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "cable/cable_system.h"
 #include "engine/body_set.h"
 #include "engine/field_check.h"
+#include "engine/index.h"
 #include "statics/newton_step.h"
 
 namespace sheave {
@@ -23,6 +27,8 @@ constexpr double largest_spin = 3.0;
 constexpr double acceptable = 1e-8;
 constexpr int patience = 6;
 constexpr int most_revisions = 20;
+/// Times that cables leave wheels where forces balance, until the search is given up.
+constexpr int most_let_go = 100;
 
 struct Residual {
   double force = 0.0;
@@ -45,15 +51,50 @@ class EquilibriumSearch {
 
   Equilibrium find() {
     Equilibrium result;
+    const std::size_t before = events().size();
+    for (const auto& feature : simulation_.world.features()) feature->mark_notes(NoteMark::step);
     for (int i = 1; i <= settings_.load_steps; ++i) {
       load_ = static_cast<double>(i) / settings_.load_steps;
       if (!settle(result)) break;
     }
     describe(result);
+    tell_events(before, result);
+    // What the search has passed through is no event of the machine.
+    for (const auto& feature : simulation_.world.features()) feature->return_to(NoteMark::step);
     return result;
   }
 
  private:
+  [[nodiscard]] std::vector<CableEvent> events() const {
+    return simulation_.cables == nullptr ? std::vector<CableEvent>{} : simulation_.cables->events();
+  }
+
+  void tell_events(std::size_t before, Equilibrium& result) const {
+    using Kind = CableEvent::Kind;
+    const auto undone = [](Kind kind) {
+      return kind == Kind::leave    ? Kind::touch
+             : kind == Kind::touch  ? Kind::leave
+             : kind == Kind::attach ? Kind::wind
+             : kind == Kind::wind   ? Kind::attach
+                                    : kind;
+    };
+    const std::vector<CableEvent> all = events();
+    for (std::size_t i = before; i < all.size(); ++i) {
+      const CableEvent& event = all[i];
+      if (undone(event.kind) == event.kind && event.kind != Kind::cut) continue;
+      const auto same = [&](const CableEvent& one) {
+        return one.cable == event.cable && one.link == event.link && one.body == event.body &&
+               one.kind == undone(event.kind) && one.kind != event.kind;
+      };
+      const auto found = std::find_if(result.events.begin(), result.events.end(), same);
+      if (found == result.events.end()) {
+        result.events.push_back(event);
+      } else {
+        result.events.erase(found);
+      }
+    }
+  }
+
   /// Newton's method with the loads of now.
   bool settle(Equilibrium& result) {
     double best = std::numeric_limits<double>::infinity();
@@ -67,20 +108,27 @@ class EquilibriumSearch {
       }
       result.force_error = residual_.force;
       result.length_error = residual_.length;
-      const bool rests = step_ <= settings_.tolerance;
-      if (rests && residual_.worst() <= settings_.tolerance) return result.converged = true;
+      const double left = residual_.worst() + step_;
       ++since_best;
-      if (residual_.worst() + step_ < 0.5 * best) {
-        best = residual_.worst() + step_;
+      if (left < 0.5 * best) {
+        best = left;
         since_best = 0;
       }
-      // Rounding is all that is left.
-      if (since_best >= patience && residual_.worst() <= acceptable && step_ <= acceptable) {
-        return result.converged = true;
-      }
+      const bool rests = step_ <= settings_.tolerance && residual_.worst() <= settings_.tolerance;
+      // Or rounding is all that is left.
+      const bool rounded =
+          since_best >= patience && residual_.worst() <= acceptable && step_ <= acceptable;
+      if (!rests && !rounded) continue;
+      if (!let_go()) return result.converged = true;
+      best = std::numeric_limits<double>::infinity();
+      since_best = 0;
+      if (++let_go_ > most_let_go) break;
     }
     result.converged = false;
-    result.message = unbalanced();
+    result.message = let_go_ > most_let_go
+                         ? "no equilibrium was found: a cable does not settle between lying on a "
+                           "wheel and leaving it"
+                         : unbalanced();
     return false;
   }
 
@@ -90,10 +138,11 @@ class EquilibriumSearch {
     ConfigurationRows rows = configuration.rows();
     if (forces_.empty()) forces_ = configuration.no_forces();
     mass_ = configuration.mass();
+    find_limits();
     NewtonStep step;
     for (int i = 0; i < most_revisions; ++i) {
       const VectorX before = Configuration::unknowns_of(rows, forces_);
-      const ForceTurn turn = turn_of_forces(configuration, before);
+      const ForceTurn turn = turn_of_forces(configuration, before, size_);
       step = limited_step(configuration, rows, turn, before);
       if (!step.finite) return false;
       line_search(configuration, rows, before, step);
@@ -111,6 +160,19 @@ class EquilibriumSearch {
     residual_ = residual_of(there, step.unknowns, step.acts);
     remember_unbalanced(there, step.unknowns);
     state_ = configuration.finish(forces_);
+    return true;
+  }
+
+  /// Where all forces balance cables leave what they only hold on to, ends that are used up are
+  /// attached, and what is overloaded breaks. Whether any has.
+  bool let_go() {
+    if (simulation_.cables == nullptr) return false;
+    const std::size_t before = simulation_.cables->events().size();
+    Configuration configuration(simulation_, state_, load_);
+    static_cast<void>(configuration.rows());
+    State next = configuration.finish(forces_, true);
+    if (simulation_.cables->events().size() == before) return false;
+    state_ = std::move(next);
     return true;
   }
 
@@ -135,11 +197,58 @@ class EquilibriumSearch {
     return step;
   }
 
+  /// What a step may move the ends of a span by that meets a wheel, so that it does not come round
+  /// to the wheel's other side: then nobody could tell by which way it has.
+  struct SpanLimit {
+    std::array<int, 2> bodies{};   // at its ends
+    std::array<double, 2> arms{};  // of the ends [m]
+    double most = 0.0;             // [m]
+  };
+
+  void find_limits() {
+    constexpr double share = 0.5;
+    limits_.clear();
+    if (simulation_.cables == nullptr) return;
+    const BodySet& bodies = simulation_.world.bodies();
+    const auto arm = [&](const LinkReport& link) {
+      if (link.body.is_world()) return 0.0;
+      const int mount = bodies[link.body.index].mount;
+      const int carrier = mount >= 0 ? mount : link.body.index;
+      return (link.center - state_.bodies[at(carrier)].position).norm() + link.radius;
+    };
+    for (const CableReport& whole :
+         simulation_.cables->report(bodies, state_, state_.features.back())) {
+      const CableReport cable = whole.with_wraps_in_place();
+      const std::size_t count = cable.links.size();
+      for (std::size_t k = 0; k < cable.spans.size(); ++k) {
+        if (!cable.links[k].touched) continue;
+        std::size_t end = k + 1;
+        while (end < k + count && !cable.links[end % count].touched) ++end;
+        const LinkReport& first = cable.links[k];
+        const LinkReport& second = cable.links[end % count];
+        const double radius = first.radius + second.radius;
+        if (!(radius > 0.0) || (end >= count && !cable.closed)) continue;
+        const auto index = [&](BodyId body) {
+          return body.is_world() ? bodies.count() : body.index;
+        };
+        limits_.push_back({{index(first.body), index(second.body)},
+                           {arm(first), arm(second)},
+                           share * (cable.spans[k].length + radius)});
+      }
+    }
+  }
+
   [[nodiscard]] static double part(double value, double most) { return value / most; }
   [[nodiscard]] double excess(const Configuration& configuration, const VectorX& motion) const {
     const Configuration::Reach reach = configuration.reach(motion);
-    return std::max({part(reach.translation, longest_step * size_), part(reach.turn, largest_turn),
-                     part(reach.spin, largest_spin)});
+    double most = std::max({part(reach.translation, longest_step * size_),
+                            part(reach.turn, largest_turn), part(reach.spin, largest_spin)});
+    for (const SpanLimit& limit : limits_) {
+      const double moved = configuration.moved(limit.bodies[0], limit.arms[0], motion) +
+                           configuration.moved(limit.bodies[1], limit.arms[1], motion);
+      most = std::max(most, part(moved, limit.most));
+    }
+    return most;
   }
 
   /// With which what falls freely moves by a hundred times the scene [1/s2]: the least that counts.
@@ -282,7 +391,7 @@ class EquilibriumSearch {
         acts[g] = std::abs(force) < (1.0 - acceptable) * bound ? 1 : 0;
       }
     }
-    const ForceTurn turn = turn_of_forces(configuration, unknowns);
+    const ForceTurn turn = turn_of_forces(configuration, unknowns, size_);
     const Tangent tangent = make_tangent(configuration, rows, turn, acts);
     result.freedoms = configuration.freedoms();
     result.constraints = static_cast<int>(tangent.constraints.rows());
@@ -333,11 +442,13 @@ class EquilibriumSearch {
   double load_ = 1.0;
   double shift_ = 0.0;
   double step_ = 0.0;
+  int let_go_ = 0;
   RowForces forces_;
   Residual residual_;
   MatrixX mass_;
   int worst_body_ = -1;
   double worst_force_ = 0.0;
+  std::vector<SpanLimit> limits_;
 };
 
 }  // namespace

@@ -56,6 +56,9 @@ struct Equilibrium {
   /// told is what the way from the given pose to here has left.
   bool friction_holds = false;
   std::vector<SlackSpan> slack_spans;
+  /// What has become of cables between the given pose and here, in order; what was touched and left
+  /// again is not told.
+  std::vector<CableEvent> events;
   /// Of the rows of each feature of the world, by multiplier [N or N m].
   std::vector<std::vector<double>> forces;
 };

@@ -72,7 +72,8 @@ Modes find_modes(Simulation& simulation, const std::vector<ModeInput>& inputs) {
   const State state = simulation.world.state();
   Configuration configuration(simulation, state, 1.0);
   const Acting acting = find_acting(configuration, simulation.world.bodies().scale());
-  const ForceTurn turn = turn_of_forces(configuration, acting.unknowns);
+  const ForceTurn turn =
+      turn_of_forces(configuration, acting.unknowns, simulation.world.bodies().scale());
   const Tangent tangent = make_tangent(configuration, acting.rows, turn, acting.acts);
   Modes modes;
   modes.redundant = tangent.redundant();

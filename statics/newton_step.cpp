@@ -23,7 +23,7 @@ class StepProblem {
  public:
   StepProblem(const ConfigurationRows& rows, const ForceTurn& turn, const MatrixX& mass,
               const VectorX& before, double shift, double size)
-      : rows_(rows), gradients_(rows.gradients + turn.yields), before_(before), size_(size) {
+      : rows_(rows), before_(before), size_(size) {
     stiffness_ = shift * mass - turn.forces;
     sides_.assign(rows.unknowns.size(), Side::off);
     for (std::size_t g = 0; g < sides_.size(); ++g) sides_[g] = first_side(g);
@@ -116,7 +116,7 @@ class StepProblem {
       const Eigen::Index g = free[static_cast<std::size_t>(r)];
       const ForceUnknown& unknown = rows_.unknowns[static_cast<std::size_t>(g)];
       matrix.block(0, n + r, n, 1) = -rows_.actions.row(g).transpose();
-      matrix.block(n + r, 0, 1, n) = gradients_.row(g);
+      matrix.block(n + r, 0, 1, n) = rows_.gradients.row(g);
       matrix(n + r, n + r) = unknown.compliance;
       right[n + r] = -unknown.value;
     }
@@ -203,14 +203,13 @@ class StepProblem {
     }
     const ForceUnknown& unknown = rows_.unknowns[g];
     const double value =
-        unknown.value + gradients_.row(i).dot(motion_) + unknown.compliance * force;
+        unknown.value + rows_.gradients.row(i).dot(motion_) + unknown.compliance * force;
     const bool violated = sides_[g] == Side::lower ? value < -rounding() : value > rounding();
     if (violated) return {Side::free, std::abs(value) / size_};
     return {sides_[g], 0.0};
   }
 
   const ConfigurationRows& rows_;
-  MatrixX gradients_;
   const VectorX& before_;
   double size_;
   MatrixX stiffness_;

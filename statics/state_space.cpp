@@ -176,7 +176,8 @@ State perturbed_state(Simulation& simulation, const Modes& modes, const Eigen::V
   const State state = simulation.world.state();
   Configuration configuration(simulation, state, 1.0);
   const Acting acting = find_acting(configuration, simulation.world.bodies().scale());
-  const ForceTurn turn = turn_of_forces(configuration, acting.unknowns);
+  const ForceTurn turn =
+      turn_of_forces(configuration, acting.unknowns, simulation.world.bodies().scale());
   const Tangent tangent = make_tangent(configuration, acting.rows, turn, acting.acts);
   const Eigen::Index k = modes.motions.cols();
   const VectorX driven = x.tail(x.size() - 2 * k);
@@ -193,8 +194,7 @@ State perturbed_state(Simulation& simulation, const Modes& modes, const Eigen::V
     const ForceUnknown& unknown = acting.rows.unknowns[g];
     if (holds_rigidly(acting, g)) rigid.push_back(i);
     if (acting.acts[g] == 0 || unknown.damper || unknown.compliance == 0.0) continue;
-    const VectorX gradient = (acting.rows.gradients.row(i) + turn.yields.row(i)).transpose();
-    unknowns[i] -= (gradient.dot(q) + by_drive[i]) / unknown.compliance +
+    unknowns[i] -= (acting.rows.gradients.row(i).dot(q) + by_drive[i]) / unknown.compliance +
                    unknown.damping * acting.rows.gradients.row(i).dot(rate);
     missing += by_drive[i] / unknown.compliance * acting.rows.actions.row(i).transpose();
   }

@@ -1,8 +1,8 @@
 #include "statics/tangent.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/SVD>
@@ -13,40 +13,57 @@ namespace {
 /// Singular values below this share of the largest are rounding; rows have norm 1.
 constexpr double rank_rounding = 1e-10;
 
-/// The shortest step that rounding leaves exact enough, as a share of the scene's size and in
-/// radians.
+/// The first step of differences, as a share of the scene's size and in radians; and by which part
+/// it is shortened how often where that helps.
 constexpr double difference_step = 1e-4;
+constexpr double shorter = 0.125;
+constexpr int most_steps = 5;
+/// As good as differences need be, as a share of what they tell of one degree of freedom.
+constexpr double good_enough = 1e-9;
+
+/// How forces change with one degree of freedom.
+struct TurnColumn {
+  VectorX forces;
+  double error = 0.0;  ///< a bound
+};
+
+TurnColumn column_of(Configuration& configuration, const VectorX& unknowns, int freedom,
+                     double step) {
+  VectorX displacement = VectorX::Zero(configuration.freedoms());
+  const auto forces = [&](double displaced) {
+    displacement[freedom] = displaced;
+    configuration.place(displacement);
+    return configuration.forces_at(unknowns);
+  };
+  const VectorX near = (forces(step) - forces(-step)) / (2.0 * step);
+  const VectorX far = (forces(2.0 * step) - forces(-2.0 * step)) / (4.0 * step);
+  return {(4.0 * near - far) / 3.0, (far - near).cwiseAbs().maxCoeff() / 3.0};
+}
 
 }  // namespace
 
-ForceTurn turn_of_forces(Configuration& configuration, const VectorX& unknowns) {
+ForceTurn turn_of_forces(Configuration& configuration, const VectorX& unknowns, double size) {
   const int n = configuration.freedoms();
   ForceTurn turn;
   turn.forces = MatrixX::Zero(n, n);
-  turn.yields = MatrixX::Zero(unknowns.size(), n);
-  VectorX displacement = VectorX::Zero(n);
-  constexpr std::array steps{difference_step, -difference_step, 2.0 * difference_step,
-                             -2.0 * difference_step};
-  std::array<VectorX, 4> sums;
-  std::array<VectorX, 4> yields;
   double largest = 0.0;
   double off = 0.0;
   for (int k = 0; k < n; ++k) {
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      displacement[k] = steps[i];
-      configuration.place(displacement);
-      configuration.forces_at(unknowns, sums[i], yields[i]);
+    const bool moves = configuration.reach(VectorX::Unit(n, k)).translation > 0.0;
+    double step = difference_step * (moves ? size : 1.0);
+    TurnColumn best = column_of(configuration, unknowns, k, step);
+    for (int i = 1; i < most_steps; ++i) {
+      if (best.error <= good_enough * best.forces.cwiseAbs().maxCoeff()) break;
+      step *= shorter;
+      TurnColumn column = column_of(configuration, unknowns, k, step);
+      if (!(column.error < best.error)) break;  // it has come to where rounding counts
+      best = std::move(column);
     }
-    displacement[k] = 0.0;
-    const VectorX near = (sums[0] - sums[1]) / (2.0 * difference_step);
-    const VectorX far = (sums[2] - sums[3]) / (4.0 * difference_step);
-    turn.forces.col(k) = (4.0 * near - far) / 3.0;
-    turn.yields.col(k) =
-        (8.0 * (yields[0] - yields[1]) - (yields[2] - yields[3])) / (12.0 * difference_step);
-    largest = std::max(largest, turn.forces.col(k).cwiseAbs().maxCoeff());
-    off = std::max(off, (far - near).cwiseAbs().maxCoeff() / 3.0);
+    turn.forces.col(k) = best.forces;
+    largest = std::max(largest, best.forces.cwiseAbs().maxCoeff());
+    off = std::max(off, best.error);
   }
-  configuration.place(displacement);
+  configuration.place(VectorX::Zero(n));
   turn.error = largest > 0.0 ? off / largest : 0.0;
   return turn;
 }
@@ -79,9 +96,8 @@ Tangent make_tangent(const Configuration& configuration, const ConfigurationRows
       if (rows.gradients.row(i).norm() > 0.0) rigid.push_back(i);
       continue;
     }
-    const VectorX gradient = (rows.gradients.row(i) + turn.yields.row(i)).transpose();
     tangent.stiffness +=
-        rows.actions.row(i).transpose() * gradient.transpose() / unknown.compliance;
+        rows.actions.row(i).transpose() * rows.gradients.row(i) / unknown.compliance;
     tangent.damping += unknown.damping * rows.actions.row(i).transpose() * rows.gradients.row(i);
   }
   // In coordinates y = L^T q of M = L L^T every motion of norm 1 has the same energy.

@@ -11,7 +11,15 @@
 // Z^T (...) Z. The first part is a central difference of forces with two steps, e and 2 e, whose
 // errors of the second order cancel: d = (8 (f(e) - f(-e)) - (f(2e) - f(-2e))) / 12 e. What one and
 // the other alone say differs by the error of the worse one, which is a bound of that of both and
-// is kept (`difference_error`). The other part has the rows' own gradients.
+// is kept (`difference_error`). The steps are shortened for those degrees of freedom where that
+// makes the bound smaller: a light pendulum on a large crane. The other part has the rows' own
+// gradients J = d(C + A l)/dq, and is exact.
+//
+// Of a cable of a material with the strain e that passes a wheel: the span's unstretched length L
+// changes by dL = -r dtheta / (1 + e) where its cable comes onto the wheel and by r dtheta / (1 + w)
+// where it comes off, strained by w there. With T = EA (l / L - 1) and w = e
+//   dT = EA / L (dl - (1 + e) dL) = EA / L (dl -+ r dtheta):
+// both strains drop out, and what is left is J with the compliance L / EA of the unstretched length.
 
 #include "statics/configuration.h"
 
@@ -20,11 +28,11 @@ namespace sheave {
 /// How forces of fixed unknowns change with the displacement.
 struct ForceTurn {
   MatrixX forces;      ///< d(loads + P^T l)/dq
-  MatrixX yields;      ///< d(A l)/dq, unknowns x degrees of freedom
   double error = 0.0;  ///< as above, as a share of the largest entry of `forces`
 };
-/// Leaves the bodies at the configuration's pose.
-[[nodiscard]] ForceTurn turn_of_forces(Configuration& configuration, const VectorX& unknowns);
+/// Leaves the bodies at the configuration's pose. `size`: of the scene [m], BodySet::scale().
+[[nodiscard]] ForceTurn turn_of_forces(Configuration& configuration, const VectorX& unknowns,
+                                       double size);
 
 /// Matrices along degrees of freedom.
 struct Tangent {

@@ -22,6 +22,11 @@ constexpr double small_motion = 0.1;
 
 std::string share_text(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
 
+double relative_error(const StepDifference& difference) {
+  const double error = difference.error();
+  return error == 0.0 ? 0.0 : error / difference.scale;
+}
+
 struct Quantity {
   std::string name;
   const char* unit;
@@ -38,10 +43,12 @@ std::vector<Quantity> worst_first(const ErrorEstimate& estimate) {
     all.push_back({span.name + " tension", "N", &span.tension});
   }
   std::erase_if(all, [](const Quantity& own) {
-    return own.difference->relative() <= measure::negligible_difference;
+    const StepDifference& difference = *own.difference;
+    return difference.negligible() &&
+           difference.unseen <= measure::negligible_difference * difference.scale;
   });
   std::stable_sort(all.begin(), all.end(), [](const Quantity& a, const Quantity& b) {
-    return a.difference->relative() > b.difference->relative();
+    return relative_error(*a.difference) > relative_error(*b.difference);
   });
   return all;
 }
@@ -49,12 +56,15 @@ std::vector<Quantity> worst_first(const ErrorEstimate& estimate) {
 std::string estimate_table(const ErrorEstimate& estimate) {
   const std::vector<Quantity> all = worst_first(estimate);
   if (all.empty()) return "";
-  TextTable lines({"quantity", "differs by", "at [s]", "relative", "order"}, 1);
+  TextTable lines({"quantity", "differs by", "at [s]", "relative", "order", "error", "relative"},
+                  1);
   for (std::size_t i = 0; i < std::min(all.size(), max_quantities); ++i) {
     const StepDifference& difference = *all[i].difference;
     lines.add({all[i].name, fmt::format("{:.3g} {}", difference.largest, all[i].unit),
                short_number(difference.time), share_text(difference.relative()),
-               difference.order ? fmt::format("{:.2f}", *difference.order) : "-"});
+               difference.order ? fmt::format("{:.2f}", *difference.order) : "-",
+               fmt::format("{:.3g} {}", difference.error(), all[i].unit),
+               share_text(relative_error(difference))});
   }
   if (all.size() <= max_quantities) return lines.text();
   return lines.text() + fmt::format("  ... and {} more quantities; --json tells all\n",
@@ -69,10 +79,9 @@ std::string missing_order_reason(const ErrorEstimate& estimate, StepErrorKind ki
       break;
     case StepErrorKind::events:
       return fmt::format(
-          "{} events (links left or touched, spans that go slack or taut, contacts, breaks) come "
-          "at "
-          "moments that depend on the step",
-          estimate.changes.count());
+          "{} events (links left or touched, spans that go slack or taut, contacts, breaks, "
+          "impacts) come at moments that depend on the step",
+          std::max(estimate.changes.count(), estimate.changes.sudden));
     case StepErrorKind::chaos:
       return fmt::format("the motion is chaotic, differences grow as e^({:.2g} t)",
                          estimate.growth.value_or(0.0));
@@ -93,14 +102,26 @@ std::string estimate_clause(const char* what, const StepDifference& difference, 
                        share_text(difference.relative()), of);
   }
   if (kind != StepErrorKind::regular) {
-    return fmt::format("{} change by up to {} of {} at t = {} s, without an order", what,
-                       share_text(difference.relative()), of, short_number(difference.time));
+    return fmt::format(
+        "{} are off by up to about {} of {} (they change by {} at t = {} s), without an order",
+        what, share_text(relative_error(difference)), of, share_text(difference.relative()),
+        short_number(difference.time));
   }
-  const double error = difference.error() / difference.scale;
+  const double error = relative_error(difference);
   return fmt::format(
       "{} are off by about {} of {} at t = {} s, of order {:.2f}: half the step leaves {}", what,
       share_text(error), of, short_number(difference.time), *difference.order,
       share_text(error / std::exp2(*difference.order)));
+}
+
+/// What a run does at the end of the substep in which it happens.
+std::string sudden_text(const ErrorEstimate& estimate) {
+  const std::size_t count = estimate.changes.sudden;
+  return fmt::format(
+      "{} (impacts, ropes that go taut, cuts, breaks) within a substep, at whose end {}: all that "
+      "follows is late by up to one",
+      count == 1 ? "1 sudden event lies" : fmt::format("{} sudden events lie", count),
+      count == 1 ? "it acts" : "they act");
 }
 
 /// What errors of positions are told as parts of.
@@ -146,6 +167,7 @@ std::string error_estimate_conclusion(const ErrorEstimate& estimate) {
     clauses.push_back(fmt::format("positions change by less than 0.1 % until t = {} s",
                                   short_number(estimate.trusted_time)));
   }
+  if (estimate.changes.sudden > 0) clauses.push_back(sudden_text(estimate));
   std::string text = "by the step alone ";
   for (std::size_t i = 0; i < clauses.size(); ++i) text += (i == 0 ? "" : "; ") + clauses[i];
   return text;

@@ -1,5 +1,6 @@
 #include "tools/player.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -101,8 +102,18 @@ RunOutcome play(const Scene& scene, const std::string& start, std::span<const do
 
 std::vector<CableReport> reports_to_show(const Scene& scene, const Simulation& simulation) {
   std::vector<CableReport> reports = simulation.cable_reports();
-  if (reports.empty() || simulation.world.state().time > 0.0) return reports;
+  const auto pulls = [](const CableReport& report) {
+    return std::any_of(report.spans.begin(), report.spans.end(),
+                       [](const SpanReport& span) { return span.tension > 0.0; }) ||
+           std::any_of(report.wraps.begin(), report.wraps.end(),
+                       [](const WrapReport& wrap) { return wrap.span.tension > 0.0; });
+  };
+  // A state that has been computed, by steps or by statics, has its tensions.
+  const bool known =
+      simulation.world.state().time > 0.0 || std::any_of(reports.begin(), reports.end(), pulls);
+  if (reports.empty() || known) return reports;
   Simulation ahead = make_simulation(scene);
+  if (!ahead.world.restore(simulation.world.state()).empty()) return reports;
   if (!ahead.step(interrupted).ok()) return reports;
   const std::vector<CableReport> later = ahead.cable_reports();
   for (std::size_t c = 0; c < reports.size(); ++c) {

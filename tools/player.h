@@ -22,8 +22,9 @@ RunOutcome play(const Scene& scene, const std::string& start, std::span<const do
                 Progress& progress,
                 const std::function<bool(std::size_t, const Simulation&)>& show);
 
-/// The cables of a simulation that plays `scene`, for a picture. At the start no tension has been
-/// computed, and a taut cable would look slack; so the first step's tensions are shown there.
+/// The cables of a simulation that plays `scene`, for a picture. At the scene's start no tension has
+/// been computed, and a taut cable would look slack; so there the tensions of a first step from that
+/// state are shown. A state that has tensions, such as a rest found by statics, is shown with them.
 [[nodiscard]] std::vector<CableReport> reports_to_show(const Scene& scene,
                                                        const Simulation& simulation);
 

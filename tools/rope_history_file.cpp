@@ -18,6 +18,7 @@ RopeJson rope_json(const measure::SectionHistory& section, const std::optional<d
   for (const measure::SectionBends& one : section.bends) {
     bends.push_back({{"link", one.link},
                      {"bends", one.bends},
+                     {"reverse", one.reverse},
                      {"diameter", one.diameter},
                      {"diameter_ratio", diameter ? RopeJson(one.diameter / *diameter) : RopeJson()},
                      {"most_tension", one.most_tension},

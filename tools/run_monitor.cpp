@@ -89,6 +89,7 @@ void RunMonitor::observe_cables(const Simulation& simulation) {
       course.length_error = gauge.length_error;
     }
     course.max_stretch = std::max(course.max_stretch, gauge.max_stretch);
+    course.max_strain = std::max(course.max_strain, gauge.max_strain);
     course.length = gauge.total_length;
     if (observed_ > 0) {
       const std::size_t half = observed_ > half_ ? 1 : 0;

@@ -15,6 +15,7 @@ namespace sheave::tools {
 struct CableCourse {
   double length_error = 0.0;  ///< relative error of the length invariant, the largest in size
   double max_stretch = 0.0;   ///< the largest CableReport::max_stretch
+  double max_strain = 0.0;    ///< the largest CableReport::max_strain
   double length = 0.0;        ///< CableReport::total_length at the end [m]
   /// How much longer than allowed all its spans together are at the end, if it is rigid [m].
   double excess = 0.0;

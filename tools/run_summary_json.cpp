@@ -95,6 +95,7 @@ RunJson cables(const RunSummary& summary) {
                     {"total_length", reports[i].total_length},
                     {"length_error", summary.monitor.cables()[i].length_error},
                     {"max_stretch", summary.monitor.cables()[i].max_stretch},
+                    {"max_strain", summary.monitor.cables()[i].max_strain},
                     {"cut", reports[i].cut},
                     {"spans", std::move(spans)},
                     {"links", std::move(links)},
@@ -228,6 +229,8 @@ RunJson run_json(const measure::StepDifference& difference) {
           {"scale", difference.scale},
           {"relative", difference.relative()},
           {"order", difference.order ? RunJson(*difference.order) : RunJson()},
+          {"bound", difference.bound},
+          {"unseen", difference.unseen},
           {"error", difference.error()}};
 }
 
@@ -277,6 +280,7 @@ RunJson error_estimate(const measure::ErrorEstimate& estimate, const World& worl
                  {"tension_kind", kind(estimate.tension_kind)},
                  {"motion", estimate.motion},
                  {"events", estimate.changes.count()},
+                 {"sudden_events", estimate.changes.sudden},
                  {"growth", estimate.growth ? RunJson(*estimate.growth) : RunJson()},
                  {"trusted_time", estimate.trusted_time},
                  {"bodies", std::move(bodies)},

@@ -164,9 +164,11 @@ std::string invariants(const RunSummary& summary) {
   if (reports.empty()) return text;
   TextTable lengths({"cable", "length [m]", "relative error", "largest stretch"}, 1);
   for (std::size_t i = 0; i < std::min(reports.size(), max_rows); ++i) {
+    const auto& cable = monitor.cables()[i];
+    // One of both: of a rigid cable it is an error, of an elastic one its strain.
     lengths.add({std::string(reports[i].name), short_number(reports[i].total_length),
-                 short_number(monitor.cables()[i].length_error),
-                 short_number(monitor.cables()[i].max_stretch)});
+                 short_number(cable.length_error),
+                 short_number(std::max(cable.max_stretch, cable.max_strain))});
   }
   return text + "\n" + lengths.text() + omitted(reports.size(), "cables");
 }

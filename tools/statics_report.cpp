@@ -90,6 +90,28 @@ const char* stability_name(Stability stability) {
                                            : "unstable";
 }
 
+/// "between the pose of the scene and this one cable "rope" has left "wheel"".
+std::string event_text(const CableEvent& event) {
+  const std::string body = event.body.empty() ? "the world" : "\"" + event.body + "\"";
+  const std::string cable = "cable \"" + event.cable + "\"";
+  switch (event.kind) {
+    case CableEvent::Kind::leave:
+      return cable + " has left " + body;
+    case CableEvent::Kind::touch:
+      return cable + " has come to lie on " + body;
+    case CableEvent::Kind::attach:
+      return cable + " has no more of itself on " + body + " and is attached there";
+    case CableEvent::Kind::wind:
+      return cable + " is wound up again on " + body;
+    case CableEvent::Kind::cut:
+      return cable + " has parted";
+    case CableEvent::Kind::stall:
+    case CableEvent::Kind::slip:
+      break;
+  }
+  return cable + " has slid on " + body;
+}
+
 std::string verdict(const StaticsResult& result) {
   const Equilibrium& rest = result.rest;
   if (!rest.converged) return "no equilibrium found";
@@ -109,6 +131,9 @@ std::string verdict(const StaticsResult& result) {
         "dry friction, or a drive with a limit, acts: what it bears is open within its bounds; "
         "this is what the way from the "
         "scene's pose has left\n";
+  }
+  for (const CableEvent& event : rest.events) {
+    text += "since the pose of the scene " + event_text(event) + "\n";
   }
   if (!rest.slack_spans.empty()) {
     text += "slack:";
@@ -202,6 +227,13 @@ StaticsJson case_json(const StaticsResult& result) {
   for (std::size_t i = 0; i < result.quantities.size(); ++i) {
     quantities[result.quantities[i]] = result.values[i];
   }
+  StaticsJson events = StaticsJson::array();
+  for (const CableEvent& event : rest.events) {
+    events.push_back({{"cable", event.cable},
+                      {"event", cable_event_names[static_cast<std::size_t>(event.kind)]},
+                      {"link", event.link < 0 ? StaticsJson() : StaticsJson(event.link)},
+                      {"body", event.body}});
+  }
   return {{"name", result.name.empty() ? StaticsJson() : StaticsJson(result.name)},
           {"converged", rest.converged},
           {"message", rest.message},
@@ -212,6 +244,7 @@ StaticsJson case_json(const StaticsResult& result) {
           {"unstable_motions", rest.unstable_motions},
           {"neutral_motions", rest.neutral_motions},
           {"eigenvalues", rest.eigenvalues},
+          {"events", std::move(events)},
           {"degrees_of_freedom", rest.freedoms},
           {"constraints", rest.constraints},
           {"redundant", rest.redundant},

@@ -30,6 +30,7 @@ class TradeChart {
       : table_(table),
         least_(std::max(table.doubt.position, rounding_error)),
         script_(format, 700) {
+    if (table.tensions_known()) least_ = std::max(least_, table.doubt.tension);
     for (const TradeRow& row : table_.rows) {
       if (!row.measured()) continue;
       errors_.add(error_of(row));
@@ -55,9 +56,11 @@ class TradeChart {
     script_.add({"set grid lc rgb '#dddddd'\nset key outside top center horizontal maxrows 3\n"});
     add_levels();
     script_.add({"set title ", script_.shown(title()), "\n"});
-    script_.add(
-        {"set xlabel 'CPU time per simulated second [s]'\n"
-         "set ylabel 'largest position error [size of the scene]'\n"});
+    script_.add({"set xlabel 'CPU time per simulated second [s]'\n",
+                 table_.tensions_known()
+                     ? GnuplotPiece("set ylabel 'error of positions [size of the scene] or of "
+                                    "tensions [their mean], the larger one'\n")
+                     : GnuplotPiece("set ylabel 'largest position error [size of the scene]'\n")});
     if (plots_.empty()) plots_.add({"1/0 notitle"});
     script_.add({"plot ", plots_, "\n"});
     return script_;
@@ -66,7 +69,8 @@ class TradeChart {
  private:
   /// Errors end where the reference knows no more.
   [[nodiscard]] double error_of(const TradeRow& row) const {
-    return std::max(row.error.position, least_);
+    const double tension = table_.tensions_known() ? row.error.tension : 0.0;
+    return std::max({row.error.position, std::isnan(tension) ? 0.0 : tension, least_});
   }
   /// Per simulated second, of a run that has no time.
   [[nodiscard]] double expected(const TradeRow& row) const {

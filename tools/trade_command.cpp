@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <string_view>
 
@@ -30,7 +31,11 @@ struct TradeArguments {
   SceneOptions scene;
   TradeOptions trade;
   std::vector<std::string> solvers, integrators, tangents;
-  std::string budget, error;
+  std::string budget, error, tension_error;
+
+  [[nodiscard]] bool asks() const {
+    return !budget.empty() || !error.empty() || !tension_error.empty();
+  }
   std::string csv, markdown, chart;
   bool json = false;
   bool apply = false;
@@ -64,9 +69,13 @@ TradeQuestion check_trade_arguments(const TradeArguments& arguments) {
   TradeQuestion question;
   if (!arguments.budget.empty()) question.seconds_per_frame = budget_seconds(arguments.budget);
   if (!arguments.error.empty()) question.error = error_share(arguments.error);
+  if (!arguments.tension_error.empty()) {
+    question.tension_error = error_share(arguments.tension_error, "--tension-error");
+  }
   if (!arguments.apply) return question;
-  if (arguments.budget.empty() && arguments.error.empty()) {
-    throw Failure(ExitCode::usage, "--apply needs --budget or --error, which choose a setting");
+  if (!arguments.asks()) {
+    throw Failure(ExitCode::usage,
+                  "--apply needs --budget or --error or --tension-error, which choose a setting");
   }
   if (arguments.scene.path == "-") {
     throw Failure(ExitCode::usage, "--apply needs a scene file, not standard input");
@@ -93,25 +102,51 @@ void apply_setting(const std::string& path, const TradeSetting& setting) {
   write_file(path, text);
 }
 
+std::string question_text(const TradeArguments& arguments) {
+  if (!arguments.budget.empty()) return "--budget " + arguments.budget;
+  std::string text;
+  if (!arguments.error.empty()) text = "--error " + arguments.error;
+  if (arguments.tension_error.empty()) return text;
+  return text + (text.empty() ? "" : " ") + "--tension-error " + arguments.tension_error;
+}
+
+/// Why no setting answers, as far as it is known.
+std::string missing_answer(const TradeTable& table, const TradeQuestion& question) {
+  const std::string none = ": none of these settings";
+  if (question.error && !question.tension_error &&
+      answer(table,
+             {.error = question.error, .tension_error = std::numeric_limits<double>::infinity()})) {
+    return none +
+           " for tensions; of positions alone some are (--tension-error allows more of "
+           "tensions)";
+  }
+  return none + "; finer ones: --substeps, --iterations";
+}
+
 /// Says which setting answers, and applies it if that is wanted. Whether there is one.
 bool answer_question(const TradeArguments& arguments, const TradeTable& table,
                      const TradeQuestion& question) {
-  const std::string asked =
-      question.error ? "--error " + arguments.error : "--budget " + arguments.budget;
+  const std::string asked = question_text(arguments);
   const std::optional<std::size_t> choice = answer(table, question);
   if (!choice) {
-    print_warning(asked + ": none of these settings; finer ones: --substeps, --iterations");
+    print_warning(asked + missing_answer(table, question));
     return false;
   }
   const TradeRow& row = table.rows[*choice];
-  const std::string line = fmt::format("{}: {} ({:.3g} ms per frame, position error {})", asked,
-                                       row.setting.name(), 1e3 * table.dt * row.seconds.median,
-                                       error_text(row.error.position, table.doubt.position));
+  const std::string line =
+      fmt::format("{}: {} ({:.3g} ms per frame, {})", asked, row.setting.name(),
+                  1e3 * table.dt * row.seconds.median, errors_text(table, row));
   // Standard output has one object and nothing else.
   if (arguments.json) {
     print_note(line);
   } else {
     print(line + "\n\n");
+  }
+  if (!table.tensions_known() && !question.tension_error) {
+    print_warning(
+        fmt::format("{}: chosen by positions alone, for the reference knows tensions to "
+                    "no more than {:.1e} of their mean",
+                    asked, table.doubt.tension));
   }
   if (arguments.apply) {
     apply_setting(arguments.scene.path, row.setting);
@@ -153,7 +188,7 @@ ExitCode trade(TradeArguments& arguments) {
   catch_interrupts();
   const TradeTable table = measure_trade(scene, arguments.trade);
   OutputFaults faults;
-  const bool asked = !arguments.budget.empty() || !arguments.error.empty();
+  const bool asked = arguments.asks();
   bool answered = !asked;
   // The answer first: the table behind it may be long.
   if (asked) faults.attempt([&] { answered = answer_question(arguments, table, question); });
@@ -224,8 +259,13 @@ Action declare_trade(CLI::App& app) {
                      "1 if there is none")
           ->option_text("TIME");
   app.add_option("--error", arguments->error,
-                 "name the cheapest setting within this position error, e.g. 0.1%; exit code 1 "
-                 "if there is none")
+                 "name the cheapest setting within this error of positions and of tensions, e.g. "
+                 "0.1%; exit code 1 if there is none")
+      ->option_text("SHARE")
+      ->excludes(budget);
+  app.add_option("--tension-error", arguments->tension_error,
+                 "the same, within this error of tensions; with --error, which then counts for "
+                 "positions, or alone")
       ->option_text("SHARE")
       ->excludes(budget);
   app.add_flag("--apply", arguments->apply,
@@ -263,6 +303,7 @@ Action declare_trade(CLI::App& app) {
   sheave trade scenes/paper/simple.json --chart simple.png
   sheave trade scenes/paper/gym.json --solver direct --substeps 1,2,4
   sheave trade scenes/paper/pulley.json --error 0.1%
+  sheave trade scenes/machines/crane.json --error 0.1% --tension-error 1%
   sheave trade my-scene.json --budget 2ms/frame --apply
 
   sheave trade my-scene.json --minutes 30 --resume my-scene.trade

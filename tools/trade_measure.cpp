@@ -213,10 +213,9 @@ class TimeStage {
   }
 
   [[nodiscard]] bool is_out_of_reach(const TradeRow& row) const {
-    const double doubt = run_.table.doubt.position;
-    const double bound = std::max(row.error.position + doubt, rounding_error);
+    const double bound = run_.table.bound(row);
     return std::any_of(run_.table.rows.begin(), run_.table.rows.end(), [&](const TradeRow& other) {
-      return other.measured() && std::max(other.error.position + doubt, rounding_error) <= bound &&
+      return other.measured() && run_.table.bound(other) <= bound &&
              out_of_reach * other.run_seconds < row.run_seconds;
     });
   }

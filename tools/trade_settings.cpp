@@ -65,16 +65,37 @@ std::vector<TradeSetting> trade_settings(const TradeGrid& grid, const Scene& sce
   return settings;
 }
 
+bool TradeTable::tensions_known() const {
+  constexpr double useful = 0.1;
+  const bool compared = std::any_of(rows.begin(), rows.end(), [](const TradeRow& row) {
+    return row.measured() && !std::isnan(row.error.tension);
+  });
+  return !compared || doubt.tension <= useful;
+}
+
+double TradeTable::position_bound(const TradeRow& row) const {
+  // Rounding is not told apart: what is below it counts as equally good.
+  return std::max(row.error.position + doubt.position, rounding_error);
+}
+
+double TradeTable::tension_bound(const TradeRow& row) const {
+  if (std::isnan(row.error.tension)) return 0.0;
+  return std::max(row.error.tension + doubt.tension, rounding_error);
+}
+
+double TradeTable::bound(const TradeRow& row) const {
+  const double position = position_bound(row);
+  return tensions_known() ? std::max(position, tension_bound(row)) : position;
+}
+
 std::vector<measure::WorkPoint> TradeTable::points() const {
   std::vector<measure::WorkPoint> points;
   for (const TradeRow& row : rows) {
-    if (!row.measured()) {
+    if (row.measured()) {
+      points.push_back({row.seconds.median, bound(row)});
+    } else {
       points.emplace_back();
-      continue;
     }
-    // Rounding is not told apart: what is below it counts as equally good.
-    points.push_back(
-        {row.seconds.median, std::max(row.error.position + doubt.position, rounding_error)});
   }
   return points;
 }
@@ -125,21 +146,42 @@ double budget_seconds(const std::string& text) {
                                      "s/frame, for example 2ms/frame");
 }
 
-double error_share(const std::string& text) {
+double error_share(const std::string& text, const std::string& option) {
   std::string_view rest = text;
   if (const auto value = leading_number(rest)) {
     if (rest.empty()) return *value;
     if (rest == "%") return 0.01 * *value;
   }
-  throw Failure(ExitCode::usage, "--error " + text +
-                                     ": must be a positive share of the scene's size, for example "
-                                     "0.1% or 1e-3");
+  throw Failure(ExitCode::usage, option + " " + text +
+                                     ": must be a positive share of the scene's size, or of the "
+                                     "tensions, for example 0.1% or 1e-3");
+}
+
+std::string errors_text(const TradeTable& table, const TradeRow& row) {
+  const std::string position =
+      "position error " + error_text(row.error.position, table.doubt.position);
+  if (std::isnan(row.error.tension)) return position;
+  return position + ", tension error " + error_text(row.error.tension, table.doubt.tension);
 }
 
 std::optional<std::size_t> answer(const TradeTable& table, const TradeQuestion& question) {
-  const std::vector<measure::WorkPoint> points = table.points();
-  if (question.error) return measure::cheapest_within(points, *question.error);
-  return measure::best_within(points, *question.seconds_per_frame / table.dt);
+  if (!question.asks_for_errors()) {
+    return measure::best_within(table.points(), *question.seconds_per_frame / table.dt);
+  }
+  // As shares of what is allowed.
+  std::vector<measure::WorkPoint> points;
+  for (const TradeRow& row : table.rows) {
+    measure::WorkPoint& point = points.emplace_back();
+    if (!row.measured()) continue;
+    const double position = question.error ? table.position_bound(row) / *question.error : 0.0;
+    const bool both = question.error && table.tensions_known();
+    const double tension = question.tension_error
+                               ? table.tension_bound(row) / *question.tension_error
+                           : both ? table.tension_bound(row) / *question.error
+                                  : 0.0;
+    point = {row.seconds.median, std::max(position, tension)};
+  }
+  return measure::cheapest_within(points, 1.0);
 }
 
 }  // namespace sheave::tools

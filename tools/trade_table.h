@@ -115,7 +115,15 @@ struct TradeTable {
   int repetitions = 0;
   double most_minutes = 0.0;  ///< that the command was given
 
-  /// Cost in seconds per simulated second and the bound of the position error of each row.
+  /// Whether the reference knows tensions to a tenth of their mean: where bodies are hit it does not,
+  /// for a tension of a substep grows there as the substep shrinks. Without cables it does.
+  [[nodiscard]] bool tensions_known() const;
+  // What errors are at most: those of the row and of the reference together.
+  [[nodiscard]] double position_bound(const TradeRow& row) const;
+  [[nodiscard]] double tension_bound(const TradeRow& row) const;  ///< 0 without cables
+  /// The larger of both; of positions alone where tensions are not known.
+  [[nodiscard]] double bound(const TradeRow& row) const;
+  /// Cost in seconds per simulated second and bound() of each row.
   [[nodiscard]] std::vector<measure::WorkPoint> points() const;
 };
 
@@ -157,15 +165,22 @@ inline constexpr std::array<double, 3> trade_levels{1e-2, 1e-3, 1e-4};
 /// What gnuplot is told to draw the work-precision chart.
 [[nodiscard]] GnuplotScript trade_chart_script(const TradeTable& table, ChartFormat format);
 
-/// What a user asks for: one of them.
+/// What a user asks for: a time, or errors.
 struct TradeQuestion {
   std::optional<double> seconds_per_frame{};  ///< at most this time [s]: the most accurate
-  std::optional<double> error{};              ///< at most this position error: the cheapest
+  /// At most this error of positions, and of tensions where these are known: the cheapest.
+  std::optional<double> error{};
+  /// At most this error of tensions instead, whether they are known or not.
+  std::optional<double> tension_error{};
+
+  [[nodiscard]] bool asks_for_errors() const { return error || tension_error; }
 };
 /// "2ms/frame", "500us/frame"; a Failure (2) for anything else.
 [[nodiscard]] double budget_seconds(const std::string& text);
-/// "0.1%", "1e-3"; a Failure (2) for anything else.
-[[nodiscard]] double error_share(const std::string& text);
+/// "0.1%", "1e-3"; a Failure (2) for anything else, which names `option`.
+[[nodiscard]] double error_share(const std::string& text, const std::string& option = "--error");
+/// "position error 1.0e-03, tension error 2.0e-02", the second if there are cables.
+[[nodiscard]] std::string errors_text(const TradeTable& table, const TradeRow& row);
 /// The row that answers; nothing if none does.
 [[nodiscard]] std::optional<std::size_t> answer(const TradeTable& table,
                                                 const TradeQuestion& question);

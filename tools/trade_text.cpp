@@ -65,6 +65,13 @@ std::vector<std::string> span_lines(const TradeTable& table) {
         "judged better than that",
         table.doubt.position));
   }
+  if (!table.tensions_known()) {
+    lines.push_back(fmt::format(
+        "the reference knows tensions to no more than {:.1e} of their mean (bodies are hit, and "
+        "what a hit pulls in a substep grows as that shrinks): settings are chosen by positions "
+        "alone",
+        table.doubt.tension));
+  }
   if (table.motion > 0.0 && table.motion < little_motion) {
     lines.push_back(
         fmt::format("the bodies move by no more than {:.1e} of the scene's size: relative to their "
@@ -82,13 +89,12 @@ std::vector<std::string> span_lines(const TradeTable& table) {
 
 std::string percent_text(double share) { return fmt::format("{:g} %", 100.0 * share); }
 
-/// "gauss-seidel 4 x 10: 0.12 ms per frame, error at most 3.0e-04".
+/// "gauss-seidel 4 x 10: 0.12 ms per frame, position error 3.0e-04, tension error 1.0e-03".
 std::string choice_text(const TradeTable& table, std::size_t index) {
   const TradeRow& row = table.rows[index];
-  return fmt::format("{}: {} ms per frame of {:.4g} s, {} ms per simulated second, error {}",
+  return fmt::format("{}: {} ms per frame of {:.4g} s, {} ms per simulated second, {}",
                      row.setting.name(), milliseconds_text(row.seconds.median * table.dt), table.dt,
-                     milliseconds_text(row.seconds.median),
-                     error_text(row.error.position, table.doubt.position));
+                     milliseconds_text(row.seconds.median), errors_text(table, row));
 }
 
 /// What most people ask, one line each.

@@ -24,8 +24,6 @@ constexpr std::size_t sampled_at = 2;
 constexpr std::size_t controller_size = 3;
 
 constexpr double never = -1.0;
-/// What parts a cable as soon as it pulls [N].
-constexpr double no_tension = 1e-300;
 
 /// Index of the element of `list` with this name.
 template <class List, class Name>
@@ -306,7 +304,7 @@ void SceneSupervisor::act(const TriggerAtWork& trigger, Simulation& simulation) 
       note(simulation.world.lock_joint(trigger.target), simulation);
       break;
     case TriggerAction::cut:
-      note(simulation.set_breaking_tension(trigger.target, no_tension), simulation);
+      note(simulation.cut_cable(trigger.target), simulation);
       break;
     case TriggerAction::on: {
       const ControllerAtWork& controller = controllers_[static_cast<std::size_t>(trigger.target)];

@@ -32,6 +32,37 @@ TEST(Rainflow, CountsTheExampleOfTheStandard) {
   EXPECT_EQ(count(9.0), 0.5);
 }
 
+TEST(Rainflow, CountsTheRepeatingExampleOfTheStandard) {
+  // The same history repeated (5.4.5, figure 7): whole cycles of 3, 4, 7 and 9, wherever it begins.
+  const std::vector<double> history{-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0};
+  for (std::size_t begin = 0; begin < history.size(); ++begin) {
+    Rainflow rainflow;
+    for (std::size_t i = 0; i <= history.size(); ++i) {
+      rainflow.add(history[(begin + i) % history.size()]);
+    }
+    std::vector<double> ranges;
+    for (const LoadCycle& cycle : rainflow.closed_cycles()) {
+      EXPECT_EQ(cycle.count, 1.0);
+      ranges.push_back(cycle.range);
+    }
+    std::sort(ranges.begin(), ranges.end());
+    EXPECT_EQ(ranges, (std::vector{3.0, 4.0, 7.0, 9.0})) << begin;
+  }
+}
+
+TEST(Rainflow, LoadingAndUnloadingAreOneCycle) {
+  Rainflow rainflow;
+  EXPECT_TRUE(rainflow.closed_cycles().empty());
+  rainflow.add(0.0);
+  EXPECT_TRUE(rainflow.closed_cycles().empty());
+  for (const double value : {4.0, 10.0, 7.0, 0.0}) rainflow.add(value);
+  const std::vector<LoadCycle> cycles = rainflow.closed_cycles();
+  ASSERT_EQ(cycles.size(), 1U);
+  EXPECT_EQ(cycles[0].range, 10.0);
+  EXPECT_EQ(cycles[0].mean, 5.0);
+  EXPECT_EQ(cycles[0].count, 1.0);
+}
+
 TEST(Rainflow, SmallSwingsWithinALargeOneAreWholeCycles) {
   Rainflow rainflow;
   for (const double value : {0.0, 10.0, 6.0, 8.0, 0.0}) rainflow.add(value);
@@ -87,6 +118,82 @@ TEST(RopeHistory, CountsWhatPassesOverAWheel) {
   EXPECT_NEAR(bent, moved, 2.0 * before.total_length / 200.0);
   EXPECT_NEAR(travel, moved, 1e-9);
   EXPECT_GE(told.layers.size(), 2U);
+}
+
+/// A rope of 12 m from a drum with `winding` over a wheel to a load, of sections of 0.06 m; the drum
+/// has the speed of the table.
+Result<Simulation> hoist(const char* winding, const char* times, const char* speeds,
+                         const char* material = "") {
+  const std::string text =
+      std::string(R"({"format": "sheave-scene/1", "duration": 8, "gravity": [0, -10, 0], "bodies": [
+    {"name": "drum", "mobility": "rotor", "position": [-4, -4, 0], "mass": 1, "shape": {"type": "cylinder", "radius": 0.25, "length": 0.1},
+     "drive": "speed", "drive_times": )") +
+      times + R"(, "drive_values": )" + speeds + R"(},
+    {"name": "wheel", "mobility": "rotor", "mass": 0.1, "shape": {"type": "cylinder", "radius": 0.25, "length": 0.1}},
+    {"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 1, "position": [0.25, -4, 0]}],
+    "cables": [{"name": "rope", )" +
+      material + R"("links": [
+      {"type": "spool", "body": "drum", "winding": ")" +
+      winding + R"(", "stored_length": 3},
+      {"type": "rolling", "body": "wheel", "winding": "clockwise"}, {"type": "attachment", "body": "load"}]}]})";
+  const SceneResult scene = load_scene_text(text, "test");
+  if (!scene) return Error{"", to_string(scene.errors[0])};
+  return create_simulation(*scene);
+}
+
+TEST(RopeHistory, ALiftAndBackBendsEachSectionOnceAtMostEachWay) {
+  // What vibrates on its elastic rope at the wheel's edges is not bent each time: up and down again
+  // a section comes onto the wheel at most twice, and has one cycle of the load at most beside what
+  // starting and stopping make. Both wheels bend the rope the same way, or one against the other.
+  for (const bool reverse : {false, true}) {
+    Result<Simulation> made =
+        hoist(reverse ? "counter-clockwise" : "clockwise", "[0, 0.5, 2, 3, 4.5, 5]",
+              reverse ? "[0, -2, -2, 2, 2, 0]" : "[0, 2, 2, -2, -2, 0]",
+              R"("axial_stiffness": 200000, )");
+    ASSERT_TRUE(made) << made.errors()[0].message;
+    RopeHistory history(200);
+    history.observe(*made);
+    for (int i = 0; i < 480; ++i) {
+      ASSERT_TRUE(made->step().ok());
+      history.observe(*made);
+    }
+    const CableHistory told = history.history()[0];
+    int on_wheel = 0;
+    for (const SectionHistory& section : told.sections) {
+      for (const SectionBends& bends : section.bends) {
+        EXPECT_LE(bends.bends, bends.link == 1 ? 2 : 1) << section.from;
+        if (bends.link != 1) continue;
+        ++on_wheel;
+        EXPECT_LE(bends.reverse, reverse ? 1 : 0) << section.from;
+      }
+    }
+    // 2 rad/s x 0.25 m for 2 s, and half of that.
+    EXPECT_GT(on_wheel, 10);
+  }
+}
+
+TEST(RopeHistory, ASectionAtAnEdgeIsNotBentByRounding) {
+  // A load that hangs at rest over a wheel that trembles by 1e-9 rad: nothing is bent.
+  Result<Simulation> made = hoist("clockwise", "[0, 1]", "[0, 0]");
+  ASSERT_TRUE(made);
+  // So many sections that one of them has its middle within rounding of the wheel's edge.
+  const CableReport report = made->cable_reports()[0];
+  const double to_edge = report.links[0].stored_length + report.spans[0].rest_length;
+  int sections = 100;
+  for (int n = 100; n < 10000; ++n) {
+    const double middles = to_edge / (report.total_length / n) - 0.5;
+    const double best = to_edge / (report.total_length / sections) - 0.5;
+    if (std::abs(middles - std::round(middles)) < std::abs(best - std::round(best))) sections = n;
+  }
+  RopeHistory history(sections);
+  history.observe(*made);
+  for (int i = 0; i < 60; ++i) {
+    ASSERT_TRUE(made->step().ok());
+    history.observe(*made);
+  }
+  for (const SectionHistory& section : history.history()[0].sections) {
+    for (const SectionBends& bends : section.bends) EXPECT_LE(bends.bends, 1) << section.from;
+  }
 }
 
 }  // namespace

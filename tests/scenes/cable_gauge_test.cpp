@@ -26,6 +26,7 @@ void expect_like_reports(const Simulation& simulation, double size) {
     EXPECT_NEAR(gauges[i].excess, std::max(expected.excess, 0.0), 100.0 * rounding)
         << reports[i].name;
     EXPECT_NEAR(gauges[i].max_stretch, expected.max_stretch, 1e-6) << reports[i].name;
+    EXPECT_NEAR(gauges[i].max_strain, expected.max_strain, 1e-6) << reports[i].name;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/scene.h"
 #include "tests/scenes/scene_files.h"
@@ -328,8 +329,42 @@ TEST(Triggers, CutACable) {
   EXPECT_NEAR(simulation.world.velocity(BodyId{0}).y(), 0.0, 1e-12);
   run(simulation, 2.0);
   EXPECT_TRUE(simulation.cable_reports()[0].cut);
-  // It acts until the end of the substep in which it parts.
-  EXPECT_NEAR(simulation.world.velocity(BodyId{0}).y(), -10.0 * (1.0 - 0.01), 1e-9);
+  // It parts before the substep that begins then, and is told at that time.
+  EXPECT_NEAR(simulation.world.velocity(BodyId{0}).y(), -10.0 * 1.0, 1e-9);
+  ASSERT_EQ(simulation.cables->events().size(), 1U);
+  EXPECT_EQ(simulation.cables->events()[0].kind, CableEvent::Kind::cut);
+  EXPECT_NEAR(simulation.cables->events()[0].time, 1.0, 1e-12);
+}
+
+/// A weight that is let down with 1 m/s, and cut off once it is `way` lower.
+std::string lowered_scene(double way) {
+  return fmt::format(
+      R"({{"format": "sheave-scene/1", "gravity": [0, -10, 0], "duration": 3,
+    "step": {{"dt": 0.02, "substeps": 1, "solver": "direct", "integrator": "rattle"}},
+    "bodies": [{{"name": "weight", "mobility": "slider", "axis": [0, 1, 0], "mass": 2,
+      "position": [0, -1, 0], "velocity": [0, -1, 0]}}],
+    "cables": [{{"name": "rope", "links": [{{"type": "attachment", "body": "world", "feed_speed": 1}},
+      {{"type": "attachment", "body": "weight"}}]}}],
+    "triggers": [{{"name": "snip", "quantity": "weight.y", "below": {}, "action": "cut", "target": "rope"}}]}})",
+      -1.0 - way);
+}
+
+TEST(Triggers, CutACableNoMoreThanASubstepAfterWhatTheyWaitFor) {
+  // What is let down with 1 m/s and cut off after s begins to fall at the end of the substep in which
+  // that happens, less than h = 0.02 s late, not of the next one.
+  for (const double s : {0.3, 0.305, 0.31, 0.3199}) {
+    Simulation simulation = start(lowered_scene(s));
+    double parted = 0.0;
+    for (int i = 0; i < 100 && parted == 0.0; ++i) {
+      ASSERT_TRUE(simulation.step().ok());
+      if (simulation.cable_reports()[0].cut) parted = simulation.cables->events()[0].time;
+    }
+    EXPECT_GE(parted, s - 1e-9) << s;
+    EXPECT_LE(parted, s + 0.02 + 1e-9) << s;
+    run(simulation, 1.0);
+    // v = -1 - g t from then on.
+    EXPECT_NEAR(simulation.world.velocity(BodyId{0}).y(), -1.0 - 10.0 * (1.0 - parted), 1e-6) << s;
+  }
 }
 
 TEST(Triggers, StopARunOnce) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cable/cable_system.h"
 #include "engine/body_set.h"
 #include "engine/joint_report.h"
 #include "statics/supports.h"
@@ -331,6 +332,128 @@ TEST(Equilibrium, LighterWeightFindsItsRestBesideTheWheel) {
   ASSERT_TRUE(rest.converged) << rest.message;
   EXPECT_NEAR(simulation.world.state().bodies[1].position.y(), 0.5 / std::sqrt(3.0), exact);
   EXPECT_NEAR(tension(simulation, 0, 0), 20.0, 20.0 * exact);
+}
+
+/// A carriage on rails along x between a counterweight of `counterweight` kg, whose rope runs to the
+/// left over a sheave 12 m away and down, and a rope of EA = `stiffness` with n beads of 63 kg that
+/// hang in it, to a point 300 m to the right.
+std::string ropeway(double stiffness, int n, double counterweight) {
+  std::string beads;
+  std::string links;
+  for (int i = 1; i <= n; ++i) {
+    const double share = static_cast<double>(i) / (n + 1);
+    beads += fmt::format(
+        R"(, {{"name": "bead {}", "mass": 63, "position": [{}, {}, 0], "shape": {{"type": "sphere", "radius": 0.1}}}})",
+        i, 300.0 * share, -28.0 * share * (1.0 - share));
+    links += fmt::format(R"({{"type": "attachment", "body": "bead {}"}}, )", i);
+  }
+  return fmt::format(
+      R"("bodies": [
+    {{"name": "carriage", "mobility": "slider", "axis": [1, 0, 0], "mass": 3000}},
+    {{"name": "sheave", "mobility": "rotor", "mass": 100, "spin_inertia": 0, "position": [-12, -0.5, 0],
+      "shape": {{"type": "cylinder", "radius": 0.5, "length": 0.2}}}},
+    {{"name": "counterweight", "mobility": "slider", "axis": [0, 1, 0], "mass": {}, "position": [-12.5, -8, 0]}}{}],
+    "cables": [
+    {{"name": "haul", "axial_stiffness": {}, "links": [{{"type": "attachment", "body": "carriage"}}, {}
+      {{"type": "attachment", "body": "world", "point": [300, 0, 0]}}]}},
+    {{"name": "tension rope", "links": [{{"type": "attachment", "body": "carriage"}},
+      {{"type": "rolling", "body": "sheave", "winding": "counter-clockwise"}},
+      {{"type": "attachment", "body": "counterweight"}}]}}])",
+      counterweight, beads, stiffness, links);
+}
+
+/// Where the carriage of it rests: the haul rope is a funicular polygon with the horizontal tension
+/// H = counterweight x g and the vertical ones w (n / 2 - i), of spans that are L_i = l_i at first and
+/// stretch by T_i / EA: x = 300 - sum L_i (1 + T_i / EA) H / T_i.
+double carriage_at(double stiffness, int n, double counterweight) {
+  const double pull = 10.0 * counterweight;
+  double x = 300.0;
+  for (int i = 0; i <= n; ++i) {
+    const auto height = [n](int k) {
+      const double share = static_cast<double>(k) / (n + 1);
+      return -28.0 * share * (1.0 - share);
+    };
+    const double length = std::hypot(300.0 / (n + 1), height(i + 1) - height(i));
+    const double tension = std::hypot(pull, 630.0 * (0.5 * n - i));
+    x -= length * (1.0 + tension / stiffness) * pull / tension;
+  }
+  return x;
+}
+
+TEST(Equilibrium, RopeStaysOnTheSheaveThatTheSearchPasses) {
+  // The search moves by up to a tenth of 300 m at a step, over the sheave at 12 m and back. What it
+  // passes there has not happened: the rope lies on the sheave, by a quarter of a turn.
+  for (const auto& [stiffness, n] : {std::pair(1e6, 0), std::pair(1e8, 9), std::pair(1e8, 29)}) {
+    SCOPED_TRACE(fmt::format("EA {} with {} beads", stiffness, n));
+    const double mass = n == 0 ? 1000.0 : 20000.0;
+    Simulation simulation = simulation_of(ropeway(stiffness, n, mass));
+    const Equilibrium rest = find_equilibrium(simulation);
+    ASSERT_TRUE(rest.converged) << rest.message;
+    EXPECT_TRUE(rest.events.empty());
+    const double x = carriage_at(stiffness, n, mass);
+    // Within 1e-8 of the size, what the search may leave.
+    EXPECT_NEAR(simulation.world.state().bodies[0].position.x(), x, 3e-6);
+    EXPECT_NEAR(simulation.world.state().bodies[2].position.y(), -8.0 + x, 3e-6);
+    EXPECT_NEAR(simulation.cable_reports()[1].links[1].wrap_angle, 0.5 * pi, 1e-8);
+    EXPECT_NEAR(tension(simulation, 1, 0), 10.0 * mass, 10.0 * mass * 1e-8);
+    EXPECT_TRUE(simulation.cables->events().empty());
+  }
+}
+
+TEST(Equilibrium, TellsWhichWheelARopeHasLeft) {
+  // A rope from a block on rails, at first 1 m below, over a peg and over a sheave to 100 kg. A spring
+  // draws the block up until the rope passes 0.5 m above the peg: there it rests as without a peg.
+  const auto rest_height = [](bool with_peg) {
+    const std::string peg =
+        with_peg ? R"({"type": "rolling", "body": "peg", "winding": "clockwise"},)" : "";
+    Simulation simulation = simulation_of(R"("bodies": [
+      {"name": "peg", "mobility": "rotor", "mass": 1, "shape": {"type": "cylinder", "radius": 0.2, "length": 0.1}},
+      {"name": "sheave", "mobility": "rotor", "mass": 1, "position": [2, 0, 0],
+        "shape": {"type": "cylinder", "radius": 0.2, "length": 0.1}},
+      {"name": "block", "mobility": "slider", "axis": [0, 1, 0], "mass": 1, "position": [-2, -1, 0]},
+      {"name": "weight", "mobility": "slider", "axis": [0, 1, 0], "mass": 100, "position": [2.2, -2, 0]}],
+      "cables": [
+      {"name": "rope", "links": [{"type": "attachment", "body": "block"}, )" +
+                                          peg + R"(
+        {"type": "rolling", "body": "sheave", "winding": "clockwise"},
+        {"type": "attachment", "body": "weight"}]},
+      {"name": "spring", "axial_stiffness": 200, "rest_lengths": [1], "links": [
+        {"type": "attachment", "body": "block"},
+        {"type": "attachment", "body": "world", "point": [-2, 4, 0]}]}])");
+    const Equilibrium rest = find_equilibrium(simulation);
+    EXPECT_TRUE(rest.converged) << rest.message;
+    EXPECT_EQ(rest.events.size(), with_peg ? 1U : 0U);
+    for (const CableEvent& event : rest.events) {
+      EXPECT_EQ(event.kind, CableEvent::Kind::leave);
+      EXPECT_EQ(event.body, "peg");
+    }
+    // It has not moved, so nothing has happened to the machine.
+    EXPECT_TRUE(simulation.cables->events().empty());
+    return simulation.world.state().bodies[2].position.y();
+  };
+  const double height = rest_height(true);
+  EXPECT_GT(height, 1.0);
+  EXPECT_NEAR(height, rest_height(false), 1e-8);
+}
+
+TEST(Equilibrium, RopesBreakAtRestAndNotOnTheWayThere) {
+  // 100 kg on an elastic rope that is stretched by 4 m at first, 40 kN, rest at 1 kN. A rope that
+  // bears 2 kN holds that, one that bears 900 N parts, and then nothing holds the load.
+  const auto rest_of = [](double bears) {
+    Simulation simulation = simulation_of(fmt::format(
+        R"("bodies": [{{"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 100, "position": [0, -14, 0]}}],
+      "cables": [{{"name": "rope", "axial_stiffness": 1e5, "rest_lengths": [10], "breaking_tension": {},
+        "links": [{{"type": "attachment", "body": "world"}}, {{"type": "attachment", "body": "load"}}]}}])",
+        bears));
+    return find_equilibrium(simulation);
+  };
+  const Equilibrium holds = rest_of(2000.0);
+  EXPECT_TRUE(holds.converged) << holds.message;
+  EXPECT_TRUE(holds.events.empty());
+  const Equilibrium parts = rest_of(900.0);
+  EXPECT_FALSE(parts.converged);
+  ASSERT_EQ(parts.events.size(), 1U);
+  EXPECT_EQ(parts.events[0].kind, CableEvent::Kind::cut);
 }
 
 TEST(Equilibrium, BearingBearsBothPartsOfARope) {

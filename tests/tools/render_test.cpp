@@ -20,6 +20,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 // Small pictures: this is not about how they look.
 const std::vector<std::string> small{"--width", "96", "--height", "64"};
@@ -106,6 +107,48 @@ TEST(Player, ShowsTheFirstTensionsAtTheStart) {
     EXPECT_EQ(start[0].spans[k].tension, later[0].spans[k].tension);
     EXPECT_NE(start[0].spans[k].length, later[0].spans[k].length);
   }
+}
+
+TEST(RenderCommand, APictureOfARestHasTheTensionsOfTheRest) {
+  // 1000 kg on an elastic rope that the scene stretches to 52.6 kN: at rest it carries 9810 N, told
+  // as "9.8 kN". (The recipe of docs/statics.md.)
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("load.json", R"({
+    "format": "sheave-scene/1", "gravity": [0, -9.81, 0], "duration": 1,
+    "bodies": [{"name": "load", "mass": 1000, "position": [0, -10, 0], "shape": {"type": "box", "size": [1, 1, 1]}}],
+    "cables": [{"name": "rope", "axial_stiffness": 1e6, "rest_lengths": [9.5], "links": [
+      {"type": "attachment", "body": "world", "point": [0, 0, 0]}, {"type": "attachment", "body": "load"}]}]
+  })");
+  const std::string state = folder.path("rest.state");
+  ASSERT_EQ(run_sheave({"statics", scene, "--save-state", state}).exit_code, 0);
+  const std::string still = folder.path("rest.svg");
+  const ProcessResult result =
+      render(scene, {"--load-state", state, "--at", "0", "--labels", "--still", still});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(read_file(still), HasSubstr("9.8"));
+  EXPECT_THAT(read_file(still), Not(HasSubstr("52.")));
+}
+
+TEST(Player, ShowsTheTensionsOfARestAndTheNextOnesOfAStateWithout) {
+  const SceneResult scene = load_scene_text(atwood_scene, "atwood.json");
+  ASSERT_TRUE(scene);
+  Simulation simulation = tools::make_simulation(*scene);
+  State state = simulation.world.state();
+  // Known tensions stay, be they what they may.
+  ASSERT_TRUE(simulation.world.step().ok());
+  State known = simulation.world.state();
+  known.time = 0.0;
+  known.steps = 0;
+  ASSERT_TRUE(simulation.world.restore(known).empty());
+  const double tension = simulation.cable_reports()[0].spans[0].tension;
+  EXPECT_EQ(tools::reports_to_show(*scene, simulation)[0].spans[0].tension, tension);
+  // A state that differs from the scene's start has the tensions of a step from itself: on a cable
+  // that has gone slack there are none.
+  for (double& length : state.features.back().reals) {
+    length = length > 0.0 ? 2.0 * length : length;
+  }
+  ASSERT_TRUE(simulation.world.restore(state).empty());
+  EXPECT_EQ(tools::reports_to_show(*scene, simulation)[0].spans[0].tension, 0.0);
 }
 
 TEST(RenderCommand, StartsFromASavedState) {

@@ -459,6 +459,21 @@ TEST(RunCommand, RedundantRowsAreCountedAndNoneIsGivenUp) {
   EXPECT_TRUE(summary["warnings"].empty());
 }
 
+TEST(RunCommand, TellsTheStrainOfElasticRopes) {
+  // 1000 kg at rest on EA = 7e6 N: strained by 9810 / 7e6 = 0.00140143, and never more.
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("load.json", R"({
+    "format": "sheave-scene/1", "gravity": [0, -9.81, 0], "duration": 0.1,
+    "bodies": [{"name": "load", "mobility": "slider", "axis": [0, 1, 0], "mass": 1000, "position": [0, -10, 0]}],
+    "cables": [{"name": "rope", "axial_stiffness": 7e6, "rest_lengths": [9.98600518], "links": [
+      {"type": "attachment", "body": "world", "point": [0, 0, 0]}, {"type": "attachment", "body": "load"}]}]
+  })");
+  const json summary = run_json({scene});
+  EXPECT_EQ(summary["cables"][0]["max_stretch"], 0.0) << "an error of rigid ropes";
+  EXPECT_NEAR(summary["cables"][0]["max_strain"], 9810.0 / 7e6, 1e-8);
+  EXPECT_THAT(run_sheave({"run", scene}).out, ContainsRegex("rope +9.98[0-9]+ +0 +0.0014014"));
+}
+
 TEST(RunCommand, EstimatesTheErrorOfItsStep) {
   // xpbd on a constant acceleration of 2 m/s2: a t h / 2 = 0.01 m too far after 1 s with h = 0.01
   // s, of order 1.

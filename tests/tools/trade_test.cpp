@@ -178,6 +178,8 @@ TEST_F(TradeOfAFile, WrongUsage) {
   EXPECT_THAT(refused({"--error", "little"}), HasSubstr("0.1% or 1e-3"));
   EXPECT_THAT(refused({"--error", "0%"}), HasSubstr("positive"));
   EXPECT_THAT(refused({"--apply", "--json"}), HasSubstr("--apply needs --budget or --error"));
+  EXPECT_THAT(refused({"--tension-error", "some"}), HasSubstr("--tension-error some: must be"));
+  EXPECT_THAT(refused({"--tension-error", "1%", "--budget", "1ms/frame"}), HasSubstr("excludes"));
   EXPECT_THAT(refused({"--solver", "magic"}), HasSubstr("magic"));
   EXPECT_THAT(refused({"--substeps", "1,0"}), HasSubstr("0"));
   EXPECT_THAT(refused({"--minutes", "0"}), HasSubstr("--minutes"));
@@ -413,6 +415,41 @@ TEST(TradeText, ShowsFailuresAndChoosesByWhatIsKnown) {
   EXPECT_EQ(tools::answer(table, {.seconds_per_frame = 0.025}), 1U);
   EXPECT_THAT(tools::trade_chart_script(table, tools::ChartFormat::svg).text(),
               HasSubstr("1 of 4 settings failed"));
+}
+
+TEST(TradeText, ChoosesByTheWorseOfPositionsAndTensions) {
+  // The cheapest setting has its positions within 0.1 % and its tensions off by 45 %.
+  tools::TradeTable table;
+  table.dt = 0.01;
+  table.rows = {trade_row(1, 1.0, 5e-4), trade_row(2, 2.0, 3e-4), trade_row(4, 4.0, 1e-4)};
+  table.rows[0].error.tension = 0.45;
+  table.rows[1].error.tension = 0.02;
+  table.rows[2].error.tension = 5e-4;
+  table.doubt.tension = 1e-5;
+  EXPECT_EQ(tools::answer(table, {.error = 1e-3}), 2U);
+  EXPECT_EQ(tools::answer(table, {.error = 0.03}), 1U);
+  EXPECT_EQ(tools::answer(table, {.error = 1e-3, .tension_error = 0.03}), 1U);
+  EXPECT_EQ(tools::answer(table, {.error = 1e-3, .tension_error = 0.5}), 0U);
+  EXPECT_EQ(tools::answer(table, {.tension_error = 1e-3}), 2U);
+  EXPECT_FALSE(tools::answer(table, {.error = 1e-4}));
+  // 2.5 s per second: the most accurate of two has its tensions within 2 %.
+  EXPECT_EQ(tools::answer(table, {.seconds_per_frame = 0.025}), 1U);
+  EXPECT_EQ(tools::answer(table, {.seconds_per_frame = 0.015}), 0U);
+  EXPECT_THAT(tools::trade_text(table),
+              HasSubstr("per simulated second, position error 1.0e-04, tension error 5.0e-04"));
+  // Where bodies are hit nobody knows tensions, and positions alone count, which is told.
+  table.doubt.tension = 0.3;
+  EXPECT_FALSE(table.tensions_known());
+  EXPECT_EQ(tools::answer(table, {.error = 1e-3}), 0U);
+  EXPECT_FALSE(tools::answer(table, {.error = 1e-3, .tension_error = 0.1}));
+  EXPECT_THAT(tools::trade_text(table), HasSubstr("settings are chosen by positions alone"));
+  // Without cables there are none.
+  for (tools::TradeRow& row : table.rows) {
+    row.error.tension = std::numeric_limits<double>::quiet_NaN();
+  }
+  table.doubt.tension = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(tools::answer(table, {.error = 1e-3}), 0U);
+  EXPECT_THAT(tools::trade_text(table), Not(HasSubstr("tension error 5")));
 }
 
 TEST(TradeText, NamesWhatWasSkippedCheapestFirst) {
