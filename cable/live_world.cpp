@@ -235,7 +235,10 @@ LiveReport LiveWorld::step(const StopRequest& stop, const std::function<void()>&
     };
   }
   const Busy busy(is_busy_);
+  const bool follows = simulation().world.last_substep().has_value();
+  if (check_ && !follows) check_->restart(simulation());
   static_cast<StepReport&>(report) = running().world.step(stop, set ? set : before_substep);
+  if (check_ && report.ok()) check_->observe(simulation(), report.statistics);
   note_events(report);
   for (const int joint : intact) {
     if (is_broken(joint)) {
@@ -243,6 +246,12 @@ LiveReport LiveWorld::step(const StopRequest& stop, const std::function<void()>&
     }
   }
   return report;
+}
+
+void LiveWorld::check_run() { check_.emplace(simulation()); }
+
+Certificate LiveWorld::run_certificate() const {
+  return check_ ? check_->certificate() : Certificate();
 }
 
 Result<BodyPose> LiveWorld::pose(BodyHandle body) const {

@@ -192,7 +192,7 @@ void append_damping_warning(const StepSettings& step, const RunStatistics& stati
 }
 
 /// xpbd takes energy from every motion that is not straight and uniform
-/// (measure/integrator_loss.h).
+/// (cable/certificate/integrator_loss.h).
 void append_loss_warning(const StepSettings& step, const RunMonitor& monitor,
                          std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.01;
@@ -338,8 +338,9 @@ void append_solver_warnings(const RunStatistics& statistics, std::vector<Warning
   }
   if (statistics.cut_substeps > 0) {
     std::string message = fmt::format(
-        "{} {} did not converge as a whole and {} done in {} parts, with more work but no less "
-        "precision; more substeps avoid that",
+        "{} {} did not converge as a whole, or made energy, and {} done in {} parts: things move "
+        "far there, and each part may be off by three thousandths of their energy; more substeps "
+        "avoid that",
         statistics.cut_substeps, statistics.cut_substeps == 1 ? "substep" : "substeps",
         statistics.cut_substeps == 1 ? "was" : "were", statistics.substep_parts);
     warnings.push_back({"cut_substeps", "", std::move(message)});
