@@ -38,4 +38,11 @@ bool CableSystem::gauge(const FeatureState& own, std::vector<CableGauge>& gauges
   return true;
 }
 
+bool CableSystem::all_pull(const FeatureState& own) const {
+  for (std::size_t k = 0; k < spans_.size(); ++k) {
+    if (spans_[k].active && !(own.reals[tension_index(static_cast<int>(k))] > 0.0)) return false;
+  }
+  return true;
+}
+
 }  // namespace sheave

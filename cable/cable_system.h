@@ -129,6 +129,8 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
                                   std::span<double> values, std::span<char> active) override;
   [[nodiscard]] bool finish_affine(const AffineSubstep& substep, const FeatureState& now,
                                    FeatureState& next) override;
+  /// Whether every span that can pull did so in the last substep.
+  [[nodiscard]] bool all_pull(const FeatureState& own) const;
   [[nodiscard]] double elastic_energy(const BodySet& bodies, const State& state,
                                       const FeatureState& own) const override;
 

@@ -16,39 +16,6 @@ namespace {
 
 using Kind = CertificateItem::Kind;
 
-/// What helps where this kind is wrong, of what is not in use.
-std::string advice_for(const CertificateItem& item, const StepSettings& step) {
-  const bool direct = step.solver == SolverKind::direct;
-  const bool rattle = step.integrator == IntegratorKind::rattle;
-  const std::string solver = direct ? "more iterations (the direct solver's rounds end at " +
-                                          std::to_string(step.iterations) + ")"
-                                    : "the solver \"direct\", or more iterations";
-  const std::string smaller = "more substeps";
-  switch (item.kind) {
-    case Kind::momentum:
-    case Kind::angular_momentum:
-    case Kind::joint:
-    case Kind::span:
-    case Kind::force_law:
-    case Kind::complementarity:
-      return solver + ", or " + smaller;
-    case Kind::drive:
-      return solver + ", or a drive_limit, if the machine cannot follow";
-    case Kind::contact:
-      return smaller + ", or " + solver;
-    case Kind::friction:
-      return solver + ", or " + smaller;
-    case Kind::energy:
-      return rattle ? smaller + ", or " + solver
-                    : smaller + ", or the integrator \"rattle\", or " + solver;
-    case Kind::length:
-      return "a longer cable, if it has run out; otherwise this is a fault of Sheave, please "
-             "report "
-             "it";
-  }
-  return {};
-}
-
 std::string number(double value, int digits = 3) { return number_text(value, digits); }
 
 std::string_view what_is_off(Kind kind) {
@@ -80,6 +47,39 @@ std::string_view what_is_off(Kind kind) {
 }
 
 }  // namespace
+
+// Of what is not in use.
+std::string certificate_advice(const CertificateItem& item, const StepSettings& step) {
+  const bool direct = step.solver == SolverKind::direct;
+  const bool rattle = step.integrator == IntegratorKind::rattle;
+  const std::string solver = direct ? "more iterations (the direct solver's rounds end at " +
+                                          std::to_string(step.iterations) + ")"
+                                    : "the solver \"direct\", or more iterations";
+  const std::string smaller = "more substeps";
+  switch (item.kind) {
+    case Kind::momentum:
+    case Kind::angular_momentum:
+    case Kind::joint:
+    case Kind::span:
+    case Kind::force_law:
+    case Kind::complementarity:
+      return solver + ", or " + smaller;
+    case Kind::drive:
+      return solver + ", or a drive_limit, if the machine cannot follow";
+    case Kind::contact:
+      return smaller + ", or " + solver;
+    case Kind::friction:
+      return solver + ", or " + smaller;
+    case Kind::energy:
+      return rattle ? smaller + ", or " + solver
+                    : smaller + ", or the integrator \"rattle\", or " + solver;
+    case Kind::length:
+      return "a longer cable, if it has run out; otherwise this is a fault of Sheave, please "
+             "report "
+             "it";
+  }
+  return {};
+}
 
 std::string CertificateItem::sentence() const {
   std::string text = "at " + number(time, 6) + " s " + std::string(what_is_off(kind)) + " " + name +
@@ -137,7 +137,7 @@ std::optional<Certificate> Simulation::certificate() const {
   certificate.items = findings.take();
   certificate.substeps = 1;
   for (CertificateItem& item : certificate.items) {
-    item.advice = advice_for(item, world.model().step);
+    item.advice = certificate_advice(item, world.model().step);
   }
   return certificate;
 }
@@ -170,15 +170,19 @@ CertificateSchedule::CertificateSchedule(const Simulation& simulation, double sh
   stride_ = static_cast<std::int64_t>(std::ceil(std::min(wanted, 1e9)));
 }
 
-bool CertificateSchedule::is_due(bool is_last, std::size_t events) {
+bool CertificateSchedule::is_due(bool is_last, std::size_t events, bool suspicious) {
   const bool happened = events != events_;
   events_ = events;
   ++steps_;
   ++since_;
   // What events ask for is taken from what the stride would have allowed.
   const bool affordable = checked_ * stride_ <= steps_;
-  const bool due = steps_ == 1 || is_last || (affordable && (happened || since_ >= stride_));
+  constexpr int most_suspects = 16;
+  const bool suspect = suspicious && (affordable || suspects_ < most_suspects);
+  const bool due =
+      steps_ == 1 || is_last || suspect || (affordable && (happened || since_ >= stride_));
   if (!due) return false;
+  if (suspect && !affordable) ++suspects_;
   ++checked_;
   since_ = 0;
   return true;

@@ -72,8 +72,8 @@ struct Certificate {
   void merge(const Certificate& other);
 };
 
-/// Which steps of a run are checked: the first, the last, those with events, and every n-th, with n
-/// such that all of it costs no more than a given share of the run, in instructions; of a run of
+/// Which steps of a run are checked: the first, the last, those with events or with energy from
+/// nowhere, and every n-th, with n such that all of it costs no more than a given share of the run, in instructions; of a run of
 /// fewer steps than n, first and last cost more. Counts only, no clock: the same run is checked in
 /// the same steps everywhere.
 class CertificateSchedule {
@@ -82,8 +82,9 @@ class CertificateSchedule {
   explicit CertificateSchedule(const Simulation& simulation, double share = 0.02);
 
   /// To be called after every step: whether to check it. `is_last`: no step follows. `events`: how
-  /// many there have been (CableSystem::events()), ever.
-  [[nodiscard]] bool is_due(bool is_last = false, std::size_t events = 0);
+  /// many there have been (CableSystem::events()), ever. `suspicious`: something else speaks against
+  /// the step, such as its energy.
+  [[nodiscard]] bool is_due(bool is_last = false, std::size_t events = 0, bool suspicious = false);
   /// A step in this many is checked anyway.
   [[nodiscard]] std::int64_t stride() const { return stride_; }
 
@@ -93,6 +94,10 @@ class CertificateSchedule {
   std::int64_t checked_ = 0;
   std::int64_t since_ = 0;  // the last check
   std::size_t events_ = 0;
+  int suspects_ = 0;  // that were checked though they were not affordable
 };
+
+/// What helps where a figure of this kind is off in a run with these settings: a clause.
+[[nodiscard]] std::string certificate_advice(const CertificateItem& item, const StepSettings& step);
 
 }  // namespace sheave

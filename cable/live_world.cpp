@@ -238,7 +238,10 @@ LiveReport LiveWorld::step(const StopRequest& stop, const std::function<void()>&
   const CableSystem* cables = running().cables;
   const double begin = time();
   const std::uint64_t edition = cables != nullptr ? cables->warnings_edition() : 0;
+  const bool follows = simulation().world.last_substep().has_value();
+  if (check_ && !follows) check_->restart(simulation());
   static_cast<StepReport&>(report) = running().world.step(stop, set ? set : before_substep);
+  if (check_ && report.ok()) check_->observe(simulation(), report.statistics);
   note_events(report);
   if (!report.stopped) append_solver_warnings(report.statistics, report.warnings);
   if (!report.stopped && cables != nullptr && cables->warnings_edition() != edition) {
@@ -250,6 +253,12 @@ LiveReport LiveWorld::step(const StopRequest& stop, const std::function<void()>&
     }
   }
   return report;
+}
+
+void LiveWorld::check_run() { check_.emplace(simulation()); }
+
+Certificate LiveWorld::run_certificate() const {
+  return check_ ? check_->certificate() : Certificate();
 }
 
 Result<BodyPose> LiveWorld::pose(BodyHandle body) const {

@@ -17,12 +17,14 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "cable/edit.h"
 #include "cable/handle.h"
+#include "cable/run_check.h"
 #include "cable/simulation.h"
 #include "cable/step_warnings.h"
 #include "engine/wrench.h"
@@ -114,6 +116,12 @@ class LiveWorld {
   /// stopped.
   [[nodiscard]] LiveReport step(const StopRequest& stop = {},
                                 const std::function<void()>& before_substep = {});
+
+  /// From now on steps are checked as those of `sheave run` are (cable/run_check.h); restoring,
+  /// placing and editing begin a new balance of energy.
+  void check_run();
+  /// What that has found so far; empty without check_run().
+  [[nodiscard]] Certificate run_certificate() const;
 
   // Readers.
   [[nodiscard]] double time() const { return state().time; }
@@ -231,7 +239,8 @@ class LiveWorld {
 
   std::shared_ptr<LiveRevision> revision_;
   std::uint32_t next_generation_ = 2;
-  bool is_busy_ = false;                 // in a step, or in an edit
+  bool is_busy_ = false;  // in a step, or in an edit
+  std::optional<RunCheck> check_;
   std::shared_ptr<const int> identity_;  // its address tells this world from others
 };
 

@@ -71,7 +71,21 @@ std::optional<Divergence> SubstepDriver::run(int index) {
 }
 
 void SubstepDriver::allow_work(std::int64_t factorisations) {
-  substep_.work.allow(factorisations + settings_.iterations);
+  const std::int64_t share =
+      std::clamp<std::int64_t>(row_count() / rows_of_factorisation, 1, fewest_share);
+  substep_.work.allow(factorisations / share + settings_.iterations);
+}
+
+std::int64_t SubstepDriver::row_count() const {
+  std::int64_t rows = 0;
+  for (std::size_t i = 0; i < features_.size(); ++i) {
+    // Of what comes and goes (contacts) the state has some numbers per row.
+    constexpr std::size_t numbers_per_row = 4;
+    rows += features_[i]->has_fixed_size()
+                ? features_[i]->row_count()
+                : static_cast<std::int64_t>(state_.features[i].reals.size() / numbers_per_row);
+  }
+  return rows;
 }
 
 bool SubstepDriver::out_of_work() const {

@@ -40,6 +40,10 @@ class SubstepDriver {
   /// at the whole.
   static constexpr std::int64_t most_factorisations = 4096;
   static constexpr std::int64_t last_factorisations = 2048;
+  /// Of so many rows; of more rows, of which each factorisation takes as much longer, so many times
+  /// fewer, down to a share. What can be found mostly is within ten.
+  static constexpr std::int64_t rows_of_factorisation = 64;
+  static constexpr std::int64_t fewest_share = 16;
   /// So many of the smallest parts may be left to another integrator before larger ones are, too:
   /// it is no matter of time then.
   static constexpr int patience = 4;
@@ -88,6 +92,8 @@ class SubstepDriver {
   void make_do(Part whole);
   void go_back(const StepStatistics& before);
   void allow_work(std::int64_t factorisations);
+  /// About how many rows the state that a substep begins with has.
+  [[nodiscard]] std::int64_t row_count() const;
   [[nodiscard]] bool out_of_work() const;
   /// A part half by half; false where it does not converge, and then what has been done of it is
   /// void.

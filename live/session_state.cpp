@@ -31,6 +31,7 @@ SessionState::SessionState(const Scene& scene, Simulation simulation, Hooks call
       names(world),
       hooks(std::move(called)),
       limits(bounds) {
+  world.check_run();
   for (const auto& own : scene.controllers) about.controllers.push_back(own->name);
   for (const TriggerDef& own : scene.triggers) about.triggers.push_back(own.name);
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cable/certificate/sources_of_energy.h"
 #include "engine/body_set.h"
-#include "scenes/format.h"
 
 namespace sheave::measure {
 namespace {
@@ -16,41 +16,6 @@ constexpr double energy_gain_limit = 0.1;  // of the largest kinetic energy
 constexpr double rounding = 1e-12;
 constexpr double slack_limit = 1e-6;      // of the tension that there should be
 constexpr double tolerance_share = 1e-3;  // what a tolerance of a generated check is of its size
-
-/// Whether there is a field with such a name that is not zero, or not the first of its choices.
-bool is_set(std::span<const Field> fields, const void* settings, std::string_view suffix) {
-  for (const Field& field : fields) {
-    if (!field.name.ends_with(suffix)) continue;
-    const FieldSlot slot = slot_of(field, settings);
-    if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) {
-      if (choice->get(choice->object) != 0) return true;
-    } else if (const auto* number = std::get_if<double*>(&slot)) {
-      if (**number != 0.0) return true;
-    }
-  }
-  return false;
-}
-
-bool is_driven(const BodyDef& body) {
-  return body.mobility == Mobility::kinematic || body.drive != DriveKind::none ||
-         body.torque != Vector3::Zero();
-}
-
-bool is_driven(const JointDef& joint) {
-  const auto types = joint_types();
-  const auto type = std::find_if(types.begin(), types.end(),
-                                 [&](const auto& entry) { return entry.name == joint.type(); });
-  return type != types.end() && is_set(type->fields(), joint.settings(), "drive");
-}
-
-bool is_fed(const CableDef& cable) {
-  return std::any_of(cable.links.begin(), cable.links.end(), [](const auto& link) {
-    const auto types = link_types();
-    const auto type = std::find_if(types.begin(), types.end(),
-                                   [&](const auto& entry) { return entry.name == link->type(); });
-    return type != types.end() && is_set(type->fields(), link->settings(), "feed_speed");
-  });
-}
 
 double moving_mass(const BodyProperties& body) {
   const bool moves = body.mobility != Mobility::fixed && body.mobility != Mobility::kinematic;
@@ -77,12 +42,7 @@ double stretch_of(const CableReport& cable) {
 bool is_conservative(const Scene& scene) {
   // Controllers and triggers set drives and forces.
   if (!scene.controllers.empty() || !scene.triggers.empty()) return false;
-  return std::none_of(scene.model.bodies.begin(), scene.model.bodies.end(),
-                      [](const BodyDef& body) { return is_driven(body); }) &&
-         std::none_of(scene.model.joints.begin(), scene.model.joints.end(),
-                      [](const auto& joint) { return is_driven(*joint); }) &&
-         std::none_of(scene.cables.begin(), scene.cables.end(),
-                      [](const CableDef& cable) { return is_fed(cable); });
+  return certify::is_passive(scene.model, scene.cables);
 }
 
 StressJudge::StressJudge(const Scene& scene, const Simulation& simulation)

@@ -9,6 +9,7 @@
 #include "cable/links/rolling.h"
 #include "cable/links/spool.h"
 #include "cable/live_world.h"
+#include "cable/run_check.h"
 #include "cable/simulation.h"
 #include "engine/joint_report.h"
 #include "engine/joints/ball.h"

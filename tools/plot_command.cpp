@@ -15,6 +15,7 @@
 #include "tools/output_paths.h"
 #include "tools/player.h"
 #include "tools/plot_data.h"
+#include "tools/run_checker.h"
 #include "tools/scene_options.h"
 #include "tools/simulate.h"
 #include "tools/terminal.h"

@@ -27,6 +27,7 @@
 #include "tools/render_moments.h"
 #include "tools/render_outputs.h"
 #include "tools/render_trails.h"
+#include "tools/run_checker.h"
 #include "tools/scene_options.h"
 #include "tools/state_file.h"
 #include "tools/terminal.h"

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "cable/cable_system.h"
-
 namespace sheave::tools {
 namespace {
 
@@ -26,15 +24,6 @@ const CertificateItem* worst_of(const Certificate& certificate, std::initializer
 std::string certificate_share(double relative) { return fmt::format("{:.1g}", relative + 0.0); }
 
 }  // namespace
-
-RunChecker::RunChecker(const Simulation& simulation, std::int64_t last_step)
-    : schedule_(simulation), last_step_(last_step) {}
-
-void RunChecker::observe(const Simulation& simulation) {
-  const std::size_t events = simulation.cables == nullptr ? 0 : simulation.cables->events().size();
-  if (!schedule_.is_due(simulation.world.state().steps == last_step_, events)) return;
-  if (const std::optional<Certificate> found = simulation.certificate()) certificate_.merge(*found);
-}
 
 std::string doubt_text(const Certificate& certificate, double trust) {
   const CertificateItem* worst = certificate.worst();

@@ -1,32 +1,14 @@
 #pragma once
-// A run that checks its own numbers (cable/certificate.h), and what it says of them.
+// What a run says of the check of its own numbers (cable/run_check.h).
 
-#include <cstdint>
 #include <string>
 
 #include "cable/certificate.h"
-#include "cable/simulation.h"
 
 namespace sheave::tools {
 
 /// Figures above this part of their own scale make a run doubtful, unless the user says otherwise.
 inline constexpr double default_trust = 0.01;
-
-/// Checks steps of a run as they are due (CertificateSchedule).
-class RunChecker {
- public:
-  /// For a run of this simulation until `last_step` steps are complete.
-  RunChecker(const Simulation& simulation, std::int64_t last_step);
-  /// To be called after every step.
-  void observe(const Simulation& simulation);
-  /// What was found so far.
-  [[nodiscard]] const Certificate& certificate() const { return certificate_; }
-
- private:
-  CertificateSchedule schedule_;
-  std::int64_t last_step_;
-  Certificate certificate_;
-};
 
 /// One line: "checked: constraints within 3e-12 m, ..." or "doubtful: at 1.2 s ...", without a line
 /// break.

@@ -14,7 +14,7 @@ RunMonitor::RunMonitor(std::int64_t steps)
       joint_stride_(std::max<std::int64_t>(1, steps / 200)) {}
 
 void RunMonitor::observe(const Simulation& simulation, const RunStatistics& statistics) {
-  final_ = simulation.world.energy();
+  final_ = statistics.energy;
   finite_ &= std::isfinite(final_.total());
   if (observed_ == 0) {
     initial_ = final_;

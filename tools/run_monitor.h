@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "cable/certificate/integrator_loss.h"
 #include "cable/simulation.h"
-#include "measure/integrator_loss.h"
 #include "tools/simulate.h"
 
 namespace sheave::tools {
@@ -90,7 +90,7 @@ class RunMonitor {
   double max_gain_ = 0.0;
   double most_vivid_ = 0.0;
   double min_energy_ = 0.0;
-  measure::IntegratorLoss loss_;
+  certify::IntegratorLoss loss_;
   double vibration_loss_ = 0.0;
   double integrator_loss_ = 0.0;
   std::int64_t joint_stride_;  // steps between looks at the joints

@@ -12,6 +12,7 @@
 #include "engine/joint_report.h"
 #include "render/scene_view.h"
 #include "tools/player.h"
+#include "tools/run_checker.h"
 #include "tools/run_summary.h"
 #include "tools/scene_options.h"
 #include "tools/state_file.h"

@@ -143,7 +143,7 @@ void append_damping_warning(const StepSettings& step, const RunStatistics& stati
 }
 
 /// xpbd takes energy from every motion that is not straight and uniform
-/// (measure/integrator_loss.h).
+/// (cable/certificate/integrator_loss.h).
 void append_loss_warning(const StepSettings& step, const RunMonitor& monitor,
                          std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.01;

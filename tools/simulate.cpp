@@ -54,7 +54,8 @@ RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& pr
   RunOutcome outcome;
   World& world = simulation.world;
   const Clock::time_point start = Clock::now();
-  RunChecker checker(simulation, last_step);
+  RunCheck check(simulation);
+  outcome.statistics.energy = check.energy();
   const StopRequest stop = [&] {
     if (interrupted()) {
       outcome.status = RunStatus::interrupted;
@@ -79,14 +80,15 @@ RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& pr
     if (simulation.supervisor != nullptr && simulation.supervisor->has_stopped(world.state())) {
       last_step = world.state().steps;
     }
-    checker.observe(simulation);
+    check.observe(simulation, report.statistics, world.state().steps >= last_step);
+    outcome.statistics.energy = check.energy();
     wanted = observe(outcome.statistics);
     if (progress.due()) {
       progress.update(static_cast<double>(world.state().steps),
                       fmt::format("t = {:.4g} s", world.state().time));
     }
   }
-  outcome.certificate = checker.certificate();
+  outcome.certificate = check.certificate();
   outcome.wall_time = seconds_since(start);
   return outcome;
 }

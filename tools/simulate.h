@@ -6,9 +6,9 @@
 #include <optional>
 #include <string_view>
 
+#include "cable/run_check.h"
 #include "cable/simulation.h"
 #include "tools/progress.h"
-#include "tools/run_checker.h"
 
 namespace sheave::tools {
 
@@ -41,6 +41,7 @@ struct RunStatistics {
   int contacts = 0;                       ///< the most points in one substep
   double deepest_overlap = 0.0;           ///< of bodies that touch [m]
   double numerical_damping = 0.0;         ///< of elastic cables' vibration, by `xpbd`, in all [J]
+  Energy energy;                          ///< now
 };
 
 /// What a run came to.

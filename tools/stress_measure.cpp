@@ -10,6 +10,7 @@
 #include "scenes/suggestion.h"
 #include "tools/failure.h"
 #include "tools/interrupt.h"
+#include "tools/run_checker.h"
 #include "tools/run_summary.h"
 #include "tools/scene_options.h"
 #include "tools/stress_table.h"

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cable/certificate/bounces.h"
 #include "cable/certificate/checks.h"
@@ -38,6 +39,13 @@ class EnergyCheck {
     // What 1e5 substeps may lose without anybody noticing, and what is nothing beside all that
     // moves.
     floor_ = std::max(1e-6 * level_, 1e-3 * flow_);
+    // Lengths are differences of coordinates of this size: what is loaded and at rest, where no
+    // weight and no motion is a scale, works over their rounding.
+    double reach = evidence.bodies.scale();
+    for (const BodyState& body : evidence.end.bodies) {
+      reach = std::max(reach, body.position.norm() + evidence.bodies.scale());
+    }
+    rounding_ = 64.0 * std::numeric_limits<double>::epsilon() * evidence.largest_force * reach;
     findings.note(Kind::energy, "J", std::abs(reported.kinetic - kinetic_),
                   std::max(kinetic_, reported.kinetic), 1e-12 * kinetic_,
                   [] { return std::string("the kinetic energy as it is reported"); });
@@ -61,7 +69,7 @@ class EnergyCheck {
       add(std::max(bounced.energy, 0.0), bounced.flow, [] { return std::string("the bounces"); });
     }
     findings_.note(Kind::energy, "J", std::abs(sum_),
-                   std::max(flow_ + within_joints_ + beside_spans_, floor_), 0.0,
+                   std::max(flow_ + within_joints_ + beside_spans_, floor_), added_ * rounding_,
                    [] { return std::string("all together"); });
   }
 
@@ -70,7 +78,9 @@ class EnergyCheck {
   template <class Name>
   void add(double unexplained, double flow, const Name& name) {
     sum_ += unexplained;
-    findings_.note(Kind::energy, "J", std::abs(unexplained), std::max(flow, floor_), 0.0, name);
+    ++added_;
+    findings_.note(Kind::energy, "J", std::abs(unexplained), std::max(flow, floor_), rounding_,
+                   name);
   }
 
   /// Energy that passes through a body in the substep: in from some forces and loads, out to others
@@ -282,7 +292,9 @@ class EnergyCheck {
   double beside_spans_ = 0.0;  ///< by which those with frozen attachments are judged
   double level_ = 0.0;
   double floor_ = 0.0;
+  double rounding_ = 0.0;  ///< of the largest force times the rounding of lengths [J]
   double sum_ = 0.0;
+  int added_ = 0;         ///< figures in sum_
   bool bounced_ = false;  ///< what touches has velocities that are not those of its way
 };
 

@@ -131,4 +131,47 @@ double RowSystem::work_error(const Substep& substep, const RowSystem& positions)
   return worst > rounding ? worst / substep.h : 0.0;
 }
 
+double RowSystem::spring_error(const Substep& substep, const RowSystem& positions,
+                               double& flow) const {
+  // The force F of the middle acts along J(x0) for one half and along J(x1) for the other, so its
+  // work is F h / 4 (J0 (v0 + v_half) + J1 (v_half + v1)). What the spring stores is F times the
+  // change of its length; both are the same where J does not turn. An impact in the substep may
+  // take some, so what is missing is no fault.
+  const double h = substep.h;
+  const double noise = change_rounding * substep.bodies.scale();
+  const auto rate = [&](const Row& row, std::span<const BodyState> bodies) {
+    double sum = 0.0;
+    for (const RowTerm& term : row.active_terms()) {
+      if (term.body == substep.bodies.count()) continue;
+      const BodyState& body = bodies[at(term.body)];
+      sum += dot(term.linear, body.velocity) + dot(term.angular, body.angular_velocity);
+    }
+    return sum;
+  };
+  double made = 0.0;
+  double rounding = 0.0;
+  flow = 0.0;
+  for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
+    for (int r = feature_rows_[f]; r < feature_rows_[f + 1]; ++r) {
+      const auto i = at(r);
+      const Row& row = rows_[i];
+      const Group& group = groups_[at(group_of_[i])];
+      if (!group.elastic || previous_[i] == 0.0) continue;
+      const Row& start = positions.start_rows_[at(positions.start_places_[f][at(row.index)])];
+      if (row.rate != 0.0 || start.rate != 0.0) continue;  // it gives what it gives
+      const double impulse = previous_[i] / h;             // of each half
+      const double along = (row.value - start.value) / h;
+      const double first =
+          rate(start, substep.start.bodies) + substep_change(start, substep.moving) / h;
+      const double second =
+          substep_change(row, substep.moving) / h + rate(row, substep.next.bodies);
+      const double work = impulse * (0.5 * (first + second) - 2.0 * along);
+      flow += std::abs(2.0 * impulse * along);
+      rounding += std::abs(impulse) * noise / (row.lever * h);
+      made += work;
+    }
+  }
+  return made > rounding ? made : 0.0;
+}
+
 }  // namespace sheave

@@ -46,7 +46,11 @@ class Step final : public Request {
              {Kind::text, {}, std::span(ending_names).subspan(1)},
              "why the world goes no further, if so",
              optional},
-            {"reason", {Kind::text}, "the same for people", optional}};
+            {"reason", {Kind::text}, "the same for people", optional},
+            {"doubtful",
+             {Kind::text},
+             "what speaks against the run so far, if something does: docs/certificate.md",
+             optional}};
   }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override;
 
@@ -91,6 +95,8 @@ Errors Step::run(SessionState& session, Json& answer) const {
     ending = goes_on ? session.step(reason) : Ending::interrupted;
   }
   answer["steps"] = session.world.state().steps - before;
+  const Certificate certificate = session.world.run_certificate();
+  if (!certificate.clean()) answer["doubtful"] = certificate.worst()->sentence();
   if (ending == Ending::none) return {};
   answer["ended"] = ending_names[static_cast<std::size_t>(ending)];
   if (!reason.empty()) answer["reason"] = reason;

@@ -87,11 +87,9 @@ py::list warning_list(Core& core) {
   return list;
 }
 
-py::object certificate_of(Core& core) {
-  const std::optional<Certificate> certificate = core.simulation().certificate();
-  if (!certificate) return py::none();
+py::list items_of(const Certificate& certificate) {
   py::list items;
-  for (const CertificateItem& item : certificate->items) {
+  for (const CertificateItem& item : certificate.items) {
     py::dict one;
     one["kind"] = std::string(certificate_kind_names[static_cast<std::size_t>(item.kind)]);
     one["name"] = item.name;
@@ -105,6 +103,12 @@ py::object certificate_of(Core& core) {
     items.append(std::move(one));
   }
   return items;
+}
+
+py::object certificate_of(Core& core) {
+  const std::optional<Certificate> certificate = core.simulation().certificate();
+  if (!certificate) return py::none();
+  return items_of(*certificate);
 }
 
 py::list contacts_of(Core& core) {
@@ -182,6 +186,13 @@ void bind_simulation(py::module_& /*module*/, SimulationClass& simulation) {
       "subject and message. Of cables since the last edit.");
   simulation.def("certificate", &certificate_of,
                  "What a check of the last substep finds, item by item; None before the first.");
+  simulation.def(
+      "run_certificate", [](Core& core) { return items_of(core.world().run_certificate()); },
+      "What the checks of the run so far have found, item by item: of the substeps that were "
+      "checked, as `sheave run` does, and of the energy of all.");
+  simulation.def_property_readonly(
+      "doubtful", [](Core& core) { return !core.world().run_certificate().clean(); },
+      "Whether `sheave run` would call the run so far doubtful.");
   simulation.def("contacts", &contacts_of, "Where bodies touch or are about to.");
 }
 

@@ -493,5 +493,18 @@ TEST(CertificateSchedule, EventsAreCheckedWhileTheyAreAffordable) {
   EXPECT_GE(checked, 19U);
 }
 
+TEST(CertificateSchedule, SuspectsAreCheckedAtOnceButNotForEver) {
+  const Simulation simulation = start(Atwood{}.machine());
+  CertificateSchedule schedule(simulation, 0.02);
+  EXPECT_TRUE(schedule.is_due());
+  EXPECT_FALSE(schedule.is_due());
+  EXPECT_TRUE(schedule.is_due(false, 0, true));
+  const auto steps = static_cast<int>(4 * schedule.stride());
+  int checked = 0;
+  for (int i = 0; i < steps; ++i) checked += schedule.is_due(false, 0, true) ? 1 : 0;
+  EXPECT_GE(checked, 15);
+  EXPECT_LE(checked, 15 + 4);
+}
+
 }  // namespace
 }  // namespace sheave::test

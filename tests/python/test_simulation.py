@@ -253,6 +253,17 @@ def test_certificates_are_told(atwood):
     assert all(item["relative"] < 1e-6 for item in items)
 
 
+def test_a_run_is_doubtful_as_the_command_says():
+    sim = sheave.load(ROOT / "tools/faults/a5-cart.json")
+    assert not sim.doubtful and sim.run_certificate() == []
+    sim.run()
+    items = sim.run_certificate()
+    assert sim.doubtful == any(item["relative"] > 0.01 for item in items)
+    steady = sheave.load(ROOT / "scenes/analytic/atwood.json")
+    steady.run()
+    assert not steady.doubtful and steady.run_certificate()
+
+
 def test_contacts_are_told():
     sim = sheave.load(ROOT / "scenes/analytic/sliding-box.json")
     sim.step(5)

@@ -65,6 +65,18 @@ std::vector<std::filesystem::path> mended_machines() {
 INSTANTIATE_TEST_SUITE_P(faults, CertifiedScene, testing::ValuesIn(mended_machines()),
                          [](const auto& scene) { return test_name(scene.param); });
 
+// A sheet holds a boom against its load, without gravity and at rest: neither weights nor motion
+// tell what is much, and tension times the rounding of lengths, 500 N x 4 m x 2e-16 = 4e-13 J, is
+// nothing.
+TEST(CertificateOfScenes, ALoadAtRestWithoutGravityIsClean) {
+  const SceneResult loaded =
+      load_scene(std::string(SHEAVE_SOURCE_DIR) + "/tools/faults/mainsheet.json");
+  ASSERT_TRUE(loaded);
+  const Certificate all = certify_scene(*loaded.scene, 3.0, 1);
+  EXPECT_TRUE(all.clean()) << all.worst()->sentence();
+  EXPECT_LT(all.find(CertificateItem::Kind::energy)->relative, 1e-3);
+}
+
 // What the settings of the paper make of a driven drum under a load that they cannot hold: it runs
 // backwards, while tension and torque read right.
 TEST(CertificateOfScenes, ADrumThatRunsBackwardsIsDoubtful) {

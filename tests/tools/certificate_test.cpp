@@ -1,6 +1,10 @@
 // A run that checks its own numbers: what it prints, its status, --trust, --strict and exit code
 // 76.
 
+#include <array>
+#include <fstream>
+#include <sstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -85,6 +89,76 @@ TEST(RunCertificate, ARunThatContradictsItselfIsDoubtful) {
   EXPECT_GT(worst["time"], 0.0);
   EXPECT_FALSE(worst["name"].get<std::string>().empty());
   EXPECT_THAT(worst["advice"].get<std::string>(), HasSubstr("direct"));
+}
+
+std::string fault_scene(const std::string& name) {
+  return std::string(SHEAVE_SOURCE_DIR) + "/tools/faults/" + name + ".json";
+}
+
+/// How much more energy there was than ever before, over the largest sum of kinetic and elastic
+/// energy, from the table that a run writes. What comes back within 32 steps is no gain.
+double gain_of(const TemporaryFolder& folder, const std::vector<std::string>& words) {
+  const std::string table = folder.path("energy.csv");
+  run_with(words, {"-q", "--out", table, "--columns", "energy.*"});
+  std::ifstream file(table);
+  std::string line;
+  std::getline(file, line);
+  std::vector<std::array<double, 4>> rows;  // time, kinetic, potential, elastic
+  while (std::getline(file, line)) {
+    std::istringstream fields(line);
+    std::array<double, 4> row{};
+    char comma = 0;
+    for (double& value : row) fields >> value >> comma;
+    rows.push_back(row);
+  }
+  EXPECT_GT(rows.size(), 2U);
+  double vivid = 0.0;
+  double gain = 0.0;
+  for (const auto& [time, kinetic, potential, elastic] : rows) {
+    vivid = std::max(vivid, kinetic + elastic);
+    const double first = rows[0][1] + rows[0][2] + rows[0][3];
+    gain = std::max(gain, kinetic + potential + elastic - first);
+  }
+  return gain / vivid;
+}
+
+TEST(RunCertificate, EnergyFromNowhereIsDoubtfulWhateverSingleSubstepsSay) {
+  // Passive machines, which cannot gain energy. Whatever makes them do so, the run must say it, by
+  // its status, its exit code and its certificate alike.
+  const TemporaryFolder folder;
+  int gains = 0;
+  for (const char* name : {"light-slider", "long-step"}) {
+    for (const char* substeps : {"1", "2", "8"}) {
+      for (const char* solver : {"direct", "gauss-seidel"}) {
+        const std::vector<std::string> words{fault_scene(name), "--substeps", substeps, "--solver",
+                                             solver};
+        SCOPED_TRACE(std::string(name) + " x " + substeps + " " + solver);
+        const bool gained = gain_of(folder, words) > 0.01;
+        gains += gained ? 1 : 0;
+        const json summary = json::parse(run_with(words, {"--json"}).out);
+        const bool doubtful = summary["status"] == "doubtful";
+        EXPECT_TRUE(doubtful || !gained);
+        EXPECT_EQ(summary["certificate"]["clean"], !doubtful);
+        EXPECT_EQ(run_with(words, {"--strict", "-q"}).exit_code, doubtful ? 76 : 0);
+      }
+    }
+  }
+  EXPECT_GT(gains, 0) << "otherwise this test tests nothing";
+}
+
+TEST(RunCertificate, AFeedPutsEnergyIn) {
+  // A weight of 20 kg is wound up at 0.1 m/s: 19.6 J in 1 s.
+  const TemporaryFolder folder;
+  const std::string scene = folder.write("feed.json", R"json({
+    "format": "sheave-scene/1", "gravity": [0, -9.81, 0], "duration": 1,
+    "bodies": [{"name": "m", "mobility": "slider", "axis": [0, 1, 0], "mass": 20, "position": [0, -1, 0],
+                "shape": {"type": "sphere", "radius": 0.05}}],
+    "cables": [{"name": "c", "links": [{"type": "attachment", "body": "world", "feed_speed": -0.1},
+                                       {"type": "attachment", "body": "m"}]}]})json");
+  const json summary = json::parse(run_with({scene, "--json"}, {}).out);
+  EXPECT_EQ(summary["status"], "done");
+  EXPECT_EQ(summary["warnings"], json::array()) << summary["warnings"];
+  EXPECT_NEAR(summary["energy"]["max_drift"], 20.0 * 9.81 * 0.1, 0.2);
 }
 
 TEST(RunCertificate, TrustMovesTheLimit) {

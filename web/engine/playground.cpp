@@ -67,8 +67,8 @@ Playground::Playground(Scene scene, Simulation simulation)
     : scene_(std::move(scene)),
       world_(LiveWorld::of(std::move(simulation))),
       channels_(world_.simulation(), world_.simulation().cable_reports()),
-      controls_(slider_controls(scene_)),
-      schedule_(world_.simulation()) {
+      controls_(slider_controls(scene_)) {
+  world_.check_run();
   start_ = world_.snapshot();
 }
 
@@ -116,11 +116,6 @@ std::string Playground::events_text(const LiveReport& report) const {
   return text;
 }
 
-void Playground::check_certificate(bool last) {
-  if (!schedule_.is_due(last)) return;
-  if (const auto one = world_.simulation().certificate()) certificate_.merge(*one);
-}
-
 Playground::Ending Playground::step(std::string& text) {
   const StepSettings& settings = world_.simulation().world.model().step;
   const double h = settings.dt / settings.substeps;
@@ -132,7 +127,6 @@ Playground::Ending Playground::step(std::string& text) {
     text = report.divergence->message;
     return Ending::diverged;
   }
-  check_certificate(!report.events.empty());
   const auto& supervisor = world_.simulation().supervisor;
   if (supervisor != nullptr && supervisor->has_stopped(world_.state())) return Ending::stopped;
   return Ending::none;
@@ -154,7 +148,7 @@ void Playground::keep() {
 bool Playground::go_back(double seconds) {
   pointer_.release(world_);
   reference_.reset();
-  certificate_ = {};
+  world_.check_run();
   if (std::isinf(seconds)) {
     kept_.clear();
     return start_ && world_.restore(*start_).empty();
@@ -248,13 +242,14 @@ double Playground::error() const {
 }
 
 Json Playground::certificate(bool reset) {
-  if (const auto one = world_.simulation().certificate()) certificate_.merge(*one);
-  const CertificateItem* worst = certificate_.worst();
-  const Json answer = {{"clean", certificate_.clean()},
-                       {"substeps", certificate_.substeps},
+  Certificate all = world_.run_certificate();
+  if (const auto one = world_.simulation().certificate()) all.merge(*one);
+  const CertificateItem* worst = all.worst();
+  const Json answer = {{"clean", all.clean()},
+                       {"substeps", all.substeps},
                        {"relative", worst == nullptr ? 0.0 : worst->relative},
                        {"sentence", worst == nullptr ? std::string() : worst->sentence()}};
-  if (reset) certificate_ = {};
+  if (reset) world_.check_run();
   return answer;
 }
 

@@ -87,7 +87,6 @@ class Playground {
   };
 
   Playground(Scene scene, Simulation simulation);
-  void check_certificate(bool last);
   [[nodiscard]] std::string events_text(const LiveReport& report) const;
 
   Scene scene_;
@@ -99,8 +98,6 @@ class Playground {
   PointerSpring pointer_;
   std::optional<LiveSnapshot> start_;
   std::deque<Kept> kept_;
-  Certificate certificate_;
-  CertificateSchedule schedule_;
   std::optional<Reference> reference_;
 };
 

@@ -22,7 +22,7 @@
 
 #include "engine/world.h"
 
-namespace sheave::measure {
+namespace sheave::certify {
 
 class IntegratorLoss {
  public:
@@ -39,7 +39,8 @@ class IntegratorLoss {
   [[nodiscard]] double exchanged() const;
 
  private:
-  /// Of one body: m v, and the angular momentum, or that about its axis along x.
+  /// Of one body: m v, and the angular momentum, or that about its axis along x. 0 of bodies that do
+  /// not move freely.
   struct Momentum {
     Vector3 linear = Vector3::Zero();
     Vector3 angular = Vector3::Zero();
@@ -62,7 +63,8 @@ class IntegratorLoss {
     void add(const Step& step, double smooth);
   };
 
-  [[nodiscard]] Step step_to(const World& world, const std::vector<Momentum>& now) const;
+  /// Makes `last_` those of now, and returns what has changed.
+  [[nodiscard]] Step follow(const World& world);
   [[nodiscard]] double smooth_part(std::size_t step) const;
   [[nodiscard]] Sums sums() const;
 
@@ -73,4 +75,4 @@ class IntegratorLoss {
   Sums sums_;
 };
 
-}  // namespace sheave::measure
+}  // namespace sheave::certify

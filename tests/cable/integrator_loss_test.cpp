@@ -1,7 +1,7 @@
 // What the integrator takes, against closed forms and against what is missing where nothing else
 // takes any.
 
-#include "measure/integrator_loss.h"
+#include "cable/certificate/integrator_loss.h"
 
 #include <cmath>
 
@@ -9,7 +9,7 @@
 
 #include "tests/support/builders.h"
 
-namespace sheave::measure {
+namespace sheave::certify {
 namespace {
 
 using test::g;
@@ -116,4 +116,4 @@ TEST(IntegratorLoss, LeavesImpactsAndDrivesToThemselves) {
 }
 
 }  // namespace
-}  // namespace sheave::measure
+}  // namespace sheave::certify

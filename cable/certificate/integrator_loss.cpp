@@ -1,11 +1,12 @@
-#include "measure/integrator_loss.h"
+#include "cable/certificate/integrator_loss.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/body_set.h"
+#include "engine/index.h"
 
-namespace sheave::measure {
+namespace sheave::certify {
 namespace {
 
 bool moves_freely(const BodyProperties& body) {
@@ -25,58 +26,54 @@ Vector3 axis_of(const World& world, const BodyProperties& body) {
 
 }  // namespace
 
-IntegratorLoss::Step IntegratorLoss::step_to(const World& world,
-                                             const std::vector<Momentum>& now) const {
+IntegratorLoss::Step IntegratorLoss::follow(const World& world) {
   Step step;
-  for (int i = 0; i < world.bodies().count(); ++i) {
-    const BodyProperties& body = world.bodies()[i];
+  const BodySet& bodies = world.bodies();
+  const std::vector<BodyState>& states = world.state().bodies;
+  for (int i = 0; i < bodies.count(); ++i) {
+    const BodyProperties& body = bodies[i];
     if (!moves_freely(body)) continue;
-    const auto at = static_cast<std::size_t>(i);
+    const BodyState& state = states[at(i)];
+    Momentum& last = last_[at(i)];
     if (body.mobility != Mobility::rotor && body.mass > 0.0) {
-      const Vector3 change = now[at].linear - last_[at].linear;
+      const Vector3 now = body.mass * state.velocity;
+      const Vector3 change = now - last.linear;
       step.square += change.squaredNorm() / body.mass;
-      step.first_power += change.dot(last_[at].linear) / body.mass;
-      step.power += change.dot(now[at].linear) / body.mass;
+      step.first_power += change.dot(last.linear) / body.mass;
+      step.power += change.dot(now) / body.mass;
+      last.linear = now;
     }
-    Vector3 change = now[at].angular - last_[at].angular;
-    Vector3 before = last_[at].angular;
-    Vector3 after = now[at].angular;
     if (turns_about_axis(body)) {
       if (!(body.axis_inertia > 0.0)) continue;
-      for (Vector3* momentum : {&before, &after}) *momentum /= body.axis_inertia;
-    } else {
-      const Quaternion& turn = world.state().bodies[at].orientation;
-      const auto spin = [&](const Vector3& momentum) -> Vector3 {
-        return turn * (body.inverse_inertia * (turn.conjugate() * momentum));
-      };
-      before = spin(before);
-      after = spin(after);
+      const double before = last.angular.x();
+      const double now = body.axis_inertia * state.angular_velocity.dot(axis_of(world, body));
+      const double rate = (now - before) / body.axis_inertia;
+      step.square += (now - before) * rate;
+      step.first_power += before * rate;
+      step.power += now * rate;
+      last.angular.x() = now;
+      continue;
     }
-    step.square += change.dot(after - before);
+    const Quaternion& turn = state.orientation;
+    const auto own = [&](const Vector3& vector) { return rotated(turn.conjugate(), vector); };
+    const Vector3 now = rotated(turn, times(body.inertia, own(state.angular_velocity)));
+    const Vector3 change = now - last.angular;
+    const Vector3 before = rotated(turn, times(body.inverse_inertia, own(last.angular)));
+    step.square += change.dot(state.angular_velocity - before);
     step.first_power += change.dot(before);
-    step.power += change.dot(after);
+    step.power += change.dot(state.angular_velocity);
+    last.angular = now;
   }
   return step;
 }
 
 void IntegratorLoss::observe(const World& world, double energy, std::int64_t fallbacks) {
-  std::vector<Momentum> now(static_cast<std::size_t>(world.bodies().count()));
-  for (int i = 0; i < world.bodies().count(); ++i) {
-    const BodyProperties& body = world.bodies()[i];
-    const auto at = static_cast<std::size_t>(i);
-    const BodyState& state = world.state().bodies[at];
-    now[at].linear = body.mass * state.velocity;
-    if (turns_about_axis(body)) {
-      now[at].angular.x() = body.axis_inertia * state.angular_velocity.dot(axis_of(world, body));
-    } else {
-      const Quaternion& turn = state.orientation;
-      now[at].angular = turn * (body.inertia * (turn.conjugate() * state.angular_velocity));
-    }
-  }
-  if (last_.empty()) {
+  const bool begins = last_.empty();
+  if (begins) last_.resize(at(world.bodies().count()));
+  Step step = follow(world);
+  if (begins) {
     sums_.energy = energy;
   } else {
-    Step step = step_to(world, now);
     const StepSettings& settings = world.model().step;
     const double substeps = settings.substeps;
     const double by_xpbd = settings.integrator == IntegratorKind::xpbd
@@ -96,7 +93,6 @@ void IntegratorLoss::observe(const World& world, double energy, std::int64_t fal
     }
   }
   fallbacks_ = fallbacks;
-  last_ = std::move(now);
 }
 
 double IntegratorLoss::smooth_part(std::size_t step) const {
@@ -135,4 +131,4 @@ double IntegratorLoss::taken() const { return sums().taken; }
 
 double IntegratorLoss::exchanged() const { return sums().exchanged; }
 
-}  // namespace sheave::measure
+}  // namespace sheave::certify

@@ -1,0 +1,224 @@
+#include "cable/certificate/energy_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable/cable_system.h"
+#include "cable/certificate/sources_of_energy.h"
+#include "cable/links/attachment.h"
+#include "engine/body_drive.h"
+#include "engine/body_set.h"
+#include "engine/index.h"
+#include "engine/joint_report.h"
+
+namespace sheave::certify {
+namespace {
+
+constexpr std::int64_t block_steps = 16;
+/// Of what moves, in one step.
+constexpr double suspicious_share = 0.01;
+constexpr double most_growth = 1e6;
+
+bool has_controls(const Simulation& simulation) {
+  return simulation.supervisor != nullptr || !simulation.world.state().controls.empty();
+}
+
+double fastest_feed(const Simulation& simulation) {
+  double fastest = 0.0;
+  if (!simulation.cable_definitions) return fastest;
+  for (const CableDef& cable : *simulation.cable_definitions) {
+    for (const auto& link : cable.links) {
+      const auto* attachment = dynamic_cast<const AttachmentLink*>(link.get());
+      if (attachment == nullptr || !attachment->feed_speed) continue;
+      fastest = std::max(fastest, std::abs(*attachment->feed_speed));
+    }
+  }
+  return fastest;
+}
+
+/// Whether `xpbd` takes from the spin of a body in a way that is not that of smooth motion: one whose
+/// moments of inertia differ and that turns far in a substep.
+bool spins_fast(const World& world) {
+  constexpr double far = 0.05;  // [rad]
+  const StepSettings& step = world.model().step;
+  if (step.integrator != IntegratorKind::xpbd) return false;
+  const double most = far * step.substeps / step.dt;
+  for (int i = 0; i < world.bodies().count(); ++i) {
+    const BodyProperties& body = world.bodies()[i];
+    if (body.mobility != Mobility::free || body.isotropic) continue;
+    if (world.state().bodies[at(i)].angular_velocity.norm() > most) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+EnergyWatch::EnergyWatch(const Simulation& simulation)
+    : passive_(is_passive(simulation.world.model(), simulation.cable_definitions
+                                                        ? *simulation.cable_definitions
+                                                        : std::vector<CableDef>())),
+      keeps_(passive_ && keeps_energy(simulation.world.model(), simulation.cable_definitions
+                                                                    ? *simulation.cable_definitions
+                                                                    : std::vector<CableDef>())) {
+  const BodySet& bodies = simulation.world.bodies();
+  size_ = bodies.scale();
+  for (int i = 0; i < bodies.count(); ++i) {
+    const BodyProperties& body = bodies[i];
+    if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) continue;
+    mass_ += body.mass;
+    const Vector3 load = body.mass * bodies.gravity() + bodies.definition(i).force;
+    weight_ += load.norm() * size_;
+  }
+  begin(simulation);
+}
+
+void EnergyWatch::begin(const Simulation& simulation) {
+  const State& state = simulation.world.state();
+  steps_ = state.steps;
+  start_ = energy_ = simulation.world.energy();
+  vivid_ = energy_.kinetic + energy_.elastic;
+  reference_ = highest_ = block_ = block_before_ = energy_.total();
+  highest_time_ = state.time;
+  in_block_ = 0;
+  gain_ = lost_ = most_lost_ = worked_ = 0.0;
+  was_taut_ = false;
+  events_ = simulation.cables == nullptr ? 0 : simulation.cables->events().size();
+  integrator_ = IntegratorLoss();
+  if (keeps_) integrator_.observe(simulation.world, energy_.total(), fallbacks_);
+  put_in_ = vivid_ + weight_ + most_put_in(simulation);
+  looked_at_ = std::abs(energy_.total()) + vivid_;
+}
+
+void EnergyWatch::observe(const Simulation& simulation, const StepStatistics& statistics) {
+  const State& state = simulation.world.state();
+  if (state.steps != steps_ + 1) {
+    begin(simulation);
+    return;
+  }
+  // What is set may do work, and is over only when a new balance begins.
+  if (passive_ && has_controls(simulation)) passive_ = keeps_ = false;
+  steps_ = state.steps;
+  const double before = energy_.total();
+  energy_ = simulation.world.energy();
+  const double total = energy_.total();
+  vivid_ = std::max(vivid_, energy_.kinetic + energy_.elastic);
+  if (total > highest_) {
+    highest_ = total;
+    highest_time_ = state.time;
+  }
+  suspicious_ = false;
+  if (passive_) {
+    suspicious_ = total - before > suspicious_share * vivid_ + rounding();
+    follow_gain(total, state.time);
+  } else {
+    follow_input(simulation, statistics);
+  }
+  if (keeps_) follow_loss(simulation, before - total, statistics);
+}
+
+double EnergyWatch::rounding() const {
+  // Of heights that weights could have in the scene, and have: positions are as coarse as those.
+  return 1e-12 * (vivid_ + weight_ + std::abs(start_.potential) + std::abs(energy_.potential));
+}
+
+void EnergyWatch::follow_gain(double total, double time) {
+  if (total - reference_ > gain_) {
+    gain_ = total - reference_;
+    gain_time_ = time;
+  }
+  block_ = std::max(block_, total);
+  if (++in_block_ < block_steps) return;
+  reference_ = std::min(reference_, std::max(block_, block_before_));
+  block_before_ = block_;
+  block_ = total;
+  in_block_ = 0;
+}
+
+void EnergyWatch::follow_loss(const Simulation& simulation, double loss,
+                              const StepStatistics& statistics) {
+  fallbacks_ += statistics.integrator_fallbacks;
+  integrator_.observe(simulation.world, energy_.total(), fallbacks_);
+  const CableSystem* cables = simulation.cables;
+  const bool is_taut =
+      cables == nullptr || cables->all_pull(simulation.world.state().features.back());
+  const std::size_t events = cables == nullptr ? 0 : cables->events().size();
+  const bool smooth = is_taut && was_taut_ && events == events_ && !spins_fast(simulation.world);
+  was_taut_ = is_taut;
+  events_ = events;
+  if (!smooth) return;
+  lost_ += loss;
+  suspicious_ = suspicious_ || loss > suspicious_share * vivid_ + rounding();
+  if (loss <= most_lost_) return;
+  most_lost_ = loss;
+  most_lost_time_ = simulation.world.state().time;
+}
+
+void EnergyWatch::follow_input(const Simulation& simulation, const StepStatistics& statistics) {
+  worked_ += std::abs(statistics.external_work);
+  const double now = std::abs(energy_.total()) + energy_.kinetic + energy_.elastic;
+  // Written so that NaN counts as large.
+  if (now <= 2.0 * looked_at_) return;
+  looked_at_ = now;
+  put_in_ = std::max(put_in_,
+                     start_.kinetic + start_.elastic + weight_ + worked_ + most_put_in(simulation));
+  suspicious_ = highest_ - start_.total() > put_in_;
+}
+
+double EnergyWatch::most_put_in(const Simulation& simulation) const {
+  if (passive_) return 0.0;
+  const World& world = simulation.world;
+  const State& state = world.state();
+  double fastest = fastest_feed(simulation);
+  double work = 0.0;
+  for (int i = 0; i < world.bodies().count(); ++i) {
+    const BodyProperties& body = world.bodies()[i];
+    const BodyState& now = state.bodies[at(i)];
+    const double spin = now.angular_velocity.norm();
+    const bool led = body.mobility == Mobility::kinematic || body.drive == DriveKind::speed ||
+                     body.drive == DriveKind::angle;
+    if (led) fastest = std::max(fastest, now.velocity.norm() + spin * size_);
+    // Of a body that turns freely the angle is not counted.
+    const double angle = std::max(std::abs(now.angle), spin * state.time);
+    work += world.bodies().definition(i).torque.norm() * angle;
+    if (body.drive == DriveKind::torque) {
+      work += std::abs(BodyDrive(body, state.controls, i).at(state.time)) * angle;
+    }
+  }
+  for (const JointReport& joint : joint_reports(world)) {
+    for (const JointCoordinateReport& coordinate : joint.coordinates) {
+      if (coordinate.drive_target == 0.0 && coordinate.drive_force == 0.0) continue;
+      fastest = std::max(fastest, std::abs(coordinate.rate) * (coordinate.angle ? size_ : 1.0));
+      work += std::abs(coordinate.drive_force * coordinate.value);
+    }
+  }
+  return 0.5 * mass_ * fastest * fastest + work;
+}
+
+std::optional<CertificateItem> EnergyWatch::finding() const {
+  const double floor = rounding();
+  // As in single substeps, a millionth of what weights could do counts as what moves: what is as
+  // good as at rest creeps within the solver's tolerance.
+  const double scale = std::max(vivid_, 1e-6 * weight_);
+  CertificateItem item{
+      CertificateItem::Kind::energy, "the whole run", 0.0, "J", scale, 0.0, gain_time_, {}};
+  const auto worse = [&](double value, double scale, double time) {
+    const double excess = value - floor;
+    if (!(excess > 0.0)) return;
+    const double relative = scale > 0.0 ? excess / scale : 1e300;
+    if (!(relative > item.relative)) return;
+    item.value = value;
+    item.scale = scale;
+    item.relative = relative;
+    item.time = time;
+  };
+  if (passive_) worse(gain_, scale, gain_time_);
+  if (keeps_) {
+    worse(lost_ - 2.0 * std::max(integrator_.taken(), 0.0), scale, most_lost_time_);
+  }
+  const double grown = highest_ - start_.total();
+  if (grown > most_growth * put_in_) worse(grown, put_in_, highest_time_);
+  if (!passive_ && item.relative == 0.0) return std::nullopt;
+  return item;
+}
+
+}  // namespace sheave::certify

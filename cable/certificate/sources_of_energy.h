@@ -1,0 +1,21 @@
+#pragma once
+// Whether anything puts energy into a machine, or takes any out, by its definition.
+
+#include <vector>
+
+#include "cable/cable.h"
+#include "engine/model.h"
+
+namespace sheave::certify {
+
+/// Whether nothing but gravity and constant forces does work on the machine: no body moves by a
+/// function of time, is driven or has a torque, no joint has a drive, no cable is fed.
+[[nodiscard]] bool is_passive(const Model& model, const std::vector<CableDef>& cables);
+
+/// Whether nothing takes energy out of the machine as long as no span that is slack comes taut: no
+/// friction, no damping, no efficiency, nothing that touches, breaks or comes to a stop. Springs
+/// and elastic cables count as if they took some, since of their vibration an integrator takes what
+/// nobody sees.
+[[nodiscard]] bool keeps_energy(const Model& model, const std::vector<CableDef>& cables);
+
+}  // namespace sheave::certify
