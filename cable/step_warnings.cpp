@@ -68,11 +68,11 @@ void append_solver_warnings(const StepStatistics& statistics, std::vector<Warnin
   if (statistics.cut_substeps > 0) {
     warnings.push_back({"cut_substeps", "",
                         substeps_text(statistics.cut_substeps) +
-                            " did not converge as a whole and " +
+                            " did not converge as a whole, or made energy, and " +
                             (statistics.cut_substeps == 1 ? "was" : "were") + " done in " +
                             std::to_string(statistics.substep_parts) +
-                            " parts, with more work but no less precision; more substeps avoid "
-                            "that"});
+                            " parts: things move far there, and each part may be off by three "
+                            "thousandths of their energy; more substeps avoid that"});
   }
   if (statistics.exhausted > 0) {
     warnings.push_back({"exhausted", "",
@@ -102,7 +102,8 @@ void append_cable_warnings(const CableSystem& cables, const BodySet& bodies, dou
     std::string span =
         warning.cable + (warning.span < 0 ? " behind a wrap" : "." + std::to_string(warning.span));
     std::string message = "span " + span + " had no tangent" + when(warning) +
-                          ": its wheels overlap, and its numbers mean little there";
+                          ": its wheels overlap, or it leans so far out of a wheel's plane that "
+                          "no groove would hold it; its numbers mean little there";
     warnings.push_back({"no_tangent", std::move(span), std::move(message)});
   }
   for (const CableSystem::WrapWarning& warning : cables.wrap_warnings()) {
@@ -110,6 +111,17 @@ void append_cable_warnings(const CableSystem& cables, const BodySet& bodies, dou
     warnings.push_back({"too_many_wraps", warning.cable,
                         "cable " + warning.cable + " found no place for another wrap" +
                             when(warning) + ", and went through the body; raise its most_wraps"});
+  }
+  for (const CableSystem::LeanWarning& warning : cables.lean_warnings()) {
+    if (!(warning.first_time > since)) continue;
+    warnings.push_back({"wrap_off_plane", warning.cable,
+                        "cable " + warning.cable + " lies on " + bodies.name(warning.body) +
+                            " in the plane in which it came onto it, and its spans left that plane "
+                            "by up to " +
+                            number_text(warning.angle * 180.0 / pi, digits) + " degrees" +
+                            when(warning) +
+                            ": it lies as in a groove there, where on a smooth body it would slide "
+                            "sideways to a shorter way"});
   }
   for (const CableSystem::LinkWarning& warning : cables.stall_warnings()) {
     if (!(warning.first_time > since)) continue;

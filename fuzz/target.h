@@ -67,7 +67,7 @@ inline constexpr std::array<Target, 8> targets{{{"scene_text", try_scene_text},
                                                 {"journal", try_journal},
                                                 {"command_line", try_command_line},
                                                 {"live", try_live},
-                                                {"chart", try_chart}}};
+                                                {"chart", try_chart},
                                                 {"edit", try_edit}}};
 
 }  // namespace sheave::fuzz

@@ -41,9 +41,9 @@ struct ChartAxis {
     GnuplotCode list;
     for (std::size_t i = 0; i < values.size(); i += 1 + values.size() / most) {
       if (i > 0) list.add({", "});
-      const std::string name =
+      const std::string shown =
           numeric ? fmt::format("{:.4g}", std::strtod(values[i].c_str(), nullptr)) : values[i];
-      list.add({script.tic(name, static_cast<double>(i))});
+      list.add({script.tic(shown, static_cast<double>(i))});
     }
     return {"(", list, ")"};
   }

@@ -201,13 +201,13 @@ std::optional<CertificateItem> EnergyWatch::finding() const {
   const double scale = std::max(vivid_, 1e-6 * weight_);
   CertificateItem item{
       CertificateItem::Kind::energy, "the whole run", 0.0, "J", scale, 0.0, gain_time_, {}};
-  const auto worse = [&](double value, double scale, double time) {
+  const auto worse = [&](double value, double over, double time) {
     const double excess = value - floor;
     if (!(excess > 0.0)) return;
-    const double relative = scale > 0.0 ? excess / scale : 1e300;
+    const double relative = over > 0.0 ? excess / over : 1e300;
     if (!(relative > item.relative)) return;
     item.value = value;
-    item.scale = scale;
+    item.scale = over;
     item.relative = relative;
     item.time = time;
   };
