@@ -79,12 +79,12 @@ test::Machine tumbling(IntegratorKind integrator) {
   return machine;
 }
 
-struct Momentum {
+struct TotalMomentum {
   Vector3 linear = Vector3::Zero();
   Vector3 angular = Vector3::Zero();
 };
-Momentum momentum_of(const World& world) {
-  Momentum sum;
+TotalMomentum momentum_of(const World& world) {
+  TotalMomentum sum;
   for (int i = 0; i < world.bodies().count(); ++i) {
     const BodyProperties& body = world.bodies()[i];
     const BodyState& state = world.state().bodies[static_cast<std::size_t>(i)];
@@ -122,7 +122,7 @@ TYPED_TEST(JointLock, HoldsWhatIsThereWithoutABlow) {
     advance(s, 120);
     const JointReport apart = joint_reports(s.world)[0];
     const Energy before = s.world.energy();
-    const Momentum then = momentum_of(s.world);
+    const TotalMomentum then = momentum_of(s.world);
     ASSERT_THAT(s.world.lock_joint(0), IsEmpty());
     const JointReport held = joint_reports(s.world)[0];
     EXPECT_FALSE(held.broken_at.has_value());
@@ -139,7 +139,7 @@ TYPED_TEST(JointLock, HoldsWhatIsThereWithoutABlow) {
     EXPECT_LT(s.world.energy().kinetic, 0.999 * before.kinetic);
     EXPECT_GT(s.world.energy().kinetic, 0.05 * before.kinetic);
     advance(s, 200, &all);
-    const Momentum now = momentum_of(s.world);
+    const TotalMomentum now = momentum_of(s.world);
     // Velocities follow from positions of a metre: 2e-16 m / 2 ms in each of 400 substeps.
     EXPECT_LT((now.linear - then.linear).norm(), 4e-11);
     // Of xpbd they are means over the substep, and what they miss of turning bodies is w h = 2.5
