@@ -125,8 +125,8 @@ TEST(RenderCommand, APictureOfARestHasTheTensionsOfTheRest) {
   const ProcessResult result =
       render(scene, {"--load-state", state, "--at", "0", "--labels", "--still", still});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(read_file(still), HasSubstr("9.8"));
-  EXPECT_THAT(read_file(still), Not(HasSubstr("52.")));
+  EXPECT_THAT(read_file(still), HasSubstr(">9.8 kN<"));
+  EXPECT_THAT(read_file(still), Not(HasSubstr("52.6 kN")));
 }
 
 TEST(Player, ShowsTheTensionsOfARestAndTheNextOnesOfAStateWithout) {
