@@ -129,7 +129,12 @@ std::vector<Line> all_lines() {
   Lines winch(stalled_winch());
   winch.ask(R"({"type":"subscribe","name":"s","events":true})");
   winch.ask(R"({"type":"step","count":20})");
+  Lines rough(live_scene);
+  rough.ask(
+      R"({"type":"edit","changes":[{"type":"set_step","step":{"solver":"gauss-seidel","integrator":"xpbd","iterations":1,"substeps":1}}]})");
+  rough.ask(R"({"type":"step","count":50})");
   std::vector<Line> lines = workshop.lines;
+  lines.insert(lines.end(), rough.lines.begin(), rough.lines.end());
   lines.insert(lines.end(), winch.lines.begin(), winch.lines.end());
   lines.insert(lines.end(), cut.lines.begin(), cut.lines.end());
   lines.push_back({live::event_definition("dropped"), json::parse(live::dropped_event(3))});
