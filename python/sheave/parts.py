@@ -45,8 +45,10 @@ class DistanceJoint(Joint):
     drive_times: increasing times of the values; none for a constant (a list of numbers [s];
         default: [])
     drive_values: values of the drive, one per time (a list of numbers [m, m/s or N]; default: [])
-    drive_interpolation: of the values between their times; cubic: a smooth spline through them;
-        clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    drive_interpolation: of the values between their times; cubic: a smooth spline through them,
+        which may overshoot them and may start backwards; clamped: one from rest to rest; monotone:
+        smooth, and never beyond the two values around it ("linear", "cubic", "clamped", "monotone";
+        default: "linear")
     drive_amplitude: of a sine added to the values (a number [m, m/s or N]; default: 0.0)
     drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
     drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
@@ -84,7 +86,7 @@ class DistanceJoint(Joint):
     drive: Optional[Literal["none", "position", "speed", "force"]]
     drive_times: Optional[Sequence[float]]
     drive_values: Optional[Sequence[float]]
-    drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
     drive_amplitude: Optional[float]
     drive_frequency: Optional[float]
     drive_phase: Optional[float]
@@ -113,7 +115,7 @@ class DistanceJoint(Joint):
         drive: Optional[Literal["none", "position", "speed", "force"]] = None,
         drive_times: Optional[Sequence[float]] = None,
         drive_values: Optional[Sequence[float]] = None,
-        drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
         drive_amplitude: Optional[float] = None,
         drive_frequency: Optional[float] = None,
         drive_phase: Optional[float] = None,
@@ -161,7 +163,9 @@ class BallJoint(Joint):
     twist_drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m];
         default: [])
     twist_drive_interpolation: of the values between their times; cubic: a smooth spline through
-        them; clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+        them, which may overshoot them and may start backwards; clamped: one from rest to rest;
+        monotone: smooth, and never beyond the two values around it ("linear", "cubic", "clamped",
+        "monotone"; default: "linear")
     twist_drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default:
         0.0)
     twist_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
@@ -206,7 +210,7 @@ class BallJoint(Joint):
     twist_drive: Optional[Literal["none", "angle", "speed", "torque"]]
     twist_drive_times: Optional[Sequence[float]]
     twist_drive_values: Optional[Sequence[float]]
-    twist_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    twist_drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
     twist_drive_amplitude: Optional[float]
     twist_drive_frequency: Optional[float]
     twist_drive_phase: Optional[float]
@@ -239,7 +243,7 @@ class BallJoint(Joint):
         twist_drive: Optional[Literal["none", "angle", "speed", "torque"]] = None,
         twist_drive_times: Optional[Sequence[float]] = None,
         twist_drive_values: Optional[Sequence[float]] = None,
-        twist_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        twist_drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
         twist_drive_amplitude: Optional[float] = None,
         twist_drive_frequency: Optional[float] = None,
         twist_drive_phase: Optional[float] = None,
@@ -278,8 +282,10 @@ class HingeJoint(Joint):
         default: [])
     drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m]; default:
         [])
-    drive_interpolation: of the values between their times; cubic: a smooth spline through them;
-        clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    drive_interpolation: of the values between their times; cubic: a smooth spline through them,
+        which may overshoot them and may start backwards; clamped: one from rest to rest; monotone:
+        smooth, and never beyond the two values around it ("linear", "cubic", "clamped", "monotone";
+        default: "linear")
     drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default: 0.0)
     drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
     drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
@@ -318,7 +324,7 @@ class HingeJoint(Joint):
     drive: Optional[Literal["none", "angle", "speed", "torque"]]
     drive_times: Optional[Sequence[float]]
     drive_values: Optional[Sequence[float]]
-    drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
     drive_amplitude: Optional[float]
     drive_frequency: Optional[float]
     drive_phase: Optional[float]
@@ -348,7 +354,7 @@ class HingeJoint(Joint):
         drive: Optional[Literal["none", "angle", "speed", "torque"]] = None,
         drive_times: Optional[Sequence[float]] = None,
         drive_values: Optional[Sequence[float]] = None,
-        drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
         drive_amplitude: Optional[float] = None,
         drive_frequency: Optional[float] = None,
         drive_phase: Optional[float] = None,
@@ -386,8 +392,10 @@ class SliderJoint(Joint):
     drive_times: increasing times of the values; none for a constant (a list of numbers [s];
         default: [])
     drive_values: values of the drive, one per time (a list of numbers [m, m/s or N]; default: [])
-    drive_interpolation: of the values between their times; cubic: a smooth spline through them;
-        clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    drive_interpolation: of the values between their times; cubic: a smooth spline through them,
+        which may overshoot them and may start backwards; clamped: one from rest to rest; monotone:
+        smooth, and never beyond the two values around it ("linear", "cubic", "clamped", "monotone";
+        default: "linear")
     drive_amplitude: of a sine added to the values (a number [m, m/s or N]; default: 0.0)
     drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
     drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
@@ -426,7 +434,7 @@ class SliderJoint(Joint):
     drive: Optional[Literal["none", "position", "speed", "force"]]
     drive_times: Optional[Sequence[float]]
     drive_values: Optional[Sequence[float]]
-    drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
     drive_amplitude: Optional[float]
     drive_frequency: Optional[float]
     drive_phase: Optional[float]
@@ -456,7 +464,7 @@ class SliderJoint(Joint):
         drive: Optional[Literal["none", "position", "speed", "force"]] = None,
         drive_times: Optional[Sequence[float]] = None,
         drive_values: Optional[Sequence[float]] = None,
-        drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
         drive_amplitude: Optional[float] = None,
         drive_frequency: Optional[float] = None,
         drive_phase: Optional[float] = None,
@@ -499,7 +507,9 @@ class CylindricalJoint(Joint):
     travel_drive_values: values of the drive, one per time (a list of numbers [m, m/s or N];
         default: [])
     travel_drive_interpolation: of the values between their times; cubic: a smooth spline through
-        them; clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+        them, which may overshoot them and may start backwards; clamped: one from rest to rest;
+        monotone: smooth, and never beyond the two values around it ("linear", "cubic", "clamped",
+        "monotone"; default: "linear")
     travel_drive_amplitude: of a sine added to the values (a number [m, m/s or N]; default: 0.0)
     travel_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
     travel_drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
@@ -525,7 +535,9 @@ class CylindricalJoint(Joint):
     angle_drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m];
         default: [])
     angle_drive_interpolation: of the values between their times; cubic: a smooth spline through
-        them; clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+        them, which may overshoot them and may start backwards; clamped: one from rest to rest;
+        monotone: smooth, and never beyond the two values around it ("linear", "cubic", "clamped",
+        "monotone"; default: "linear")
     angle_drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default:
         0.0)
     angle_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
@@ -571,7 +583,7 @@ class CylindricalJoint(Joint):
     travel_drive: Optional[Literal["none", "position", "speed", "force"]]
     travel_drive_times: Optional[Sequence[float]]
     travel_drive_values: Optional[Sequence[float]]
-    travel_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    travel_drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
     travel_drive_amplitude: Optional[float]
     travel_drive_frequency: Optional[float]
     travel_drive_phase: Optional[float]
@@ -587,7 +599,7 @@ class CylindricalJoint(Joint):
     angle_drive: Optional[Literal["none", "angle", "speed", "torque"]]
     angle_drive_times: Optional[Sequence[float]]
     angle_drive_values: Optional[Sequence[float]]
-    angle_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    angle_drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
     angle_drive_amplitude: Optional[float]
     angle_drive_frequency: Optional[float]
     angle_drive_phase: Optional[float]
@@ -617,7 +629,7 @@ class CylindricalJoint(Joint):
         travel_drive: Optional[Literal["none", "position", "speed", "force"]] = None,
         travel_drive_times: Optional[Sequence[float]] = None,
         travel_drive_values: Optional[Sequence[float]] = None,
-        travel_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        travel_drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
         travel_drive_amplitude: Optional[float] = None,
         travel_drive_frequency: Optional[float] = None,
         travel_drive_phase: Optional[float] = None,
@@ -633,7 +645,7 @@ class CylindricalJoint(Joint):
         angle_drive: Optional[Literal["none", "angle", "speed", "torque"]] = None,
         angle_drive_times: Optional[Sequence[float]] = None,
         angle_drive_values: Optional[Sequence[float]] = None,
-        angle_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        angle_drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
         angle_drive_amplitude: Optional[float] = None,
         angle_drive_frequency: Optional[float] = None,
         angle_drive_phase: Optional[float] = None,
@@ -676,7 +688,9 @@ class UniversalJoint(Joint):
     angle_a_drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m];
         default: [])
     angle_a_drive_interpolation: of the values between their times; cubic: a smooth spline through
-        them; clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+        them, which may overshoot them and may start backwards; clamped: one from rest to rest;
+        monotone: smooth, and never beyond the two values around it ("linear", "cubic", "clamped",
+        "monotone"; default: "linear")
     angle_a_drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default:
         0.0)
     angle_a_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
@@ -701,7 +715,9 @@ class UniversalJoint(Joint):
     angle_b_drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m];
         default: [])
     angle_b_drive_interpolation: of the values between their times; cubic: a smooth spline through
-        them; clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+        them, which may overshoot them and may start backwards; clamped: one from rest to rest;
+        monotone: smooth, and never beyond the two values around it ("linear", "cubic", "clamped",
+        "monotone"; default: "linear")
     angle_b_drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default:
         0.0)
     angle_b_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
@@ -749,7 +765,7 @@ class UniversalJoint(Joint):
     angle_a_drive: Optional[Literal["none", "angle", "speed", "torque"]]
     angle_a_drive_times: Optional[Sequence[float]]
     angle_a_drive_values: Optional[Sequence[float]]
-    angle_a_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    angle_a_drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
     angle_a_drive_amplitude: Optional[float]
     angle_a_drive_frequency: Optional[float]
     angle_a_drive_phase: Optional[float]
@@ -765,7 +781,7 @@ class UniversalJoint(Joint):
     angle_b_drive: Optional[Literal["none", "angle", "speed", "torque"]]
     angle_b_drive_times: Optional[Sequence[float]]
     angle_b_drive_values: Optional[Sequence[float]]
-    angle_b_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    angle_b_drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
     angle_b_drive_amplitude: Optional[float]
     angle_b_drive_frequency: Optional[float]
     angle_b_drive_phase: Optional[float]
@@ -796,7 +812,7 @@ class UniversalJoint(Joint):
         angle_a_drive: Optional[Literal["none", "angle", "speed", "torque"]] = None,
         angle_a_drive_times: Optional[Sequence[float]] = None,
         angle_a_drive_values: Optional[Sequence[float]] = None,
-        angle_a_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        angle_a_drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
         angle_a_drive_amplitude: Optional[float] = None,
         angle_a_drive_frequency: Optional[float] = None,
         angle_a_drive_phase: Optional[float] = None,
@@ -812,7 +828,7 @@ class UniversalJoint(Joint):
         angle_b_drive: Optional[Literal["none", "angle", "speed", "torque"]] = None,
         angle_b_drive_times: Optional[Sequence[float]] = None,
         angle_b_drive_values: Optional[Sequence[float]] = None,
-        angle_b_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        angle_b_drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
         angle_b_drive_amplitude: Optional[float] = None,
         angle_b_drive_frequency: Optional[float] = None,
         angle_b_drive_phase: Optional[float] = None,
@@ -857,7 +873,9 @@ class PlaneJoint(Joint):
     angle_drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m];
         default: [])
     angle_drive_interpolation: of the values between their times; cubic: a smooth spline through
-        them; clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+        them, which may overshoot them and may start backwards; clamped: one from rest to rest;
+        monotone: smooth, and never beyond the two values around it ("linear", "cubic", "clamped",
+        "monotone"; default: "linear")
     angle_drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default:
         0.0)
     angle_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
@@ -901,7 +919,7 @@ class PlaneJoint(Joint):
     angle_drive: Optional[Literal["none", "angle", "speed", "torque"]]
     angle_drive_times: Optional[Sequence[float]]
     angle_drive_values: Optional[Sequence[float]]
-    angle_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    angle_drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
     angle_drive_amplitude: Optional[float]
     angle_drive_frequency: Optional[float]
     angle_drive_phase: Optional[float]
@@ -933,7 +951,7 @@ class PlaneJoint(Joint):
         angle_drive: Optional[Literal["none", "angle", "speed", "torque"]] = None,
         angle_drive_times: Optional[Sequence[float]] = None,
         angle_drive_values: Optional[Sequence[float]] = None,
-        angle_drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        angle_drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
         angle_drive_amplitude: Optional[float] = None,
         angle_drive_frequency: Optional[float] = None,
         angle_drive_phase: Optional[float] = None,
@@ -1133,8 +1151,10 @@ class PidController(Controller):
     setpoint: constant, in the observable's unit (a number)
     setpoint_times: increasing times of the setpoint's values (a list of numbers [s]; default: [])
     setpoint_values: of a setpoint that changes, one per time (a list of numbers; default: [])
-    setpoint_interpolation: of the values between their times; cubic: a smooth spline through them;
-        clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    setpoint_interpolation: of the values between their times; cubic: a smooth spline through them,
+        which may overshoot them and may start backwards; clamped: one from rest to rest; monotone:
+        smooth, and never beyond the two values around it ("linear", "cubic", "clamped", "monotone";
+        default: "linear")
     setpoint_quantity: an observable that is the setpoint (a string; default: "")
     sample_time: how often it acts, at most once per substep; default: dt (a number > 0 [s])
     on: at time 0; triggers switch it (true or false; default: true)
@@ -1165,7 +1185,7 @@ class PidController(Controller):
     setpoint: Optional[float]
     setpoint_times: Optional[Sequence[float]]
     setpoint_values: Optional[Sequence[float]]
-    setpoint_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    setpoint_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
     setpoint_quantity: Optional[str]
     sample_time: Optional[float]
     on: Optional[bool]
@@ -1188,7 +1208,7 @@ class PidController(Controller):
         setpoint: Optional[float] = None,
         setpoint_times: Optional[Sequence[float]] = None,
         setpoint_values: Optional[Sequence[float]] = None,
-        setpoint_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        setpoint_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
         setpoint_quantity: Optional[str] = None,
         sample_time: Optional[float] = None,
         on: Optional[bool] = None,
@@ -1217,8 +1237,10 @@ class BangBangController(Controller):
     setpoint: constant, in the observable's unit (a number)
     setpoint_times: increasing times of the setpoint's values (a list of numbers [s]; default: [])
     setpoint_values: of a setpoint that changes, one per time (a list of numbers; default: [])
-    setpoint_interpolation: of the values between their times; cubic: a smooth spline through them;
-        clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    setpoint_interpolation: of the values between their times; cubic: a smooth spline through them,
+        which may overshoot them and may start backwards; clamped: one from rest to rest; monotone:
+        smooth, and never beyond the two values around it ("linear", "cubic", "clamped", "monotone";
+        default: "linear")
     setpoint_quantity: an observable that is the setpoint (a string; default: "")
     sample_time: how often it acts, at most once per substep; default: dt (a number > 0 [s])
     on: at time 0; triggers switch it (true or false; default: true)
@@ -1241,7 +1263,7 @@ class BangBangController(Controller):
     setpoint: Optional[float]
     setpoint_times: Optional[Sequence[float]]
     setpoint_values: Optional[Sequence[float]]
-    setpoint_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    setpoint_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
     setpoint_quantity: Optional[str]
     sample_time: Optional[float]
     on: Optional[bool]
@@ -1258,7 +1280,7 @@ class BangBangController(Controller):
         setpoint: Optional[float] = None,
         setpoint_times: Optional[Sequence[float]] = None,
         setpoint_values: Optional[Sequence[float]] = None,
-        setpoint_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        setpoint_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
         setpoint_quantity: Optional[str] = None,
         sample_time: Optional[float] = None,
         on: Optional[bool] = None,
@@ -1789,8 +1811,10 @@ class Body(Part):
         numbers [s]; default: [])
     drive_values: values of the drive, one per time (a list of numbers [rad/s, rad or N m]; default:
         [])
-    drive_interpolation: of the values between their times; cubic: a smooth spline through them;
-        clamped: one from rest to rest ("linear", "cubic", "clamped"; default: "linear")
+    drive_interpolation: of the values between their times; cubic: a smooth spline through them,
+        which may overshoot them and may start backwards; clamped: one from rest to rest; monotone:
+        smooth, and never beyond the two values around it ("linear", "cubic", "clamped", "monotone";
+        default: "linear")
     wrappable: whether cables that come against the body are wrapped round it (true or false;
         default: false)
     force: constant, at the centre of mass ([x, y, z], numbers [N]; default: [0.0,0.0,0.0])
@@ -1833,7 +1857,7 @@ class Body(Part):
     drive: Optional[Literal["none", "speed", "angle", "torque"]]
     drive_times: Optional[Sequence[float]]
     drive_values: Optional[Sequence[float]]
-    drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]]
+    drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]]
     wrappable: Optional[bool]
     force: Optional[Sequence[float]]
     torque: Optional[Sequence[float]]
@@ -1865,7 +1889,7 @@ class Body(Part):
         drive: Optional[Literal["none", "speed", "angle", "torque"]] = None,
         drive_times: Optional[Sequence[float]] = None,
         drive_values: Optional[Sequence[float]] = None,
-        drive_interpolation: Optional[Literal["linear", "cubic", "clamped"]] = None,
+        drive_interpolation: Optional[Literal["linear", "cubic", "clamped", "monotone"]] = None,
         wrappable: Optional[bool] = None,
         force: Optional[Sequence[float]] = None,
         torque: Optional[Sequence[float]] = None,
