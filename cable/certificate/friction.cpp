@@ -66,7 +66,7 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
   findings.note(Kind::friction, "N", std::max(high - bound * low, 0.0), scale, rounding, name);
   if (pass.travel == 0.0 || pass.friction == 0.0 || !(scale > 0.0)) return;
   // Cable that comes or goes at both ends of an arc does not slide one way.
-  if (std::abs(pass.slip) <= 0.5 * std::abs(pass.gained)) return;
+  if (std::abs(pass.travel) <= 0.5 * std::abs(pass.gained)) return;
   // Slipping: the side to which it goes pulls harder by all of the bound.
   const SpanEvidence& pulling = cable.spans[at(pass.travel > 0.0 ? pass.after : pass.before)];
   const SpanEvidence& held = cable.spans[at(pass.travel > 0.0 ? pass.before : pass.after)];
