@@ -164,7 +164,7 @@ TEST(Efficiency, TacklesThatCoastLoseByTheWayTheyGo) {
           for (int i = 0; i < 6; ++i) ASSERT_TRUE(simulation.step().ok());
           const State& state = simulation.world.state();
           const double load = 12.0 + 2.0 * 0.001;
-          const double carried = effort * advantage(4, speed > 0.0 ? 0.9 : 1.0 / 0.9);
+          const double carried = advantage(4, speed > 0.0 ? 0.9 : 1.0 / 0.9);
           const double a = expected_acceleration(carried, 4, load, effort);
           ASSERT_GT(speed * (speed + a * state.time), 0.0);
           EXPECT_NEAR(state.bodies[0].velocity.y(), speed + a * state.time, 1e-7)
