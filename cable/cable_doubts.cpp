@@ -86,7 +86,7 @@ std::string CableSystem::dead_end(const Substep& substep) const {
   const CompiledCable& cable = cables_[at(setup.cable)];
   const bool wheel_first = links_[at(setup.first)].wraps();
   const auto name_of = [&](int link) {
-    const int body = links_[at(link)].body;
+    const int body = links_[at(link)].touched();
     return "link " + std::to_string(link - cable.first_link) + " on \"" +
            (body == substep.bodies.count() ? "world" : substep.bodies.name(body)) + "\"";
   };
@@ -126,7 +126,7 @@ void CableSystem::note_leans(const Substep& substep, const CompiledCable& cable)
 
 std::vector<CableSystem::TangentWarning> CableSystem::tangent_warnings() const {
   std::vector<TangentWarning> warnings;
-  for (int k = 0; k < row_count(); ++k) {
+  for (int k = 0; k < span_count(); ++k) {
     const Fallback& fallback = notes_.fallbacks[at(k)];
     if (fallback.substeps == 0) continue;
     const CompiledCable& cable = cables_[at(spans_[at(k)].cable)];

@@ -67,7 +67,7 @@ void EventWatch::look_at_cables(const Simulation& run) {
   }
   cable_events_ = events.size();
   const FeatureState& own = run.world.state().features.back();
-  const auto spans = static_cast<std::size_t>(run.cables->row_count());
+  const auto spans = static_cast<std::size_t>(run.cables->span_count());
   taut_.resize(spans);
   for (std::size_t k = 0; k < spans; ++k) {
     const bool taut = own.reals[run.cables->tension_index(static_cast<int>(k))] > 0.0;

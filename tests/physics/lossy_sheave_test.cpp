@@ -17,6 +17,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cable/cable_system.h"
 #include "cable/links/spool.h"
 #include "cable/reactions.h"
 #include "tests/support/builders.h"
@@ -378,6 +379,7 @@ TEST_P(EfficiencyOfTravel, AHeavySheaveStartsHoldsCoastsAndIsThrown) {
       const std::vector<double> t = tensions(s, turned);
       EXPECT_NEAR(t[0], w.m1 * (g + a), tolerance * w.m1 * g);
       EXPECT_NEAR(t[1], w.m2 * (g - a), tolerance * w.m2 * g);
+      EXPECT_TRUE(s.cables->tangent_warnings().empty());
       const LinkReport& link = s.cable_reports()[0].links[1];
       const double torque = radius * (t[1] - t[0]) - w.inertia * a / radius;
       // Positive torques are counter-clockwise.
