@@ -286,13 +286,14 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
   const bool open = cable.has_friction && is_open(substep, cable, run);
   // What spans were strained by at the start of the substep they need not have shared.
   const bool at_start = substep.time == substep.start.time;
-  const bool strains = run.count > 1 && strains_runs(cable) && !at_start;
-  if (strains) run_work_.stretched.resize(at(run.count));
+  const bool stretches = run.count > 1 && strains_runs(cable);
+  const bool strains = stretches && !at_start;
+  if (stretches) run_work_.stretched.resize(at(run.count));
   const bool means = strains && by_means(run);
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     Row& row = rows.emplace_back();
     const SpanGeometry span =
-        evaluate(substep, k, row, strains ? &run_work_.stretched[at(i)] : nullptr);
+        evaluate(substep, k, row, stretches ? &run_work_.stretched[at(i)] : nullptr);
     if (at_start) start_without_feed(k, row);
     row.index = k;
     row.idle = open;
@@ -329,7 +330,7 @@ void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Ru
     rows[i].start_weight = relative(rows[i].start_weight, heaviest.start);
   }
   if (acts) give(substep, cable, heaviest, rows[start]);
-  if (strains && rows.size() > start) {
+  if (stretches && rows.size() > start) {
     Row* const first = &*rows.begin() + start;
     strain_shared(substep, cable, run, {first, rows.size() - start});
   }
@@ -339,6 +340,12 @@ void CableSystem::strain_shared(const Substep& substep, const CompiledCable& cab
                                 std::span<Row> rows) {
   run_work_.weights.clear();
   for (const Row& row : rows) run_work_.weights.push_back(row.start_weight);
+  if (substep.time == substep.start.time) {
+    // Spans have the strains that they have; what lies on links has its own, too.
+    find_arcs(substep, cable, run, run_work_.weights);
+    add_arcs(substep, cable, run_work_.weights, 0.0, rows);
+    return;
+  }
   strain_rows(substep, cable, run, run_work_.weights, rows);
 }
 

@@ -191,20 +191,31 @@ void CableSystem::add_outline(const Substep& substep, int span, double from, dou
 void CableSystem::add_arcs(const Substep& substep, const CompiledCable& cable,
                            std::span<const double> weights, double strain,
                            std::span<Row> rows) const {
+  const bool at_start = substep.time == substep.start.time;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const SlidingArc& arc = run_work_.arcs[i];
     if (arc.link < 0) continue;
-    const ArcSum sum = arc_with(arc, strain);
-    // A slack run has what it has too much on its links, too.
-    const double stretch =
-        strain > 0.0 ? arc.length - sum.unstretched : arc.length - arc.before.length;
-    // Both sides have their parts, so that a mirror image has the same rows.
+    // Both sides have their parts, in the ratio of their tensions, so that a mirror image has the
+    // same rows.
     const std::size_t behind = i + 1 < rows.size() ? i + 1 : 0;
     const double both = weights[i] + weights[behind];
-    const double yield = both > 0.0 ? sum.pull * cable.inverse_stiffness / both : 0.0;
+    if (!(both > 0.0)) continue;
+    const ArcSum sum = arc_with(arc, strain);
+    double pull = sum.pull / both;
+    double stretch = arc.length - sum.unstretched;
+    if (at_start) {
+      // What lies there has its own strain, which yields as it has come.
+      stretch = arc.before.stretch;
+      const double strains =
+          run_work_.stretched[i].start_strain + run_work_.stretched[behind].start_strain;
+      pull = stretch > 0.0 && strains > 0.0 ? stretch / strains : 0.5 * arc.before.length;
+    } else if (!(strain > 0.0)) {
+      stretch = arc.length - arc.before.length;  // what a slack run has too much there
+    }
     for (const std::size_t row : {i, behind}) {
-      add_spring(0.5 * stretch, 0.5 * arc.before.stretch, yield, substep.h, knows_start_,
-                 rows[row]);
+      const double share = weights[row] / both;
+      add_spring(share * stretch, share * arc.before.stretch, pull * cable.inverse_stiffness,
+                 substep.h, knows_start_ && !at_start, rows[row]);
     }
   }
 }

@@ -117,9 +117,10 @@ class ObservableSet::Sampler {
       case 2:
         return static_cast<double>(cable.wraps.size());
       case 3:
-        return std::accumulate(
-            cable.wraps.begin(), cable.wraps.end(), 0.0,
-            [](double sum, const WrapReport& wrap) { return sum + wrap.link.stored_length; });
+        return std::accumulate(cable.wraps.begin(), cable.wraps.end(), 0.0,
+                               [](double sum, const WrapReport& wrap) {
+                                 return sum + wrap.link.stored_length + wrap.link.stored_stretch;
+                               });
       default:
         return cable.cut ? 1.0 : 0.0;
     }

@@ -31,7 +31,7 @@ inline constexpr std::array<Quantity, 3> span_quantities{{
     {"rest_length", "m", "the same"},
 }};
 inline constexpr std::array<Quantity, 9> link_quantities{{
-    {"stored_length", "m", "cable on link k, counted from 0"},
+    {"stored_length", "m", "cable on link k, counted from 0; unstretched"},
     {"wrap_angle", "rad", "the angle that it covers; of a pinhole the angle of deflection"},
     {"slip", "m", "cable that has slid over the link, forwards"},
     {"entry_x", "m", "where the cable meets the link"},
@@ -45,7 +45,7 @@ inline constexpr std::array<Quantity, 5> cable_quantities{{
     {"length_error", "", "relative error of the length invariant"},
     {"total_length", "m", "rest lengths and stored lengths together"},
     {"wraps", "", "number of wrappable bodies that the cable lies on"},
-    {"wrapped_length", "m", "cable on these bodies"},
+    {"wrapped_length", "m", "of it on these bodies, stretched as it lies there: the arcs"},
     {"cut", "", "1 when the cable has been cut or has broken, 0 before"},
 }};
 inline constexpr std::array<Quantity, 9> joint_quantities{{

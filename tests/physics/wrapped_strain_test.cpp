@@ -17,6 +17,7 @@
 
 #include "cable/certificate.h"
 #include "engine/shapes/cylinder.h"
+#include "scenes/observables.h"
 #include "statics/equilibrium.h"
 #include "statics/modes.h"
 #include "tests/support/builders.h"
@@ -60,6 +61,7 @@ test::Machine drawn(const StepSettings& step, const BodyDef& wrap, double fricti
   m.model.add(wrap);
   BodyDef puller = test::weight("puller", pulled, 1.0);
   puller.mobility = Mobility::kinematic;
+  puller.axis = Vector3::UnitZ();
   puller.velocity = {0, -0.4, 0};
   m.model.add(puller);
   const auto still = attach(BodyId::world(), held);
@@ -341,6 +343,7 @@ TEST_P(WrappedStrain, ALoadThatSwingsUnderASmoothPostKeepsItsEnergy) {
     test::Machine m = hung(step_settings(h, 100), 20.0);
     m.model.bodies[1].mobility = Mobility::planar;
     m.model.bodies[1].axis = Vector3::UnitZ();
+    m.model.bodies[1].inertia = Vector3::Ones();
     m.model.bodies[1].position = {1.8, -1.2, 0};
     m.cables[0].axial_stiffness = 2e3;
     // Strained by a tenth, so that it does not go slack.
@@ -378,12 +381,17 @@ TEST_P(WrappedStrain, OnAWrappableBodyItIsTheSame) {
   BodyDef bob = test::weight("bob", {-1.0, -1.8, 0}, 5.0);
   bob.mobility = Mobility::planar;
   bob.axis = Vector3::UnitZ();
+  bob.inertia = Vector3::Ones();
   m.model.add(bob);
   m.cables.push_back(cable("rope", {attach(BodyId::world()), attach({1})}));
   m.cables[0].axial_stiffness = 2e4;
   m.cables[0].most_wraps = 2;
   Simulation s = test::start(m);
   const double whole = s.cable_reports()[0].total_length;
+  const ObservableSet observables(s);
+  const Result<int> wrapped_length = observables.index_of("rope.wrapped_length");
+  ASSERT_TRUE(wrapped_length);
+  std::vector<double> values;
   int wrapped_steps = 0;
   for (int i = 0; i < 500; ++i) {
     ASSERT_TRUE(s.world.step().ok());
@@ -396,6 +404,12 @@ TEST_P(WrappedStrain, OnAWrappableBodyItIsTheSame) {
     // In the substep of a touch it is divided as it lay.
     if (++wrapped_steps < 3 || !(lies.stored_length > 1e-6) || !(before > 1e-6)) continue;
     EXPECT_NEAR(behind, before, 1e-11);
+    // What is told of the length on bodies is the arc.
+    const Vector3 entry = lies.entry - lies.center;
+    const Vector3 exit = lies.exit - lies.center;
+    const double angle = std::atan2(entry.cross(exit).norm(), entry.dot(exit));
+    observables.sample(s, values);
+    EXPECT_NEAR(values.at(static_cast<std::size_t>(*wrapped_length)), 0.1 * angle, 1e-12);
     EXPECT_NEAR(lies.stored_stretch / lies.stored_length, before, 1e-6 * before);
   }
   EXPECT_GT(wrapped_steps, 50);
