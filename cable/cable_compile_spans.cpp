@@ -107,9 +107,21 @@ void CableCompiler::explain_missing_tangent(int first, int second) {
   const double ra = std::abs(a.signed_radius);
   const double rb = std::abs(b.signed_radius);
   const double distance = (link_center(*now_, b) - link_center(*now_, a)).norm();
+  // Of a wheel from what it is joined with, out of its plane.
+  const auto leans = [&](const LinkGeometry& wheel, const LinkGeometry& other) {
+    const LinkCircle circle = circle_of(*now_, wheel);
+    const Vector3 apart = link_center(*now_, other) - circle.center;
+    return wheel.wraps() && cross(circle.normal, apart).norm() > ra + rb;
+  };
   if (a.outline || b.outline) {
     fail(field, "no tangent joins " + pair +
                     ": one of them lies inside the other's outline, or the outlines overlap");
+  } else if ((ra == 0.0 || leans(a, b)) && (rb == 0.0 || leans(b, a))) {
+    fail(field,
+         "the span between " + pair +
+             " leans so far out of the plane of a wheel that no groove would hold it: at the "
+             "distance d from the axle it may lie (d^2 - r^2) / 2r out of the plane of a "
+             "wheel of radius r; turn the wheel, or give the link another \"normal\"");
   } else if (ra == 0.0 || rb == 0.0) {
     fail(field, "the attachment at " + link_name(ra == 0.0 ? first : second) +
                     " lies inside the wheel of " + link_name(ra == 0.0 ? second : first) +
@@ -155,9 +167,7 @@ double CableCompiler::start_wrap(int link, const SpanGeometry& incoming,
     if (angle < -touch) angle += 2.0 * pi;
     angle = std::max(angle, 0.0);
   }
-  // A cable that is bent away from the wheel lies on it for so much less than its whole turns.
-  const bool away = wheel.extra_turns > 0 && angle > longest_wrap;
-  return away ? angle - 2.0 * pi : angle;
+  return angle;
 }
 
 double CableCompiler::arc(int link, const SpanGeometry& incoming,

@@ -66,7 +66,7 @@ void CableCompiler::check_windings(const CableDef& def) {
              degrees +
              " degrees; give \"lifted\": true if it passes the wheel by at time 0, the other "
              "\"winding\" if it runs on the other side, or \"turns\": 1 if it is meant to go all "
-             "the way round");
+             "the way round, and once more");
   }
 }
 

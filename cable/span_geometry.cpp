@@ -164,13 +164,17 @@ SpanGeometry span_of_circles(const LinkCircle& first, const LinkCircle& second) 
     // Small changes do not mean a small error where the rounds converge slowly, but there Newton's
     // method has been tried.
     if (change <= tolerance * allowed) {
-      return line_between(start, end, both);
+      if (both) return line_between(start, end, true);
+      break;
     }
   }
-  Vector3 refined_start = start;
-  Vector3 refined_end = end;
-  if (refine_tangents(first, second, anywhere, refined_start, refined_end)) {
-    return line_between(refined_start, refined_end, true);
+  // Where the span leans far, one end has none for where the other is, and both have one together.
+  for (const bool from_centers : {false, true}) {
+    Vector3 refined_start = from_centers ? first.center : start;
+    Vector3 refined_end = from_centers ? second.center : end;
+    if (refine_tangents(first, second, anywhere, refined_start, refined_end)) {
+      return line_between(refined_start, refined_end, true);
+    }
   }
   return line_between(start, end, false);
 }

@@ -32,9 +32,8 @@ std::span<const Field> RollingLink::field_table() {
               "whether the cable passes the wheel by at time 0; it is wound on "
               "when it comes to touch it"),
           field<&RollingLink::turns>("turns", "", between(0, 1000), optional,
-                                     "whole turns in addition to the arc between the tangents, "
-                                     "which counts from -60 to 300 degrees beside them; an arc of "
-                                     "more than 300 degrees without whole turns is refused"),
+                                     "whole turns in addition to the arc between the tangents; an "
+                                     "arc of more than 300 degrees without any is refused"),
       });
   return table;
 }

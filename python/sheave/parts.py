@@ -1588,9 +1588,8 @@ class RollingLink(Link):
         that goes from it, while it turns steadily; default: 1 (a number > 0 and <= 1)
     lifted: whether the cable passes the wheel by at time 0; it is wound on when it comes to touch
         it (true or false; default: false)
-    turns: whole turns in addition to the arc between the tangents, which counts from -60 to 300
-        degrees beside them; an arc of more than 300 degrees without whole turns is refused (an
-        integer 0 ... 1000; default: 0)
+    turns: whole turns in addition to the arc between the tangents; an arc of more than 300 degrees
+        without any is refused (an integer 0 ... 1000; default: 0)
     """
 
     _kind = "link"

@@ -95,7 +95,7 @@ TEST(GhostTurn, IsATurnWhereItIsAskedFor) {
   turn->turns = 1;
   Simulation s = test::start(passed_by(turn, 0.0));
   const double away = 2.0 * (std::acos(0.3 / std::hypot(2.0, 0.5)) - std::atan(4.0));
-  EXPECT_NEAR(s.cable_reports()[0].links[1].stored_length, 0.3 * (2.0 * pi - away), 1e-12);
+  EXPECT_NEAR(s.cable_reports()[0].links[1].stored_length, 0.3 * (4.0 * pi - away), 1e-12);
 }
 
 // A band round three quarters of a drum, whose ends cross: wound as it is meant to be. Before, it

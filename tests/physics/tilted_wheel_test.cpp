@@ -71,7 +71,7 @@ TEST(TiltedWheel, ALoadIsPulledAlongItsRope) {
 // the second order of the step.
 TEST(TiltedWheel, AFloatingMachineKeepsWhatItHas) {
   std::vector<double> drifts;
-  for (const double h : {1.0 / 240.0, 1.0 / 480.0, 1.0 / 960.0}) {
+  for (const double h : {1.0 / 480.0, 1.0 / 960.0, 1.0 / 1920.0}) {
     Floating f = floating(SolverKind::direct, IntegratorKind::rattle, h);
     World& world = f.simulation.world;
     const double energy = world.energy().total();
@@ -94,20 +94,19 @@ TEST(TiltedWheel, AFloatingMachineKeepsWhatItHas) {
 // A load that swings at a rope over a locked wheel, out of its plane and back, elastic or rigid: no
 // energy comes or goes.
 TEST(TiltedWheel, APendulumFromAWheelKeepsItsEnergy) {
-  for (const double stiffness : {0.0, 1e5}) {
+  for (const double compliance : {0.0, 1e-3}) {
     std::vector<double> drifts;
     for (const double h : {1.0 / 120.0, 1.0 / 240.0}) {
       test::Machine m;
       m.model.gravity = test::down;
       m.model.step = test::direct_settings(IntegratorKind::rattle, h);
       const BodyId wheel = m.model.add(test::wheel("wheel", Vector3::Zero(), 0.5, 0.2));
-      BodyDef load = test::lump("load", {0.5, -3.0, 0.8}, 10.0);
-      load.velocity = {1.0, 0.0, 0.0};
+      const BodyDef load = test::lump("load", {0.9, -3.0, 0.8}, 10.0);
       const BodyId weight = m.model.add(load);
       const BodyId counter = m.model.add(test::weight("counter", {-0.5, -2.0, 0.0}, 10.0));
       CableDef rope = test::cable(
           "rope", {test::attach(counter), test::roll(wheel, test::right), test::attach(weight)});
-      if (stiffness > 0.0) rope.axial_stiffness = stiffness;
+      rope.compliance = compliance;
       m.cables.push_back(rope);
       Simulation s = test::start(m);
       const double energy = s.world.energy().total();
@@ -119,8 +118,8 @@ TEST(TiltedWheel, APendulumFromAWheelKeepsItsEnergy) {
       drifts.push_back(drift);
       EXPECT_EQ(s.cable_reports()[0].length_error, 0.0);
     }
-    EXPECT_LT(drifts[0], 0.05) << stiffness;
-    EXPECT_GT(drifts[0] / drifts[1], 3.0) << stiffness;
+    EXPECT_LT(drifts[0], 0.05) << compliance;
+    EXPECT_GT(drifts[0] / drifts[1], 3.0) << compliance;
   }
 }
 
