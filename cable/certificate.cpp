@@ -83,8 +83,11 @@ std::string certificate_advice(const CertificateItem& item, const StepSettings& 
 
 std::string CertificateItem::sentence() const {
   std::string text = "at " + number(time, 6) + " s " + std::string(what_is_off(kind)) + " " + name +
-                     " is off by " + number(value) + " " + std::string(unit) + ", " +
-                     number(100.0 * relative) + " % of " + number(scale) + " " + std::string(unit);
+                     " is off by " + number(value) + " " + std::string(unit);
+  // Beside nothing all is much.
+  constexpr double beyond = 1e9;
+  text += relative < beyond ? ", " + number(100.0 * relative) + " % of " : " beside ";
+  text += number(scale) + " " + std::string(unit);
   if (!advice.empty()) text += "; try " + advice;
   return text;
 }

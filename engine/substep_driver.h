@@ -28,7 +28,7 @@ class SubstepDriver {
   /// The most equal parts that a substep is done in. Depth costs little, for only what does not
   /// converge is cut, and velocities of so short a part are still rounded by no more than 1e-9 of a
   /// scene size per second.
-  static constexpr std::int64_t most_parts = 131072;
+  static constexpr std::int64_t most_parts = 262144;
   /// Rounds in which a part converges, or else is cut: Newton's method needs far fewer where it
   /// works.
   static constexpr int rounds_of_part = 16;

@@ -36,6 +36,28 @@ double fastest_feed(const Simulation& simulation) {
   return fastest;
 }
 
+/// What all springs would store if they were drawn out by the size of the scene, or by a turn: what
+/// is led can strain any of them [J].
+double full_springs(const Model& model, const std::vector<CableDef>* cables, double size) {
+  constexpr double turn = 6.3;  // [rad]
+  const double way = std::max(size, turn);
+  double sum = 0.0;
+  const auto add_compliance = [&](double compliance) {
+    if (compliance > 0.0) sum += 0.5 * way * way / compliance;
+  };
+  for (const auto& joint : model.joints) {
+    sum += 0.5 * way * way * largest_setting(*joint, "stiffness");
+    add_compliance(largest_setting(*joint, "compliance"));
+  }
+  for (const ColliderDef& collider : model.colliders) add_compliance(collider.compliance);
+  if (cables == nullptr) return sum;
+  for (const CableDef& cable : *cables) {
+    add_compliance(cable.compliance.value_or(0.0));
+    sum += 0.5 * cable.axial_stiffness.value_or(0.0) * way;
+  }
+  return sum;
+}
+
 /// Whether `xpbd` takes from the spin of a body in a way that is not that of smooth motion: one whose
 /// moments of inertia differ and that turns far in a substep.
 bool spins_fast(const World& world) {
@@ -69,6 +91,7 @@ EnergyWatch::EnergyWatch(const Simulation& simulation)
     const Vector3 load = body.mass * bodies.gravity() + bodies.definition(i).force;
     weight_ += load.norm() * size_;
   }
+  springs_ = full_springs(simulation.world.model(), simulation.cable_definitions.get(), size_);
   begin(simulation);
 }
 
@@ -81,7 +104,7 @@ void EnergyWatch::begin(const Simulation& simulation) {
   highest_time_ = state.time;
   in_block_ = 0;
   gain_ = lost_ = most_lost_ = worked_ = 0.0;
-  was_taut_ = false;
+  taut_steps_ = 0;
   events_ = simulation.cables == nullptr ? 0 : simulation.cables->events().size();
   integrator_ = IntegratorLoss();
   if (keeps_) integrator_.observe(simulation.world, energy_.total(), fallbacks_);
@@ -142,8 +165,11 @@ void EnergyWatch::follow_loss(const Simulation& simulation, double loss,
   const bool is_taut =
       cables == nullptr || cables->all_pull(simulation.world.state().features.back());
   const std::size_t events = cables == nullptr ? 0 : cables->events().size();
-  const bool smooth = is_taut && was_taut_ && events == events_ && !spins_fast(simulation.world);
-  was_taut_ = is_taut;
+  // What comes taut within a step of `xpbd` stops at the end of the next one.
+  constexpr int settled = 2;
+  const bool smooth =
+      is_taut && taut_steps_ >= settled && events == events_ && !spins_fast(simulation.world);
+  taut_steps_ = is_taut ? taut_steps_ + 1 : 0;
   events_ = events;
   if (!smooth) return;
   lost_ += loss;
@@ -191,6 +217,7 @@ double EnergyWatch::most_put_in(const Simulation& simulation) const {
       work += std::abs(coordinate.drive_force * coordinate.value);
     }
   }
+  if (fastest > 0.0) work += springs_;
   return 0.5 * mass_ * fastest * fastest + work;
 }
 

@@ -59,9 +59,10 @@ class EnergyWatch {
 
   bool passive_;
   bool keeps_;
-  double mass_ = 0.0;    ///< of all that moves [kg]
-  double weight_ = 0.0;  ///< of it, times the size of the scene [J]
-  double size_ = 0.0;    ///< of the scene [m]
+  double mass_ = 0.0;     ///< of all that moves [kg]
+  double weight_ = 0.0;   ///< of it, times the size of the scene [J]
+  double size_ = 0.0;     ///< of the scene [m]
+  double springs_ = 0.0;  ///< what all of them store that are drawn out by that [J]
 
   std::int64_t steps_ = 0;  ///< State::steps of what was observed last
   Energy start_;
@@ -82,7 +83,7 @@ class EnergyWatch {
   IntegratorLoss integrator_;
   std::int64_t fallbacks_ = 0;
   std::size_t events_ = 0;
-  bool was_taut_ = false;
+  int taut_steps_ = 0;      ///< in a row, so far
   double lost_ = 0.0;       ///< in steps without impacts
   double most_lost_ = 0.0;  ///< in one step
   double most_lost_time_ = 0.0;

@@ -16,14 +16,17 @@ constexpr std::array<std::string_view, 8> joint_takers{
     "damping", "friction", "limit", "lower", "upper", "backlash", "compliance", "stiffness"};
 constexpr std::array<std::string_view, 2> link_takers{"friction", "efficiency"};
 
+FieldSlot slot_in(const Field& field, const void* settings) {
+  return field.slot(const_cast<void*>(settings));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+}
+
 /// Whether there is a field whose name ends so that is not zero, not the first of its choices, or
 /// optional and given.
 bool is_set(std::span<const Field> fields, const void* settings, std::string_view suffix) {
   for (const Field& field : fields) {
     if (!field.name.ends_with(suffix)) continue;
     // Nothing is written through it.
-    const FieldSlot slot =
-        field.slot(const_cast<void*>(settings));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    const FieldSlot slot = slot_in(field, settings);
     if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) {
       if (choice->get(choice->object) != 0) return true;
     } else if (const auto* number = std::get_if<double*>(&slot)) {
@@ -89,6 +92,16 @@ bool is_passive(const Model& model, const std::vector<CableDef>& cables) {
                       [](const auto& joint) { return is_driven(*joint); }) &&
          std::none_of(cables.begin(), cables.end(),
                       [](const CableDef& cable) { return is_fed(cable); });
+}
+
+double largest_setting(const JointDef& joint, std::string_view suffix) {
+  double largest = 0.0;
+  for (const Field& field : fields_of(joint, joint_types())) {
+    if (!field.name.ends_with(suffix)) continue;
+    const FieldSlot slot = slot_in(field, joint.settings());
+    if (const auto* number = std::get_if<double*>(&slot)) largest = std::max(largest, **number);
+  }
+  return largest;
 }
 
 bool keeps_energy(const Model& model, const std::vector<CableDef>& cables) {

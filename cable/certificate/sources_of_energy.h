@@ -1,6 +1,7 @@
 #pragma once
 // Whether anything puts energy into a machine, or takes any out, by its definition.
 
+#include <string_view>
 #include <vector>
 
 #include "cable/cable.h"
@@ -17,5 +18,8 @@ namespace sheave::certify {
 /// and elastic cables count as if they took some, since of their vibration an integrator takes what
 /// nobody sees.
 [[nodiscard]] bool keeps_energy(const Model& model, const std::vector<CableDef>& cables);
+
+/// The largest of the joint's settings whose names end so; 0 if it has none.
+[[nodiscard]] double largest_setting(const JointDef& joint, std::string_view suffix);
 
 }  // namespace sheave::certify

@@ -156,7 +156,8 @@ double RowSystem::spring_error(const Substep& substep, const RowSystem& position
       const auto i = at(r);
       const Row& row = rows_[i];
       const Group& group = groups_[at(group_of_[i])];
-      if (!group.elastic || previous_[i] == 0.0) continue;
+      // What spans that share an unknown pass on to each other is no change of their lengths.
+      if (!group.elastic || group.row_count > 1 || previous_[i] == 0.0) continue;
       const Row& start = positions.start_rows_[at(positions.start_places_[f][at(row.index)])];
       if (row.rate != 0.0 || start.rate != 0.0) continue;  // it gives what it gives
       const double impulse = previous_[i] / h;             // of each half

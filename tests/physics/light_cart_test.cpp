@@ -112,7 +112,7 @@ TEST(LightCart, MakesNoEnergyHoweverLight) {
         EXPECT_LE(run.stretch, 1e-9);
         // Velocities are differences of positions of 1 m over a part of h: each is rounded by eps /
         // h, as if at random.
-        const double shortest = 1.0 / (60.0 * substeps * (run.cut > 0 ? 131072.0 : 1.0));
+        const double shortest = 1.0 / (60.0 * substeps * (run.cut > 0 ? 262144.0 : 1.0));
         const double roundings = std::sqrt(120.0 * substeps + static_cast<double>(run.parts));
         EXPECT_LE(run.momentum, 1e-12 + 2.2e-16 / shortest * roundings);
         if (integrator == IntegratorKind::xpbd) {
