@@ -46,8 +46,8 @@ double full_springs(const Model& model, const std::vector<CableDef>* cables, dou
     if (compliance > 0.0) sum += 0.5 * way * way / compliance;
   };
   for (const auto& joint : model.joints) {
-    sum += 0.5 * way * way * largest_setting(*joint, "stiffness");
-    add_compliance(largest_setting(*joint, "compliance"));
+    sum += 0.5 * way * way * extreme_setting(*joint, "stiffness", false);
+    add_compliance(extreme_setting(*joint, "compliance", true));
   }
   for (const ColliderDef& collider : model.colliders) add_compliance(collider.compliance);
   if (cables == nullptr) return sum;

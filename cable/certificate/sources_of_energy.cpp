@@ -94,14 +94,17 @@ bool is_passive(const Model& model, const std::vector<CableDef>& cables) {
                       [](const CableDef& cable) { return is_fed(cable); });
 }
 
-double largest_setting(const JointDef& joint, std::string_view suffix) {
-  double largest = 0.0;
+double extreme_setting(const JointDef& joint, std::string_view suffix, bool smallest) {
+  double extreme = 0.0;
   for (const Field& field : fields_of(joint, joint_types())) {
     if (!field.name.ends_with(suffix)) continue;
     const FieldSlot slot = slot_in(field, joint.settings());
-    if (const auto* number = std::get_if<double*>(&slot)) largest = std::max(largest, **number);
+    const auto* number = std::get_if<double*>(&slot);
+    if (number == nullptr || !(**number > 0.0)) continue;
+    const bool beyond = smallest ? **number < extreme : **number > extreme;
+    if (extreme == 0.0 || beyond) extreme = **number;
   }
-  return largest;
+  return extreme;
 }
 
 bool keeps_energy(const Model& model, const std::vector<CableDef>& cables) {

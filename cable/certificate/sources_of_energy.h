@@ -19,7 +19,8 @@ namespace sheave::certify {
 /// nobody sees.
 [[nodiscard]] bool keeps_energy(const Model& model, const std::vector<CableDef>& cables);
 
-/// The largest of the joint's settings whose names end so; 0 if it has none.
-[[nodiscard]] double largest_setting(const JointDef& joint, std::string_view suffix);
+/// Of the joint's settings whose names end so, the largest, or of `smallest` the smallest above 0; 0
+/// if it has none above 0.
+[[nodiscard]] double extreme_setting(const JointDef& joint, std::string_view suffix, bool smallest);
 
 }  // namespace sheave::certify

@@ -156,16 +156,18 @@ double RowSystem::spring_error(const Substep& substep, const RowSystem& position
       const auto i = at(r);
       const Row& row = rows_[i];
       const Group& group = groups_[at(group_of_[i])];
-      // What spans that share an unknown pass on to each other is no change of their lengths.
-      if (!group.elastic || group.row_count > 1 || previous_[i] == 0.0) continue;
+      if (!group.elastic || previous_[i] == 0.0) continue;
       const Row& start = positions.start_rows_[at(positions.start_places_[f][at(row.index)])];
       if (row.rate != 0.0 || start.rate != 0.0) continue;  // it gives what it gives
       const double impulse = previous_[i] / h;             // of each half
-      const double along = (row.value - start.value) / h;
-      const double first =
-          rate(start, substep.start.bodies) + substep_change(start, substep.moving) / h;
-      const double second =
-          substep_change(row, substep.moving) / h + rate(row, substep.next.bodies);
+      const double before = substep_change(start, substep.moving) / h;
+      const double after = substep_change(row, substep.moving) / h;
+      // What spans that share an unknown pass on to each other changes their values, too: of these
+      // the mean of both gradients tells the change, to third order.
+      const double along =
+          group.row_count == 1 ? (row.value - start.value) / h : 0.5 * (before + after);
+      const double first = rate(start, substep.start.bodies) + before;
+      const double second = after + rate(row, substep.next.bodies);
       const double work = impulse * (0.5 * (first + second) - 2.0 * along);
       flow += std::abs(2.0 * impulse * along);
       rounding += std::abs(impulse) * noise / (row.lever * h);

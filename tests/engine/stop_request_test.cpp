@@ -222,7 +222,7 @@ TEST(WorkLimit, NumbersThatOverflowEndTheRounds) {
     ASSERT_TRUE(report.divergence.has_value());
     // An attempt has a round or two, from the start of the substep, where all is finite yet: the
     // whole, halves down to 2^-18, and the whole once or twice more.
-    EXPECT_LE(report.statistics.rounds, 2 * (1 + 17 + 2));
+    EXPECT_LE(report.statistics.rounds, 2 * (1 + 18 + 2));
   }
   // Sweeps, of which there are as many as were asked for, end soon.
   test::Machine machine = test::Atwood{}.machine();
