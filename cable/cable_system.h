@@ -10,22 +10,19 @@
 #include <utility>
 #include <vector>
 
-#include "cable/affine_span.h"
 #include "cable/cable.h"
-#include "cable/cable_parts.h"
 #include "cable/cable_report.h"
 #include "cable/cable_state_layout.h"
-#include "cable/compiled_cable.h"
-#include "cable/running_cable.h"
-#include "cable/span_row.h"
-#include "cable/stored_strain.h"
+#include "cable/cable_work.h"
 #include "engine/constraint_batch.h"
 #include "engine/index.h"
 
 namespace sheave {
 
 /// The feature "cables" of a world; its state is laid out as cable/cable_state_layout.h says.
-class CableSystem final : public ConstraintBatch, public CableStateLayout {
+class CableSystem final : public ConstraintBatch,
+                          public CableStateLayout,
+                          private cable_parts::CableWork {
  public:
   /// Checks and compiles the cables; faults have paths "/cables/i/...". `starts`, per cable: see
   /// CableTransfer. `before`: what they refer to, if it was made for these bodies; it is not
@@ -138,7 +135,6 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   friend class CableCompiler;
   friend class CableTransfer;  // between two worlds
   CableSystem() = default;
-  using StretchedSpan = cable_parts::StretchedSpan;
   /// The row of a span; of a material what it was made of, too, if `kept` is not null.
   SpanGeometry evaluate(const Substep& substep, int span, Row& row,
                         StretchedSpan* kept = nullptr) const;
@@ -178,7 +174,6 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   [[nodiscard]] MovingSpan moving_span(const AffineBodies& bodies, const State& initial,
                                        const AffineSpan& affine, int index) const;
   // Cable that passes between spans: cable/cable_runs.cpp.
-  using Run = cable_parts::Run;
   [[nodiscard]] int next_span(const CompiledCable& cable, int span) const;
   [[nodiscard]] bool shared(int link) const;
   /// Of a constant compliance: frictionless links beside drained spans that pass nothing.
@@ -214,7 +209,6 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   void note_leans(const Substep& substep, const CompiledCable& cable);
   void linearise_spans(Substep& substep, const CompiledCable& cable, RowList& rows);
   double sweep_runs(Substep& substep, int cable_index);
-  using RunWeights = cable_parts::RunWeights;
   void linearise_run(Substep& substep, const CompiledCable& cable, Run run, RowList& rows);
   void start_without_feed(int span, Row& row) const;
   /// Evaluates the spans of a run, sums their gradients body by body; returns the largest ln k_i.
@@ -235,7 +229,6 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   void share_lengths(Substep& substep, const CompiledCable& cable, FeatureState& next);
   void share_run(Substep& substep, const CompiledCable& cable, Run run, FeatureState& next);
   // Links with friction: cable/cable_friction.cpp.
-  using Piece = cable_parts::Piece;
   /// Friction times wrap angle at a link, now.
   [[nodiscard]] double friction_exponent(const Substep& substep, int link,
                                          const SpanGeometry& incoming,
@@ -266,7 +259,6 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   /// Makes links slide that stick and do not hold.
   void release_links(const Substep& substep, const CompiledCable& cable);
   // Tensions that no body decides: cable/cable_held.cpp.
-  enum class Held { given, reported };
   /// Whether the run has a wheel between its spans that can turn.
   [[nodiscard]] bool turns_wheel(const Substep& substep, const CompiledCable& cable, Run run) const;
   /// Into given_ what open runs of the cable turn wheels with.
@@ -290,13 +282,11 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   void linearise_bearings(const Substep& substep, std::size_t first, RowList& rows);
   bool revise_bearings(const Substep& substep);
   // Drums with layers: cable/cable_layers.cpp.
-  using LayeredSpan = cable_parts::LayeredSpan;
   [[nodiscard]] bool layered(int span) const;
   [[nodiscard]] LayeredSpan layered_span(const Substep& substep, int span) const;
   SpanGeometry evaluate_layered(const Substep& substep, int span, Row& row,
                                 SpanTransport& transport) const;
   // Dampers of spans that share a tension: cable/cable_damping.cpp.
-  using SpanDamping = cable_parts::SpanDamping;
   /// Whether the run slides by the means of its strains.
   [[nodiscard]] bool by_means(Run run) const;
   /// Of a span whose row by itself is `row`; none where nothing is damped.
@@ -325,7 +315,6 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
     return cable.inverse_stiffness > 0.0 && !cable.frozen;
   }
   // Links over which cable of a material slides: cable/strained_arcs.cpp.
-  using SlidingArc = cable_parts::SlidingArc;
   /// Whether what lies on the link is stretched with the spans on both sides.
   [[nodiscard]] bool slides_on(int link) const {
     return strain_places_[at(link)] >= 0 && links_[at(link)].slides_over() && shared(link);
@@ -381,10 +370,6 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
                std::vector<SpanSetup>& spans) const;
   void refresh_ends(const FeatureState& own, std::vector<LinkGeometry>& links,
                     std::vector<SpanSetup>& spans) const;
-  struct Geometry {
-    std::vector<LinkGeometry> links;
-    std::vector<SpanSetup> spans;
-  };
   [[nodiscard]] Geometry geometry_for(const BodySet& bodies, const FeatureState& own) const;
   /// A span whose link `index` were attached at `angle` of its rim.
   [[nodiscard]] SpanGeometry attached_span(const Substep& substep, int index, int span,
@@ -446,9 +431,6 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
               CableEvent::Kind kind);
   void remember_sides(const Substep& substep, const CompiledCable& cable);
   // Drives that need more cable than there is: cable/cable_drives.cpp.
-  using Pull = cable_parts::Pull;
-  using Chain = cable_parts::Chain;
-  using ChainLengths = cable_parts::ChainLengths;
   /// Whether no cable passes the link unless a drive turns its body, or nothing does.
   [[nodiscard]] static bool ends_chain(const BodySet& bodies, const LinkGeometry& link);
   /// Whether forces can move the link's place.
@@ -483,7 +465,6 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   /// Moves cable between a span and its links as the transport says, but no more than there is.
   void wind(int span, const SpanTransport& transport, FeatureState& next);
   void slide_over_ends(int span, std::array<double, 2>& moved, FeatureState& next);
-  using Stall = cable_parts::Stall;
   [[nodiscard]] std::vector<LinkWarning> link_warnings(const std::vector<Stall>& of_links) const;
   // Cutting: cable/cable_cut.cpp.
   void cut(const Substep& substep, FeatureState& next);
@@ -511,79 +492,6 @@ class CableSystem final : public ConstraintBatch, public CableStateLayout {
   /// Cable from its first link to the middle of a span [m].
   [[nodiscard]] double length_before(const FeatureState& own, const CompiledCable& cable,
                                      int span) const;
-
-  std::vector<CompiledCable> cables_;
-  std::vector<LinkGeometry> definitions_;    ///< as compiled
-  std::vector<int> changing_links_;          ///< whose geometry depends on the state
-  std::vector<LinkGeometry> links_;          ///< in this substep
-  std::vector<SpanSetup> span_definitions_;  ///< as compiled
-  std::vector<SpanSetup> spans_;             ///< in this substep
-  bool has_layers_ = false;                  ///< at least one link is a drum with layers
-  bool course_changes_ = false;              ///< spans depend on the state
-  bool driven_ = false;                      ///< a cable has driven links
-  std::vector<CableControl> defined_;        ///< per cable, as compiled
-  bool controlled_ = false;                  ///< cables_ are not as compiled
-  bool controls_links_ = false;              ///< nor links_
-  std::vector<std::int64_t> connected_for_;  ///< integers of the state that spans_ stand for
-  std::vector<double> planes_;               ///< its planes of wraps
-  std::vector<int> strain_places_;  ///< per link its place among those with stored strain, or -1
-  FeatureState initial_;
-  std::vector<AffineSpan> affine_;  ///< per span, of spans_; empty: not known yet
-  MovingSpans moving_;              ///< where all cables are affine; below is scratch of begin()
-  std::vector<char> is_affine_;     ///< per span, in this substep
-  std::uint32_t edition_ = 0;       ///< of the rows of affine spans
-  std::array<double, 2> edition_is_for_{};  ///< length of substep and share of loads there
-  cable_parts::KnownSpans known_;
-  std::vector<SpanReference> references_;
-  std::vector<double> strains_;      ///< per span, of a material, at the start
-  std::vector<double> end_strains_;  ///< and at the end where it shares that of a run; < 0: its own
-  std::vector<double> multipliers_;
-  std::vector<double> start_tensions_;  ///< per span [N]
-  cable_parts::GivenPulls given_;
-  std::vector<cable_parts::Bearing> bearings_;
-  std::vector<int> bearing_places_;         ///< per link its place among them, or -1
-  std::vector<std::size_t> row_places_;     ///< scratch: per span, where its row is
-  std::vector<std::array<double, 2>> fed_;  ///< per span, of its ends, in this substep [m]
-  std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
-  std::vector<int> pending_slip_;
-  cable_parts::SlipChanges slip_changes_;
-  std::vector<int> kept_slip_;  ///< while impulses are found: what it was before; empty: it is that
-  std::vector<int> kept_flips_;
-  std::vector<char> held_;  ///< per link: whether it passes nothing although it has no friction
-  std::vector<int> revised_;
-  /// Per span, for finish(): tension at the start [N], length at the end of the substep [m].
-  std::vector<std::array<double, 2>> ends_;
-  bool knows_lengths_ = false;            ///< the latter are still those of the spans
-  std::vector<int> sweeps_;               ///< per cable, in this substep
-  std::vector<int> flips_;                ///< per link: how often that has changed in this substep
-  std::vector<double> stored_arcs_;       ///< per link: stored cable as it lies, at the start [m]
-  std::vector<StoredStrain> stored_;      ///< per strain place, at the start
-  std::vector<StoredStrain> stored_end_;  ///< and at the end
-  Row row_;                               ///< scratch of solve_span()
-  LayeredSpan layered_;                   ///< scratch of finish()
-  cable_parts::DriveWork drive_work_;
-  cable_parts::RunWork run_work_;
-  std::vector<Piece> pieces_;  ///< of one cable
-  // Of `rattle`, whose multipliers act as at the start of the substep.
-  bool knows_start_ = false;
-  std::vector<std::array<double, 2>> start_values_;  ///< of damped rows, and their compliance
-  std::vector<SpanGeometry> start_spans_;  ///< of cables with friction, per span, as last evaluated
-  std::vector<double> start_exponents_;    ///< per link: friction times wrap angle at the start
-  // Of leave_and_touch(): on which side of its candidates a span was at the start, span by span;
-  // and what has left.
-  std::vector<std::vector<WrapSide>> sides_;
-  std::vector<char> changed_links_;
-  std::vector<int> left_bodies_;
-  // Diagnostics, no part of the simulation.
-  using Fallback = cable_parts::Fallback;
-  using Notes = cable_parts::Notes;
-  Notes notes_;                          ///< but for the events
-  std::array<Notes, 2> marked_notes_;    ///< per NoteMark
-  std::vector<double> geodesic_starts_;  ///< per link: angle of the wrap at the start [rad]
-  std::vector<char> clear_grips_;        ///< as for_each_grip() visits them
-  int arrived_ = -1;  ///< span whose attachment has come to its wheel in this substep; -1: none
-  std::vector<CableEvent> events_;
-  std::vector<WindingWarning> winding_warnings_;
 };
 
 }  // namespace sheave

@@ -1,0 +1,115 @@
+#pragma once
+// The cables of a world as compiled, and the scratch of a substep.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "cable/affine_span.h"
+#include "cable/cable.h"
+#include "cable/cable_parts.h"
+#include "cable/cable_report.h"
+#include "cable/compiled_cable.h"
+#include "cable/running_cable.h"
+#include "cable/span_row.h"
+#include "cable/stored_strain.h"
+#include "engine/constraint_batch.h"
+
+namespace sheave::cable_parts {
+
+/// The numbers that CableSystem works with. None of them belongs to a state: begin() makes those of
+/// a substep from the state.
+struct CableWork {
+  using StretchedSpan = cable_parts::StretchedSpan;
+  using Fallback = cable_parts::Fallback;
+  using Notes = cable_parts::Notes;
+  using Run = cable_parts::Run;
+  using RunWeights = cable_parts::RunWeights;
+  using Piece = cable_parts::Piece;
+  using LayeredSpan = cable_parts::LayeredSpan;
+  using SpanDamping = cable_parts::SpanDamping;
+  using SlidingArc = cable_parts::SlidingArc;
+  using Pull = cable_parts::Pull;
+  using Chain = cable_parts::Chain;
+  using ChainLengths = cable_parts::ChainLengths;
+  using Stall = cable_parts::Stall;
+
+  enum class Held { given, reported };
+  struct Geometry {
+    std::vector<LinkGeometry> links;
+    std::vector<SpanSetup> spans;
+  };
+
+  std::vector<CompiledCable> cables_;
+  std::vector<LinkGeometry> definitions_;    ///< as compiled
+  std::vector<int> changing_links_;          ///< whose geometry depends on the state
+  std::vector<LinkGeometry> links_;          ///< in this substep
+  std::vector<SpanSetup> span_definitions_;  ///< as compiled
+  std::vector<SpanSetup> spans_;             ///< in this substep
+  bool has_layers_ = false;                  ///< at least one link is a drum with layers
+  bool course_changes_ = false;              ///< spans depend on the state
+  bool driven_ = false;                      ///< a cable has driven links
+  std::vector<CableControl> defined_;        ///< per cable, as compiled
+  bool controlled_ = false;                  ///< cables_ are not as compiled
+  bool controls_links_ = false;              ///< nor links_
+  std::vector<std::int64_t> connected_for_;  ///< integers of the state that spans_ stand for
+  std::vector<double> planes_;               ///< its planes of wraps
+  std::vector<int> strain_places_;  ///< per link its place among those with stored strain, or -1
+  FeatureState initial_;
+  std::vector<AffineSpan> affine_;  ///< per span, of spans_; empty: not known yet
+  MovingSpans moving_;              ///< where all cables are affine; below is scratch of begin()
+  std::vector<char> is_affine_;     ///< per span, in this substep
+  std::uint32_t edition_ = 0;       ///< of the rows of affine spans
+  std::array<double, 2> edition_is_for_{};  ///< length of substep and share of loads there
+  cable_parts::KnownSpans known_;
+  std::vector<SpanReference> references_;
+  std::vector<double> strains_;      ///< per span, of a material, at the start
+  std::vector<double> end_strains_;  ///< and at the end where it shares that of a run; < 0: its own
+  std::vector<double> multipliers_;
+  std::vector<double> start_tensions_;  ///< per span [N]
+  cable_parts::GivenPulls given_;
+  std::vector<cable_parts::Bearing> bearings_;
+  std::vector<int> bearing_places_;         ///< per link its place among them, or -1
+  std::vector<std::size_t> row_places_;     ///< scratch: per span, where its row is
+  std::vector<std::array<double, 2>> fed_;  ///< per span, of its ends, in this substep [m]
+  std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
+  std::vector<int> pending_slip_;
+  cable_parts::SlipChanges slip_changes_;
+  std::vector<int> kept_slip_;  ///< while impulses are found: what it was before; empty: it is that
+  std::vector<int> kept_flips_;
+  std::vector<char> held_;  ///< per link: whether it passes nothing although it has no friction
+  std::vector<int> revised_;
+  /// Per span, for finish(): tension at the start [N], length at the end of the substep [m].
+  std::vector<std::array<double, 2>> ends_;
+  bool knows_lengths_ = false;            ///< the latter are still those of the spans
+  std::vector<int> sweeps_;               ///< per cable, in this substep
+  std::vector<int> flips_;                ///< per link: how often that has changed in this substep
+  std::vector<double> stored_arcs_;       ///< per link: stored cable as it lies, at the start [m]
+  std::vector<StoredStrain> stored_;      ///< per strain place, at the start
+  std::vector<StoredStrain> stored_end_;  ///< and at the end
+  Row row_;                               ///< scratch of solve_span()
+  cable_parts::LayeredSpan layered_;      ///< scratch of finish()
+  cable_parts::DriveWork drive_work_;
+  cable_parts::RunWork run_work_;
+  std::vector<cable_parts::Piece> pieces_;  ///< of one cable
+  // Of `rattle`, whose multipliers act as at the start of the substep.
+  bool knows_start_ = false;
+  std::vector<std::array<double, 2>> start_values_;  ///< of damped rows, and their compliance
+  std::vector<SpanGeometry> start_spans_;  ///< of cables with friction, per span, as last evaluated
+  std::vector<double> start_exponents_;    ///< per link: friction times wrap angle at the start
+  // Of leave_and_touch(): on which side of its candidates a span was at the start, span by span;
+  // and what has left.
+  std::vector<std::vector<WrapSide>> sides_;
+  std::vector<char> changed_links_;
+  std::vector<int> left_bodies_;
+  // Diagnostics, no part of the simulation.
+  cable_parts::Notes notes_;                        ///< but for the events
+  std::array<cable_parts::Notes, 2> marked_notes_;  ///< per NoteMark
+  std::vector<double> geodesic_starts_;  ///< per link: angle of the wrap at the start [rad]
+  std::vector<char> clear_grips_;        ///< as for_each_grip() visits them
+  int arrived_ = -1;  ///< span whose attachment has come to its wheel in this substep; -1: none
+  std::vector<CableEvent> events_;
+  std::vector<cable_parts::WindingWarning> winding_warnings_;
+};
+
+}  // namespace sheave::cable_parts
