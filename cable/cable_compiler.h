@@ -60,8 +60,7 @@ class CableCompiler {
   void check_rest_length(const CableDef& def, int span, const SpanGeometry& geometry);
   /// From here on a wrap without whole turns is one that the cable would not have [rad].
   static constexpr double longest_wrap = 2.0 * pi - pi / 3.0;
-  /// Angle of the cable on a wheel at time 0 without its whole turns [rad], in [0, 2 pi); beside
-  /// whole turns in [longest_wrap - 2 pi, longest_wrap].
+  /// Angle of the cable on a wheel at time 0 without its whole turns, in [0, 2 pi) [rad].
   [[nodiscard]] double start_wrap(int link, const SpanGeometry& incoming,
                                   const SpanGeometry& outgoing) const;
   /// Cable on the wheel between the incoming and the outgoing tangent.

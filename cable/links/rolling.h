@@ -26,9 +26,8 @@ class RollingLink final : public WheelLink {
   /// The cable passes the wheel by at time 0; it is wound on, as `winding` says, when it comes to
   /// touch it.
   bool lifted = false;
-  /// Whole turns in addition to the arc between the tangents, 0 ... 1000. Beside them the arc
-  /// counts from -60 to 300 degrees: a cable that is bent away from the wheel lies on it for less
-  /// than its turns. Without them an arc of more than 300 degrees is an error.
+  /// Whole turns in addition to the arc between the tangents, 0 ... 1000. An arc of more than 300
+  /// degrees without any is an error: the cable would not reach the wheel.
   int turns = 0;
 
   static constexpr std::string_view type_name = "rolling";
