@@ -197,7 +197,11 @@ void prepare_contact(const Substep& substep, const ContactMaterial& material,
                          softened_share, most_softened);
     }
     contact.softness[at(i)] = share * response.inverse_mass;
-    if (i == 0) damp(substep, material, response.inverse_mass, contact);
+    if (i > 0) continue;
+    // A compliance shares the load by itself; softness beside it would be off its law.
+    const double own = material.compliance / (h * h);
+    contact.softness[0] = std::max(contact.softness[0] - own, 0.0);
+    damp(substep, material, response.inverse_mass, contact);
   }
 }
 

@@ -144,7 +144,8 @@ class ContactBatch final : public ConstraintBatch {
           portable::hypot(multipliers_[3 * i + 1], multipliers_[3 * i + 2]) / substep.load_share;
       const bool matters = contact.slips || needed > contact.friction * now;
       const double change = std::abs(now - contact.pressed);
-      const double rounding = rounding_share * substep.bodies.scale() / contact.softness[0];
+      const double yields = contact.softness[0] + contact.compliance / (substep.h * substep.h);
+      const double rounding = rounding_share * substep.bodies.scale() / yields;
       // What is small and becomes no less is rounding.
       const bool rounded =
           change <= rounding && contact.last_change > 0.0 && 2.0 * change >= contact.last_change;
@@ -350,7 +351,10 @@ class ContactBatch final : public ConstraintBatch {
   [[nodiscard]] bool slides(const Substep& substep, std::size_t i) const {
     const Contact& contact = contacts_[i];
     if (!contact.slips && !is_at_bound(i)) return false;
-    return contact.moves(substep) || contact.moves_on(substep);
+    // Velocities of `xpbd` are those of the way. Of a free body that a torque turns they differ from
+    // it by half of what the torque gives in a substep, though the body is held.
+    if (contact.moves(substep)) return true;
+    return substep.load_share != 1.0 && contact.moves_on(substep);
   }
 
   /// Contact::slipped of a point that sticks, for the next substep. Where friction has used all of

@@ -155,20 +155,20 @@ bool RowSystem::bound_friction(double h) {
   constexpr double settled_share = 1e-7;  // as between the rounds of the positions
   const std::span<const double> change = active_set_.solution();
   const auto impulse = [&](std::size_t g) { return groups_[g].multiplier + change[g]; };
+  // The force of a spring is that of the first half; its damper acts in both.
   const auto pressure = [&](std::size_t row) {
-    return rows_[row].weight * std::max(impulse(at(group_of_[row])), 0.0);
+    const std::size_t g = at(group_of_[row]);
+    const double sprung = groups_[g].elastic ? previous_[row] / h : 0.0;
+    return std::max(sprung + rows_[row].weight * impulse(g), 0.0);
   };
   bool changed = false;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!(rows_[i].friction > 0.0)) continue;
     const std::size_t g = at(group_of_[i]);
-    const std::size_t normal = at(group_of_[i - at(rows_[i].pressed_by)]);
-    // The force of a spring is that of the first half; its damper acts in both.
     const std::size_t pressing = i - at(rows_[i].pressed_by);
-    const bool elastic = groups_[normal].elastic != 0;
+    const bool elastic = groups_[at(group_of_[pressing])].elastic != 0;
     if (elastic && !(rows_[pressing].settling > 0.0)) continue;
-    double pressed =
-        elastic ? std::max(previous_[pressing] / h + impulse(normal), 0.0) : pressure(pressing);
+    double pressed = pressure(pressing);
     if (rows_[i].pressed_also > 0) pressed += pressure(i - at(rows_[i].pressed_also));
     const double bound = rows_[i].friction * pressed;
     const double before = problem_.upper[g] + groups_[g].multiplier;
