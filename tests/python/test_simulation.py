@@ -254,11 +254,11 @@ def test_certificates_are_told(atwood):
 
 
 def test_a_run_is_doubtful_as_the_command_says():
-    sim = sheave.load(ROOT / "tools/faults/a5-cart.json")
-    assert not sim.doubtful and sim.run_certificate() == []
+    # A driven drum that ten sweeps let run backwards.
+    sim = sheave.load(ROOT / "tools/faults/a3-drum.json")
+    assert not sim.doubtful
     sim.run()
-    items = sim.run_certificate()
-    assert sim.doubtful == any(item["relative"] > 0.01 for item in items)
+    assert sim.doubtful and any(item["relative"] > 0.01 for item in sim.run_certificate())
     steady = sheave.load(ROOT / "scenes/analytic/atwood.json")
     steady.run()
     assert not steady.doubtful and steady.run_certificate()
