@@ -19,7 +19,6 @@
 // wheels.
 
 #include <cmath>
-#include <cstdio>
 
 #include "cable/cable_compiler.h"
 #include "engine/index.h"
@@ -57,8 +56,7 @@ void CableCompiler::check_windings(const CableDef& def) {
     const double wrap = start_wrap(i, geometry_[at(before)], geometry_[at(i)]);
     if (wrap <= most_turned_back) find_wrong_winding(i, before, after);
     if (wrap <= longest_wrap) continue;
-    char degrees[32];
-    std::snprintf(degrees, sizeof degrees, "%.0f", wrap * 180.0 / pi);
+    const std::string degrees = std::to_string(std::lround(wrap * 180.0 / pi));
     fail("/links/" + std::to_string(i),
          link_name(i) +
              ": the cable does not reach the wheel on the side that \"winding\" says, and "

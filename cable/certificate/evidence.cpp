@@ -107,52 +107,6 @@ Evidence::Evidence(const Simulation& observed, const LastSubstep& last)
   shared_rounding = std::numeric_limits<double>::epsilon() / 1e-9 * largest_force;
 }
 
-void Evidence::find_brakes() {
-  brakes_.assign(at(bodies.count()), 0);
-  if (simulation.cables == nullptr) return;
-  for (const CableDef& cable : *simulation.cable_definitions) {
-    for (const auto& link : cable.links) {
-      const auto* rolling = dynamic_cast<const RollingLink*>(link.get());
-      const int body = bodies.index(link->body);
-      if (rolling == nullptr || body == bodies.count()) continue;
-      if (rolling->efficiency.value_or(1.0) < 1.0 && bodies[body].massless()) brakes_[at(body)] = 1;
-    }
-  }
-}
-
-double Evidence::rounding_of_forces() const {
-  // A few operations on coordinates of this size.
-  constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
-  double sum = 0.0;
-  for (int i = 0; i < bodies.count(); ++i) {
-    const BodyProperties& body = bodies[i];
-    if (body.mobility == Mobility::fixed || body.mobility == Mobility::kinematic) continue;
-    const double size = size_of(i);
-    const double spun = size > 0.0 ? body.axis_inertia / (size * size) : 0.0;
-    sum += std::max(body.mass, spun) * (end.bodies[at(i)].position.norm() + bodies.scale());
-  }
-  return rounding * sum / (h * h);
-}
-
-double Evidence::size_of(int body) const {
-  if (body == bodies.count()) return 0.0;
-  double size = 0.0;
-  for (const PlacedShape& placed : bodies.definition(body).shapes) {
-    const double radius = placed.shape->half_extent().norm();
-    if (!std::isfinite(radius)) continue;
-    size = std::max(size, (placed.position - bodies[body].center_of_mass).norm() + radius);
-  }
-  if (size > 0.0 || !(bodies[body].mass > 0.0)) return size;
-  const double moment = std::max(bodies[body].inertia.trace() / 3.0, bodies[body].axis_inertia);
-  return std::sqrt(moment / bodies[body].mass);
-}
-
-bool Evidence::brakes(int body) const { return body < bodies.count() && brakes_[at(body)] != 0; }
-
-Vector3 Evidence::turn_of(int body) const {
-  return body == bodies.count() ? Vector3(Vector3::Zero()) : turns_[at(body)];
-}
-
 Vector3 Evidence::displacement(int body, const Vector3& point, End at_end) const {
   if (body == bodies.count()) return Vector3::Zero();
   const Vector3 center = moments[at(at_end)].center(body);
@@ -417,49 +371,6 @@ void Evidence::collect_passes(CableEvidence& cable, const CableReport& first,
     }
     cable.passes.push_back(pass);
     collect_bearing(cable, pass, {&first.links[at(link)], &second.links[at(link)]});
-  }
-}
-
-void Evidence::collect_bearing(const CableEvidence& cable, const PassEvidence& pass,
-                               const std::array<const LinkReport*, 2>& link) {
-  if (pass.link < 0 || cable.has_changed) return;
-  const auto* rolling =
-      dynamic_cast<const RollingLink*>(cable.definition->links[at(pass.link)].get());
-  const int body = bodies.index(link[0]->body);
-  if (rolling == nullptr || body == bodies.count() || brakes(body)) return;
-  const double efficiency = rolling->efficiency.value_or(1.0);
-  if (efficiency == 1.0) return;
-  BearingEvidence& bearing = bearings.emplace_back();
-  bearing.cable = cable.name;
-  bearing.link = pass.link;
-  bearing.rotor = body;
-  bearing.arm = link[0]->radius * (1.0 - efficiency) / (1.0 + efficiency);
-  for (const End when : {first_end, last_end}) {
-    bearing.torque[at(when)] = link[at(when)]->bearing_torque;
-    for (const int k : {pass.before, pass.after}) {
-      bearing.pressed[at(when)] += cable.spans[at(k)].force[at(when)];
-    }
-  }
-  bearing.turn = end.bodies[at(body)].angle - start.bodies[at(body)].angle;
-  const int mount = bodies[body].mount;
-  Vector3 spin = end.bodies[at(body)].angular_velocity;
-  Vector3 axle = bodies[body].axis;
-  if (mount >= 0) {
-    spin -= end.bodies[at(mount)].angular_velocity;
-    axle = end.bodies[at(mount)].orientation * axle;
-  }
-  bearing.rate = axle.dot(spin);
-}
-
-void Evidence::apply_bearings() {
-  for (const BearingEvidence& bearing : bearings) {
-    const int mount = bodies[bearing.rotor].mount;
-    for (const End when : {first_end, last_end}) {
-      Vector3 axle = bodies[bearing.rotor].axis;
-      if (mount >= 0) axle = moments[at(when)].orientation(mount) * axle;
-      twist(when, bearing.rotor, bearing.torque[at(when)] * axle);
-      if (mount >= 0) twist(when, mount, -bearing.torque[at(when)] * axle);
-    }
   }
 }
 

@@ -1,0 +1,38 @@
+// Wheels without inertia turn as far as cable passes over them.
+
+#include "cable/cable_system.h"
+#include "engine/index.h"
+
+namespace sheave {
+
+void CableSystem::stop_wheel(Substep& substep, int wheel) const {
+  // The prediction lets it go on turning, which its bearing does not.
+  const BodyProperties& properties = substep.bodies[wheel];
+  BodyState& next = substep.next.bodies[at(wheel)];
+  next.angle = substep.start.bodies[at(wheel)].angle;
+  next.orientation = rotation_by(next.angle * properties.axis) * properties.start_orientation;
+  next.angular_velocity = Vector3::Zero();
+  if (properties.mount < 0) return;
+  const BodyState& carrier = substep.next.bodies[at(properties.mount)];
+  next.orientation = carrier.orientation * next.orientation;
+  next.angular_velocity = carrier.angular_velocity;
+}
+
+void CableSystem::turn_massless_wheel(Substep& substep, int link, double length) const {
+  if (length == 0.0) return;
+  const LinkGeometry& geometry = links_[at(link)];
+  const int turned = geometry.touched();
+  const BodyProperties& wheel = substep.bodies[turned];
+  BodyState& next = substep.next.bodies[at(turned)];
+  const Quaternion carrier = wheel.mount >= 0 ? substep.next.bodies[at(wheel.mount)].orientation
+                                              : Quaternion(Quaternion::Identity());
+  const Vector3 axis = carrier * wheel.axis;
+  const Quaternion& link_frame = geometry.carrier == turned ? next.orientation : carrier;
+  const double sense = axis.dot(link_frame * geometry.normal) > 0.0 ? 1.0 : -1.0;
+  const double turn = sense * length / geometry.signed_radius;
+  next.angle += turn;
+  next.angular_velocity += turn / substep.h * axis;
+  next.orientation = carrier * rotation_by(next.angle * wheel.axis) * wheel.start_orientation;
+}
+
+}  // namespace sheave
