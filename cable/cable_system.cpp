@@ -202,6 +202,10 @@ void CableSystem::linearise(Substep& substep, RowList& rows) {
   // Only `rattle` asks before anything has moved.
   const bool at_start = substep.time == substep.start.time;
   const std::size_t first = rows.size();
+  // What the speeds of the start tell needs no rounds.
+  if (at_start && substep.resort != Resort::anything && !changing_links_.empty()) {
+    substep.failed = turns_too_far(substep);
+  }
   for (const CompiledCable& cable : cables_) {
     if (!cable.shares) {
       linearise_spans(substep, cable, rows);

@@ -82,15 +82,17 @@ void add_slices(double from, double rise, double share, std::vector<ArcNode>& no
 }
 
 /// Adds a spring that is not damped to a row that may be (engine/solvers/row_system.h): `stretch`
-/// at the end and `before` at the start [m], `yield` [m/N]. The row's own share of damping g stays.
-void add_spring(double stretch, double before, double yield, double h, bool midpoint, Row& row) {
+/// at the end [m], `yield` [m/N]. The row's own share of damping g stays. Beside dampers the spring
+/// of an arc has the strain of the force at the end of the substep, as a span whose time constant
+/// is short has it (cable/cable_damping.cpp); the sum of a row of `rattle` is of both ends.
+void add_spring(double stretch, double yield, double h, bool midpoint, Row& row) {
   row.value -= stretch;
   if (!(row.damping > 0.0) || !(row.compliance > 0.0)) {
     row.compliance += yield;
     return;
   }
   const double share = (midpoint ? 2.0 : 1.0) * row.compliance * row.damping / h;
-  if (midpoint) row.value -= before;
+  if (midpoint) row.value -= stretch;
   const double whole = row.compliance + (1.0 + share) * yield;
   row.damping *= row.compliance / whole;
   row.compliance = whole;
@@ -214,8 +216,8 @@ void CableSystem::add_arcs(const Substep& substep, const CompiledCable& cable,
     }
     for (const std::size_t row : {i, behind}) {
       const double share = weights[row] / both;
-      add_spring(share * stretch, share * arc.before.stretch, pull * cable.inverse_stiffness,
-                 substep.h, knows_start_ && !at_start, rows[row]);
+      add_spring(share * stretch, pull * cable.inverse_stiffness, substep.h,
+                 knows_start_ && !at_start, rows[row]);
     }
   }
 }
