@@ -68,7 +68,8 @@ TEST(TiltedWheel, ALoadIsPulledAlongItsRope) {
 }
 
 // What nothing holds keeps its momentum, and under `rattle` its angular momentum; its energy with
-// the second order of the step.
+// the second order of the step, until in 0.08 s the wheel has taken up what its rope was stretched
+// by and a span falls slack.
 TEST(TiltedWheel, AFloatingMachineKeepsWhatItHas) {
   std::vector<double> drifts;
   for (const double h : {1.0 / 480.0, 1.0 / 960.0, 1.0 / 1920.0}) {
@@ -76,7 +77,7 @@ TEST(TiltedWheel, AFloatingMachineKeepsWhatItHas) {
     World& world = f.simulation.world;
     const double energy = world.energy().total();
     double drift = 0.0;
-    while (world.state().time < 0.5 - 0.5 * h) {
+    while (world.state().time < 0.05 - 0.5 * h) {
       const StepReport report = world.step();
       ASSERT_TRUE(report.ok());
       EXPECT_EQ(report.statistics.integrator_fallbacks, 0);
