@@ -195,6 +195,8 @@ double EnergyWatch::most_put_in(const Simulation& simulation) const {
   const World& world = simulation.world;
   const State& state = world.state();
   double fastest = fastest_feed(simulation);
+  double fastest_spin = 0.0;
+  double inertia = 0.0;  // of all, about their own centres
   double work = 0.0;
   for (int i = 0; i < world.bodies().count(); ++i) {
     const BodyProperties& body = world.bodies()[i];
@@ -202,7 +204,11 @@ double EnergyWatch::most_put_in(const Simulation& simulation) const {
     const double spin = now.angular_velocity.norm();
     const bool led = body.mobility == Mobility::kinematic || body.drive == DriveKind::speed ||
                      body.drive == DriveKind::angle;
-    if (led) fastest = std::max(fastest, now.velocity.norm() + spin * size_);
+    inertia += body.inertia.norm() + body.axis_inertia;
+    if (led) {
+      fastest = std::max(fastest, now.velocity.norm() + spin * size_);
+      fastest_spin = std::max(fastest_spin, spin);
+    }
     // Of a body that turns freely the angle is not counted.
     const double angle = std::max(std::abs(now.angle), spin * state.time);
     work += world.bodies().definition(i).torque.norm() * angle;
@@ -213,12 +219,14 @@ double EnergyWatch::most_put_in(const Simulation& simulation) const {
   for (const JointReport& joint : joint_reports(world)) {
     for (const JointCoordinateReport& coordinate : joint.coordinates) {
       if (coordinate.drive_target == 0.0 && coordinate.drive_force == 0.0) continue;
-      fastest = std::max(fastest, std::abs(coordinate.rate) * (coordinate.angle ? size_ : 1.0));
+      const double rate = std::abs(coordinate.rate);
+      fastest = std::max(fastest, rate * (coordinate.angle ? size_ : 1.0));
+      if (coordinate.angle) fastest_spin = std::max(fastest_spin, rate);
       work += std::abs(coordinate.drive_force * coordinate.value);
     }
   }
-  if (fastest > 0.0) work += springs_;
-  return 0.5 * mass_ * fastest * fastest + work;
+  if (fastest > 0.0 || fastest_spin > 0.0) work += springs_;
+  return 0.5 * (mass_ * fastest * fastest + inertia * fastest_spin * fastest_spin) + work;
 }
 
 std::optional<CertificateItem> EnergyWatch::finding() const {

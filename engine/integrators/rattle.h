@@ -30,7 +30,7 @@ namespace sheave {
 class RattleSolver {
  public:
   /// Work of workless forces above which a substep counts as failed, as a share of the kinetic
-  /// energy, and of what springs give and take. Rows that turn by an angle a in the substep do about
+  /// energy. Rows that turn by an angle a in the substep do about
   /// a^3 of it.
   static constexpr double unresolved = 3e-3;
 

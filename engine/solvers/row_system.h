@@ -201,11 +201,6 @@ class RowSystem {
   /// impulses just found and the multipliers of `positions` [J]; of rows that may take energy, only
   /// what they have made.
   [[nodiscard]] double work_error(const Substep& substep, const RowSystem& positions) const;
-  /// The same of springs, after apply_impulses(): energy that they have made beside the change of
-  /// their lengths, because they turn within the substep [J]. `flow` is the work along it, to and
-  /// fro [J].
-  [[nodiscard]] double spring_error(const Substep& substep, const RowSystem& positions,
-                                    double& flow) const;
   /// Changes the velocities and adds h m to the multipliers, whose mean force over the substep is l
   /// / h^2 + m / h.
   void apply_impulses(Substep& substep, Features features);
