@@ -346,11 +346,13 @@ class ContactBatch final : public ConstraintBatch {
     return any;
   }
 
-  /// Whether the point slides at the end of the substep. One that others hold may have all the
-  /// friction that the normal force allows, and does not move.
+  /// Whether the point slides at the end of the substep. One that sticks lets go at its bound, if it
+  /// moves: one that others hold may have all the friction that the normal force allows, and does
+  /// not. One that slides goes on until it does not move; rounding may leave it a little less than
+  /// its bound.
   [[nodiscard]] bool slides(const Substep& substep, std::size_t i) const {
     const Contact& contact = contacts_[i];
-    if (!contact.slips && !is_at_bound(i)) return false;
+    if (contact.stuck && !contact.slips && !is_at_bound(i)) return false;
     // Velocities of `xpbd` are those of the way. Of a free body that a torque turns they differ from
     // it by half of what the torque gives in a substep, though the body is held.
     if (contact.moves(substep)) return true;
