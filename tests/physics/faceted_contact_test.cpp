@@ -33,9 +33,13 @@ TEST(FacetedContact, HasTheCornersThatWillBeLowest) {
       const double angle = 0.0137 * i;
       for (const double turn : {0.0, 0.003, -0.05}) {
         PlacedSolid placed;
-        placed.place(solid, {0.0, 0.0402, 0.0}, rotation_by({0.0, 0.0, angle}));
+        placed.place(solid, Vector3::Zero(), rotation_by({0.0, 0.0, angle}));
+        double reach = 0.0;
+        for (const Vector3& corner : placed.vertices) reach = std::max(reach, -corner.y());
+        const Vector3 center(0.0, reach + 2e-4, 0.0);
+        placed.place(solid, center, rotation_by({0.0, 0.0, angle}));
         SolidMotion motion;
-        motion.center = {0.0, 0.0402, 0.0};
+        motion.center = center;
         motion.turn = rotation_by({0.0, 0.0, turn}).toRotationMatrix();
         Manifold manifold;
         find_contacts(placed, floor, 2e-3, manifold, motion);
@@ -83,6 +87,10 @@ TEST(FacetedContact, ACamLiftsByItsSupport) {
       cam.drive = DriveKind::speed;
       cam.drive_values = {1.7};
       cam.shapes.push_back({test::polygon(outline, 0.02)});
+      // A counterweight, as a rotor has its centre of mass on its axle.
+      std::vector<Vector3> against = test::ring(sides, radius, 0.0);
+      for (Vector3& corner : against) corner.x() -= off;
+      cam.shapes.push_back({test::polygon(against, 0.02), {0.0, 0.0, 0.05}});
       const BodyId shaft = heap.add(cam);
       const double start = support(outline, 0.0);
       const BodyId tappet = heap.put(test::box({0.2, 0.02, 0.03}), {0.0, start + 0.01, 0.0}, 0.5);
@@ -145,7 +153,6 @@ TEST(FacetedContact, ASelfLockingCamPressesByItsAngle) {
     stem.axis = Vector3::UnitY();
     stem.mass = 10.0;
     stem.damping = 2000.0;
-    stem.force = {0.0, -pulled, 0.0};
     const BodyId stem_id = heap.model.add(stem);
     BodyDef cam;
     cam.name = "cam";
@@ -163,7 +170,11 @@ TEST(FacetedContact, ASelfLockingCamPressesByItsAngle) {
     axle->angle.rest = 0.5;
     heap.model.joints.push_back(axle);
     World world = heap.start();
-    test::run(world, 0.5);
+    for (int i = 1; i <= 60; ++i) {
+      const double force = pulled * std::min(i / 30.0, 1.0);
+      ASSERT_TRUE(world.set_force(stem_id, {{0.0, -force, 0.0}}).empty());
+      ASSERT_TRUE(world.step().ok());
+    }
     double normal = 0.0;
     for (const ContactReport& contact : world.contacts()) normal += contact.normal_force;
     // With the torque of the spring, 0.01 N m.
