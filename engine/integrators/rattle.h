@@ -30,9 +30,8 @@ namespace sheave {
 class RattleSolver {
  public:
   /// Work of workless forces above which a substep counts as failed, as a share of the kinetic
-  /// energy. Rows that turn by an angle a in the substep do about
-  /// a^3 of it.
-  static constexpr double unresolved = 3e-3;
+  /// energy. Rows that turn by an angle a in the substep do about a^3 of it.
+  static constexpr double unresolved = 1e-2;
 
   explicit RattleSolver(SolverKind solver) : solver_(solver) {}
 
