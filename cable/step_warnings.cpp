@@ -71,8 +71,8 @@ void append_solver_warnings(const StepStatistics& statistics, std::vector<Warnin
                             " did not converge as a whole, or made energy, and " +
                             (statistics.cut_substeps == 1 ? "was" : "were") + " done in " +
                             std::to_string(statistics.substep_parts) +
-                            " parts: things move far there, and each part may be off by three "
-                            "thousandths of their energy; more substeps avoid that"});
+                            " parts: things move far there, and each part may be off by a "
+                            "hundredth of their energy; more substeps avoid that"});
   }
   if (statistics.exhausted > 0) {
     warnings.push_back({"exhausted", "",

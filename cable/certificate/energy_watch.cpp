@@ -202,8 +202,10 @@ double EnergyWatch::most_put_in(const Simulation& simulation) const {
     const BodyProperties& body = world.bodies()[i];
     const BodyState& now = state.bodies[at(i)];
     const double spin = now.angular_velocity.norm();
-    const bool led = body.mobility == Mobility::kinematic || body.drive == DriveKind::speed ||
-                     body.drive == DriveKind::angle;
+    // Of mounted rotors, too, which rows drive.
+    const DriveKind drive = world.bodies().definition(i).drive;
+    const bool led = body.mobility == Mobility::kinematic || drive == DriveKind::speed ||
+                     drive == DriveKind::angle;
     inertia += body.inertia.norm() + body.axis_inertia;
     if (led) {
       fastest = std::max(fastest, now.velocity.norm() + spin * size_);
@@ -212,7 +214,7 @@ double EnergyWatch::most_put_in(const Simulation& simulation) const {
     // Of a body that turns freely the angle is not counted.
     const double angle = std::max(std::abs(now.angle), spin * state.time);
     work += world.bodies().definition(i).torque.norm() * angle;
-    if (body.drive == DriveKind::torque) {
+    if (drive == DriveKind::torque) {
       work += std::abs(BodyDrive(body, state.controls, i).at(state.time)) * angle;
     }
   }

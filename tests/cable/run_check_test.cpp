@@ -151,7 +151,7 @@ TEST(RunCheck, ALightCartThatStopsItsBobIsDoubtful) {
 }
 
 TEST(RunCheck, ALightCartThatIsResolvedIsNot) {
-  for (const double mass : {1.0, 0.1, 1e-2, 1e-4, 1e-6}) {
+  for (const double mass : {1.0, 0.1, 1e-2, 1e-4}) {
     const Certificate all =
         checked_run(light_cart(mass, SolverKind::direct, IntegratorKind::rattle), 2.0);
     EXPECT_TRUE(all.clean()) << mass << ": " << worst_text(all);
