@@ -72,6 +72,11 @@ void CableSystem::note_missing_tangent(Substep& substep, int span) {
   const int link = wheel_first ? setup.first : setup.second;
   if (point.wraps() || point.hybrid || !wheel.lifts || wheel.outline) return;
   if (link > cables_[at(setup.cable)].last_listed_link()) return;
+  // A body that moves as it is told may be led through a wheel, as by a pointer; a warning tells.
+  if (point.body < substep.bodies.count() &&
+      substep.bodies[point.body].mobility == Mobility::kinematic) {
+    return;
+  }
   // Farther away than that, a span without a tangent leans out of the wheel's plane.
   constexpr double beside_squared = 2.0;
   const LinkCircle circle = circle_of(substep, wheel);
