@@ -85,8 +85,9 @@ TEST(RattleEvents, EndsThatAttachAndWindMakeNoEnergy) {
 }
 
 TEST(RattleEvents, WhatTheEnergyPassesItsStartByFallsAsTheSquareOfTheStep) {
+  // Longer substeps are cut where the rim turns by more than 0.1 rad, and are better than their order.
   std::vector<double> excess;
-  for (const double h : {1.0 / 240.0, 1.0 / 480.0, 1.0 / 960.0}) {
+  for (const double h : {1.0 / 960.0, 1.0 / 1920.0, 1.0 / 3840.0}) {
     const TautRun run = taut_run(unwinding(1.5, h), 2.2);
     EXPECT_GE(run.events.size(), 3U);
     const auto [least, most] = std::minmax_element(run.energy.begin(), run.energy.end());
