@@ -15,7 +15,7 @@
 // a rope with whole turns, a figure of eight, a band that goes round three quarters of its drum.
 // Wound the wrong way, a wheel that turns a cable back, as most do, gets a little more than half a
 // turn. So a link is named only if its two spans cross, if they would not with the other winding,
-// if it has no whole turns and no more than 5/8 of one, and if the spans do not join the same two
+// if it has no whole turns and no more than 2/3 of one, and if the spans do not join the same two
 // wheels.
 
 #include <cmath>
@@ -43,7 +43,7 @@ bool cross_each_other(const SpanGeometry& a, const SpanGeometry& b, const Vector
 }  // namespace
 
 void CableCompiler::check_windings(const CableDef& def) {
-  constexpr double most_turned_back = 2.0 * pi * 5.0 / 8.0;
+  constexpr double most_turned_back = 2.0 * pi * 2.0 / 3.0;
   const auto count = static_cast<int>(links_.size());
   for (int i = 0; i < count; ++i) {
     const LinkGeometry& wheel = links_[at(i)];

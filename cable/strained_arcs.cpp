@@ -292,7 +292,10 @@ double CableSystem::lay_arc(const CompiledCable& cable, std::size_t span, double
   passed -= arc.gain;
   // Round a ring nothing goes on over the last link of the run: what comes to it stays.
   const bool last = span + 1 == run_work_.arcs.size();
-  const double moved_on = last ? 0.0 : std::min(cable.quantised(passed), stored + moved);
+  // No more than there is, but where the spans lean beyond the arc's end: then the length is below
+  // 0, and the link is left.
+  const double most = stored + moved - std::min(cable.quantised(arc.length), 0.0);
+  const double moved_on = last ? 0.0 : std::min(cable.quantised(passed), most);
   stored += moved - moved_on;
   StoredStrain lies = arc.strain ? strained_arc(arc, *arc.strain) : stored_strain(next, arc.link);
   lies.fit(StoredStrain::End::outgoing, stored, lies.total().strain());
