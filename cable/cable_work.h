@@ -15,11 +15,21 @@
 #include "cable/stored_strain.h"
 #include "engine/constraint_batch.h"
 
-namespace sheave::cable_parts {
+namespace sheave {
+
+class CableCompiler;
+class CableSystem;
+class CableTransfer;
+
+namespace cable_parts {
 
 /// The numbers that CableSystem works with. None of them belongs to a state: begin() makes those of
 /// a substep from the state.
-struct CableWork {
+class CableWork {
+  friend class sheave::CableCompiler;
+  friend class sheave::CableSystem;
+  friend class sheave::CableTransfer;
+
   using StretchedSpan = cable_parts::StretchedSpan;
   using Fallback = cable_parts::Fallback;
   using Notes = cable_parts::Notes;
@@ -112,4 +122,5 @@ struct CableWork {
   std::vector<cable_parts::WindingWarning> winding_warnings_;
 };
 
-}  // namespace sheave::cable_parts
+}  // namespace cable_parts
+}  // namespace sheave

@@ -50,7 +50,7 @@ class EnergyWatch {
  private:
   void begin(const Simulation& simulation);
   void follow_gain(double total, double time);
-  void follow_loss(const Simulation& simulation, double total, const StepStatistics& statistics);
+  void follow_loss(const Simulation& simulation, double loss, const StepStatistics& statistics);
   void follow_input(const Simulation& simulation, const StepStatistics& statistics);
   /// What drives and loads can have put in by now [J].
   [[nodiscard]] double most_put_in(const Simulation& simulation) const;
