@@ -72,7 +72,7 @@ def shell(tmp_path_factory):
     folder = tmp_path_factory.mktemp("pages")
     (folder / "bin").mkdir()
     (folder / "bin" / "sheave").symlink_to(COMMAND)
-    for name in ("scenes", "docs", "build", "examples", "tools"):
+    for name in ("scenes", "docs", "build", "examples", "tools", "tests"):
         (folder / name).symlink_to(ROOT / name)
     (folder / "tutorial").symlink_to(ROOT / "docs" / "tutorial")
     (folder / "crane.json").symlink_to(ROOT / "scenes/machines/crane.json")
