@@ -136,6 +136,8 @@ TEST(RunCertificate, EnergyFromNowhereIsDoubtfulWhateverSingleSubstepsSay) {
         const bool gained = gain_of(folder, words) > 0.01;
         gains += gained ? 1 : 0;
         const json summary = json::parse(run_with(words, {"--json"}).out);
+        // A run that is ended by name, with exit code 75, says more than that.
+        if (summary["status"] == "diverged") continue;
         const bool doubtful = summary["status"] == "doubtful";
         EXPECT_TRUE(doubtful || !gained);
         EXPECT_EQ(summary["certificate"]["clean"], !doubtful);
