@@ -1,10 +1,10 @@
-// What a cable does that its model does not vouch for: spans without a tangent, attachments that
+// Conditions that the model of a cable does not vouch for: spans without a tangent, attachments that
 // come to a wheel, wraps that leave their plane, bodies that find no place for a wrap.
 //
 // An attachment between two spans holds the cable at one point of it, and cable that comes to a
 // wheel is laid onto it: drawn on, the attachment comes to where its span touches the rim. There it
-// would stay in the cable's way: what follows has to be laid onto the wheel, too, and is not, so
-// its span runs through the wheel, and whatever moves then is no machine's motion. A grip that
+// would stay in the cable's way: the cable behind it has to be laid onto the wheel, too, and is
+// not, so its span runs through the wheel, and whatever moves then is no machine's motion. A grip that
 // passes, of a chairlift, is another machine. So that is where the motion ends: when the span
 // beyond an attachment beside a wheel begins to cut that wheel, or when a body has come inside one
 // to which it is attached, where there is no tangent.

@@ -137,7 +137,10 @@ TEST(RunCertificate, EnergyFromNowhereIsDoubtfulWhateverSingleSubstepsSay) {
         gains += gained ? 1 : 0;
         const json summary = json::parse(run_with(words, {"--json"}).out);
         // A run that is ended by name, with exit code 75, says more than that.
-        if (summary["status"] == "diverged") continue;
+        if (summary["status"] == "diverged") {
+          EXPECT_EQ(run_with(words, {"--strict", "-q"}).exit_code, 75);
+          continue;
+        }
         const bool doubtful = summary["status"] == "doubtful";
         EXPECT_TRUE(doubtful || !gained);
         EXPECT_EQ(summary["certificate"]["clean"], !doubtful);
