@@ -49,7 +49,7 @@ class GnuplotCode {
   GnuplotCode() = default;
   GnuplotCode(std::initializer_list<GnuplotPiece> pieces) { add(pieces); }
   void add(std::initializer_list<GnuplotPiece> pieces) {
-    for (const GnuplotPiece& piece : pieces) text_ += piece.text();
+    for (const GnuplotPiece& part : pieces) text_ += part.text();
   }
   [[nodiscard]] bool empty() const { return text_.empty(); }
   [[nodiscard]] const std::string& text() const { return text_; }

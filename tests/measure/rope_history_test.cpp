@@ -191,7 +191,8 @@ TEST(RopeHistory, ASectionAtAnEdgeIsNotBentByRounding) {
     ASSERT_TRUE(made->step().ok());
     history.observe(*made);
   }
-  for (const SectionHistory& section : history.history()[0].sections) {
+  const std::vector<CableHistory> records = history.history();
+  for (const SectionHistory& section : records[0].sections) {
     for (const SectionBends& bends : section.bends) EXPECT_LE(bends.bends, 1) << section.from;
   }
 }

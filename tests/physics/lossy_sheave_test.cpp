@@ -380,7 +380,7 @@ TEST_P(EfficiencyOfTravel, AHeavySheaveStartsHoldsCoastsAndIsThrown) {
       EXPECT_NEAR(t[0], w.m1 * (g + a), tolerance * w.m1 * g);
       EXPECT_NEAR(t[1], w.m2 * (g - a), tolerance * w.m2 * g);
       EXPECT_TRUE(s.cables->tangent_warnings().empty());
-      const LinkReport& link = s.cable_reports()[0].links[1];
+      const LinkReport link = s.cable_reports()[0].links[1];
       const double torque = radius * (t[1] - t[0]) - w.inertia * a / radius;
       // Positive torques are counter-clockwise.
       EXPECT_NEAR(link.bearing_torque, torque, tolerance * radius * 4.0 * g);
