@@ -1,5 +1,5 @@
 #pragma once
-// What a user says about one cable.
+// Settings of one cable, as the user gives them.
 
 #include <memory>
 #include <optional>
@@ -10,12 +10,13 @@
 
 namespace sheave {
 
-/// When the tangents, and with them the rest lengths, follow the bodies.
+/// When the tangent points, and with them the rest lengths, are computed again.
 enum class TangentUpdate {
   iteration,  ///< in every iteration: accurate
-  substep,    ///< once per substep, as in the paper; of a cable that leaves the plane of a
-              ///< wheel or lies on an outline in every iteration all the same: the paper's forces
-              ///< would lose work there at any step size, or jump
+  /// Once per substep, as in the paper. A cable that leaves the plane of a wheel or lies on an
+  /// outline is computed in every iteration nevertheless: the forces of the paper would lose work
+  /// there at any step size, or jump.
+  substep,
 };
 inline constexpr std::array<std::string_view, 2> tangent_update_names{"iteration", "substep"};
 
@@ -23,27 +24,31 @@ inline constexpr std::array<std::string_view, 2> tangent_update_names{"iteration
 struct CableDef {
   std::string name;     ///< unique among the cables
   bool closed = false;  ///< a last span joins the last link and the first: a belt
-  /// Of each span [m/N], >= 0, 0 is rigid. Excludes axial_stiffness. As in the paper a span has it
-  /// whatever its length, so a cable that touches a body and is divided becomes softer; a
-  /// material's does not. What lies on wheels and posts has none.
+  /// Compliance of each span [m/N], >= 0; 0 is rigid. Excludes axial_stiffness. As in the paper, a
+  /// span has this compliance whatever its length, so a cable becomes softer when it touches a body
+  /// and one span becomes two. With axial_stiffness this does not happen. Cable stored on wheels
+  /// and posts has no compliance.
   std::optional<double> compliance;
-  /// Of the cable's material, EA [N], > 0: a span then has the compliance rest length / EA, and
-  /// what comes onto a wheel keeps its strain there, so that a belt creeps
-  /// (cable/cable_material.cpp); where it slides over an arc, that is stretched with the spans
-  /// (cable/strained_arcs.cpp). At time 0 what lies on a wheel has the strain of the spans beside
-  /// it, of two their mean. Rest lengths and stored lengths are unstretched.
+  /// Axial stiffness EA of the cable's material [N], > 0. A span then has the compliance rest
+  /// length / EA. Cable that comes onto a wheel keeps its strain there, so a belt creeps
+  /// (cable/cable_material.cpp). Where the cable slides over an arc, the arc is stretched together
+  /// with the spans (cable/strained_arcs.cpp). At time 0 the cable stored on a wheel has the strain
+  /// of the adjacent span, or the mean strain of two adjacent spans. Rest lengths and stored
+  /// lengths are unstretched.
   std::optional<double> axial_stiffness;
-  double damping = 0.0;  ///< of each free span [N s/m], >= 0; needs an elastic cable
+  double damping = 0.0;  ///< damping of each free span [N s/m], >= 0; needs an elastic cable
   TangentUpdate tangent_update = TangentUpdate::iteration;
   /// Rest length of each span at time 0 [m], one per span; default: its length, so that the cable
   /// is just taut. Shorter than the length only for elastic cables.
   std::vector<double> rest_lengths;
-  /// Capstan coefficient on bodies that are wrappable and no links of this cable, >= 0.
+  /// Capstan coefficient on wrappable bodies that are not links of this cable, >= 0.
   double wrap_friction = 0.0;
-  int most_wraps = 16;  ///< on such bodies at the same time, 0 to 1000; 0: it goes through them
+  /// Largest number of simultaneous wraps on such bodies, 0 to 1000. The cable passes through any
+  /// further ones.
+  int most_wraps = 16;
   /// Mean tension over a substep at which the cable breaks [N], > 0; default: never.
   std::optional<double> breaking_tension;
-  std::optional<double> cut_time;                     ///< when it is cut [s], >= 0; default: never
+  std::optional<double> cut_time;  ///< time at which the cable is cut [s], >= 0; default: never
   std::vector<std::shared_ptr<const LinkDef>> links;  ///< at least 2
 
   /// Every member but the links.

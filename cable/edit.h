@@ -1,6 +1,6 @@
 #pragma once
-// What can be changed of a world that runs: bodies, joints, colliders and cables come, go and are
-// changed, cables are taken apart and put together.
+// Edits of a running world: bodies, joints, colliders and cables are added, removed and changed;
+// cables are split, joined, attached and detached.
 //
 //   auto done = world.edit([&](Edit& edit) {
 //     edit.detach(rope, CableEnd::last);
@@ -8,16 +8,16 @@
 //   });
 //   if (!done) report(done.errors());
 //
-// An edit is done as a whole or not at all: where something of it cannot be, LiveWorld::edit()
-// tells all its faults and nothing has changed. What stays goes on as it was, to the last bit of
-// its state. It takes no time and nothing moves in it.
+// An edit is all or nothing: if one change is impossible, LiveWorld::edit() returns all faults and
+// the world is unchanged. Every object that the edit does not change keeps its state to the last
+// bit. An edit takes no simulated time, and no body moves.
 //
-// A cable that has been split or detached has a loose end: cable that hangs from its last hold and
-// that nothing pulls at. By the end of the edit it must be attached again or joined, or it runs off
-// every wheel and out of every eyelet up to the next link that holds it: an attachment, or the drum
-// at its other end. No more than e^(m a) 0 = 0 could hold it there. A cable of which nothing is
-// left between two holds pulls at nothing; it stays, with its handle and its length, and can be
-// attached again.
+// A cable that has been split or detached has a loose end: the part beyond the last link that holds
+// it, which carries no tension. By the end of the edit the loose end must be attached or joined.
+// Otherwise it runs off every wheel and out of every eyelet up to the next link that holds it: an
+// attachment, or the drum at the cable's other end. Friction cannot hold it, since the capstan's
+// bound is e^(m a) 0 = 0. A cable of which no part lies between two holds carries no tension. It
+// keeps its handle and its length and can be attached again.
 
 #include <array>
 #include <cstdint>
@@ -39,77 +39,81 @@ struct EditDraft;
 
 enum class CableEnd { first, last };
 
-/// What an edit did.
+/// Result of an edit.
 struct EditReport {
   struct Cable {
     CableHandle cable;
-    double added = 0.0;  ///< to its length [m]; < 0: it has less, or is no more
+    /// change of the cable's length [m]; < 0: the cable became shorter or was removed
+    double added = 0.0;
   };
-  Energy energy;  ///< by how much there is more of each kind [J]
+  Energy energy;  ///< change of each kind of energy [J]
   std::vector<Cable>
-      cables;  ///< those whose lengths have changed, with those that have come and gone
+      cables;  ///< the cables whose lengths have changed, and those that were added or removed
 };
 
-/// A list of changes; exists while LiveWorld::edit() runs. Bodies that definitions refer to are
-/// told by id(). Positions and directions are those of now, in the world frame, as those of a model
-/// are those of time 0; what is a function of time (drives, motions of kinematic bodies) is one of
-/// the world's time, as it has always been. Where a change cannot be, the edit as a whole fails.
-/// Faults of a single change have no path. Those that are seen only when all is put together have
-/// one, /bodies/3/mass, /joints/0/axis, /cables/2/links/1, with the slot of the handle; that of a
-/// collider has its body's, /colliders/3.
+/// The changes of one edit. An Edit exists only while LiveWorld::edit() runs. Definitions refer to
+/// bodies by id(). Positions and directions are those of the present moment, in the world frame, as
+/// those of a model are those of time 0. Functions of time (drives, motions of kinematic bodies)
+/// use the world's time. If one change is impossible, the whole edit fails. The fault of a single
+/// change has no path. A fault that appears only when all changes are combined has one,
+/// /bodies/3/mass, /joints/0/axis or /cables/2/links/1, with the slot of the handle; the fault of a
+/// collider has the slot of its body, /colliders/3.
 class Edit {
  public:
   explicit Edit(EditDraft& draft) : draft_(draft) {}
 
-  /// What definitions call a body; of a default handle the world. One of a body that is no more is
-  /// a fault of the edit.
+  /// The id by which definitions refer to a body; a default handle gives the world. A body that no
+  /// longer exists is a fault of the edit.
   [[nodiscard]] BodyId id(BodyHandle body);
 
   /// A body at the place and with the velocity of its definition.
   BodyHandle add(BodyDef body);
-  /// A joint of the bodies as they are now, at its coordinates' zero.
+  /// A joint between the bodies in their present poses, where its coordinates are 0.
   JointHandle add(const std::shared_ptr<JointDef>& joint);
   CableHandle add(CableDef cable);
-  /// Makes a body touch others.
+  /// Gives a body a collider.
   void add(const ColliderDef& collider);
-  /// With its collider. Joints, links and rotors that are on it must go before.
+  /// Removes a body with its collider. Its joints, links and mounted rotors must be removed first.
   void remove(BodyHandle body);
   void remove(JointHandle joint);
   void remove(CableHandle cable);
   void remove_collider(BodyHandle body);
-  /// Changes what is not where it is and how it can move: not mobility, axis, mount, position,
-  /// orientation and velocities. Its frame keeps its place and its motion.
+  /// Changes a body's settings, except mobility, axis, mount, position, orientation and velocities.
+  /// The frame keeps its pose and its velocity.
   void change(BodyHandle body, const std::function<void(BodyDef&)>& change);
-  /// Solver, integrator, substeps, iterations; not dt, which the world counts its time by.
+  /// Sets solver, integrator, substeps and iterations. dt cannot change, because the world counts
+  /// its time in steps of dt.
   void set_step(const StepSettings& step);
 
-  /// Splits a cable in two within the span that begins at listed link `span`, at `share` (0 to 1)
-  /// of it. The handle stays that of the piece from its first link on; the other one, with the
-  /// settings of the whole but for its cut_time, gets `name`. A cable that is cut splits where it
-  /// has been cut. A belt is opened instead.
+  /// Splits a cable in two within the span that begins at listed link `span`, at the fraction
+  /// `share` (0 to 1) of the span. The handle stays with the piece that begins at the first link.
+  /// The other piece gets `name` and the settings of the whole cable except its cut_time. A cable
+  /// that is cut splits at its cut. A belt cannot be split; use open().
   CableHandle split(CableHandle cable, int span, double share, std::string name);
-  /// Opens a belt within the span that begins at listed link `span`, at `share` (0 to 1) of it;
-  /// where it has been cut if it is cut. It is an open cable then, with two loose ends, from the
-  /// link behind that span to the one before it.
+  /// Opens a belt within the span that begins at listed link `span`, at the fraction `share` (0 to
+  /// 1) of the span, or at its cut if the belt is cut. The result is an open cable with two loose
+  /// ends. It runs from the link behind that span to the link before the span.
   void open(CableHandle belt, int span, double share);
-  /// Joins the loose last end of one cable to the loose first end of another, which is then part of
-  /// it. Both must have the same settings. A cable that is joined to itself becomes a belt.
+  /// Joins the loose last end of one cable to the loose first end of another, which becomes part of
+  /// the first. Both cables must have the same settings. A cable that is joined to itself becomes a
+  /// belt.
   void join(CableHandle cable, CableHandle next);
-  /// Takes an end off what it is fixed to, or off its drum with all that is wound there.
+  /// Takes an end off its attachment, or off its drum together with all cable wound there.
   void detach(CableHandle cable, CableEnd end);
   /// Fixes a loose end to a point of a body [m, body frame].
   void attach(CableHandle cable, CableEnd end, BodyId body, const Vector3& point);
-  /// Puts length into a span [m]; < 0: takes it out.
+  /// Adds length to a span [m]; < 0 removes it.
   void pay_out(CableHandle cable, int span, double length);
-  /// Leads a span over another link, behind listed link `span`. Of its length the link takes the
-  /// arc that lies on it; the rest is shared so that both sides are strained alike.
+  /// Inserts a link into a span, behind listed link `span`. The link takes the arc that lies on it
+  /// from the span's length. The rest is divided so that the spans on both sides have equal strain.
   void insert(CableHandle cable, int span, std::shared_ptr<const LinkDef> link);
-  /// Takes a listed link that is not at an end off a cable; what lies on it comes to the span.
+  /// Removes a listed link that is not at an end of the cable. The cable stored on the link goes to
+  /// the span.
   void remove_link(CableHandle cable, int link);
 
-  /// What cannot be so far; with any of them nothing will be done.
+  /// The faults so far. If there is one, the edit will change nothing.
   [[nodiscard]] const Errors& errors() const;
-  /// Lets the edit fail.
+  /// Adds a fault, so that the edit fails.
   void fail(std::string message);
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What every link type must provide. Adding one: a file in cable/links/ and a line in
+// Interface of all link types. A new link type is a file in cable/links/ and a line in
 // cable/link_registry.cpp.
 
 #include <array>
@@ -16,8 +16,8 @@ namespace sheave {
 class BodySet;
 struct LinkGeometry;
 
-/// Which way a cable runs round a wheel, from the first link of the cable to the last, seen against
-/// the normal of the link's plane (from its tip).
+/// Direction in which a cable runs round a wheel, from the cable's first link to its last, as seen
+/// from the tip of the normal of the link's plane.
 enum class Winding { counter_clockwise, clockwise };
 inline constexpr std::array<std::string_view, 2> winding_names{"counter-clockwise", "clockwise"};
 
@@ -28,11 +28,12 @@ class LinkDef {
 
   BodyId body;  ///< the body the cable touches; default: the world
 
-  /// body.
+  /// The field table of the settings above.
   static std::span<const Field> common_field_table();
   [[nodiscard]] virtual std::string_view type() const = 0;  ///< key in the registry, e.g. "rolling"
-  [[nodiscard]] virtual const void* settings() const = 0;   ///< this, as its own type
-  /// The link's geometry, or its faults; `path` is prepended to theirs.
+  /// this, as a pointer to the derived type
+  [[nodiscard]] virtual const void* settings() const = 0;
+  /// The link's geometry, or its faults. `path` is the prefix of their paths.
   [[nodiscard]] virtual Result<LinkGeometry> compile(const BodySet& bodies,
                                                      const std::string& path) const = 0;
 

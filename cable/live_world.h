@@ -1,7 +1,7 @@
 #pragma once
-// A world that one holds in one's hands: steps it, reads it, and steers it while it runs.
+// A world for interactive programs: step it, read it and set its controls while it runs.
 //
-//   auto world = sheave::load("crane.json");                        // or LiveWorld::create(model, cables)
+//   auto world = sheave::load("crane.json");  // or LiveWorld::create(model, cables)
 //   if (!world) report(world.errors());
 //   const auto drum = *world->body("drum");
 //   const auto rope = *world->cable("rope");
@@ -11,9 +11,9 @@
 //     show(*world->tension(rope, 2));
 //   }
 //
-// Bodies, joints and cables are told by handles. Errors are values: what cannot be done says why
-// and what can, and nothing has changed. Readers look at the state as it is between two steps; but
-// for energy() none of them allocates or searches.
+// Handles identify bodies, joints and cables. Errors are values: an error says why a call cannot be
+// done and what is allowed, and a call that returns an error has changed nothing. Readers return
+// the state between two steps. No reader allocates or searches, except energy() and length().
 
 #include <functional>
 #include <memory>
@@ -31,7 +31,7 @@
 
 namespace sheave {
 
-/// Where a body's frame is and how it moves.
+/// Pose and velocity of a body's frame.
 struct BodyPose {
   Vector3 position = Vector3::Zero();               ///< of its origin [m]
   Quaternion orientation = Quaternion::Identity();  ///< body frame to world frame
@@ -39,39 +39,41 @@ struct BodyPose {
   Vector3 angular_velocity = Vector3::Zero();       ///< [rad/s]
 };
 
-/// What is kept of the cables when a body is put elsewhere.
+/// The property of the cables that LiveWorld::place() keeps.
 enum class Keep {
-  /// Their lengths: they get slack, or taut where they are elastic. A rigid one must be long enough
+  /// Rest lengths stay. Spans become slack, or taut if the cable is elastic. A rigid cable must be
+  /// long enough for the new place.
   length,
-  tension,  ///< their tensions, and their slack: what spans need comes in or goes out
+  tension,  ///< tensions and slack stay: the rest lengths change by the amount that the spans need
 };
 
-/// What a placement did.
+/// Result of LiveWorld::place().
 struct Placement {
   struct Cable {
     CableHandle cable;
-    double added = 0.0;  ///< to its length [m]; < 0: taken out
+    double added = 0.0;  ///< change of the cable's length [m]; < 0: cable was taken out
   };
-  double energy = 0.0;        ///< by how much there is more of it [J]
-  std::vector<Cable> cables;  ///< those whose lengths have changed
+  double energy = 0.0;        ///< change of the world's energy [J]
+  std::vector<Cable> cables;  ///< the cables whose lengths have changed
 };
 
-/// What a step of a LiveWorld did.
+/// Report of one step of a LiveWorld.
 struct LiveReport : StepReport {
-  /// The most events that a report has.
+  /// Largest number of events in one report.
   static constexpr std::size_t most_events = 64;
   std::vector<CableEvent> events;          ///< of cables, in their order
   std::vector<JointHandle> broken_joints;  ///< in this step
-  std::size_t omitted = 0;                 ///< events beyond those
-  /// What could not be done as asked: of solver and integrator in this step, of cables if it was
-  /// the first time. The command prints the same of a run.
+  std::size_t omitted = 0;                 ///< number of events beyond the first `most_events`
+  /// Requests that the step could not meet. Warnings of solver and integrator are those of this
+  /// step. A warning of a cable appears when its fault occurs for the first time. `sheave run`
+  /// prints the same warnings.
   std::vector<Warning> warnings;
 };
 
 struct LiveRevision;
 
-/// A state of a LiveWorld with all that it is a state of, so that it can be gone back to across
-/// edits.
+/// A state of a LiveWorld together with the model and cables that the state belongs to. Restoring a
+/// snapshot goes back across edits.
 class LiveSnapshot {
  public:
   [[nodiscard]] const State& state() const { return state_; }
@@ -89,38 +91,39 @@ class LiveSnapshot {
 class LiveWorld {
  public:
   static Result<LiveWorld> create(const Model& model, const std::vector<CableDef>& cables);
-  /// Of a simulation that is there, with its supervisor if it has one.
+  /// Takes over an existing simulation, with its supervisor if it has one.
   static LiveWorld of(Simulation simulation) { return LiveWorld(std::move(simulation)); }
   ~LiveWorld();
   LiveWorld(LiveWorld&&) noexcept;
   LiveWorld& operator=(LiveWorld&&) noexcept;
 
-  // By name; the error says which names are like it.
+  // Handles by name. The error lists similar names.
   [[nodiscard]] Result<BodyHandle> body(std::string_view name) const;
   [[nodiscard]] Result<JointHandle> joint(std::string_view name) const;
   [[nodiscard]] Result<CableHandle> cable(std::string_view name) const;
-  // By the index in the model's list, or in that of the cables, which must be in it.
+  // Handles by index in the model's list of bodies or joints, or in the list of cables. The index
+  // must be in range.
   [[nodiscard]] BodyHandle body_at(int index) const;
   [[nodiscard]] JointHandle joint_at(int index) const;
   [[nodiscard]] CableHandle cable_at(int index) const;
 
-  /// What it is defined by; null if the handle refers to nothing.
+  /// The joint's definition; null if the handle refers to nothing.
   [[nodiscard]] const JointDef* definition(JointHandle joint) const;
-  // All there are, in the order of their handles.
+  // All handles of one kind, in the order of their slots.
   [[nodiscard]] std::vector<BodyHandle> bodies() const;
   [[nodiscard]] std::vector<JointHandle> joints() const;
   [[nodiscard]] std::vector<CableHandle> cables() const;
 
-  /// As Simulation::step(), with what happened. `before_substep` is called after controllers and
-  /// triggers, and may set controls. From within a step or an edit there is no step: it is told as
-  /// stopped.
+  /// Does a Simulation::step() and reports its events. `before_substep` is called after controllers
+  /// and triggers and may set controls. A call from within a step or an edit does no step; its
+  /// report says that the step was stopped.
   [[nodiscard]] LiveReport step(const StopRequest& stop = {},
                                 const std::function<void()>& before_substep = {});
 
-  /// From now on steps are checked as those of `sheave run` are (cable/run_check.h); restoring,
-  /// placing and editing begin a new balance of energy.
+  /// Checks all further steps as `sheave run` does (cable/run_check.h). Restoring, placing and
+  /// editing begin a new balance of energy.
   void check_run();
-  /// What that has found so far; empty without check_run().
+  /// The certificate of all steps since check_run(); empty if check_run() was not called.
   [[nodiscard]] Certificate run_certificate() const;
 
   // Readers.
@@ -129,30 +132,32 @@ class LiveWorld {
   [[nodiscard]] Result<std::string> name(JointHandle joint) const;
   [[nodiscard]] Result<std::string> name(CableHandle cable) const;
   [[nodiscard]] Result<BodyPose> pose(BodyHandle body) const;
-  /// Of the body-frame point `local` [m], in the world.
+  /// World position of the body-frame point `local` [m].
   [[nodiscard]] Result<Vector3> point(BodyHandle body, const Vector3& local) const;
-  /// Mean over the last substep [N], >= 0; of a span as listed, 0 where the cable passes a link by.
+  /// Mean tension over the last substep [N], >= 0. `span` is an index in the cable's list; the
+  /// tension is 0 where the cable passes its first link without touching it.
   [[nodiscard]] Result<double> tension(CableHandle cable, int span) const;
-  /// Unstretched length of a span, and of what lies on a listed link [m].
+  /// Unstretched length of a span, and unstretched length that a listed link stores [m].
   [[nodiscard]] Result<double> rest_length(CableHandle cable, int span) const;
   [[nodiscard]] Result<double> stored_length(CableHandle cable, int link) const;
-  /// Whether something of the cable is between two holds; otherwise it lies or hangs loose. False
-  /// if the handle refers to nothing.
+  /// Whether a part of the cable lies between two links that hold it. A cable of which this is
+  /// false lies or hangs loose. False if the handle refers to nothing.
   [[nodiscard]] bool pulls(CableHandle cable) const;
-  /// All of it, loose ends too [m]; of one without a loose end this is what its report calls total
-  /// length. Allocates.
+  /// Total length, loose ends included [m]. For a cable without loose ends this is
+  /// CableReport::total_length. Allocates.
   [[nodiscard]] Result<double> length(CableHandle cable) const;
   /// Length beyond the link that holds a loose end [m]; nothing if the end is not loose.
   [[nodiscard]] Result<std::optional<double>> loose_length(CableHandle cable, CableEnd end) const;
-  /// What the joint did to its body_b in the last substep, as JointReport tells it.
+  /// The wrench of the joint on its body_b in the last substep, as in JointReport.
   [[nodiscard]] Result<Wrench> force(JointHandle joint) const;
-  /// Of everything; takes time in proportion to what there is.
+  /// Energy of the whole world. The cost is proportional to the number of bodies, joints and
+  /// cables.
   [[nodiscard]] Energy energy() const { return simulation().world.energy(); }
 
   // Controls, as World and Simulation have them (engine/world.h, cable/simulation.h).
   [[nodiscard]] Errors set_gravity(const Vector3& gravity);
   void clear_gravity();
-  /// Of a rotor with a drive to a speed [rad/s], an angle [rad], a torque [N m].
+  /// Drive of a rotor: to a speed [rad/s], to an angle [rad], with a torque [N m].
   [[nodiscard]] Errors set_speed(BodyHandle body, const DriveTarget& target);
   [[nodiscard]] Errors set_angle(BodyHandle body, const DriveTarget& target);
   [[nodiscard]] Errors set_torque(BodyHandle body, const DriveTarget& target);
@@ -161,7 +166,7 @@ class LiveWorld {
   [[nodiscard]] Errors clear_force(BodyHandle body);
   [[nodiscard]] Errors set_motion(BodyHandle body, const MotionTarget& target);
   [[nodiscard]] Errors clear_motion(BodyHandle body, std::optional<double> over = {});
-  /// Of the drive of a joint's coordinate, by its index in JointDef::coordinates().
+  /// Drive of a joint's coordinate. `coordinate` is an index in JointDef::coordinates().
   [[nodiscard]] Errors set_drive(JointHandle joint, const DriveTarget& target, int coordinate = 0);
   [[nodiscard]] Errors set_drive_limit(JointHandle joint, double limit, int coordinate = 0);
   [[nodiscard]] Errors clear_drive(JointHandle joint, int coordinate = 0);
@@ -178,39 +183,39 @@ class LiveWorld {
   [[nodiscard]] Errors set_feed_speed(CableHandle cable, int link, const DriveTarget& target);
   [[nodiscard]] Errors clear_feed_speed(CableHandle cable, int link);
 
-  /// Several controls, all or none: what `set` has set and cleared is as it was if it returns
-  /// faults.
+  /// Sets several controls, all or none: if `set` returns faults, every control that `set` has set
+  /// or cleared gets its previous value back.
   [[nodiscard]] Errors set_together(const std::function<Errors()>& set);
 
-  /// Puts a free, planar or slider body that no joint holds elsewhere, with what is mounted on it;
-  /// it keeps its velocity. The origin of its frame goes to `position` [m]. Cables follow: wheels
-  /// take and give the arcs in between. Whether bodies then overlap nobody asks; the next step
-  /// takes them apart.
+  /// Puts a body elsewhere, together with the bodies mounted on it. The body must be free, planar
+  /// or a slider, and no joint may hold it. Its frame's origin goes to `position` [m]; its velocity
+  /// stays. Cables follow: wheels take and give the arcs between the old and the new contacts.
+  /// Bodies may overlap afterwards; the next step separates them.
   [[nodiscard]] Result<Placement> place(BodyHandle body, const Vector3& position,
                                         std::optional<Quaternion> orientation, Keep keep);
 
-  /// Changes what the world is made of, all or nothing: cable/edit.h. Scenes' controllers and
-  /// triggers find what they refer to by name; an edit that takes it away fails. Not from within a
-  /// step or another edit, as place() and restore() are not.
+  /// Changes bodies, joints and cables, all or nothing (cable/edit.h). A scene's controllers and
+  /// triggers find their objects by name; an edit that removes one of these objects fails. edit(),
+  /// place() and restore() fail if they are called from within a step or another edit.
   [[nodiscard]] Result<EditReport> edit(const std::function<void(Edit&)>& changes);
 
-  /// The state, to hash, to keep and to go back to as long as nothing is edited.
+  /// The state, to be hashed, kept and restored. restore() accepts it until the next edit.
   [[nodiscard]] const State& state() const { return simulation().world.state(); }
   [[nodiscard]] Errors restore(const State& state);
-  /// The same across edits: handles of what there was then are good again.
+  /// Restoring a snapshot works across edits. Handles of objects that existed at the snapshot
+  /// become valid again.
   [[nodiscard]] LiveSnapshot snapshot() const;
   [[nodiscard]] Errors restore(const LiveSnapshot& snapshot);
 
-  /// World::keep_in_place(): and as long as what it returns is held the state stays there across
-  /// edits, too, as it was before them.
+  /// World::keep_in_place(). As long as the returned pointer is held, the state stays at its
+  /// address across edits, too, with the values from before the edit.
   [[nodiscard]] std::shared_ptr<const void> keep_in_place();
-  /// What `set` sets, as in set_together(), for those who do not tell it by handles
-  /// (scenes/control/control_point.h). It must do nothing else.
+  /// Sets controls as set_together() does, for callers without handles
+  /// (scenes/control/control_point.h). `set` must do nothing else.
   [[nodiscard]] Errors set_in_simulation(const std::function<Errors(Simulation&)>& set);
 
-  /// Everything else that can be asked of it: reports, certificates. An edit or restoring a
-  /// snapshot makes another one. Bodies that have been removed stand in its model as static ones
-  /// without a shape.
+  /// Access to reports and certificates. An edit, and restoring a snapshot, replace this object by
+  /// another. Bodies that have been removed remain in its model as static bodies without a shape.
   [[nodiscard]] const Simulation& simulation() const;
 
  private:
@@ -220,28 +225,28 @@ class LiveWorld {
   [[nodiscard]] std::string fault_of(BodyHandle body) const;
   [[nodiscard]] std::string fault_of(JointHandle joint) const;
   [[nodiscard]] std::string fault_of(CableHandle cable) const;
-  /// Of a joint or cable that is there: its index in the simulation; of a cable of which nothing
-  /// pulls -1.
+  /// Index in the simulation of a joint or cable that exists; -1 for a cable that lies or hangs
+  /// loose as a whole.
   [[nodiscard]] int index_of(JointHandle joint) const;
   [[nodiscard]] int index_of(CableHandle cable) const;
-  /// The fault of a cable that is not between holds.
+  /// The error for a cable that does not lie between two holds.
   [[nodiscard]] std::string pull_fault(CableHandle cable) const;
-  /// The fault of a span or link of that cable.
+  /// The error for a span or link index of that cable that is out of range.
   [[nodiscard]] std::string span_fault(CableHandle cable, int span) const;
-  /// Why the body cannot be put anywhere else, or there.
+  /// Why the body cannot be placed at all, or not at `there`.
   [[nodiscard]] std::string place_fault(int body) const;
   [[nodiscard]] std::string place_fault(int body, const BodyState& there) const;
   void note_events(LiveReport& report) const;
   [[nodiscard]] bool is_broken(int joint) const;
   [[nodiscard]] Simulation& running();
-  /// Why what there is cannot be exchanged now; empty if it can.
+  /// Why the world cannot be exchanged now; empty if it can.
   [[nodiscard]] std::string busy_fault() const;
 
   std::shared_ptr<LiveRevision> revision_;
   std::uint32_t next_generation_ = 2;
-  bool is_busy_ = false;  // in a step, or in an edit
+  bool is_busy_ = false;  // true within a step or an edit
   std::optional<RunCheck> check_;
-  std::shared_ptr<const int> identity_;  // its address tells this world from others
+  std::shared_ptr<const int> identity_;  // its address distinguishes this world from others
 };
 
 }  // namespace sheave

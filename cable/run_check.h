@@ -1,5 +1,5 @@
 #pragma once
-// A run that checks itself while it goes: single substeps as they are due, the energy of all.
+// Checks a run while it goes: single substeps by the schedule, and the energy of all steps.
 //
 //   sheave::RunCheck check(*simulation);
 //   while (...) {
@@ -9,7 +9,7 @@
 //   }
 //   if (!check.certificate().clean()) puts(check.certificate().worst()->sentence().c_str());
 //
-// This is the verdict that `sheave run` gives: "doubtful", where it is not clean.
+// `sheave run` gives the same verdict: a run is "doubtful" if its certificate is not clean.
 
 #include <memory>
 
@@ -20,25 +20,24 @@ namespace sheave {
 
 class RunCheck {
  public:
-  /// Of a run that begins with the state that the simulation has now. `share` as in
-  /// CertificateSchedule.
+  /// The run begins with the present state of the simulation. `share` as in CertificateSchedule.
   explicit RunCheck(const Simulation& simulation, double share = 0.02);
   ~RunCheck();
   RunCheck(RunCheck&&) noexcept;
   RunCheck& operator=(RunCheck&&) noexcept;
 
-  /// To be called after every step that is complete. `is_last`: no step follows. A state that has
-  /// been restored or edited since is told by restart().
+  /// To be called after every completed step. `is_last`: no step follows. After a state has been
+  /// restored or edited, call restart() first.
   void observe(const Simulation& simulation, const StepStatistics& statistics,
                bool is_last = false);
-  /// To be called when the state has been changed by anything but a step: the energy is counted
-  /// anew from here. What was found before stays.
+  /// To be called when anything but a step has changed the state. The balance of energy begins
+  /// anew; earlier findings stay.
   void restart(const Simulation& simulation);
 
-  /// What was found so far: the worst of the substeps that were checked, and of the run's energy
-  /// ("the whole run", of the kind `energy`).
+  /// The findings so far: the worst figures of the checked substeps, and of the run's energy (name
+  /// "the whole run", kind `energy`).
   [[nodiscard]] Certificate certificate() const;
-  /// Energy of the state that was observed last.
+  /// Energy of the last observed state.
   [[nodiscard]] const Energy& energy() const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// Bodies and cables together: what most programs embed.
+// Bodies and cables together: the class that most programs embed.
 //
 //   sheave::Model model;  std::vector<sheave::CableDef> cables;
 //   auto simulation = sheave::Simulation::create(model, cables);
@@ -22,8 +22,8 @@ namespace sheave {
 class CableSystem;
 struct Simulation;
 
-/// Sets controls in the course of a simulation: controllers and triggers. It has no state of its
-/// own: what it remembers is State::memory.
+/// Sets controls while a simulation runs: the controllers and triggers of a scene. A supervisor has
+/// no state of its own; its memory is State::memory.
 class Supervisor {
  public:
   Supervisor() = default;
@@ -35,13 +35,15 @@ class Supervisor {
   [[nodiscard]] virtual std::vector<double> initial_memory() const = 0;
   /// Called before each substep.
   virtual void supervise(Simulation& simulation) const = 0;
-  /// The same for a simulation that has been edited, in which it finds what it controls by name;
-  /// its memory stays as it is.
+  /// The same supervisor for a simulation that has been edited. The supervisor finds the bodies,
+  /// joints and cables that it controls by their names. State::memory stays unchanged. An error
+  /// names the parts that the edit has removed.
   [[nodiscard]] virtual Result<std::shared_ptr<const Supervisor>> again(
       const Simulation& simulation) const = 0;
   /// Whether the run shall end with this state.
   [[nodiscard]] virtual bool has_stopped(const State& state) const = 0;
-  /// Why State::memory cannot be its own; empty if it can. States come from files, too.
+  /// Why State::memory cannot be the memory of this supervisor; empty if it can. States can come
+  /// from files, so their memory has to be checked.
   [[nodiscard]] virtual std::string memory_fault(const State& state) const = 0;
 };
 
@@ -54,53 +56,57 @@ struct Simulation {
   World world;
   /// Owned by the world; null if there are no cables.
   const CableSystem* cables = nullptr;
-  /// What the cables were made of.
+  /// The definitions from which the cables were compiled.
   std::shared_ptr<const std::vector<CableDef>> cable_definitions;
-  /// Acts in step(); null if there is none. World::memory() must be its own.
+  /// Acts in step(); null if there is none. World::memory() must be the memory of this supervisor.
   std::shared_ptr<const Supervisor> supervisor = nullptr;
-  /// Makes it the supervisor, and the world refuse states with a memory that cannot be its own.
+  /// Installs `acting`. From then on the world refuses states whose memory `acting` does not
+  /// accept.
   void set_supervisor(std::shared_ptr<const Supervisor> acting);
 
-  /// World::step(), with the supervisor if there is one.
+  /// Calls World::step(), with the supervisor if there is one.
   [[nodiscard]] StepReport step(const StopRequest& stop = {});
 
-  /// World::leap(); none where there is a supervisor, which acts before each substep.
+  /// Calls World::leap(). Does nothing and returns 0 if there is a supervisor, because a supervisor
+  /// acts before each substep.
   std::int64_t leap(std::int64_t count);
 
-  /// All faults of bodies, joints and cables are reported together.
+  /// Errors list all faults of bodies, joints and cables together.
   static Result<Simulation> create(const Model& model, const std::vector<CableDef>& cables);
-  /// The faults that create() would report, with less work and memory where there are no cables.
+  /// The faults that create() would report. Takes less time and memory than create() if there are
+  /// no cables.
   static Errors check(const Model& model, const std::vector<CableDef>& cables);
   /// One report per cable, for the world's current state.
   [[nodiscard]] std::vector<CableReport> cable_reports() const;
-  /// Measures of each cable, for the world's current state; in the course of a run much cheaper
-  /// than reports.
+  /// Measures of each cable for the world's current state. During a run, gauges cost much less than
+  /// reports.
   void gauge_cables(std::vector<CableGauge>& gauges) const;
-  /// What a check of the last substep finds (cable/certificate.h). Nothing at time 0 and after
-  /// World::restore(), until the next step.
+  /// The result of a check of the last substep (cable/certificate.h). Nothing at time 0, and
+  /// nothing after World::restore() until the next step.
   [[nodiscard]] std::optional<Certificate> certificate() const;
 
-  // Controls of cables, by their indices in the list of definitions, and of listed links by theirs
-  // in their cable. As those of World they hold until they are set anew or cleared, are part of the
-  // state, and where one cannot be met nothing changes.
+  // Controls of cables. `cable` is an index in the list of definitions; `link` is an index in the
+  // cable's list of links. Like the controls of World, a control holds until it is set again or
+  // cleared, and it is part of the state. A control that cannot be met is an error and changes
+  // nothing.
 
-  /// [m/N], > 0, of each span; of a cable that has a compliance.
+  /// Compliance of each span [m/N], > 0. The cable must be defined with a compliance.
   [[nodiscard]] Errors set_compliance(int cable, double compliance);
   [[nodiscard]] Errors clear_compliance(int cable);
   /// Mean tension over a substep at which the cable breaks [N], > 0.
   [[nodiscard]] Errors set_breaking_tension(int cable, double tension);
   [[nodiscard]] Errors clear_breaking_tension(int cable);
-  /// Parts the cable before the next substep; one that pulls nothing, or of which nothing is known
-  /// yet (time 0), as soon as it pulls. There is no way back.
+  /// Cuts the cable before the next substep. A cable that carries no tension, or whose tensions are
+  /// not known yet (time 0), is cut as soon as it carries tension. A cut cannot be undone.
   [[nodiscard]] Errors cut_cable(int cable);
-  /// Capstan coefficient on wrappable bodies, > 0; of a cable that has one above 0.
+  /// Capstan coefficient on wrappable bodies, > 0. The cable must be defined with one above 0.
   [[nodiscard]] Errors set_wrap_friction(int cable, double friction);
   [[nodiscard]] Errors clear_wrap_friction(int cable);
-  /// Capstan coefficient, > 0; of a link that has one above 0.
+  /// Capstan coefficient, > 0. The link must be defined with one above 0.
   [[nodiscard]] Errors set_friction(int cable, int link, double friction);
   [[nodiscard]] Errors clear_friction(int cable, int link);
-  /// [m/s]; of an attachment with a feed speed, which may be 0. It gets there as a drive to a speed
-  /// does.
+  /// Feed speed [m/s]. The link must be an attachment that is defined with a feed speed, which may
+  /// be 0. The speed approaches its target as the speed of a drive does.
   [[nodiscard]] Errors set_feed_speed(int cable, int link, const DriveTarget& target);
   [[nodiscard]] Errors clear_feed_speed(int cable, int link);
 };
