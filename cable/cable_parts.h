@@ -1,5 +1,5 @@
 #pragma once
-// What CableSystem tells and computes with, part by part.
+// Data types of CableSystem: its warnings, and the scratch of its parts.
 
 #include <array>
 #include <cstddef>
@@ -27,51 +27,51 @@ struct TangentWarning {
   double first_time = 0.0;  ///< [s]
 };
 
-/// A cable that touched more bodies than `most_wraps` allows: it passed through the others.
+/// A cable that touched more bodies than `most_wraps` allows. It passed through the others.
 struct WrapWarning {
   std::string cable;
   long substeps = 0;
   double first_time = 0.0;  ///< [s]
 };
 
-/// A cable that lies on a wrappable body in a plane which its spans have left: a rope on a smooth
-/// body would have slid sideways to a shorter way.
+/// A cable that lies on a wrappable body in a plane that its spans have left. A real rope on a
+/// smooth body would have slid sideways to a shorter path.
 struct LeanWarning {
   std::string cable;
-  int body = 0;        ///< on which it was farthest off
-  double angle = 0.0;  ///< largest between a span and the plane [rad]
+  int body = 0;        ///< the body with the largest angle
+  double angle = 0.0;  ///< largest angle between a span and the plane [rad]
   long substeps = 0;
   double first_time = 0.0;  ///< [s]
 };
 
-/// A link at which the cable crosses itself at time 0 and would not with the other winding.
+/// A link at which the cable crosses itself at time 0. With the other winding it would not.
 struct WindingWarning {
   std::string cable;
   int link = 0;      ///< within the cable's list
-  std::string body;  ///< that the link is on, or "world"
+  std::string body;  ///< name of the link's body, or "world"
   Winding better = Winding::clockwise;
 };
 
-/// A link at which something happened that nobody asked for.
+/// A link at which a drive stalled or cable slid although the link does not allow slip.
 struct LinkWarning {
   std::string cable;
   int link = 0;  ///< within its cable's list; -1: a wrap
-  int body = 0;  ///< that it is on; the world comes last
+  int body = 0;  ///< the link's body; the world has the last number
   long substeps = 0;
   double first_time = 0.0;  ///< [s]
 };
 
-/// How often something has been observed, and when first.
+/// The number of substeps in which something was observed, and the time of the first.
 struct Fallback {
   long substeps = 0;
   double first_time = 0.0;  ///< [s]
 };
 
-/// How far spans have left the plane of a wrap, and on which body most.
+/// Largest angle between a cable's spans and the plane of a wrap, and the body where it occurred.
 struct Lean {
   Fallback observed;
   double last_time = 0.0;  ///< [s]
-  double sine = 0.0;       ///< largest
+  double sine = 0.0;       ///< sine of the largest angle
   int body = 0;
 };
 
@@ -80,17 +80,18 @@ struct Stall {
   Fallback observed;
 };
 
-/// What a system of cables has noted for its reports. Its events, which only become more, are
-/// elsewhere.
+/// The observations of a CableSystem for its warnings. Events are kept elsewhere, because their
+/// list only grows.
 struct Notes {
-  std::vector<Fallback> fallbacks;  ///< per span that had no tangent
+  std::vector<Fallback> fallbacks;  ///< per span: substeps without a tangent
   std::vector<Fallback> crowded;    ///< per cable: wraps that found no place
   std::vector<Lean> leans;          ///< per cable
   std::vector<Stall> stalls;        ///< per link
-  std::vector<Stall> slides_at;     ///< per link: over which cable slid that ought not to
-  bool slides = false;              ///< whether it does over any link, or did in the last substep
-  std::size_t events = 0;           ///< of a mark: how many there were
-  std::uint64_t edition = 0;  ///< changes with them, but for the events; of a mark before any 0
+  std::vector<Stall> slides_at;     ///< per link without slip: substeps in which cable slid over it
+  bool slides = false;     ///< whether cable slides over such a link in this or in the last substep
+  std::size_t events = 0;  ///< of a mark: the number of events at that time
+  /// changes with every note except events; 0 of a mark that was never set
+  std::uint64_t edition = 0;
 };
 
 /// Spans first, first + 1, ... of a cable (cyclic if it is closed) that share one multiplier.
@@ -104,61 +105,65 @@ struct RunWeights {
   double start = 0.0;
 };
 
-/// What the damper of a span in a run does: cable/cable_damping.cpp.
+/// The damper of a span in a run: cable/cable_damping.cpp.
 struct SpanDamping {
-  double start = 0.0;  ///< stretch at the start of the substep [m], or of a material its strain
-  double share = 0.0;  ///< g, how much of that the end has, to the share 1 of the spring's
-  /// Stretch or strain at the end, of a spring that had `pull` without a damper.
+  double start = 0.0;  ///< stretch at the start of the substep [m]; with a material the strain
+  /// g: weight of the start in the stretch at the end, relative to weight 1 of the spring
+  double share = 0.0;
+  /// Stretch or strain at the end; `pull` is the stretch that a spring without a damper would have.
   [[nodiscard]] double end(double pull) const { return (pull + share * start) / (1.0 + share); }
 };
 
-/// Of a look at what slides: whether one change at a time is made, whether it has been, and whether
-/// one would have been too many.
+/// State of one revision of slips: whether it makes one change at a time, whether that change has
+/// been made, and whether a further one was refused.
 struct SlipChanges {
   bool single = false;
   bool done = false;
   bool refused = false;
-  bool means = false;  ///< a link slides by the means of strains from now on
+  bool means = false;  ///< from now on a link slides by the mean strains
 };
 
-/// Of a wheel with inertia that loses tension: cable/cable_bearings.cpp.
+/// The bearing of a wheel with inertia that loses tension: cable/cable_bearings.cpp.
 struct Bearing {
-  int link = 0;   ///< among those of all cables
-  int rotor = 0;  ///< its wheel
-  std::array<int, 2> spans{-1,
-                           -1};  ///< before it and behind it, in this substep; -1: there is none
-  double pressed = 0.0;  ///< sum of the tensions beside it, as multipliers of a whole substep
+  int link = 0;   ///< index among the links of all cables
+  int rotor = 0;  ///< the wheel
+  /// the spans before and behind the wheel in this substep; -1: none
+  std::array<int, 2> spans{-1, -1};
+  double pressed = 0.0;  ///< sum of the tensions on both sides, as multipliers of a whole substep
   FollowedPressure pressure;
 };
 
-/// With what open runs turn wheels between their spans: cable/cable_held.cpp.
+/// Tensions with which open runs turn the wheels between their spans: cable/cable_held.cpp.
 struct GivenPulls {
-  std::vector<double> pulls;       ///< logarithms of h^2 tension, per span that begins such a run
+  std::vector<double> pulls;       ///< ln(h^2 tension), per span that begins such a run
   std::vector<double> before;      ///< scratch
-  int changes = 0;                 ///< in the substep
-  bool knows_multipliers = false;  ///< whether a round has found some
+  int changes = 0;                 ///< number of changes in this substep
+  bool knows_multipliers = false;  ///< whether a round of the solver has found multipliers
 };
 
-/// A run, as the links that stick at its ends see it. Pulls are logarithms of multipliers.
+/// A run between two links that stick. Pulls are logarithms of multipliers.
 struct Piece {
   enum class Kind {
-    moves,      ///< bodies decide its tension
-    open,       ///< rigid, and no body can lengthen it: its tension is what its neighbours hold
-    too_long,   ///< the same, and slack
-    too_short,  ///< the same, and cable has to come in
+    moves,  ///< bodies determine its tension
+    /// rigid, and no body can lengthen it: its tension is undetermined between its neighbours'
+    /// bounds
+    open,
+    too_long,   ///< rigid, no body can lengthen it, and it is slack
+    too_short,  ///< rigid, no body can lengthen it, and it lacks cable
   };
   Run run;
-  int last = 0;  ///< its last span
+  int last = 0;  ///< index of its last span
   Kind kind = Kind::moves;
-  int link = -1;       ///< behind it, where cable can pass; -1: none
-  bool turns = false;  ///< whether it is open and slides over a wheel that its tensions turn
+  int link = -1;       ///< the link behind it if cable can pass there; -1: none
+  bool turns = false;  ///< open, and its tensions turn a wheel over which it slides
   double first_pull = 0.0;
   double last_pull = 0.0;
-  double rise = 0.0;  ///< of the pull from its first span to its last, where it is not Kind::moves
-  /// Friction times wrap angle at `link`; NaN: not asked for yet.
+  /// pull of its last span minus that of its first, unless its kind is Kind::moves
+  double rise = 0.0;
+  /// Friction times wrap angle at `link`; NaN: not computed yet.
   double grip = std::numeric_limits<double>::quiet_NaN();
-  // Of one too long or too short: the pull that either side would give it, NaN if there is none,
-  // the pieces where that comes from, and which of them do.
+  // For a piece that is too long or too short: the pull that each side would give it (NaN if that
+  // side cannot feed it), the pieces that the pull comes from, and the sides that feed it.
   double from_before = std::numeric_limits<double>::quiet_NaN();
   double from_behind = std::numeric_limits<double>::quiet_NaN();
   std::size_t before = 0;
@@ -166,12 +171,12 @@ struct Piece {
   bool fed_before = false;
   bool fed_behind = false;
   bool served = false;
-  // Of one that is held: the pulls that what lies behind allows.
+  // For a held piece: the least and the largest pull that the pieces behind it allow.
   double low = 0.0;
   double high = 0.0;
 };
 
-/// A span with the radii that its links have now.
+/// A span with the present radii of its links.
 struct LayeredSpan {
   SpanSetup setup;
   LinkGeometry first;
@@ -180,54 +185,55 @@ struct LayeredSpan {
   SpanTransport transport;
 };
 
-/// The row of a span of a material, but for its gradient.
+/// The row of a span of a cable with a material, without its gradient.
 struct StretchedSpan {
   double value = 0.0;              ///< [m]
   double spring_length = 0.0;      ///< A: compliance x EA [m]
-  double on = 0.0;                 ///< arc that comes onto its links [m, >= 0]
+  double on = 0.0;                 ///< length of arc that comes onto its links [m, >= 0]
   std::array<double, 2> gained{};  ///< unstretched length that comes off its links [m, >= 0]
-  double before = 0.0;             ///< rest length at the start, and what was gained [m]
+  double before = 0.0;             ///< rest length at the start plus the gained lengths [m]
   double start_strain = 0.0;       ///< >= 0
   double length = 0.0;             ///< [m]
-  std::array<double, 2> arcs{};    ///< that have come off its links since the start [m]
-  SpanDamping damping;             ///< of a run
+  std::array<double, 2> arcs{};    ///< arcs that have come off its links since the start [m]
+  SpanDamping damping;             ///< if the span is part of a run
 };
 
-/// A part of an arc over which cable of a material slides: cable/strained_arcs.cpp.
+/// One point of an arc over which cable with a material slides: cable/strained_arcs.cpp.
 struct ArcNode {
-  double share = 0.0;   ///< of the arc
-  double weight = 0.0;  ///< tension there over that of the run
-  int slice = 0;        ///< nodes of one are one piece of StoredStrain
+  double share = 0.0;   ///< fraction of the arc
+  double weight = 0.0;  ///< tension there relative to that of the run
+  int slice = 0;        ///< the nodes of one slice form one piece of StoredStrain
 };
 
-/// What covers such an arc at a strain of the run.
+/// Integrals over such an arc at a given strain of the run.
 struct ArcSum {
-  double unstretched = 0.0;  ///< [m]
-  double pull = 0.0;         ///< the same times its tension over that of the run [m]
-  double slope = 0.0;        ///< by how much less it is, per strain of the run [m]
+  double unstretched = 0.0;  ///< unstretched length [m]
+  double pull = 0.0;         ///< integral of the unstretched length times its relative tension [m]
+  double slope = 0.0;        ///< decrease of the unstretched length per strain of the run [m]
 };
 
-/// The link behind a span of a run, where cable of a material slides.
+/// The link behind a span of a run over which cable with a material slides.
 struct SlidingArc {
-  int link = -1;                 ///< -1: nothing slides there, or it has no arc
-  double start = 0.0;            ///< at the start of the substep [m]
-  double length = 0.0;           ///< now [m]
-  StoredStrain::Piece before;    ///< what lay there at the start
-  std::size_t first_node = 0;    ///< in RunWork::nodes
+  int link = -1;                 ///< -1: no cable slides there, or the link has no arc
+  double start = 0.0;            ///< length of the arc at the start of the substep [m]
+  double length = 0.0;           ///< present length of the arc [m]
+  StoredStrain::Piece before;    ///< the cable that lay there at the start
+  std::size_t first_node = 0;    ///< index in RunWork::nodes
   std::size_t node_count = 0;    ///< > 0
-  std::optional<double> strain;  ///< of the run at the end; none: it keeps its own
-  double gain = 0.0;             ///< unstretched, over the substep [m]
+  std::optional<double> strain;  ///< strain of the run at the end; none: the arc keeps its own
+  double gain = 0.0;             ///< gain of unstretched length over the substep [m]
 };
 
-/// What a drive does to the rest lengths of a chain if it does its whole share.
+/// Effect of a drive on the rest lengths of a chain if the drive does its whole motion.
 struct Pull {
   int link = 0;
-  int span = -1;               ///< of a feed, whose link this is; else < 0
-  int end = 0;                 ///< and at which of its ends
-  double way = 0.0;            ///< in the substep [m], < 0 draws
-  double speed = 0.0;          ///< at its end [m/s]
-  double gross = 0.0;          ///< of `way`, what is both drawn and fed counted twice [m]
-  double way_of_points = 0.0;  ///< part of the above that moves spans' ends instead
+  int span = -1;       ///< the span of a feed whose link is `link`; < 0: no feed
+  int end = 0;         ///< the end of that span
+  double way = 0.0;    ///< cable moved in the substep [m], < 0 draws cable in
+  double speed = 0.0;  ///< speed at the end of the substep [m/s]
+  double gross = 0.0;  ///< sum of all drawn and fed lengths, regardless of sign [m]
+  /// part of `way` by which the drive moves ends of spans instead of cable [m]
+  double way_of_points = 0.0;
   double speed_of_points = 0.0;
 };
 
@@ -235,32 +241,33 @@ struct Pull {
 struct Chain {
   int first_pull = 0;
   int pull_count = 0;
-  double available = 0.0;  ///< cable that can be drawn [m]
-  bool moves = false;      ///< what limits it is that no rest length is below 0
+  double available = 0.0;  ///< length that can be drawn [m]
+  bool moves = false;      ///< the limit is that no rest length may fall below 0
 };
 
 struct ChainLengths {
-  double rest_length = 0.0;  ///< and what is on free drums at its ends [m]
-  double length = 0.0;       ///< of the spans [m]
-  bool moves = false;        ///< elastic, or forces can move one of its links
+  double rest_length = 0.0;  ///< rest lengths, and cable on free drums at the ends [m]
+  double length = 0.0;       ///< lengths of the spans [m]
+  bool moves = false;        ///< the cable is elastic, or forces can move one of its links
 };
 
 /// Scratch of CableSystem::limit_drives().
 struct DriveWork {
   std::vector<Chain> chains;
   std::vector<Pull> pulls;
-  std::vector<std::array<DriveShare, 2>> feed_shares;  ///< per span, of its ends
+  std::vector<std::array<DriveShare, 2>> feed_shares;  ///< per span, for its two ends
   std::vector<double> feed_rates;                      ///< per span that is fed [m/s]
   std::vector<char> stalled;                           ///< per link, in this substep
-  std::vector<int> locked;  ///< per link: which way its drive has stalled, as in the state
-  std::vector<char> slid;   ///< per link, in this substep
+  /// per link: the direction in which its drive has stalled, as in the state
+  std::vector<int> locked;
+  std::vector<char> slid;  ///< per link, in this substep
 };
 
-/// Where spans are. Within begin() and within finish() of the system bodies stay where they are,
-/// and what is found of the spans can be kept.
+/// Geometry of the spans, cached. Bodies do not move within begin() and within finish() of
+/// CableSystem, so a span that has been found there stays valid.
 class KnownSpans {
  public:
-  /// Begins anew.
+  /// Clears the cache and starts keeping spans.
   void expect(std::size_t count) {
     keeps_ = true;
     spans_.resize(count);
@@ -270,7 +277,7 @@ class KnownSpans {
     known_[static_cast<std::size_t>(span)] = 1;
     return spans_[static_cast<std::size_t>(span)] = geometry;
   }
-  /// Null: it has not been kept.
+  /// Null if the span is not in the cache.
   [[nodiscard]] const SpanGeometry* find(int span) const {
     const auto k = static_cast<std::size_t>(span);
     return keeps_ && known_[k] != 0 ? &spans_[k] : nullptr;
@@ -283,12 +290,12 @@ class KnownSpans {
   bool keeps_ = false;
 };
 
-/// What rounding leaves of the length that a span lacks or has to spare, relative to the scene's
-/// size.
+/// Rounding error of the length that a span lacks or has to spare, relative to the scene's size.
 inline constexpr double length_rounding = 1e-13;
 
 /// Friction times wrap angle of a link in the first half of a substep of `rattle`. The forces of
-/// springs are the same in both halves, so there it is the mean of the ratios of both ends.
+/// springs are equal in both halves, so the tension ratio there is the mean of the ratios at both
+/// ends.
 [[nodiscard]] inline double early_exponent(bool rigid, double start, double end) {
   if (rigid || start == end) return start;
   return start + portable::log(0.5 * (1.0 + portable::exp(end - start)));
@@ -301,12 +308,12 @@ struct RunWork {
   std::vector<double> weights;
   std::vector<StretchedSpan> stretched;
   std::vector<SpanDamping> dampings;
-  std::vector<RowTerm> gradient;  ///< per body; `body` is not used
+  std::vector<RowTerm> gradient;  ///< per body; the member `body` is not used
   std::vector<double> spare, lengths, tensions;
-  std::vector<SlidingArc> arcs;  ///< per span of the run, behind it
-  std::vector<ArcNode> nodes;    ///< of all of them
-  std::vector<char> rests;       ///< per link of the cable: nothing has passed over it
-  std::vector<char> means;       ///< per link: in this substep it slides by the means of strains
+  std::vector<SlidingArc> arcs;  ///< per span of the run: the arc behind it
+  std::vector<ArcNode> nodes;    ///< of all arcs
+  std::vector<char> rests;       ///< per link of the cable: no cable has passed over it
+  std::vector<char> means;       ///< per link: it slides by the mean strains in this substep
 };
 
 }  // namespace sheave::cable_parts

@@ -14,7 +14,8 @@ void CableSystem::for_each_run(const CompiledCable& cable, Visit visit) const {
     if (spans_[at(k)].active) ++left;
   }
   if (cable.closed) {
-    // Begin behind a link that cable does not pass; if there is none, the ring is one run.
+    // A ring's runs begin behind a link that no cable passes. Without such a link the ring is one
+    // run.
     for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
       if (!spans_[at(k)].active || shared(spans_[at(k)].second)) continue;
       first = next_span(cable, k);

@@ -6,27 +6,35 @@
 
 namespace sheave {
 
-/// Where in the state of the feature "cables" the parts are, with the spans and links of all cables
-/// in order:
+/// Layout of the state of the feature "cables". Spans and links are those of all cables, in order.
 ///
-/// reals: rest length per span [m], stored length per link [m], tension per span [N], transport
-/// below the quantum per span end (first, second) [m], which rows count as rest length, slip per
-/// link [m]: cable that has slid over it towards the next span, of an attachment cable that was
-/// fed, angle of a hybrid end's attachment per link [rad], plane per place for a wrap: centre [m]
-/// and normal, own frame of the body. Then per link on which cable of a material can lie what
-/// StoredStrain saves, and what has been lost there by creep since time 0 [J]. Then per wheel with
-/// inertia that loses tension the torque of its bearing on it about its axle [N m].
+/// reals, in this order:
+///   per span: rest length [m]
+///   per link: stored length [m]
+///   per span: tension [N]
+///   per span end (first, second): transport below the quantum [m]; rows count it as rest length
+///   per link: slip [m], the cable that has slid over the link towards the next span; for an
+///     attachment the cable that was fed
+///   per link: angle of a hybrid end's attachment [rad]
+///   per place for a wrap: its plane, centre [m] and normal in the body's own frame
+///   per link on which cable with a material can lie: the numbers that StoredStrain saves, and the
+///     energy lost there by creep since time 0 [J]
+///   per wheel with inertia that loses tension: torque of its bearing on it about its axle [N m]
 ///
-/// integers: per link with friction which way the cable slides: +1 towards the next span, -1
-/// towards the last, 0 not at all; per link its mode: 0 as defined, 1 wound the other way round, 2
-/// attached (hybrid ends), 3 left by the cable, 4 left and passed to the other side; per link the
-/// next one along the cable, counted within it, -1 at its end and where the cable does not touch;
-/// per place for a wrap +-(candidate + 1), the sign being its winding, 0 unused; per cable 0, or 1
-/// + the span where it is cut; if a cable has driven links, per link which way its drive has
-/// stalled because all cable was drawn: the sign of the drive's turn about its axis, 0 it has not.
+/// integers, in this order:
+///   per link: direction in which cable slides over a link with friction, +1 towards the next
+///     span, -1 towards the last, 0 not at all
+///   per link: its mode, 0 as defined, 1 wound the other way round, 2 attached (hybrid ends), 3
+///     left by the cable, 4 left and passed to the other side
+///   per link: the next link along the cable, counted within it; -1 at the cable's end and for a
+///     link that the cable does not touch
+///   per place for a wrap: +-(candidate + 1), the sign is the winding; 0 unused
+///   per cable: 0, or 1 + the span where the cable is cut
+///   per link, if a cable has driven links: direction of the drive's turn about its axis in which
+///     it has stalled because all cable was drawn; 0 it has not stalled
 class CableStateLayout {
  public:
-  // Where the parts of the state begin in FeatureState::reals.
+  // Indices in FeatureState::reals.
   [[nodiscard]] std::size_t rest_length_index(int span) const {
     return static_cast<std::size_t>(span);
   }
@@ -46,11 +54,11 @@ class CableStateLayout {
   [[nodiscard]] std::size_t angle_index(int link) const {
     return 4 * spans_in_state + 2 * links_in_state + static_cast<std::size_t>(link);
   }
-  /// Six numbers, of the place `plane` for a wrap, counted over all cables.
+  /// First of six numbers of the place `plane` for a wrap, counted over all cables.
   [[nodiscard]] std::size_t plane_index(int plane) const {
     return 4 * spans_in_state + 3 * links_in_state + 6 * static_cast<std::size_t>(plane);
   }
-  /// StoredStrain::real_count numbers, of the strain place `place` (see strain_places_).
+  /// First of StoredStrain::real_count numbers of the strain place `place` (see strain_places_).
   [[nodiscard]] std::size_t strain_index(int place) const {
     return plane_index(planes_in_state) +
            (StoredStrain::real_count + 1) * static_cast<std::size_t>(place);
@@ -58,11 +66,11 @@ class CableStateLayout {
   [[nodiscard]] std::size_t creep_index(int place) const {
     return strain_index(place) + StoredStrain::real_count;
   }
-  /// Of the bearing that is the `bearing`th of those that brake wheels.
+  /// `bearing` counts the bearings that brake wheels.
   [[nodiscard]] std::size_t bearing_index(int bearing) const {
     return strain_index(strains_in_state) + static_cast<std::size_t>(bearing);
   }
-  // And in FeatureState::integers.
+  // Indices in FeatureState::integers.
   [[nodiscard]] static std::size_t slip_state_index(int link) {
     return static_cast<std::size_t>(link);
   }

@@ -1,6 +1,6 @@
 #pragma once
-// Cables between two worlds: out of the state of one, into the first state of the next; internal to
-// the cable library.
+// Moves cables from the state of one world to the initial state of the next; internal to the cable
+// library.
 
 #include <span>
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace sheave {
 
-/// The world before.
+/// The cables of the world before an edit.
 struct TransferFrom {
   CableSystem* system = nullptr;        ///< null: there were no cables
-  const FeatureState* state = nullptr;  ///< its part of the state
+  const FeatureState* state = nullptr;  ///< the cables' part of its state
 };
 
 /// Reads and writes the state of the cables of one world.
@@ -23,45 +23,48 @@ class CableTransfer {
 
   [[nodiscard]] RunningCable running_cable(int cable, const CableDef& definition,
                                            const FeatureState& own, const Controls& controls) const;
-  /// The same to be taken apart, in a state `now` that cables have the part `own` of.
+  /// The cable's running state with the spans that its links refer to, to be taken apart. `own` is
+  /// the part that cables have of the state `now`.
   [[nodiscard]] TakenCable take_apart(int cable, const CableDef& definition,
                                       const FeatureState& own, const Controls& controls,
                                       const Substep& now);
-  /// Makes initial_state() that in which cables go on from another world, with bodies as `now`,
-  /// which may be null if none of them has been taken apart.
+  /// Makes initial_state() the state in which cables go on from another world. `now` has the poses
+  /// of the bodies; it may be null if no cable has been taken apart.
   [[nodiscard]] Errors continue_from(const TransferFrom& from, const Substep* now,
                                      std::span<const CableStart> starts);
-  /// Why the cable cannot begin as in initial_state(), with bodies as `now`; one that is too short
-  /// by no more than `allowed` [m] has been so before.
+  /// Why the cable cannot begin as in initial_state(), with the bodies as in `now`. `allowed`:
+  /// length by which it was too short before already [m].
   [[nodiscard]] std::string start_fault(const Substep& now, int cable, double allowed);
 
  private:
-  /// A cable as it runs, and the number of each of its links within it.
+  /// A running cable, and the index within the cable of each of its links.
   struct Course {
     RunningCable running;
     std::vector<int> numbers;
   };
   [[nodiscard]] Course course_of(int cable, const CableDef& definition, const FeatureState& own,
                                  const Controls& controls) const;
-  /// By how much the cable is too short where that is worst [m], in a state that is followed.
+  /// Largest length that the cable lacks in any of its parts [m]; links_ and spans_ must follow the
+  /// state.
   [[nodiscard]] double missing_length(const Substep& now, const FeatureState& own, int cable) const;
   [[nodiscard]] RunningLink running_link(int cable, int link, const FeatureState& own,
                                          const Controls& controls) const;
   void put_link(int cable, int link, const RunningLink& running, FeatureState& own);
-  /// Where the spans beside a wheel are new, they touch it elsewhere than those before: it takes
-  /// the way between out of them, or gives it to them.
+  /// Moves the contacts of wheels whose adjacent spans are new: the wheel takes the arc between the
+  /// old and the new contact out of the span, or gives it to the span.
   void move_contacts(int cable, RunningCable& running, const Substep& now);
-  /// Of initial_state() as it was compiled: how long the ways are where everything is now.
+  /// Arcs and spans of the cable with the bodies as they are now, for initial_state() as compiled.
   [[nodiscard]] LinkWays ways_of(int cable) const;
-  /// Gives the cable the state `running`; why it cannot.
-  /// How large what the cable lies on is [m]: to know that it is no other.
+  /// Size of the surface that the cable touches [m]. An equal size shows that the surface is the
+  /// same.
   [[nodiscard]] double size_of(const CompiledCable& cable, int link, int body) const;
-  /// Why a link cannot be put there; empty if it can.
+  /// Why a running link cannot be used here; empty if it can.
   [[nodiscard]] std::string size_fault(const CompiledCable& cable, int link,
                                        const RunningLink& running) const;
   [[nodiscard]] std::string put_changed(int cable, const RunningCable& changed, const Substep& now);
   [[nodiscard]] std::string put_cable(int cable, const RunningCable& running, FeatureState& own);
-  /// Whether its part of the state has the form of that of cable `then` of another system.
+  /// Whether the cable's part of the state has the same layout as that of cable `then` of another
+  /// system.
   [[nodiscard]] bool has_layout_of(int cable, const CableSystem& before, int then) const;
   [[nodiscard]] std::string copy_cable(int cable, CableSystem& before, int then,
                                        const FeatureState& from, FeatureState& own);

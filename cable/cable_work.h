@@ -1,5 +1,5 @@
 #pragma once
-// The cables of a world as compiled, and the scratch of a substep.
+// The compiled cables of a world, and the scratch of a substep.
 
 #include <array>
 #include <cstdint>
@@ -23,8 +23,8 @@ class CableTransfer;
 
 namespace cable_parts {
 
-/// The numbers that CableSystem works with. None of them belongs to a state: begin() makes those of
-/// a substep from the state.
+/// The working data of CableSystem. It is not part of any state: begin() fills it from the state at
+/// the start of a substep.
 class CableWork {
   friend class sheave::CableCompiler;
   friend class sheave::CableSystem;
@@ -52,72 +52,78 @@ class CableWork {
 
   std::vector<CompiledCable> cables_;
   std::vector<LinkGeometry> definitions_;    ///< as compiled
-  std::vector<int> changing_links_;          ///< whose geometry depends on the state
+  std::vector<int> changing_links_;          ///< links whose geometry depends on the state
   std::vector<LinkGeometry> links_;          ///< in this substep
   std::vector<SpanSetup> span_definitions_;  ///< as compiled
   std::vector<SpanSetup> spans_;             ///< in this substep
   bool has_layers_ = false;                  ///< at least one link is a drum with layers
-  bool course_changes_ = false;              ///< spans depend on the state
+  bool course_changes_ = false;              ///< the course of a cable depends on the state
   bool driven_ = false;                      ///< a cable has driven links
   std::vector<CableControl> defined_;        ///< per cable, as compiled
   bool controlled_ = false;                  ///< cables_ are not as compiled
-  bool controls_links_ = false;              ///< nor links_
-  std::vector<std::int64_t> connected_for_;  ///< integers of the state that spans_ stand for
-  std::vector<double> planes_;               ///< its planes of wraps
-  std::vector<int> strain_places_;  ///< per link its place among those with stored strain, or -1
+  bool controls_links_ = false;              ///< links_ are not as compiled
+  /// the integers of the state from which spans_ were connected
+  std::vector<std::int64_t> connected_for_;
+  std::vector<double> planes_;  ///< the planes of wraps in that state
+  /// per link: its index among the links with stored strain, or -1
+  std::vector<int> strain_places_;
   FeatureState initial_;
-  std::vector<AffineSpan> affine_;  ///< per span, of spans_; empty: not known yet
-  MovingSpans moving_;              ///< where all cables are affine; below is scratch of begin()
-  std::vector<char> is_affine_;     ///< per span, in this substep
-  std::uint32_t edition_ = 0;       ///< of the rows of affine spans
-  std::array<double, 2> edition_is_for_{};  ///< length of substep and share of loads there
+  std::vector<AffineSpan> affine_;  ///< per span of spans_; empty: not known yet
+  MovingSpans moving_;  ///< used if all spans are affine; the members below are scratch of begin()
+  std::vector<char> is_affine_;  ///< per span, in this substep
+  std::uint32_t edition_ = 0;    ///< changes with the rows of affine spans
+  /// substep length and share of loads for which that edition was made
+  std::array<double, 2> edition_is_for_{};
   cable_parts::KnownSpans known_;
   std::vector<SpanReference> references_;
-  std::vector<double> strains_;      ///< per span, of a material, at the start
-  std::vector<double> end_strains_;  ///< and at the end where it shares that of a run; < 0: its own
+  std::vector<double> strains_;  ///< per span, at the start; of cables with a material
+  /// per span, at the end, where a run has one strain; < 0: the span has its own
+  std::vector<double> end_strains_;
   std::vector<double> multipliers_;
   std::vector<double> start_tensions_;  ///< per span [N]
   cable_parts::GivenPulls given_;
   std::vector<cable_parts::Bearing> bearings_;
-  std::vector<int> bearing_places_;         ///< per link its place among them, or -1
-  std::vector<std::size_t> row_places_;     ///< scratch: per span, where its row is
-  std::vector<std::array<double, 2>> fed_;  ///< per span, of its ends, in this substep [m]
-  std::vector<int> slip_;  ///< per link: which way it slides (see the integers of the state)
+  std::vector<int> bearing_places_;         ///< per link: its index in bearings_, or -1
+  std::vector<std::size_t> row_places_;     ///< scratch: per span, the index of its row
+  std::vector<std::array<double, 2>> fed_;  ///< per span and end: length fed in this substep [m]
+  std::vector<int> slip_;  ///< per link: direction in which it slides (see CableStateLayout)
   std::vector<int> pending_slip_;
   cable_parts::SlipChanges slip_changes_;
-  std::vector<int> kept_slip_;  ///< while impulses are found: what it was before; empty: it is that
+  std::vector<int> kept_slip_;  ///< slip_ before impulses changed it; empty: not changed
   std::vector<int> kept_flips_;
-  std::vector<char> held_;  ///< per link: whether it passes nothing although it has no friction
+  std::vector<char> held_;  ///< per link: it passes nothing although it has no friction
   std::vector<int> revised_;
   /// Per span, for finish(): tension at the start [N], length at the end of the substep [m].
   std::vector<std::array<double, 2>> ends_;
-  bool knows_lengths_ = false;            ///< the latter are still those of the spans
+  bool knows_lengths_ = false;            ///< whether ends_ has the lengths of the spans
   std::vector<int> sweeps_;               ///< per cable, in this substep
-  std::vector<int> flips_;                ///< per link: how often that has changed in this substep
-  std::vector<double> stored_arcs_;       ///< per link: stored cable as it lies, at the start [m]
+  std::vector<int> flips_;                ///< per link: number of changes of slip_ in this substep
+  std::vector<double> stored_arcs_;       ///< per link: stretched stored length at the start [m]
   std::vector<StoredStrain> stored_;      ///< per strain place, at the start
-  std::vector<StoredStrain> stored_end_;  ///< and at the end
+  std::vector<StoredStrain> stored_end_;  ///< per strain place, at the end
   Row row_;                               ///< scratch of solve_span()
   cable_parts::LayeredSpan layered_;      ///< scratch of finish()
   cable_parts::DriveWork drive_work_;
   cable_parts::RunWork run_work_;
   std::vector<cable_parts::Piece> pieces_;  ///< of one cable
-  // Of `rattle`, whose multipliers act as at the start of the substep.
+  // For `rattle`, whose multipliers act in part along the directions at the start of the substep.
   bool knows_start_ = false;
-  std::vector<std::array<double, 2>> start_values_;  ///< of damped rows, and their compliance
-  std::vector<SpanGeometry> start_spans_;  ///< of cables with friction, per span, as last evaluated
-  std::vector<double> start_exponents_;    ///< per link: friction times wrap angle at the start
-  // Of leave_and_touch(): on which side of its candidates a span was at the start, span by span;
-  // and what has left.
+  /// per damped row: its value at the start, and its compliance
+  std::vector<std::array<double, 2>> start_values_;
+  /// per span of cables with friction: the span as last evaluated
+  std::vector<SpanGeometry> start_spans_;
+  std::vector<double> start_exponents_;  ///< per link: friction times wrap angle at the start
+  // For leave_and_touch(): the side of its candidates on which each span was at the start, and the
+  // links and bodies that the cable has left.
   std::vector<std::vector<WrapSide>> sides_;
   std::vector<char> changed_links_;
   std::vector<int> left_bodies_;
-  // Diagnostics, no part of the simulation.
-  cable_parts::Notes notes_;                        ///< but for the events
+  // Diagnostics, not part of the simulation.
+  cable_parts::Notes notes_;                        ///< without the events
   std::array<cable_parts::Notes, 2> marked_notes_;  ///< per NoteMark
   std::vector<double> geodesic_starts_;  ///< per link: angle of the wrap at the start [rad]
-  std::vector<char> clear_grips_;        ///< as for_each_grip() visits them
-  int arrived_ = -1;  ///< span whose attachment has come to its wheel in this substep; -1: none
+  std::vector<char> clear_grips_;        ///< in the order of for_each_grip()
+  int arrived_ = -1;  ///< span whose attachment has reached its wheel in this substep; -1: none
   std::vector<CableEvent> events_;
   std::vector<cable_parts::WindingWarning> winding_warnings_;
 };

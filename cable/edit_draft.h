@@ -1,5 +1,5 @@
 #pragma once
-// An edit while it is being told; internal to the cable library.
+// An edit while its changes are collected; internal to the cable library.
 
 #include <map>
 #include <string>
@@ -12,41 +12,40 @@ namespace sheave {
 
 struct DraftJoint {
   std::shared_ptr<const JointDef> definition;
-  std::shared_ptr<JointDef> added;  ///< the same, if it is new
+  std::shared_ptr<JointDef> added;  ///< `definition` as mutable; null if the joint is not new
   std::size_t slot = 0;
 };
 
 struct DraftCable {
-  CableDef definition;  ///< of a cable that runs its settings alone
-  int same_as = -1;     ///< the cable of the world before that it is
-  bool runs = false;    ///< it has been changed, and is `running` now
+  CableDef definition;  ///< for a running cable only its settings
+  int same_as = -1;     ///< index of the same cable in the world before; -1: none
+  bool runs = false;    ///< the cable has been changed; `running` is its present state
   RunningCable running;
   std::array<std::optional<double>, 2> loose;  ///< as CableRecord::loose
-  double excess = 0.0;  ///< by how much what it is made of is too short already [m]
+  double excess = 0.0;  ///< length by which the cable is too short already [m]
 };
 
-/// Collects changes and faults. Nothing of the world is touched.
+/// Collects changes and faults. The world itself is not changed.
 struct EditDraft {
   EditDraft(LiveRevision& from, std::uint32_t& generation);
 
   LiveRevision& before;
   std::uint32_t& next_generation;
-  Model model;  ///< with bodies that are gone as static ones without a shape
+  Model model;  ///< bodies that were removed are static bodies without a shape
   SlotTable<BodyTag> bodies;
   SlotTable<JointTag> joints;
   SlotTable<CableTag> cables;
-  bool has_other_bodies = false;  ///< than the world before
-  std::vector<char> is_new;       ///< per body: not the one that was there before
+  bool has_other_bodies = false;  ///< whether the bodies differ from those of the world before
+  std::vector<char> is_new;       ///< per body: it was added, or replaces a removed one
   std::vector<DraftJoint> own_joints;
-  std::map<int, DraftCable>
-      own_cables;  ///< by slot; those that are not among them are as they were
-  /// TakenCable::spans of all that were taken apart: whatever becomes of their links, they are known
-  /// for as long as the edit lasts.
+  std::map<int, DraftCable> own_cables;  ///< by slot; cables that are not in it are unchanged
+  /// Owns TakenCable::spans of all cables that were taken apart, for as long as the edit lasts.
+  /// Links refer to these spans wherever they end up.
   std::vector<std::shared_ptr<const SpanGeometry>> spans_before;
   Errors errors;
 
   void fail(std::string message) { errors.push_back({"", std::move(message)}); }
-  /// Whether the handle refers to something; if not, that is a fault.
+  /// Whether the handle refers to something. If not, adds a fault.
   template <class Tag>
   bool check(const SlotTable<Tag>& slots, Handle<Tag> handle, std::string_view kind) {
     std::string fault = slots.fault_of(handle, kind);
@@ -54,19 +53,20 @@ struct EditDraft {
     fail(std::move(fault));
     return false;
   }
-  /// The cable, taken apart; null, and a fault, if it cannot be changed.
+  /// The cable, taken apart. Null and a fault if the cable cannot be changed.
   DraftCable* running(CableHandle handle, bool may_be_cut = false);
   [[nodiscard]] std::optional<std::size_t> place_to_part(const DraftCable& cable, int span,
                                                          double share);
-  /// Joins its loose ends.
+  /// Joins the cable's two loose ends.
   void close(DraftCable& cable);
   [[nodiscard]] std::string cable_name(CableHandle handle) const;
 };
 
-/// A body that stands where there is none.
+/// A placeholder for a slot without a body.
 [[nodiscard]] BodyDef no_body(std::size_t slot);
 [[nodiscard]] bool holds_by_itself(const RunningLink& link);
-/// Lets loose ends run off what does not hold them; why what is left is no cable.
+/// Lets loose ends run off the links that do not hold them. Returns why the rest is no cable; empty
+/// if it is one.
 [[nodiscard]] std::string run_off(DraftCable& cable);
 
 }  // namespace sheave

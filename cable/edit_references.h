@@ -1,5 +1,5 @@
 #pragma once
-// What an edit's definitions refer to has to be there; internal to the cable library.
+// Checks that the bodies that an edit's definitions refer to exist; internal to the cable library.
 
 #include <string>
 #include <string_view>
@@ -8,11 +8,11 @@
 
 namespace sheave {
 
-/// Path of a fault of what has this slot in a list of the draft.
+/// Path of a fault of the object in slot `slot` of a list of the draft.
 [[nodiscard]] std::string edit_path(std::string_view list, std::size_t slot);
 
-/// Adds a fault to the draft for each mount, joint, collider and link on a body that is not there,
-/// and for each cable without a name of its own.
+/// Adds a fault for each mount, joint, collider and link on a body that does not exist, and for
+/// each cable whose name is empty or not unique.
 void check_references(EditDraft& draft);
 
 }  // namespace sheave

@@ -9,16 +9,17 @@
 
 namespace sheave {
 
-/// How long the way of a cable is over each of its listed links and behind it, as everything lies
-/// now [m].
+/// Length of the cable's path on each listed link and behind it, with the bodies as they are now
+/// [m].
 struct LinkWays {
   std::vector<double> arcs;
-  std::vector<double> spans;  ///< of the last link of an open cable 0
+  std::vector<double> spans;  ///< 0 behind the last link of an open cable
 };
 
-/// Gives links that have just been inserted what lies on them, and shares what is left of the spans
-/// before and behind them, each strained alike; why that cannot be. What is stored on all other
-/// links stays. At an end of an open cable there must be none.
+/// Gives links that have just been inserted the cable that lies on them, and divides the rest of
+/// the length between the spans before and behind them so that all have equal strain. Stored
+/// lengths of other links stay. The end links of an open cable must not be new. Returns why this is
+/// impossible; empty if it is done.
 [[nodiscard]] std::string share_with_fresh_links(const CompiledCable& cable, const LinkWays& ways,
                                                  RunningCable& running);
 

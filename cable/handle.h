@@ -1,13 +1,13 @@
 #pragma once
-// How a program refers to the things of a world that lives.
+// References of a program to the bodies, joints and cables of a LiveWorld.
 
 #include <cstdint>
 
 namespace sheave {
 
-/// A body, joint or cable of a LiveWorld, for as long as it is there: where it is kept, and which
-/// of those that have been kept there it is. One that is no more is told as such. Compare them,
-/// copy them; a default one refers to nothing.
+/// Identifies a body, joint or cable of a LiveWorld: a slot, and a generation that tells apart the
+/// objects that have used the slot. Functions report a handle whose object was removed as an error.
+/// Handles can be compared and copied. A default handle refers to nothing.
 template <class Tag>
 struct Handle {
   std::int32_t slot = -1;

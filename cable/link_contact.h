@@ -1,5 +1,5 @@
 #pragma once
-// Where a span touches a link; internal to the geometry of spans.
+// Contact of a span with a link; internal to the geometry of spans.
 
 #include "cable/link_geometry.h"
 #include "cable/span_row.h"
@@ -7,7 +7,8 @@
 
 namespace sheave {
 
-/// Centre of the link's circle now; bodies that hold it at their centre of mass need no rotation.
+/// Present centre of the link's circle. A body whose centre of mass is the centre needs no
+/// rotation.
 [[gnu::always_inline]] inline Vector3 center_of(const Substep& substep, const LinkGeometry& link,
                                                 int corner) {
   if (link.outline) return substep.point(link.carrier, link.outline->corners[at(corner)]);
@@ -20,8 +21,9 @@ namespace sheave {
   return substep.point(link.carrier, link.center);
 }
 
-/// Whether both ends of a span move with one rigid body, so that nothing changes its length. What
-/// rounding leaves of its gradient would have to pull with 1e16 times its error.
+/// Whether both ends of a span move with one rigid body, so that its length cannot change. Such a
+/// span needs no row: its gradient is rounding error, and a force along it would be 1e16 times too
+/// large.
 [[gnu::always_inline]] inline bool on_one_body(const LinkGeometry& first,
                                                const LinkGeometry& second) {
   return first.body == second.body && first.carrier == first.body && second.carrier == second.body;
@@ -41,15 +43,16 @@ namespace sheave {
   row.add(link.body, direction, cross(arm, direction), dot(arm, direction));
 }
 
-/// Tells the row how the span's direction turns with its ends.
+/// Gives the row the rate at which the span's direction turns with its ends.
 [[gnu::always_inline]] inline void tell_turning(const SpanGeometry& span, Row& row) {
   if (!span.has_tangent || !(span.length > 0.0)) return;
   row.curved = true;
   row.turning = 1.0 / span.length;
 }
 
-/// Unit vector from the centre of `circle` to `point`, where a span along `direction` meets it: a
-/// span that leans out of the circle's plane does so farther from the axle (cable/span_geometry.h).
+/// Unit vector from the centre of `circle` to `point`, where a span along `direction` meets it. If
+/// the span leans out of the circle's plane, the contact is farther from the axle
+/// (cable/span_geometry.h).
 inline Vector3 radial(const LinkCircle& circle, const Vector3& point, const Vector3& direction) {
   const double lean = dot(circle.normal, direction);
   const Vector3 arm = point - circle.center;
@@ -57,7 +60,8 @@ inline Vector3 radial(const LinkCircle& circle, const Vector3& point, const Vect
 }
 
 /// Outward unit normal at the contact of a span with its link, in the link's plane. On a circle the
-/// tangent point tells it; a corner of an outline may have no radius, but there the direction does.
+/// tangent point determines it. A corner of an outline may have no radius; there the direction
+/// determines it.
 inline Vector3 contact_normal(const Substep& substep, const LinkGeometry& link, int corner,
                               const Vector3& point, const Vector3& direction) {
   if (!link.outline) return radial(circle_of(substep, link), point, direction);
@@ -68,15 +72,15 @@ inline Vector3 contact_normal(const Substep& substep, const LinkGeometry& link, 
                       : Vector3(point - center_of(substep, link, corner));
 }
 
-/// By how much less than the radius at the end times the angle a drum takes on when it is wound by
-/// `angle` [rad], because it gets thicker: the integral of pitch angle / 2 pi. (It gives as much
-/// more than that when it is unwound.)
+/// Difference between the radius at the end times the angle and the cable that a drum takes on when
+/// it is wound by `angle` [rad], due to the growing radius: the integral of pitch angle / 2 pi. An
+/// unwound drum gives that much more.
 inline double layer_gain(const LinkGeometry& link, double angle) {
   return link.layer_pitch * angle * angle / (4.0 * pi);
 }
 
-/// Cable that a relative turn of the tangent point puts onto a circle, or the way along an outline,
-/// counter-clockwise.
+/// Cable that a relative turn of the contact puts onto a circle, or the path along an outline,
+/// counted counter-clockwise [m].
 inline double way_along(const LinkGeometry& link, double relative_turn, int start_corner,
                         double start_angle, int corner) {
   if (!link.outline) return std::abs(link.signed_radius) * relative_turn;

@@ -1,5 +1,5 @@
 #pragma once
-// What solvers know of a link, whatever its type.
+// Geometry of a link, common to all link types.
 
 #include <cmath>
 #include <limits>
@@ -11,7 +11,7 @@
 
 namespace sheave {
 
-/// An outline placed on a body: coordinates of the body that carries the link.
+/// An outline on a body, in the frame of the body that carries the link.
 struct LinkOutline {
   Outline curve;
   Vector3 x = Vector3::UnitX();  ///< axes of the outline's plane; x cross y is the link's normal
@@ -19,57 +19,61 @@ struct LinkOutline {
   std::vector<Vector3> corners;  ///< of the curve, relative to the carrier's centre of mass [m]
 };
 
-/// A link as the step needs it. All link types share one geometry: a circle of signed radius in a
-/// plane fixed to a body; a point is a circle of radius 0, and an outline has one such circle at
-/// each corner.
+/// A link as the step uses it. All link types share one geometry: a circle of signed radius in a
+/// plane fixed to a body. A point is a circle of radius 0. An outline has one such circle at each
+/// corner.
 struct LinkGeometry {
-  int body = 0;     ///< the body whose turning moves cable: the one the cable touches, or `wheel`
-  int carrier = 0;  ///< the body that carries `center` and `normal`: of a wheel on a mounted rotor
-                    ///< the rotor's carrier, otherwise `body`
+  /// the body whose rotation moves cable: the body that the cable touches, or the carrier of
+  /// `wheel`
+  int body = 0;
+  /// The body that carries `center` and `normal`: for a wheel on a mounted rotor the rotor's
+  /// carrier, otherwise `body`.
+  int carrier = 0;
   bool mounted = false;               ///< whether `body` is a mounted rotor
   Vector3 center = Vector3::Zero();   ///< [m], own frame of the carrier
   bool centered = false;              ///< `center` is 0, so its position needs no rotation
-  bool still = false;                 ///< the carrier is the world: centre and normal stay
+  bool still = false;                 ///< the carrier is the world: centre and normal are constant
   Vector3 normal = Vector3::UnitZ();  ///< unit normal of the link's plane, own frame of the carrier
   int side = 0;                       ///< +1 counter-clockwise, -1 clockwise, 0 a point
-  double signed_radius = 0.0;         ///< side times the radius, of an outline at its corners [m]
+  double signed_radius = 0.0;  ///< side times the radius [m]; for an outline the corner radius
   std::shared_ptr<const LinkOutline> outline;  ///< null: a circle about `center`, or a point
-  /// Cable on the body at time 0 [m] as the user gave it; NaN: the arc between the tangents.
+  /// Cable on the body at time 0 as given by the user [m]; NaN: the arc between the tangent points.
   double given_stored_length = 0.0;
-  /// Whether the cable slides over the link instead of rolling with it: a pinhole.
+  /// Whether the link is a pinhole: the cable slides through instead of rolling.
   bool slides = false;
-  /// Capstan coefficient of a link over which the cable can slide; NaN: it cannot.
+  /// Capstan coefficient of a link over which cable can slide; NaN: it cannot slide.
   double friction = std::numeric_limits<double>::quiet_NaN();
-  /// Of a massless wheel that takes a part of the tension: -ln of its efficiency, the exponent of
-  /// its capstan whatever the wrap angle; 0: it takes none. The bearing that holds it, or lets it
-  /// turn, is the carrier's, so `body` is the carrier: the cable slides over a post that stands on
-  /// it. (A wheel that went on turning as in the substep before would hold the cable at a speed.)
+  /// Massless wheel with an efficiency below 1: -ln(efficiency), the exponent of its capstan,
+  /// independent of the wrap angle; 0: efficiency 1. The bearing that holds or releases the wheel
+  /// belongs to the carrier, so `body` is the carrier, and the cable slides over a post that is
+  /// fixed to the carrier. (A wheel that kept its rotation rate from the last substep would
+  /// prescribe the cable's speed.)
   double loss_exponent = 0.0;
-  /// Of a wheel with inertia: its bearing holds it, or brakes it, with at most this times the sum of
-  /// the tensions on both sides [m]; 0: it turns freely (cable/cable_bearings.cpp).
+  /// Wheel with inertia: largest torque of its bearing divided by the sum of the tensions on both
+  /// sides [m]; 0: it turns freely (cable/cable_bearings.cpp).
   double bearing_arm = 0.0;
-  /// The rotor that the cable turns as it slides, where `body` is its carrier; -1: there is none.
+  /// The rotor that the sliding cable turns, if `body` is its carrier; -1: none.
   int wheel = -1;
-  /// The link's rotor has no inertia, so the tension is the same on both sides and the cable's
-  /// motion turns it.
+  /// The link's rotor has no inertia. The tension is then equal on both sides, and the cable's
+  /// motion determines the rotor's.
   bool massless = false;
-  bool ends_here = false;      ///< the link type is one for the end of an open cable only
-  bool starts_lifted = false;  ///< the cable passes it by at time 0
-  bool lifts = false;          ///< the cable can leave it and touch it again: between the ends
-  bool hybrid = false;         ///< becomes an attachment when its stored length is used up
-  /// Hybrid links: centre [m] and normal in the own frame of `body`, whose rim then holds the end.
+  bool ends_here = false;      ///< the link type is allowed only at the end of an open cable
+  bool starts_lifted = false;  ///< the cable does not touch it at time 0
+  bool lifts = false;   ///< the cable can leave it and touch it again: a link between the ends
+  bool hybrid = false;  ///< becomes an attachment when its stored length is used up
+  /// Hybrid links: centre [m] and normal in the own frame of `body`, whose rim holds the end.
   Vector3 rim_center = Vector3::Zero();
   Vector3 rim_normal = Vector3::UnitZ();
-  double layer_pitch = 0.0;  ///< growth of the radius with every turn wound on [m]
-  bool feeds = false;        ///< an attachment out of which cable comes, if at any speed but 0
-  double feed_speed = 0.0;  ///< cable that enters the scene there [m/s]: the mean of a substep, ...
-  double feed_end_speed = 0.0;  ///< ... and at its end
-  int extra_turns = 0;          ///< whole turns beyond the arc between the tangents
-  /// A ball without friction: the cable lies on it the shortest way, whose plane turns with the
-  /// spans beside it (cable/cable_geodesics.cpp).
+  double layer_pitch = 0.0;  ///< growth of the radius per turn [m]
+  bool feeds = false;        ///< an attachment with a feed speed, which may be 0
+  double feed_speed = 0.0;   ///< cable that enters the scene there [m/s]: mean over the substep
+  /// cable that enters the scene there [m/s]: at the end of the substep
+  double feed_end_speed = 0.0;
+  int extra_turns = 0;  ///< whole turns beyond the arc between the tangents
+  /// A ball without friction: the cable follows the shortest path on it, whose plane turns with the
+  /// adjacent spans (cable/cable_geodesics.cpp).
   bool geodesic = false;
-  /// Of a geodesic: what its outgoing span gains over it in the substep, up to where bodies are now
-  /// [m].
+  /// Geodesic: length that the outgoing span has gained over the link in this substep so far [m].
   double passed_on = 0.0;
 
   /// Makes the link hybrid; its centre and normal are in the own frame of `body`.
@@ -78,15 +82,14 @@ struct LinkGeometry {
     rim_center = center;
     rim_normal = normal;
   }
-  /// The body that a user sees the cable on.
+  /// The body on which a user sees the cable.
   [[nodiscard]] int touched() const { return wheel >= 0 ? wheel : body; }
   [[nodiscard]] bool wraps() const { return side != 0; }
-  /// Whether geometry depends on the cable's state, not only on the bodies.
+  /// Whether the geometry depends on the cable's state, not only on the bodies.
   [[nodiscard]] bool changes() const { return hybrid || layer_pitch > 0.0; }
-  /// Whether cable can pass from the span before the link to the one after it other than by
-  /// rolling.
+  /// Whether cable can pass the link from one span to the other other than by rolling.
   [[nodiscard]] bool passes() const { return massless || !std::isnan(friction); }
-  /// Whether what passes slides along the link's arc.
+  /// Whether the passing cable slides along the link's arc.
   [[nodiscard]] bool slides_over() const { return wraps() && !massless && !std::isnan(friction); }
   [[nodiscard]] bool frictionless() const {
     return loss_exponent == 0.0 && (massless || friction == 0.0);
@@ -98,8 +101,8 @@ struct LinkGeometry {
   }
 };
 
-/// Whether both are outlines of one body in one plane, or one circle twice: no span can be between
-/// them.
+/// Whether both links are outlines of one body in one plane, or the same circle. No span can lie
+/// between such links.
 [[nodiscard]] bool on_one_outline(const LinkGeometry& a, const LinkGeometry& b);
 
 }  // namespace sheave

@@ -1,5 +1,5 @@
 #pragma once
-// What a LiveWorld consists of between two edits; internal to the cable library.
+// The contents of a LiveWorld between two edits; internal to the cable library.
 
 #include <array>
 #include <cstdint>
@@ -21,12 +21,12 @@ namespace sheave {
 
 /// A place that handles refer to.
 struct Slot {
-  std::uint32_t generation = 0;  ///< of what is there; 0: nothing
-  int index = -1;                ///< in the model's or the cables' list
-  std::string last_name;         ///< of what was there last, and is no more
+  std::uint32_t generation = 0;  ///< of the present object; 0: the slot is free
+  int index = -1;                ///< index in the model's or the cables' list
+  std::string last_name;         ///< name of the last object in a free slot
 };
 
-/// The slots of one kind of things.
+/// The slots of the bodies, of the joints or of the cables.
 template <class Tag>
 class SlotTable {
  public:
@@ -36,7 +36,7 @@ class SlotTable {
            handle.generation != 0 &&
            slots_[static_cast<std::size_t>(handle.slot)].generation == handle.generation;
   }
-  /// Of one that has() it.
+  /// The handle must be valid.
   [[nodiscard]] int index(Handle<Tag> handle) const {
     return slots_[static_cast<std::size_t>(handle.slot)].index;
   }
@@ -49,7 +49,7 @@ class SlotTable {
     }
     return {};
   }
-  /// In the first place that is free and not `used`, by marks per slot.
+  /// Uses the first free slot that is not marked in `used`.
   Handle<Tag> add(int index, std::uint32_t generation, std::span<const char> used = {}) {
     std::size_t i = 0;
     const auto taken = [&] {
@@ -68,7 +68,7 @@ class SlotTable {
     slot.last_name = std::move(name);
   }
   void set_index(std::size_t slot, int index) { slots_[slot].index = index; }
-  /// Why a handle refers to nothing; empty if it does.
+  /// Why a handle refers to nothing; empty if it is valid.
   [[nodiscard]] std::string fault_of(Handle<Tag> handle, std::string_view kind) const {
     if (has(handle)) return {};
     const std::string what(kind);
@@ -88,12 +88,12 @@ class SlotTable {
   std::vector<Slot> slots_;
 };
 
-/// Why a change cannot be that would leave a world whose energy nobody could tell any more.
+/// Fault of a change after which the energy of the world would overflow.
 inline constexpr std::string_view energy_fault =
     "the energy of the world would be beyond the range of numbers, 1.8e308 J: masses, speeds or "
     "distances are too large";
 
-/// While it lives what there is must stay, also if a callback throws.
+/// Marks the world as busy for a scope, also if a callback throws.
 class Busy {
  public:
   explicit Busy(bool& is_busy) : is_busy_(is_busy) { is_busy = true; }
@@ -105,13 +105,13 @@ class Busy {
   bool& is_busy_;
 };
 
-/// A cable as its handle knows it.
+/// A cable that a handle refers to.
 struct CableRecord {
-  CableDef definition;  ///< of what is between its holds
+  CableDef definition;  ///< of the part between its holds
   std::array<std::optional<double>, 2>
-      loose;             ///< length beyond its first and its last link [m], if that end is loose
-  int place = -1;        ///< among the world's cables; -1: nothing of it pulls
-  RunningCable running;  ///< if so: what is left of it
+      loose;       ///< length beyond the first and beyond the last link [m], if that end is loose
+  int place = -1;  ///< index among the world's cables; -1: no part of it carries tension
+  RunningCable running;  ///< if `place` is -1: the rest of the cable
 };
 
 struct LiveRevision {
@@ -119,11 +119,11 @@ struct LiveRevision {
                SlotTable<CableTag> cable_slots, std::vector<CableRecord> cable_records);
 
   Simulation simulation;
-  SlotTable<BodyTag> bodies;             ///< a body's index is its slot
-  SlotTable<JointTag> joints;            ///< index among Model::joints
-  SlotTable<CableTag> cables;            ///< index is the slot
-  std::vector<CableRecord> records;      ///< per slot
-  std::optional<Substep> view;           ///< for readers of joints, if any: where bodies are
+  SlotTable<BodyTag> bodies;         ///< the index of a body is its slot
+  SlotTable<JointTag> joints;        ///< indices in Model::joints
+  SlotTable<CableTag> cables;        ///< the index is the slot
+  std::vector<CableRecord> records;  ///< per slot
+  std::optional<Substep> view;  ///< poses of the bodies for readers of joints, if there are joints
   std::vector<JointPlace> joint_places;  ///< in the order of the model
   std::vector<int> breakable_joints;
   std::vector<JointHandle> joint_handles;  ///< in the order of the model

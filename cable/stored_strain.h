@@ -1,54 +1,56 @@
 #pragma once
-// The strain with which the cable of a material lies on a wheel; internal to the cable library.
+// The strain of cable with a material that is stored on a wheel; internal to the cable library.
 //
-// Cable comes onto a wheel with the strain of the span it comes from and keeps it there, since
-// nothing slips. Off it comes at either end: on a wheel that turns on first in, first out, on a
-// drum or a wheel that turns back last in, first out. So what lies on a link is a row of pieces
-// from the incoming end to the outgoing one, with a strain each.
+// Cable comes onto a wheel with the strain of its span and keeps that strain, since it does not
+// slip. It comes off at either end: first in, first out on a wheel that keeps turning; last in,
+// first out on a drum or a wheel that turns back. The stored cable is therefore a list of pieces
+// from the incoming end to the outgoing end, with one strain each.
 //
-// A mean per link would be simpler and right for a belt that runs steadily. But a drum that has
-// taken in 10 m under a load on top of 90 m under none would give them back with a tenth of their
-// strain, and the load would not come back to where it was. The number of pieces is bounded: of
-// more, those two neighbours become one whose merging costs least. A piece knows the integrals of
-// strain and of its square, so merging keeps the arc that the cable covers and the energy in it;
-// what it changes is only with which strain cable comes off again, by about 1/16 of the range over
-// which the load varied.
+// One mean strain per link would be simpler, and exact for a belt that runs steadily. But a drum
+// that has taken in 10 m under a load on top of 90 m without load would give these 10 m back with a
+// tenth of their strain, and the load would not return to its place. The number of pieces is
+// bounded: beyond the bound the two neighbours whose merging costs least become one piece. A piece
+// keeps the integrals of the strain and of its square, so merging keeps the covered arc and the
+// stored energy. Merging only changes the strain with which cable comes off again, by about 1/16 of
+// the range over which the load varied.
 
 #include <array>
 #include <span>
 
 namespace sheave {
 
-/// Cable as it lies on one link.
+/// The cable stored on one link.
 class StoredStrain {
  public:
   static constexpr int most_pieces = 16;
-  static constexpr std::size_t real_count = std::size_t{3} * most_pieces;  ///< of a saved one
+  /// number of saved numbers
+  static constexpr std::size_t real_count = std::size_t{3} * most_pieces;
 
   enum class End { incoming, outgoing };
 
   struct Piece {
     double length = 0.0;   ///< unstretched [m]
     double stretch = 0.0;  ///< integral of the strain over it [m]
-    double square = 0.0;   ///< integral of its square [m]; times EA / 2 the energy
+    double square = 0.0;   ///< integral of its square [m]; times EA / 2 this is the energy
     [[nodiscard]] double strain() const { return length > 0.0 ? stretch / length : 0.0; }
   };
 
   StoredStrain() = default;
-  /// From `real_count` numbers: pieces from the incoming end on, unused ones 0.
+  /// Reads `real_count` numbers: pieces from the incoming end on; unused ones are 0.
   explicit StoredStrain(std::span<const double> reals);
   void save(std::span<double> reals) const;
 
-  /// Unstretched length of what covers `arc` [m, >= 0] from an end; beyond what there is with the
-  /// strain `beyond`.
+  /// Unstretched length of the cable that covers `arc` [m, >= 0], counted from an end. Beyond the
+  /// stored cable the strain is `beyond`.
   [[nodiscard]] double rest_of(End end, double arc, double beyond) const;
-  /// Takes `length` [m, >= 0] unstretched cable off an end, or all there is, and tells what it was.
+  /// Takes `length` [m, >= 0] of unstretched cable off an end, or all that is stored, and returns
+  /// it.
   Piece take(End end, double length);
   /// Puts cable onto an end: `length` [m, >= 0] unstretched, with this strain.
   void put(End end, double length, double strain);
-  /// Puts a piece of several strains onto an end.
+  /// Puts cable onto an end as one piece, with the integrals of `piece`.
   void put(End end, const Piece& piece);
-  /// Makes the unstretched length `length` [m; below 0 counts as 0] by taking from an end or
+  /// Changes the unstretched length to `length` [m; below 0 counts as 0] by taking from an end or
   /// putting onto it.
   void fit(End end, double length, double strain);
   [[nodiscard]] Piece total() const;
@@ -57,7 +59,7 @@ class StoredStrain {
  private:
   void merge_cheapest();
 
-  std::array<Piece, most_pieces + 1> pieces_{};  ///< one more while merging
+  std::array<Piece, most_pieces + 1> pieces_{};  ///< one entry more than saved, for merging
   std::size_t count_ = 0;
 };
 

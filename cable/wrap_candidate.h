@@ -1,16 +1,17 @@
 #pragma once
-// Bodies that a cable can come to touch though its list of links does not name them.
+// Bodies that a cable can come to touch although its list of links does not name them.
 //
-// A wrap is a rolling link that begins with the contact and ends with it. What has to be found is
-// its plane and its winding. In a planar scene the plane is the cable's. Otherwise it is fixed to
-// the body when the cable touches: perpendicular to the axis of a cylinder or prism, or to that of
-// a box's axes which fits best, where the span comes nearest to the axis; for other forms it is the
-// plane of the span and the body's centre. On a ball without friction it goes on being that of the
-// spans and the centre (cable/cable_geodesics.cpp). The winding puts the body on the side of the
-// span on which it was at the start of the substep, as the sign of the moment m = u x (c - a) of
-// its centre c about the span a + t u tells: about a plane's normal n the cable runs
-// counter-clockwise if n . m > 0. So a body that the span has gone right through in one substep is
-// caught, too.
+// A wrap is a rolling link that exists as long as the contact. Its plane and its winding have to be
+// found. In a planar scene the plane is that of the cable. Otherwise the plane is fixed to the body
+// at first contact: perpendicular to the axis of a cylinder or prism, or to the axis of a box that
+// fits best, at the point where the span comes nearest to the axis; for other shapes it is the
+// plane through the span and the body's centre. On a ball without friction the plane follows the
+// spans and the centre (cable/cable_geodesics.cpp).
+//
+// The winding puts the body on the side of the span on which it was at the start of the substep.
+// The sign of the moment m = u x (c - a) of its centre c about the span a + t u gives the side:
+// about a plane's normal n the cable runs counter-clockwise if n . m > 0. This also catches a body
+// through which the span has passed completely in one substep.
 
 #include <optional>
 #include <vector>
@@ -22,52 +23,52 @@
 
 namespace sheave {
 
-/// An axis that a body can be wrapped round; own frame of the body.
+/// An axis round which a cable can wrap; own frame of the body.
 struct WrapAxis {
   Vector3 direction = Vector3::UnitZ();
-  double half_length = 0.0;  ///< of the body along it, to both sides of its centre [m]
+  double half_length = 0.0;  ///< half of the body's extent along the axis [m]
 };
 
-/// Where a wrap's plane is: own frame of the body.
+/// The plane of a wrap; own frame of the body.
 struct WrapPlane {
   Vector3 center = Vector3::Zero();  ///< [m]
   Vector3 normal = Vector3::UnitZ();
 };
 
-/// A wrappable body as one cable sees it.
+/// A wrappable body as a candidate of one cable.
 struct WrapCandidate {
   int body = 0;
-  Vector3 center = Vector3::Zero();  ///< of its form, own frame [m]
-  double reach = 0.0;                ///< of its form from the centre [m]
-  std::vector<WrapAxis> axes;        ///< empty: a form without an axis
-  bool ball = false;                 ///< nothing but a sphere
-  /// The wrap's plane is the cable's for ever, and `link` the wrap wound counter-clockwise.
+  Vector3 center = Vector3::Zero();  ///< centre of its shape, own frame [m]
+  double reach = 0.0;                ///< largest distance of its shape from the centre [m]
+  std::vector<WrapAxis> axes;        ///< empty: a shape without an axis
+  bool ball = false;                 ///< the shape is a sphere and nothing else
+  /// The wrap's plane is always that of the cable; `link` is the counter-clockwise wrap.
   bool planar = false;
   LinkGeometry link;
 };
 
-/// On which side of a candidate a span is.
+/// The side of a candidate on which a span lies.
 struct WrapSide {
-  Vector3 moment = Vector3::Zero();  ///< m of the head of this file [m]; 0: unknown
-  double along = 0.0;                ///< of the centre, from the span's start [m]
+  Vector3 moment = Vector3::Zero();  ///< the moment m above [m]; 0: unknown
+  double along = 0.0;                ///< position of the centre along the span, from its start [m]
   double distance = 0.0;             ///< from the centre to the span [m]
   bool between = false;              ///< the centre lies beside the span, not beyond its ends
 };
 
-/// The candidate that a wrappable body is, without `planar` and `link`.
+/// The candidate for a wrappable body, without `planar` and `link`.
 [[nodiscard]] WrapCandidate wrap_candidate(const BodySet& bodies, int body);
 
 [[nodiscard]] WrapSide wrap_side(const Substep& substep, const WrapCandidate& candidate,
                                  const SpanGeometry& span);
 
-/// The plane in which the span would be wrapped round the candidate; none if it passes beyond the
-/// ends of its axis.
+/// The plane in which the span would be wrapped round the candidate; none if the span passes beyond
+/// the ends of the candidate's axis.
 [[nodiscard]] std::optional<WrapPlane> wrap_plane(const Substep& substep,
                                                   const WrapCandidate& candidate,
                                                   const SpanGeometry& span);
 
-/// The candidate's section with the plane as a link wound counter-clockwise; none if they do not
-/// meet in an area.
+/// The candidate's section with the plane, as a counter-clockwise link; none if the section has no
+/// area.
 [[nodiscard]] std::optional<LinkGeometry> wrap_link(const BodySet& bodies,
                                                     const WrapCandidate& candidate,
                                                     const WrapPlane& plane);

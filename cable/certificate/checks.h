@@ -1,5 +1,5 @@
 #pragma once
-// The balances, each on its own.
+// The checks of the certificate, one function per balance.
 
 #include <array>
 
@@ -8,40 +8,41 @@
 
 namespace sheave::certify {
 
-/// Each body's substep again, from its start with the reported forces, against its end:
-/// cable/certificate/momentum.cpp. Returns what is off per body as work done on it [J].
+/// Repeats each body's substep from its start with the reported forces and compares the result with
+/// its end: cable/certificate/momentum.cpp. Returns the residual per body as work done on it [J].
 std::vector<double> check_momentum(const Evidence& evidence, Findings& findings);
-/// Joints, spans, drives and contacts against what they ask for; slack against pull:
-/// constraints.cpp, joints.cpp.
+/// Residuals of joints, spans, drives and contacts, and complementarity of gap and force:
+/// spans.cpp, joints.cpp.
 void check_spans(const Evidence& evidence, Findings& findings);
 void check_joints(const Evidence& evidence, Findings& findings);
 void check_body_drives(const Evidence& evidence, Findings& findings);
 void check_contacts(const Evidence& evidence, Findings& findings);
 /// Bounds and directions of friction: friction.cpp.
 void check_friction(const Evidence& evidence, Findings& findings);
-/// The tension that a link carries at most on one side while that of the other side is that of
-/// `held` [N], each part of it with the angle of its time.
+/// Largest tension [N] that the link carries on one side while the span `held` has its tension on
+/// the other; the first and the second part of the tension with the wrap angle of its time.
 [[nodiscard]] double carried(const PassEvidence& pass, const SpanEvidence& held);
-/// What nothing explains; `leaks` as check_momentum() returns them: energy.cpp.
+/// Energy that no work explains: energy.cpp. `leaks`: the result of check_momentum().
 void check_energy(const Evidence& evidence, const std::vector<double>& leaks, Findings& findings);
-/// Cable lengths: length.cpp.
+/// Invariants of cable lengths: length.cpp.
 void check_lengths(const Evidence& evidence, Findings& findings);
 
-/// How far the rims at the ends of a span have passed them in the substep, by the poses alone [m]:
-/// what rolling gives to the span at its first end and its second. `rolled`, as in unrolled(),
+/// Length that rolling gives to a span at its first and its second end, as travel of the links'
+/// rims past the contacts in the substep, from the poses alone [m]. `rolled`, as in unrolled(),
 /// chooses among whole turns.
 [[nodiscard]] std::array<double, 2> rim_travels(const Evidence& evidence,
                                                 const CableEvidence& cable,
                                                 const SpanEvidence& span, double rolled);
 
-/// By how much the rest length that a span has gained by rolling, `rolled` [m], differs from what
-/// its rims have moved.
+/// Difference between the rest length that a span has gained by rolling, `rolled` [m], and the
+/// travel of its rims [m].
 [[nodiscard]] double unrolled(const Evidence& evidence, const CableEvidence& cable,
                               const SpanEvidence& span, double rolled);
 
-/// Of a material: the length whose strain changes by what stretches the span in the substep [m],
-/// its own and half of what has been wound on, A in cable/cable_material.cpp. On outlines what is
-/// wound on is no less than what is missing. `rolled` as in unrolled().
+/// Cable with a material: the length A whose strain changes when the span is stretched in the
+/// substep [m], the span's own length and half of the cable that was wound on
+/// (cable/cable_material.cpp). On outlines the wound length counts as at least the missing length.
+/// `rolled` as in unrolled().
 [[nodiscard]] double spring_length(const Evidence& evidence, const CableEvidence& cable,
                                    const SpanEvidence& span, double rolled);
 

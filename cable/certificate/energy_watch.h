@@ -1,25 +1,26 @@
 #pragma once
-// The energy of a whole run, step by step: what single substeps cannot tell.
+// Balance of energy of a whole run, step by step, which checks of single substeps cannot give.
 //
-// Each substep may be right by the rule of its integrator, and the run still gain or lose energy
-// that no law of nature gives or takes: by what the rule is off in each of many steps, or in a step
-// that nobody has looked at. So the total energy E of every step is followed, which takes a few
+// Each substep may obey the rule of its integrator while the run gains or loses energy that no
+// physical law gives or takes: by the integrator's error of many steps, or in a step that was not
+// checked. The watch therefore follows the total energy E of every step, at the cost of a few
 // operations per body.
 //
-// - A machine into which nothing puts energy (sources_of_energy.h) never has more than it had. What
-//   counts is E - R, where R falls with E but not for what comes back: an integrator that is its
-//   own inverse lets E swing about its value by (w h)^2, within the period of a motion w. R is the
-//   least, so far, of the largest E of the last 16 to 32 steps; what swings more slowly than that
-//   swings by less than (2 pi / 32)^2 / 8 = 0.5 % of its energy.
-// - A machine that takes none either (keeps_energy()) loses only what `xpbd` takes from a smooth
-//   motion (integrator_loss.h), which is known to first order, so that twice as much is explained;
-//   and what impacts take: steps in which a span is slack, or the course of a cable changes, do not
-//   count.
-// - No machine has 10^6 times the energy that was put in. How much that is of a machine with drives
-//   only drives know; what all its mass would have at the speed of the fastest of them, and the
-//   work of forces that are known, is looked at anew whenever the energy has doubled.
+// - A machine into which nothing puts energy (sources_of_energy.h) never has more than at its
+//   start. The watch follows E - R. The reference R falls with E but does not follow short swings:
+//   with an integrator that is its own inverse, E swings about its value by a fraction (w h)^2
+//   within the period of a motion of angular frequency w. R is the least, so far, of the largest E
+//   within the last 16 to 32 steps. A motion that swings more slowly changes E by less than
+//   (2 pi / 32)^2 / 8 = 0.5 % of its energy.
+// - A machine that dissipates none either (keeps_energy()) loses only the energy that `xpbd` takes
+//   from a smooth motion (integrator_loss.h). That loss is known to first order, so twice as much
+//   counts as explained. Impacts take energy, too: steps in which a span is slack, or the course of
+//   a cable changes, do not count.
+// - No machine has 10^6 times the energy that was put into it. The input of drives is not known
+//   here. Its bound is the energy of the whole mass at the speed of the fastest drive plus the work
+//   of the known forces; it is computed again whenever the energy has doubled.
 //
-// All of it is measured by the largest sum of kinetic and elastic energy of the run.
+// All figures are relative to the largest sum of kinetic and elastic energy of the run.
 
 #include <cstddef>
 #include <cstdint>
@@ -33,18 +34,19 @@ namespace sheave::certify {
 
 class EnergyWatch {
  public:
-  /// From the state that the simulation has now.
+  /// Begins with the present state of the simulation.
   explicit EnergyWatch(const Simulation& simulation);
 
-  /// To be called after every step, with what it told. A state that does not follow from the last
-  /// one by a step begins anew.
+  /// To be called after every step with its statistics. A state that does not follow from the last
+  /// one by a step begins a new balance.
   void observe(const Simulation& simulation, const StepStatistics& statistics);
-  /// Whether the last step made energy, or took some, by more than a hundredth of what there is: it
-  /// wants to be checked.
+  /// Whether the last step gained or lost more than 1 % of the energy, so that the step should be
+  /// checked.
   [[nodiscard]] bool is_suspicious() const { return suspicious_; }
-  /// Of the state that was observed last.
+  /// Energy of the last observed state.
   [[nodiscard]] const Energy& energy() const { return energy_; }
-  /// What is wrong with the run so far; nothing if there is nothing to judge it by.
+  /// The worst fault of the run so far; nothing if the machine has no balance that could be
+  /// checked.
   [[nodiscard]] std::optional<CertificateItem> finding() const;
 
  private:
@@ -52,45 +54,45 @@ class EnergyWatch {
   void follow_gain(double total, double time);
   void follow_loss(const Simulation& simulation, double loss, const StepStatistics& statistics);
   void follow_input(const Simulation& simulation, const StepStatistics& statistics);
-  /// What drives and loads can have put in by now [J].
+  /// Bound of the energy that drives and loads have put in so far [J].
   [[nodiscard]] double most_put_in(const Simulation& simulation) const;
-  /// Below which differences of energies are rounding [J].
+  /// Differences of energy below this are rounding [J].
   [[nodiscard]] double rounding() const;
 
   bool passive_;
   bool keeps_;
-  double mass_ = 0.0;     ///< of all that moves [kg]
-  double weight_ = 0.0;   ///< of it, times the size of the scene [J]
-  double size_ = 0.0;     ///< of the scene [m]
-  double springs_ = 0.0;  ///< what all of them store that are drawn out by that [J]
+  double mass_ = 0.0;     ///< mass of all moving bodies [kg]
+  double weight_ = 0.0;   ///< weight of these bodies times the size of the scene [J]
+  double size_ = 0.0;     ///< size of the scene [m]
+  double springs_ = 0.0;  ///< energy of all springs when stretched by that size [J]
 
-  std::int64_t steps_ = 0;  ///< State::steps of what was observed last
+  std::int64_t steps_ = 0;  ///< State::steps of the last observed state
   Energy start_;
   Energy energy_;
-  double vivid_ = 0.0;    ///< the largest kinetic + elastic energy
-  double highest_ = 0.0;  ///< the largest total energy
+  double vivid_ = 0.0;    ///< largest kinetic + elastic energy [J]
+  double highest_ = 0.0;  ///< largest total energy [J]
   double highest_time_ = 0.0;
   bool suspicious_ = false;
 
-  // Gains.
+  // Gains of energy.
   double reference_ = 0.0;     ///< R
-  double block_ = 0.0;         ///< the largest E of the block of steps that has begun
-  double block_before_ = 0.0;  ///< and of the one before
-  std::int64_t in_block_ = 0;  ///< steps
+  double block_ = 0.0;         ///< largest E of the present block of steps
+  double block_before_ = 0.0;  ///< largest E of the block before
+  std::int64_t in_block_ = 0;  ///< number of steps in the present block
   double gain_ = 0.0;          ///< the largest E - R
   double gain_time_ = 0.0;
-  // Losses.
+  // Losses of energy.
   IntegratorLoss integrator_;
   std::int64_t fallbacks_ = 0;
   std::size_t events_ = 0;
-  int taut_steps_ = 0;      ///< in a row, so far
-  double lost_ = 0.0;       ///< in steps without impacts
-  double most_lost_ = 0.0;  ///< in one step
+  int taut_steps_ = 0;      ///< number of consecutive steps with all spans taut
+  double lost_ = 0.0;       ///< loss in steps without impacts
+  double most_lost_ = 0.0;  ///< largest loss in one step
   double most_lost_time_ = 0.0;
-  // What has been put in.
+  // Energy input.
   double put_in_ = 0.0;
-  double worked_ = 0.0;     ///< by forces that have been set, to and fro
-  double looked_at_ = 0.0;  ///< the largest energy when put_in_ was found
+  double worked_ = 0.0;     ///< work of forces set by controls, absolute values summed
+  double looked_at_ = 0.0;  ///< largest energy when put_in_ was computed
 };
 
 }  // namespace sheave::certify

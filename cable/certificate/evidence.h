@@ -1,11 +1,10 @@
 #pragma once
-// What is known of a substep: the states at both ends and what was reported of it. All balances
-// read from here.
+// Evidence of one substep: the states at both ends and all reported quantities. All checks read
+// from here.
 //
 // Forces of `rattle` act in two halves, along the directions at the start and at the end
-// (engine/world.h), so reports are taken twice: with the first part of each force where the bodies
-// were at the start, and with the second where they are at the end. `xpbd` has the second part
-// alone.
+// (engine/world.h). Reports are therefore taken twice: with the first part of each force at the
+// starting poses, and with the second part at the final poses. `xpbd` has only the second part.
 
 #include <array>
 #include <memory>
@@ -25,7 +24,7 @@ namespace sheave::certify {
 enum End : int { first_end, last_end };
 
 /// Poses at one moment. Points of bodies are in their own frames (origin at the centre of mass);
-/// the world has number bodies.count().
+/// the number of the world is bodies.count().
 struct Moment {
   const BodySet* bodies = nullptr;
   const std::vector<BodyState>* states = nullptr;
@@ -43,7 +42,7 @@ struct Moment {
   [[nodiscard]] Vector3 own_point(int body, const Vector3& world) const {
     return orientation(body).conjugate() * (world - center(body));
   }
-  /// Of the body's material at a world point.
+  /// Velocity of the body's material at a world point.
   [[nodiscard]] Vector3 velocity(int body, const Vector3& world) const {
     if (is_world(body)) return Vector3::Zero();
     const BodyState& state = (*states)[at(body)];
@@ -54,112 +53,114 @@ struct Moment {
 /// One end of a span.
 struct SpanSide {
   int body = 0;
-  int link = -1;                   ///< within the cable's way, wraps included
-  int place = -1;                  ///< within the cable's list; -1: a wrap
-  std::array<double, 2> radius{};  ///< at either end of the substep [m]: drums grow by layers
+  int link = -1;                   ///< index along the cable's course, wraps included
+  int place = -1;                  ///< index in the cable's list; -1: a wrap
+  std::array<double, 2> radius{};  ///< at both ends of the substep [m]; drums grow by layers
   int winding = 0;
   bool outlined = false;
-  bool slides = false;            ///< PassEvidence::stretches: it does not roll there
-  std::array<Vector3, 2> point;   ///< at either end of the substep [m]: where its force acts
-  Vector3 laid;                   ///< at its end, where what is frozen has been laid anew [m]
-  std::array<Vector3, 2> center;  ///< of its circle [m]
+  bool slides = false;            ///< PassEvidence::stretches: the cable does not roll there
+  std::array<Vector3, 2> point;   ///< point of action of its force at both ends of the substep [m]
+  Vector3 laid;                   ///< at the end, after frozen attachments were computed again [m]
+  std::array<Vector3, 2> center;  ///< centre of its circle [m]
   std::array<Vector3, 2> normal;
 };
 
-/// A free span through a substep.
+/// A free span during a substep.
 struct SpanEvidence {
   std::string_view cable;
-  int place = -1;  ///< within its cable's list; -1: behind a wrap
+  int place = -1;  ///< index in its cable's list; -1: behind a wrap
   SpanSide from;
   SpanSide to;
   std::array<Vector3, 2> direction;
   std::array<double, 2> length{};
   std::array<double, 2> rest_length{};
-  std::array<double, 2> force{};  ///< the parts of the tension [N]
-  double fed = 0.0;               ///< into it in the substep [m]
+  std::array<double, 2> force{};  ///< the two parts of the tension [N]
+  double fed = 0.0;               ///< length fed into it in the substep [m]
   bool has_tangent = true;
   [[nodiscard]] double tension() const { return force[0] + force[1]; }
   [[nodiscard]] std::string name() const;
 };
 
-/// Where the cable passes from one span to the next.
+/// A link between two spans of the cable's course.
 struct PassEvidence {
-  int before = 0;  ///< spans, among all
+  int before = 0;  ///< indices of the spans, among all
   int after = 0;
-  bool passes = false;                 ///< whether cable can come over it other than by rolling
-  bool massless = false;               ///< because nothing resists its turning
-  double friction = 0.0;               ///< capstan coefficient, if it passes
-  std::array<double, 2> wrap_angle{};  ///< [rad], at the ends of the substep
-  double slip = 0.0;                   ///< in the substep, towards the next span [m]
-  /// What friction has worked against: the way of the cable over what rubs it, towards the next
-  /// span [m]. That is the slip, or where a bearing brakes a wheel the way of its rim over the
-  /// carrier.
+  bool passes = false;                 ///< whether cable can pass other than by rolling
+  bool massless = false;               ///< whether it passes because the wheel has no inertia
+  double friction = 0.0;               ///< capstan coefficient, if cable passes
+  std::array<double, 2> wrap_angle{};  ///< [rad], at both ends of the substep
+  double slip = 0.0;                   ///< slip in the substep, towards the next span [m]
+  /// Path along which friction does work: travel of the cable over the rubbing surface, towards the
+  /// next span [m]. That is the slip, or for a braking bearing the travel of the wheel's rim
+  /// relative to the carrier.
   double travel = 0.0;
-  /// Whether cable of a material slides over an arc, and is stretched there: at the end so much of
-  /// it lies on the link, and it has gained so much [m, unstretched].
+  /// Whether cable with a material slides over an arc and is stretched there. `laid` is then the
+  /// link at the end, and `gained` the unstretched length that it has gained.
   bool stretches = false;
-  bool has_arc = false;  ///< it is a wheel or a post, and none that cable turns
+  bool has_arc = false;  ///< the link is a wheel or a post that cable does not turn
   LinkReport laid;
   double gained = 0.0;
-  /// What has left the span before, and come into the one behind [m].
+  /// Length that has left the span before, and length that has come into the span behind [m].
   [[nodiscard]] double left() const { return slip + 0.5 * gained; }
   [[nodiscard]] double came() const { return slip - 0.5 * gained; }
-  int link = 0;  ///< within the list; -1: a wrap
+  int link = 0;  ///< index in the list; -1: a wrap
   std::string_view cable;
 };
 
-/// The bearing of a wheel with inertia that brakes it.
+/// A bearing that brakes a wheel with inertia.
 struct BearingEvidence {
   std::string_view cable;
-  int link = 0;  ///< within the cable's list
+  int link = 0;  ///< index in the cable's list
   int rotor = 0;
-  double arm = 0.0;                 ///< most torque per sum of the tensions beside the wheel [m]
+  double arm = 0.0;  ///< largest torque / sum of the tensions on both sides of the wheel [m]
   std::array<double, 2> torque{};   ///< on the wheel, about its axle [N m]
-  std::array<double, 2> pressed{};  ///< sum of the tensions beside it [N]
-  double turn = 0.0;                ///< of the wheel on what carries it, in the substep [rad]
-  double rate = 0.0;                ///< and how fast it turns there at the end [rad/s]
+  std::array<double, 2> pressed{};  ///< sum of the tensions on both sides [N]
+  double turn = 0.0;  ///< rotation of the wheel relative to its carrier in the substep [rad]
+  double rate = 0.0;  ///< rate of that rotation at the end [rad/s]
 };
 
 struct CableEvidence {
   std::string_view name;
-  /// With what has been set instead; but for friction and feeds of its links.
+  /// With the values set by controls, except the friction and feeds of its links.
   const CableDef* definition = nullptr;
-  int first_link = 0;  ///< among those of all cables
+  int first_link = 0;  ///< index among the links of all cables
   std::vector<SpanEvidence> spans;
   std::vector<PassEvidence> passes;
-  bool has_changed =
-      false;  ///< its course or an end: what acted is not what is reported at the end
-  bool was_changed = false;  ///< at the end of the substep before: spans may begin too long
-  /// Attachments keep their places on the bodies: it is asked for, and no span ends on an outline
-  /// or leans to a wheel's plane.
+  /// its course or an end has changed, so the links at the end are not those on which the forces
+  /// acted
+  bool has_changed = false;
+  /// its course had changed in the substep before, so spans may begin too long
+  bool was_changed = false;
+  /// Contacts keep their places on the bodies: `tangent_update` asks for it, and no span ends on an
+  /// outline or leans out of a wheel's plane.
   bool frozen = false;
-  double free_length = 0.0;  ///< of all spans [m]
+  double free_length = 0.0;  ///< sum of the lengths of all spans [m]
   CableReport start;
   CableReport end;
 };
 
 struct JointEvidence {
   const JointDef* definition = nullptr;
-  int first_coordinate = 0;           ///< among those of all joints
-  std::array<JointReport, 2> acting;  ///< with the parts of the forces
+  int first_coordinate = 0;           ///< index among the coordinates of all joints
+  std::array<JointReport, 2> acting;  ///< at both ends, with the parts of the forces
   JointReport start;
   JointReport end;
-  bool broken = false;  ///< before the substep
-  JointHold hold;       ///< of one that has been locked again
+  bool broken = false;  ///< broken before the substep
+  JointHold hold;       ///< of a joint that has been locked again
 };
 
-/// A force at a point of contact, of bodies with each other or with the floor (body_b is the
-/// world).
+/// A contact force between two bodies, or between a body and the floor (body_b is the world).
 struct ContactEvidence {
   int body_a = 0;
   int body_b = 0;
   bool ground = false;
   Vector3 normal = Vector3::UnitY();
-  std::array<Vector3, 2> point_a;  ///< on the surfaces
+  std::array<Vector3, 2> point_a;  ///< on the two surfaces
   std::array<Vector3, 2> point_b;
   std::array<double, 2> press{};
   std::array<Vector3, 2> drag;
-  Vector3 slip = Vector3::Zero();  ///< way of A's surface over B's, and along the normal [m]
+  /// travel of A's surface relative to B's, with its component along the normal [m]
+  Vector3 slip = Vector3::Zero();
   std::array<double, 2> gap{};
   bool sticks = false;
   const ColliderDef* collider_a = nullptr;
@@ -169,23 +170,23 @@ struct ContactEvidence {
 /// The drive of a mounted rotor.
 struct MountedDriveEvidence {
   int rotor = 0;
-  std::array<double, 2> torque{};  ///< on it, about the axle [N m]
+  std::array<double, 2> torque{};  ///< on the rotor, about the axle [N m]
 };
 
-/// What acts on a body besides its loads.
+/// Forces and torques on a body other than its loads.
 struct Balance {
   std::array<Vector3, 2> force{Vector3::Zero(), Vector3::Zero()};
-  /// About the centre of mass; of a carrier without what spins its rotors, of a mounted rotor only
-  /// that, along its axle.
+  /// About the centre of mass. For a carrier without the torques that spin its rotors; for a
+  /// mounted rotor only these, along its axle.
   std::array<Vector3, 2> torque{Vector3::Zero(), Vector3::Zero()};
-  /// What acts on the body itself, its torque about the centre: of a mounted rotor before the
-  /// bearing passes it on.
+  /// Forces on the body itself, torque about its centre. For a mounted rotor before the bearing
+  /// passes them on.
   std::array<Vector3, 2> own_force{Vector3::Zero(), Vector3::Zero()};
   std::array<Vector3, 2> own_torque{Vector3::Zero(), Vector3::Zero()};
   double largest_force = 0.0;
   double largest_torque = 0.0;
   double power = 0.0;    ///< sum of all |force . velocity| [W]
-  bool unknown = false;  ///< something acts that is not reported in full
+  bool unknown = false;  ///< a force acts that is not reported in full
 };
 
 class Evidence {
@@ -197,7 +198,7 @@ class Evidence {
   const BodySet& bodies;
   const State& start;
   const State& end;
-  /// That the substep was made with: what has been set, or the model's [m/s2].
+  /// Gravity during the substep: the value set by a control, or the model's [m/s2].
   Vector3 gravity;
   double h;
   bool rattle;
@@ -207,32 +208,32 @@ class Evidence {
   std::vector<ContactEvidence> contacts;
   std::vector<MountedDriveEvidence> mounted_drives;
   std::vector<BearingEvidence> bearings;
-  std::vector<Balance> balances;  ///< per body and the world
-  double largest_force = 0.0;     ///< of all [N]
-  /// What no force is told apart from nothing by: the rounding of positions, as a force that moves
-  /// all bodies by it within the substep [N].
+  std::vector<Balance> balances;  ///< per body, then the world
+  double largest_force = 0.0;     ///< largest force on any body [N]
+  /// Force that moves all bodies by the rounding error of their positions within the substep [N].
+  /// Smaller forces cannot be told from zero.
   double force_rounding = 0.0;
-  /// The same of a tension that spans share which depend on each other [N].
+  /// The same for a tension shared by rigid spans that depend on each other [N].
   double shared_rounding = 0.0;
 
-  /// Radius of the ball about the centre of mass that contains the body, or that of gyration
-  /// without a shape [m].
+  /// Radius about the centre of mass of a ball that contains the body [m]; without a shape its
+  /// radius of gyration.
   [[nodiscard]] double size_of(int body) const;
-  /// What acts on a body by itself, without its rotors: constant, or set. The torque is about its
+  /// Load of a body itself, without its rotors: constant, or set by a control. Torque about its
   /// centre of mass.
   [[nodiscard]] Vector3 load_force(int body, End when) const;
   [[nodiscard]] Vector3 load_torque(int body, End when) const;
-  /// How far the body has turned in the substep [rad], as the integrator counts it: a rotation
-  /// vector (cable/certificate/free_rotation.h).
+  /// Rotation of the body in the substep as the integrator counts it: a rotation vector [rad]
+  /// (cable/certificate/free_rotation.h).
   [[nodiscard]] Vector3 turn_of(int body) const;
-  /// Whether it is a wheel without inertia whose bearing takes a part of its cable's tension: it
-  /// turns as far as cable has passed, no further.
+  /// Whether it is a wheel without inertia whose bearing takes a part of the cable's tension. Such
+  /// a wheel turns exactly as far as cable has passed.
   [[nodiscard]] bool brakes(int body) const;
   [[nodiscard]] std::string body_name(int body) const {
     return "body \"" + bodies.name(body) + "\"";
   }
-  /// Work of the gradient of a pair of forces: force . displacement of the material at `point`,
-  /// which is of that end.
+  /// Displacement of the material at `point` in the substep, whose product with a force is the
+  /// force's work. `point` is given at the end `end`.
   [[nodiscard]] Vector3 displacement(int body, const Vector3& point, End end) const;
 
  private:
@@ -245,7 +246,7 @@ class Evidence {
   void collect_mounted_drives(const LastSubstep& last, std::size_t feature);
   void collect_ground(const LastSubstep& last, std::size_t feature);
   void collect_contacts(const LastSubstep& last, std::size_t feature);
-  /// Forces of cables that keep their attachments for the substep act between these.
+  /// Moves the points of action of a frozen span to the places that its attachments keep.
   void freeze(SpanEvidence& span) const;
   void apply_cables();
   void apply_joints();
@@ -258,16 +259,16 @@ class Evidence {
   void twist(End when, int body, const Vector3& torque);
   void mark_unknown(int body);
   [[nodiscard]] double rounding_of_forces() const;
-  /// Makes the definitions of cables what has been set.
+  /// Applies the values set by controls to the definitions of cables.
   void follow_controls();
 
   std::vector<Vector3> turns_;  ///< per body
   std::vector<char> brakes_;    ///< per body
   std::vector<CableDef>
-      controlled_;  ///< definitions of cables with what has been set; empty if nothing is
+      controlled_;  ///< definitions of cables with values set by controls; empty if none is set
 };
 
-/// Two parts of each of `total`, by what was late.
+/// Splits each entry of `total` into two parts; `late` is the second part.
 [[nodiscard]] std::array<std::vector<double>, 2> parts(std::span<const double> total, bool rattle,
                                                        std::span<const double> late);
 

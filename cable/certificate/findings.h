@@ -1,5 +1,6 @@
 #pragma once
-// Collects the worst figure of each kind; names are made only for what is worst.
+// Collects the worst figure of each kind. Names are composed only for the worst, since that is
+// expensive.
 
 #include <algorithm>
 #include <array>
@@ -16,8 +17,8 @@ class Findings {
 
   explicit Findings(double time) : time_(time) {}
 
-  /// `value` against `scale`; `rounding` of it means nothing. `name()` is called only if this is
-  /// the worst so far.
+  /// `value` is the error, `scale` its reference; errors up to `rounding` count as 0. `name()` is
+  /// called only if this is the worst so far.
   template <class Name>
   void note(Kind kind, std::string_view unit, double value, double scale, double rounding,
             const Name& name) {
@@ -26,7 +27,7 @@ class Findings {
     double relative = scale > 0.0 ? excess / scale : (excess > 0.0 ? unbounded : 0.0);
     if (!std::isfinite(relative)) relative = unbounded;
     if (worst && !(relative > worst->relative)) return;
-    const double off = std::max(value, 0.0) + 0.0;  // and no negative zero
+    const double off = std::max(value, 0.0) + 0.0;  // + 0.0 turns a negative zero into zero
     worst = CertificateItem{kind, name(), off, unit, scale, relative, time_, {}};
   }
 

@@ -1,5 +1,5 @@
 #pragma once
-// What joints do to the energy beside what their springs, dampers and friction are there for.
+// Work of joints beyond that of their springs, dampers and friction.
 
 #include "cable/certificate/evidence.h"
 
@@ -7,7 +7,7 @@ namespace sheave::certify {
 
 struct JointWork {
   double unexplained = 0.0;  ///< on the bodies and their springs [J]
-  double flow = 0.0;         ///< what passed through the joint [J]
+  double flow = 0.0;         ///< energy that passed through the joint [J]
 };
 
 [[nodiscard]] JointWork work_of(const Evidence& evidence, const JointEvidence& joint);

@@ -1,12 +1,12 @@
 #pragma once
-// Where a joint's anchors and axes are, from its definition and the poses alone.
+// Anchors and axes of a joint, from its definition and the poses alone.
 
 #include "cable/certificate/evidence.h"
 #include "engine/joints/coordinate.h"
 
 namespace sheave::certify {
 
-/// What a joint locks and leaves free.
+/// The relative motions that a joint locks.
 struct JointKind {
   bool meets = false;        ///< the anchors coincide
   bool on_axis = false;      ///< B's anchor stays on A's axis
@@ -25,27 +25,28 @@ struct JointFrame {
   int carrier = -1;
   Vector3 own_anchor_a = Vector3::Zero();  ///< own frames
   Vector3 own_anchor_b = Vector3::Zero();
-  Vector3 axis_a =
-      Vector3::UnitZ();  ///< world frame when defined; of gears that of body_a's rotation
+  /// world frame at definition; for a gear the axis of body_a's rotation
+  Vector3 axis_a = Vector3::UnitZ();
   Vector3 axis_b = Vector3::UnitZ();
   double compliance = 0.0;
   double angular_compliance = 0.0;
   double ratio = 0.0;  ///< of couplings
   double length = 0.0;
-  double mesh = 0.0;   ///< of couplings: by how much their teeth mesh elsewhere [m or rad]
-  double lower = 0.0;  ///< of the distance over the length, 0 or -infinity
+  double mesh = 0.0;   ///< for couplings: offset of the meshing teeth [m or rad]
+  double lower = 0.0;  ///< bounds of distance minus length [m], 0 or -infinity
   double upper = 0.0;
   double damping = 0.0;
 
   BodyFrames defined_in;  ///< of the joint
-  /// Of a joint that has been locked again: of its axes on body_a against those defined, own frame.
+  /// For a joint that was locked again: rotation of its axes on body_a relative to those of its
+  /// definition, own frame.
   Quaternion relocked = Quaternion::Identity();
 
   /// Rotation of a body since the joint was defined.
   [[nodiscard]] Quaternion turned_by(const Moment& now, int body) const {
     return now.orientation(body) * now.bodies->frame(body, defined_in).orientation.conjugate();
   }
-  /// Rotation of what the joint has fixed to body_a since then.
+  /// Rotation of the joint's frame on body_a since then.
   [[nodiscard]] Quaternion turned_a(const Moment& now) const {
     return now.orientation(body_a) * relocked *
            now.bodies->frame(body_a, defined_in).orientation.conjugate();
@@ -60,18 +61,19 @@ struct JointFrame {
 
 [[nodiscard]] JointFrame frame_of(const BodySet& bodies, const JointEvidence& joint);
 
-/// A coordinate that reports tell, in their order.
+/// A coordinate of a joint, in the order of the reports.
 struct CoordinateSettings {
   const JointCoordinate* settings = nullptr;
-  /// What acts along it is the reported wrench along this direction: 0 none alone, 1 the force
-  /// along the axis, 2 the torque about the axis, 3 the force along the line between the anchors.
+  /// The component of the reported wrench that acts along the coordinate: 0 none, 1 the force along
+  /// the axis, 2 the torque about the axis, 3 the force along the line between the anchors.
   int along = 0;
 };
 [[nodiscard]] std::vector<CoordinateSettings> coordinates_of(const JointDef& joint);
 
-/// The part of a torque that holds the axes u of A and w of B together, which is across u. What
-/// acts along the angle about them, the twist of B against A beside the least turn from u to w, is
-/// a torque along (u + w) / (1 + u . w), the gradient of that angle.
+/// The part of a torque that holds the axis u of A and the axis w of B together; it is
+/// perpendicular to u. The remaining part acts along the angle about the axes, the twist of B
+/// against A in excess of the smallest rotation from u to w. It is a torque along (u + w) / (1 + u
+/// . w), the gradient of that angle.
 [[nodiscard]] inline Vector3 without_twist(const Vector3& torque, const Vector3& u,
                                            const Vector3& w) {
   const double mean = 1.0 + u.dot(w);

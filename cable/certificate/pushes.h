@@ -1,5 +1,5 @@
 #pragma once
-// Where reported forces act: the certificate's own account of it.
+// Points of action of reported forces, computed independently of the solvers.
 
 #include <array>
 #include <vector>
@@ -15,7 +15,7 @@ struct SpanPush {
 };
 using SpanPushes = std::array<SpanPush, 2>;
 
-/// What a span does with its tension of that end: it pulls its ends together.
+/// The forces of a span on its two links: its tension at that end of the substep, along the span.
 [[nodiscard]] SpanPushes pushes_of(const SpanEvidence& span, End when);
 
 struct JointPush {
@@ -27,11 +27,11 @@ struct JointPush {
 };
 using JointPushes = std::vector<JointPush>;
 
-/// The reported wrench on body_b about its anchor, the opposite on body_a, and of gears and racks
-/// what the carrier has to bear.
+/// The reported wrench on body_b about its anchor, the opposite on body_a, and for gears and racks
+/// the reaction on the carrier.
 [[nodiscard]] JointPushes pushes_of(const Evidence& evidence, const JointEvidence& joint, End when);
 
-/// Completes what is known of a link over which cable can pass.
+/// Completes the evidence of a link over which cable can pass.
 void describe_pass(const Evidence& evidence, const CableEvidence& cable, const LinkReport& first,
                    const LinkReport& second, PassEvidence& pass);
 

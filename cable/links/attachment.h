@@ -10,9 +10,9 @@ namespace sheave {
 class AttachmentLink final : public LinkDef {
  public:
   Vector3 point = Vector3::Zero();  ///< [m], body frame
-  /// Cable that comes out of the point (< 0: goes into it) [m/s]; at an end of an open cable. It
-  /// stops when the span has no rest length left to take in. Only one that has a speed can be given
-  /// another while the world runs; 0 is one.
+  /// Speed at which cable comes out of the point (< 0: goes into it) [m/s]; only at an end of an
+  /// open cable. The feed stops when the span has no rest length left to take in. A control can
+  /// change the speed only if the link is defined with one; 0 counts.
   std::optional<double> feed_speed;
 
   static constexpr std::string_view type_name = "attachment";

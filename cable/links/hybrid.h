@@ -4,9 +4,10 @@
 
 namespace sheave {
 
-/// A cable end wound onto a wheel as long as there is cable on it. Used up, it is fixed to the
-/// point of the rim where it ends; when the wheel or the span turns so far that the cable would
-/// pass through the wheel, it is wound up again, to either side (paper, section 4.1).
+/// A cable end that is wound onto a wheel as long as cable is stored there. When the cable is used
+/// up, the end is fixed to its point of the rim. When the wheel or the span turns so far that the
+/// cable would pass through the wheel, the cable is wound up again, to either side (paper, section
+/// 4.1).
 class HybridLink final : public WheelLink {
  public:
   double stored_length = 0.0;  ///< cable on the wheel at time 0 [m], >= 0

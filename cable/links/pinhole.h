@@ -8,8 +8,8 @@ namespace sheave {
 class PinholeLink final : public LinkDef {
  public:
   Vector3 point = Vector3::Zero();  ///< [m], body frame
-  /// Capstan coefficient, >= 0: the tensions on both sides differ by at most e^(friction x angle),
-  /// with the angle by which the cable's direction changes.
+  /// Capstan coefficient, >= 0: the tensions on both sides differ by at most the factor e^(friction
+  /// x angle), where the angle is that between the directions of the two spans.
   double friction = 0.0;
 
   static constexpr std::string_view type_name = "pinhole";

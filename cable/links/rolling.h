@@ -6,28 +6,29 @@
 
 namespace sheave {
 
-/// The cable runs over a wheel without slipping. At the end of an open cable it is wound onto the
-/// wheel, which then needs a stored length; a round one holds the end by its rim when that is used
-/// up, as a hybrid link does.
+/// A wheel over which the cable runs without slip. At the end of an open cable the cable is wound
+/// onto the wheel, which then needs a stored length. When that length is used up, a round wheel
+/// holds the end by its rim, as a hybrid link does.
 class RollingLink final : public WheelLink {
  public:
-  /// Cable on the wheel at time 0 [m], >= 0; default: the arc between the tangents. Required at the
-  /// end of an open cable, where there is no second tangent.
+  /// Cable on the wheel at time 0 [m], >= 0; default: the arc between the tangent points. Required
+  /// at the end of an open cable, where the second tangent point does not exist.
   std::optional<double> stored_length;
-  /// Capstan coefficient, >= 0; default: the cable does not slip. With it, it slips as soon as the
-  /// ratio of the tensions passes e^(friction x wrap angle), any number of turns.
+  /// Capstan coefficient, >= 0; default: the cable does not slip. With a coefficient it slips as
+  /// soon as the ratio of the tensions exceeds e^(friction x wrap angle). The wrap angle counts
+  /// whole turns.
   std::optional<double> friction;
-  /// Of a rotor: the tension of the cable that comes to it over that of the cable that goes from it
-  /// while it turns steadily, in (0, 1]; default: 1. What is lost in bearing and rope is told as one
-  /// number, 0.98 for wire rope on roller bearings. At rest the ratio is anything between it and
-  /// its inverse. A wheel with spin inertia is braked by a torque of at most radius (1 - e) / (1 +
-  /// e) times the sum of both tensions, which is the same.
+  /// Only on a rotor: incoming tension / outgoing tension at steady rotation, in (0, 1]; default:
+  /// 1. One number stands for the losses in bearing and rope, 0.98 for wire rope on roller
+  /// bearings. At rest the ratio lies between the efficiency e and 1 / e. The bearing of a wheel
+  /// with spin inertia brakes it with a torque of at most radius (1 - e) / (1 + e) times the sum of
+  /// both tensions, which gives the same ratio.
   std::optional<double> efficiency;
-  /// The cable passes the wheel by at time 0; it is wound on, as `winding` says, when it comes to
-  /// touch it.
+  /// Whether the cable does not touch the wheel at time 0. When it comes to touch the wheel, it is
+  /// wound on as `winding` says.
   bool lifted = false;
-  /// Whole turns in addition to the arc between the tangents, 0 ... 1000. An arc of more than 300
-  /// degrees without any is an error: the cable would not reach the wheel.
+  /// Whole turns in addition to the arc between the tangent points, 0 ... 1000. An arc of more than
+  /// 300 degrees without whole turns is an error, because such a cable does not reach the wheel.
   int turns = 0;
 
   static constexpr std::string_view type_name = "rolling";

@@ -4,10 +4,10 @@
 
 namespace sheave {
 
-/// A cable end wound onto a drum: the cable is paid out and taken in as the drum turns, any number
-/// of turns. With a layer pitch p each turn lies on the one before, so the drum's radius grows:
-/// with r = r0 + p turns the stored length is the integral of r over the angle, hence r^2 = r0^2 +
-/// p s / pi.
+/// A cable end that is wound onto a drum. The drum pays cable out and takes it in as it turns, any
+/// number of turns. With a layer pitch p each turn lies on the one before, so the radius grows: r =
+/// r0 + p turns. The stored length s is the integral of r over the angle, hence r^2 = r0^2 + p s /
+/// pi.
 class SpoolLink final : public WheelLink {
  public:
   double stored_length = 0.0;  ///< cable on the drum at time 0 [m], >= 0

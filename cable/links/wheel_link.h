@@ -1,6 +1,6 @@
 #pragma once
-// What the links that run along a body have in common: where the cable's plane cuts it, and which
-// way round the cable runs.
+// Common part of the links that run along a body: the section of the body with the cable's plane,
+// and the winding.
 
 #include <optional>
 
@@ -8,24 +8,25 @@
 
 namespace sheave {
 
-/// A link on a wheel or along an outline; the link types that derive from it add what the cable
-/// does there.
+/// A link on a wheel or along an outline. Derived link types define how the cable moves there.
 class WheelLink : public LinkDef {
  public:
-  /// At the end of a cable: as if the cable ran on beyond it.
+  /// At the end of a cable: as if the cable continued beyond it.
   Winding winding = Winding::counter_clockwise;
-  /// [m], body frame; default: the centre of the body's first wheel-like shape, or of its first
-  /// shape
+  /// Centre [m], body frame; default: the centre of the body's first wheel-like shape, or of its
+  /// first shape.
   std::optional<Vector3> center;
-  /// Normal of the cable's plane, body frame, any length but 0; default: that shape's z axis
+  /// Normal of the cable's plane, body frame, any length except 0; default: the z axis of that
+  /// shape.
   std::optional<Vector3> normal;
-  /// [m], > 0; default: that shape's radius, or without a wheel-like shape no circle but an outline
+  /// Radius [m], > 0; default: the radius of that shape. Without a wheel-like shape the link is an
+  /// outline.
   std::optional<double> radius;
 
  protected:
-  /// A circle if a radius is given or the body has a wheel-like shape whose section is one,
-  /// otherwise the hull of the section of all its shapes; on the body itself, also if that is a
-  /// mounted rotor. Errors have the prefix `path`.
+  /// A circle if a radius is given or the body has a wheel-like shape whose section is a circle;
+  /// otherwise the hull of the section of all its shapes. Body and carrier are the body itself,
+  /// also if it is a mounted rotor. Errors have the prefix `path`.
   [[nodiscard]] Result<LinkGeometry> place(const BodySet& bodies, const std::string& path) const;
 };
 
@@ -49,8 +50,8 @@ template <class Link>
   };
 }
 
-/// A wheel whose centre lies on the axle of a rotor gets it and its plane fixed to what holds the
-/// axle, another body or the world, which saves following the rotor's own angle.
+/// If the wheel's centre lies on the axle of a rotor, fixes centre and plane to the carrier of the
+/// axle, another body or the world. The step then need not follow the rotor's own angle.
 void carry_by_axle(const BodySet& bodies, LinkGeometry& link);
 
 }  // namespace sheave
