@@ -1,19 +1,20 @@
 // Bearings that brake wheels with inertia.
 //
-// A rolling link with the efficiency e: at a steady speed the cable that comes to the wheel has e
-// times the tension of the cable that goes from it, T1 = e T2. A wheel without inertia is a capstan
-// with this ratio (cable/cable_friction.cpp). One with inertia passes on all but what its bearing
-// takes, a torque M against its turning on the carrier, and its equation
+// A rolling link has the efficiency e: at a steady speed the incoming cable has e times the tension
+// of the outgoing cable, T1 = e T2. A wheel without inertia is a capstan with this ratio
+// (cable/cable_friction.cpp). A wheel with inertia transmits the tensions to its rim, and its
+// bearing brakes it with a torque M against its rotation relative to the carrier. Its equation
 //
 //   I w' = R (T2 - T1) - M
 //
-// has that ratio at w' = 0 if M = R (1 - e) / (1 + e) (T1 + T2): dry friction, whose bound follows
-// the sum of both tensions, so that it is the same from whichever side the cable comes. For half a
-// turn that is the load of the pin, and the law that of a journal, M = r mu (T1 + T2), with r mu =
-// R (1 - e) / (1 + e). At rest M is anything within the bound.
+// has that ratio at w' = 0 if M = R (1 - e) / (1 + e) (T1 + T2). This is dry friction whose bound
+// is proportional to the sum of both tensions, so it is the same for both directions of the cable.
+// For a wrap of half a turn that sum is the load on the pin, and the law is that of a journal, M =
+// r mu (T1 + T2), with r mu = R (1 - e) / (1 + e). At rest M is anything within the bound.
 //
-// So it is one row per wheel along its turn c on the carrier, C = c - c0, whose bounds are those of
-// friction (Row::friction) pressed by the rows of both spans; the carrier feels -M.
+// One row per wheel describes the bearing: its coordinate is the wheel's rotation c relative to the
+// carrier, C = c - c0, and its bounds are those of friction (Row::friction) pressed by the rows of
+// both spans. The carrier gets the torque -M.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +25,7 @@
 namespace sheave {
 namespace {
 
-/// Changes of the bound that are done.
+/// Relative changes of the bound up to this count as converged.
 constexpr double settled_bound = 1e-10;
 
 }  // namespace
@@ -116,7 +117,7 @@ bool CableSystem::revise_bearings(const Substep& substep) {
   for (std::size_t b = 0; b < bearings_.size(); ++b) {
     cable_parts::Bearing& bearing = bearings_[b];
     const double now = pressing(substep, bearing);
-    // Where friction does not use what it has, having more or less changes nothing.
+    // A bound that friction does not reach may change without any effect.
     const double used = std::abs(multipliers_[spans_.size() + b]) / substep.load_share;
     const double arm = links_[at(bearing.link)].bearing_arm;
     const bool matters = used >= (1.0 - 1e-9) * arm * std::min(now, bearing.pressed);

@@ -1,5 +1,4 @@
-// The course of a cable at time 0: its plane, the bodies that it can come to touch, and its part of
-// the state.
+// The course of a cable at time 0: its plane, its candidates for wraps, and its part of the state.
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +26,7 @@ void CableCompiler::find_plane(CompiledCable& cable) const {
     cable.normal = circle_of(*now_, *wheel).normal;
     cable.planar = lies_in_plane(cable.normal);
   } else {
-    // Points alone have no plane of their own; those of wrappable bodies are the ones that matter.
+    // Points have no plane of their own; candidates are the axes of wrappable bodies.
     for (const WrapCandidate& candidate : cable.candidates) {
       for (const WrapAxis& axis : candidate.axes) {
         if (cable.planar) break;
@@ -45,7 +44,7 @@ void CableCompiler::find_plane(CompiledCable& cable) const {
 void CableCompiler::find_candidates(const CableDef& def, CompiledCable& cable) {
   if (def.most_wraps == 0) return;
   for (int body = 0; body < bodies_.count(); ++body) {
-    // First, for looking at every link for every body takes minutes with 10^5 wheels.
+    // This test comes first: searching all links for every body takes minutes with 10^5 wheels.
     if (!bodies_.definition(body).wrappable) continue;
     const bool listed = std::any_of(links_.begin(), links_.end(), [&](const LinkGeometry& link) {
       return link.touched() == body && link.wraps();
@@ -70,7 +69,7 @@ bool CableCompiler::place_candidate(const CompiledCable& cable, WrapCandidate& c
   const std::optional<LinkGeometry> link =
       wrap_link(bodies_, candidate,
                 {candidate.center + to_own * (offset * cable.normal), to_own * cable.normal});
-  // A body that the cable's plane misses is never touched.
+  // The cable's plane misses the body, so the cable never touches it.
   if (!link) return false;
   candidate.link = *link;
   candidate.planar = true;
@@ -194,7 +193,7 @@ void CableCompiler::store(const CableDef& def) {
   std::vector<double> lengths = start_lengths(def);
   double total = 0.0;
   for (const double length : lengths) total += length;
-  // 50 bits for the cable's length leave 3 of a double's 53 for stretches beyond it.
+  // 50 bits for the cable's length leave 3 of a double's 53 for stretch.
   int exponent = 0;
   static_cast<void>(std::frexp(total, &exponent));
   cable.quantum = std::ldexp(1.0, exponent - 50);

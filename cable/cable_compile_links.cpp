@@ -17,7 +17,7 @@ void CableCompiler::compile_links(const CableDef& def) {
       fail(field + "/body", "there is no body number " + std::to_string(link.body.index));
       continue;
     }
-    // Those of a cable that runs have been read before.
+    // The fields of an unchanged running cable have been checked before.
     for (const auto& entry : link_types()) {
       if (same_) break;
       if (entry.name == link.type()) check_fields(entry.fields(), link.settings(), path, errors_);
@@ -33,7 +33,7 @@ void CableCompiler::compile_links(const CableDef& def) {
     placed.centered = compiled->center.isZero(0.0);
     placed.still = compiled->carrier == bodies_.count();
     if (placed.layer_pitch > 0.0) {
-      // With what is on it at time 0; the definition keeps the bare drum.
+      // The radius includes the cable wound at time 0; the definition keeps the bare drum.
       bare_radii_[static_cast<int>(system_->links_.size() + i)] = placed.signed_radius;
       placed.signed_radius = wound_radius(placed);
     }

@@ -8,7 +8,7 @@
 namespace sheave {
 namespace {
 
-/// A length to be printed for people.
+/// A length as text in a message.
 std::string metres(double length) {
   char buffer[32];
   std::snprintf(buffer, sizeof buffer, "%.6g m", length);
@@ -31,7 +31,7 @@ void CableCompiler::compile_spans(const CableDef& def) {
     setup.second = base + second;
     choose_kind(setup, a, b);
     spans_.push_back(setup);
-    if (a.starts_lifted) {  // no span yet
+    if (a.starts_lifted) {  // no span begins here at time 0
       geometry_.emplace_back();
       continue;
     }
@@ -82,7 +82,7 @@ void CableCompiler::check_span(const CableDef& def, int first, int second) {
   const std::string field = "/links/" + std::to_string(second);
   const std::string pair = link_name(first) + " and " + link_name(second);
   if (!a.wraps() && !b.wraps()) {
-    // Between points of the world it waits for what comes against it.
+    // A span between points of the world is useful if a wrappable body may come against it.
     const bool waits = a.body == bodies_.count() && def.most_wraps > 0 && any_wrappable();
     if (a.body == b.body && !a.passes() && !b.passes() && !waits)
       fail(field, pair +
@@ -107,7 +107,7 @@ void CableCompiler::explain_missing_tangent(int first, int second) {
   const double ra = std::abs(a.signed_radius);
   const double rb = std::abs(b.signed_radius);
   const double distance = (link_center(*now_, b) - link_center(*now_, a)).norm();
-  // Of a wheel from what it is joined with, out of its plane.
+  // Whether the span leaves the wheel's plane instead of passing through the wheel.
   const auto leans = [&](const LinkGeometry& wheel, const LinkGeometry& other) {
     const LinkCircle circle = circle_of(*now_, wheel);
     const Vector3 apart = link_center(*now_, other) - circle.center;
@@ -152,7 +152,7 @@ void CableCompiler::check_rest_length(const CableDef& def, int span, const SpanG
 
 double CableCompiler::start_wrap(int link, const SpanGeometry& incoming,
                                  const SpanGeometry& outgoing) const {
-  constexpr double touch = 1e-9;  // [rad] just below 0 is a touch, not a full turn
+  constexpr double touch = 1e-9;  // [rad] a slightly negative angle is a touch, not a full turn
   const LinkGeometry& wheel = links_[at(link)];
   double angle = 0.0;
   if (wheel.outline) {

@@ -1,22 +1,23 @@
-// Windings that cannot be meant, or look as if they were entered the wrong way round.
+// Checks of windings: impossible ones are errors, and ones that look like a mistake give a warning.
 //
-// Ghost turns. Where a cable is bent away from a wheel, by an angle a, no tight cable touches it;
-// but tangents on the side that the winding says exist all the same, and between them lies an arc
-// of 2 pi - a. So a wrap of almost a whole turn is one of two things: a cable that does not reach
-// its wheel, or one that has been laid round it once on purpose. Geometry cannot tell them apart,
-// the user can: the one is "lifted", the other has "turns". Without either, wraps of more than
-// `longest_wrap` are refused, in one plane or in space. That bound, 300 degrees, leaves band
-// brakes, bollards and crossed belts alone, which are wrapped by up to 270. Between two spans that
-// join the same two wheels nothing could be lifted: crossed belts round wheels that nearly touch.
+// Ghost turns. A cable that is bent away from a wheel by an angle a does not touch the wheel when
+// it is tight. Tangents on the side of the given winding exist nevertheless, with an arc of 2 pi -
+// a between them. A wrap of almost a whole turn is therefore one of two things: a cable that does
+// not reach its wheel, or a cable that was laid round it once on purpose. Geometry cannot
+// distinguish them, but the user can: the first link is "lifted", the second has "turns". Without
+// either, wraps of more than `longest_wrap` are an error, in one plane and in space. That bound,
+// 300 degrees, allows band brakes, bollards and crossed belts, which are wrapped by up to 270
+// degrees. Between two spans that join the same two wheels no link could be lifted (crossed belts
+// round wheels that nearly touch), so such links are not checked.
 //
-// The other winding. A cable that comes to a wheel and leaves it with both spans in the wheel's
-// plane cannot pass through itself, but rows know nothing of that: with the wrong winding the two
-// spans cross beside the wheel, and everything runs. Some machines mean it: a belt that is crossed,
-// a rope with whole turns, a figure of eight, a band that goes round three quarters of its drum.
-// Wound the wrong way, a wheel that turns a cable back, as most do, gets a little more than half a
-// turn. So a link is named only if its two spans cross, if they would not with the other winding,
-// if it has no whole turns and no more than 2/3 of one, and if the spans do not join the same two
-// wheels.
+// The other winding. A cable that comes to a wheel and leaves it in the wheel's plane cannot pass
+// through itself, but the rows of the solver do not know that: with the wrong winding the two spans
+// cross beside the wheel, and the simulation runs. Some machines need such crossings: a crossed
+// belt, a rope with whole turns, a figure of eight, a band round three quarters of its drum. A
+// wheel that turns a cable back, as most wheels do, is wrapped by a little more than half a turn if
+// its winding is wrong. The warning therefore names a link only if its two spans cross, if they
+// would not cross with the other winding, if its wrap is at most 2/3 of a turn without whole turns,
+// and if the spans do not join the same two wheels.
 
 #include <cmath>
 
@@ -28,7 +29,8 @@ namespace {
 
 /// Whether two spans cross between their ends, seen along `normal`.
 bool cross_each_other(const SpanGeometry& a, const SpanGeometry& b, const Vector3& normal) {
-  constexpr double margin = 1e-6;  // of a span, so that spans that end at one point do not count
+  // fraction of a span; spans that end at one point do not count as crossing
+  constexpr double margin = 1e-6;
   const Vector3 along_a = a.end - a.start;
   const Vector3 along_b = b.end - b.start;
   const Vector3 apart = b.start - a.start;

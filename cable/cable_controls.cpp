@@ -1,8 +1,6 @@
-// What has been set of cables while the world runs (engine/controls.h).
-//
-// The compiled cables that a substep reads are made anew from what was compiled and from the
-// controls of its state, so what happens depends on the state alone. A world in which nothing is
-// set never comes here.
+// Controls of cables in a running world (engine/controls.h). A substep derives the compiled cables
+// that it reads from the definitions and from the controls of its state, so the result depends on
+// the state alone. A world without controls never runs this code.
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +26,7 @@ void CableSystem::follow_state(const Substep& substep, const FeatureState& state
   const Controls& controls = substep.start.controls;
   if (controlled_ || controls.cables_any()) follow_controls(controls);
   if (!course_changes_ && has_cut(state)) expect_cuts();
-  // Planes of geodesics have turned in an attempt at this substep.
+  // An earlier attempt at this substep may have turned the planes of geodesics.
   if (course_changes_ && (!follows(state) || has_geodesics())) {
     follow_course(substep.bodies, state);
   } else if (!changing_links_.empty()) {
@@ -44,7 +42,7 @@ void CableSystem::follow_controls(const Controls& controls) {
     const CableControl* found = controls.cables.find(static_cast<int>(c));
     const CableControl& set = found != nullptr ? *found : nothing;
     const double compliance = set_or(set.compliance, defined_[c].compliance);
-    // Rows of affine spans have it, too.
+    // The rows of affine spans contain the compliance, too.
     if (compliance != cable.compliance) affine_.clear();
     cable.compliance = compliance;
     cable.breaking_tension = set_or(set.breaking_tension, defined_[c].breaking_tension);
@@ -52,7 +50,7 @@ void CableSystem::follow_controls(const Controls& controls) {
     cable.added_length = set.added_length;
     if (std::isfinite(cable.breaking_tension) && !cable.course_changes) expect_cuts();
   }
-  // Once more when the last control is gone.
+  // One more time after the last control was cleared, to restore the definitions.
   controls_links_ = controls.cables_any() || controlled_;
   controlled_ = controls.cables_any();
 }

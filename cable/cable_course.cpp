@@ -1,6 +1,7 @@
-// The order in which a cable runs over its links. Links that it does not touch are left out: each
-// link names the next one, so putting in and taking out are local, any number of times in a
-// substep. Span k always begins at link k; where that link is not touched there is no such span.
+// The order in which a cable runs over its links, as a linked list: each link names the next one
+// that the cable touches. Links that it does not touch are not in the list, so inserting and
+// removing are local and possible any number of times in a substep. Span k begins at link k; it is
+// inactive while the cable does not touch that link.
 
 #include <algorithm>
 
@@ -48,7 +49,7 @@ void CableSystem::connect_spans(const FeatureState& own, const std::vector<LinkG
       const LinkGeometry& b = links[at(setup.second)];
       const bool planar =
           cable.planar && keeps_plane(cable, i, own) && keeps_plane(cable, next, own);
-      // A hybrid end that is a point now can be wound within the substep.
+      // A hybrid end that is a point now may be wound within the substep.
       const bool points = !a.wraps() && !a.hybrid && !b.wraps() && !b.hybrid;
       setup.kind = points ? SpanKind::straight : planar ? SpanKind::planar : SpanKind::spatial;
       setup.normal = cable.normal;
@@ -60,7 +61,7 @@ void CableSystem::connect_spans(const FeatureState& own, const std::vector<LinkG
 }
 
 bool CableSystem::keeps_plane(const CompiledCable& cable, int link, const FeatureState& own) const {
-  // The listed links of a planar cable do.
+  // The listed links of a planar cable stay in its plane.
   if (link < cable.listed_links) return true;
   const std::int64_t wrap = own.integers[wrap_index(cable.first_link + link)];
   return wrap != 0 && cable.candidates[at(static_cast<int>(std::abs(wrap)) - 1)].planar;
@@ -126,8 +127,7 @@ bool CableSystem::accepts(const FeatureState& state) const {
     const CompiledCable& cable = cables_[c];
     const std::int64_t cut = integer(cut_index(static_cast<int>(c)));
     if (cut < 0 || cut > cable.span_count) return false;
-    // The course names every link that is touched once, and from the first one it comes to the end
-    // of the cable.
+    // The list must contain every touched link once and lead from the first to the cable's end.
     int on_course = 0;
     int first = -1;
     const auto candidates = static_cast<std::int64_t>(cable.candidates.size());

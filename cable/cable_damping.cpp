@@ -1,47 +1,48 @@
 // Dampers of spans that share a tension.
 //
-// A span is a spring and a damper side by side: with the stretch x = l - L, the compliance a and
-// the damping b its tension is T = x / a + b x'. Where cable passes over a link, x changes by what
-// passes, too, and the damper resists that as it does any other change: it is the same material
-// that is stretched. So in a run with the tensions T_i = k_i T each span has its own law, by
-// implicit Euler with the stretch x0_i at the start and g_i = a_i b / h
+// A span is a spring and a damper in parallel: with the stretch x = l - L, the compliance a and the
+// damping b its tension is T = x / a + b x'. Cable that passes over a link changes x, too, and the
+// damper resists this change like any other, because it stretches the same material. In a run with
+// the tensions T_i = k_i T each span therefore has its own law. By implicit Euler, with the stretch
+// x0_i at the start and g_i = a_i b / h, it is
 //
 //   a_i k_i T = x_i + g_i (x_i - x0_i)     =>     x_i = (a_i k_i T + g_i x0_i) / (1 + g_i).
 //
-// Of the x_i only the sum is known before T is, since what passes leaves that as it is. It gives T:
+// Before T is known, only the sum X of the x_i is known, because passing cable does not change it.
+// The sum determines T:
 //
 //   sum of x_i = X     =>     T sum of a_i k_i / (1 + g_i) = X - sum of g_i x0_i / (1 + g_i),
 //
-// which engine/solvers/row_system.h solves (Row::past), and then each x_i, so what passes. Only if
-// all g_i are equal does the sum behave like one damped spring; a material's g_i = L_i b / (EA h)
-// go with the lengths. With the g of a sum but strains in the ratio of the tensions, spans that
-// slide get another force than the same spans would have with the link held, and there are states
-// in which a link can neither hold nor slide.
+// which engine/solvers/row_system.h solves (Row::past). T then determines each x_i and the cable
+// that passes. The sum behaves like one damped spring only if all g_i are equal; with a material,
+// g_i = L_i b / (EA h) is proportional to the length. If a run used the g of the sum but strains in
+// the ratio of the tensions, spans that slide would get another force than the same spans with the
+// link held, and there would be states in which a link can neither hold nor slide.
 //
-// Of a material the same holds for strains, with e for x, 1 / EA for a, and g_i of the length that
-// the span has before anything passes: k_i T / EA = e_i + g_i (e_i - e0_i). What passes comes in
-// with the strain that is there, as cable/cable_material.cpp has it.
+// With a material the same holds for strains, with e for x, 1 / EA for a, and g_i of the length
+// that the span has before cable passes: k_i T / EA = e_i + g_i (e_i - e0_i). Passing cable comes
+// in with the strain of the span, as in cable/cable_material.cpp.
 //
-// `rattle` has the force of the middle of the substep, F = T there:
+// `rattle` uses the force F at the middle of the substep, F = T there:
 //
 //   2 a_i k_i F = x_i + x0_i + 2 g_i (x_i - x0_i)
 //     =>     x_i = (a_i k_i F + (g_i - 1/2) x0_i) / (1 + (g_i - 1/2)).
 //
-// That is the law above with g_i - 1/2 for g_i. Where g_i < 1/2, because the span's time constant
-// a_i b is shorter than half a substep, it would swing about the ratio of the tensions from one
-// substep to the next; there the share is 0, and the strain is in that ratio at once, as without
-// dampers. The sum, and with it the force, has the law with g_i in any case. Then the x_i so found
-// do not add up to X with that F; so they are those of the F for which they do.
+// That is the law above with g_i - 1/2 for g_i. For g_i < 1/2 the span's time constant a_i b is
+// shorter than half a substep, and x_i would oscillate about the ratio of the tensions from one
+// substep to the next. The share is then 0, and the strain has that ratio at once, as without
+// dampers. The sum, and with it the force, obeys the law with g_i in any case. The x_i found with
+// that F do not add up to X then; the code uses those of the F for which they do.
 //
-// Whether a link with friction holds is asked of the means of both ends, though, and where a span
-// began with another strain, because the link held, the ratio at the end can come about by sliding
-// back alone while the mean asks for sliding on. Then the run slides by the law itself, with
-// g_i - 1/2 < 0: what passes makes the mean what the link carries. It goes beyond the ratio, so that
-// the link holds in the next substep.
+// Whether a link with friction holds depends on the mean tensions of both ends, however. If a span
+// began with another strain, because the link held, the ratio at the end may be reachable only by
+// sliding back while the mean requires sliding on. The run then slides by the law itself, with g_i
+// - 1/2 < 0: the passing cable brings the mean to the link's bound. The strain at the end exceeds
+// the ratio, so the link holds in the next substep.
 //
-// A span that is slack at the start, x0 < 0, has a damper that begins where it is taut: x0 = 0.
-// Where no span of a run has a tension each comes out of its stretch at the speed that its damper
-// allows, x_i = x0_i g_i / (1 + g_i), and takes what it needs for that from slack ones.
+// The damper of a span that is slack at the start, x0 < 0, begins where the span becomes taut: x0 =
+// 0. If no span of a run has a tension, each loses its stretch at the speed that its damper allows,
+// x_i = x0_i g_i / (1 + g_i), and takes the cable for that from slack spans.
 
 #include <algorithm>
 
@@ -51,8 +52,8 @@
 namespace sheave {
 namespace {
 
-/// What a span that begins at the link gains from the rim of a massless wheel that goes on turning
-/// [m], and one that ends there loses, where its row does not have it.
+/// Length that a span gains at its first link from the rim of a massless wheel that keeps turning
+/// [m], and loses at its second, if the span's row does not contain it.
 double spun_off(const Substep& substep, const LinkGeometry& link, const Row& row) {
   if (!link.massless || link.wheel >= 0) return 0.0;
   for (const RowTerm& term : row.active_terms()) {
@@ -84,11 +85,11 @@ CableSystem::SpanDamping CableSystem::damping_of(const Substep& substep, const C
     damping.share -= 0.5;
     if (!means) damping.share = std::max(damping.share, 0.0);
     const auto [value, compliance] = start_values_[at(span)];
-    // A material's strain is the same, whatever the length is at either end.
+    // The strain of a material does not depend on the length at either end.
     start = compliance > 0.0 ? value * (row.compliance / compliance) : value;
   } else if (const SpanSetup& setup = spans_[at(span)];
              slides_on(setup.first) || slides_on(setup.second)) {
-    // What a tangent point moves along an arc is not in the value.
+    // The value does not contain the motion of a tangent point along an arc.
     damping.start = strains_[at(span)];
     return damping;
   } else {
@@ -107,7 +108,7 @@ void CableSystem::damp_row(const CompiledCable& cable, const StretchedSpan* mate
   const double spring_length =
       cable.inverse_stiffness > 0.0 ? row.compliance / cable.inverse_stiffness : 1.0;
   row.past = -damping.start * spring_length;
-  // The same g, of the length before anything passes.
+  // The same g, for the length before cable passes.
   if (material != nullptr && spring_length > 0.0) {
     row.damping = cable.damping * (material->spring_length / spring_length);
   }

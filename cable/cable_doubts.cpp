@@ -1,17 +1,19 @@
-// Conditions that the model of a cable does not vouch for: spans without a tangent, attachments that
-// come to a wheel, wraps that leave their plane, bodies that find no place for a wrap.
+// Conditions in which the model of a cable does not hold: spans without a tangent, attachments that
+// reach a wheel, wraps that leave their plane, bodies that find no place for a wrap.
 //
-// An attachment between two spans holds the cable at one point of it, and cable that comes to a
-// wheel is laid onto it: drawn on, the attachment comes to where its span touches the rim. There it
-// would stay in the cable's way: the cable behind it has to be laid onto the wheel, too, and is
-// not, so its span runs through the wheel, and whatever moves then is no machine's motion. A grip that
-// passes, of a chairlift, is another machine. So that is where the motion ends: when the span
-// beyond an attachment beside a wheel begins to cut that wheel, or when a body has come inside one
-// to which it is attached, where there is no tangent.
+// An attachment between two spans holds the cable at one of its points. Cable that comes to a wheel
+// is laid onto it. If the cable is drawn on, the attachment reaches the point where its span
+// touches the rim. The cable behind the attachment would then have to be laid onto the wheel, too,
+// which the model cannot do; its span would run through the wheel, and the further motion would be
+// that of no machine. (The grip of a chairlift, which passes wheels, is a different machine.) The
+// motion therefore ends there: when the span on the attachment's other side begins to cut the wheel
+// next to the attachment, or when a body has come inside a wheel to which it is attached, where no
+// tangent exists.
 //
-// A wrap on a body in space lies in the plane in which the cable came onto it, as in a groove. On a
-// smooth body it would lie along a geodesic, which leaves that plane where a span leans out of it,
-// or where what the two spans pull with together points out of it: nothing but a groove holds that.
+// A wrap on a body in space lies in the plane in which the cable came onto the body, as in a
+// groove. On a smooth body it would follow a geodesic. A geodesic leaves that plane where a span
+// leans out of the plane, or where the sum of the forces of both spans has a component normal to
+// the plane; only a groove can balance that component.
 
 #include <algorithm>
 #include <cmath>
@@ -47,8 +49,8 @@ void CableSystem::begin_grips(const Substep& substep) {
 }
 
 void CableSystem::check_grips(const Substep& substep) {
-  // Farther away than that, it is something else that crosses the wheel, beside it.
-  constexpr double near = 2.0 / (2.0 * pi);  // of the perimeter: two radii
+  // Beyond this distance another part of the cable crosses the wheel, not the attachment.
+  constexpr double near = 2.0 / (2.0 * pi);  // times the perimeter: two radii
   std::size_t visited = 0;
   for_each_grip([&](int, int span, int wheel, int beyond) {
     const LinkGeometry& link = links_[at(wheel)];
@@ -72,12 +74,12 @@ void CableSystem::note_missing_tangent(Substep& substep, int span) {
   const int link = wheel_first ? setup.first : setup.second;
   if (point.wraps() || point.hybrid || !wheel.lifts || wheel.outline) return;
   if (link > cables_[at(setup.cable)].last_listed_link()) return;
-  // A body that moves as it is told may be led through a wheel, as by a pointer; a warning tells.
+  // A kinematic body may be led through a wheel, as by a pointer; there is a warning for that.
   if (point.body < substep.bodies.count() &&
       substep.bodies[point.body].mobility == Mobility::kinematic) {
     return;
   }
-  // Farther away than that, a span without a tangent leans out of the wheel's plane.
+  // Beyond this distance the tangent is missing because the span leans out of the wheel's plane.
   constexpr double beside_squared = 2.0;
   const LinkCircle circle = circle_of(substep, wheel);
   const Vector3 apart = center_of(substep, point, 0) - circle.center;
@@ -103,8 +105,8 @@ std::string CableSystem::dead_end(const Substep& substep) const {
 }
 
 void CableSystem::note_leans(const Substep& substep, const CompiledCable& cable) {
-  constexpr double most = 0.0174524064372835;  // sine of a degree
-  // Of a cable that hardly lies on a body nobody can say where it pulls.
+  constexpr double most = 0.0174524064372835;  // sine of 1 degree
+  // Below this resultant the cable hardly touches the body, and its direction is undefined.
   constexpr double least_pull = 1e-3;
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     const int link = spans_[at(k)].second;

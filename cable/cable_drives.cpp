@@ -1,27 +1,27 @@
-// Drives that would need cable which is not there.
+// Drives that need more cable than there is.
 //
-// A prescribed rotation turns whatever pulls at it, and a feed likewise. Between links over which
-// cable does not pass unless their bodies turn by themselves (driven wheels, what stands still, the
-// cable's ends) lies a chain of spans, whose rest lengths together change by what drives feed and
-// draw. Two things limit what can be drawn:
+// A prescribed rotation turns against any load, and so does a feed. A chain is the sequence of
+// spans between two links over which cable passes only if their bodies turn by themselves (driven
+// wheels, fixed points, the cable's ends). The sum of a chain's rest lengths changes only by the
+// cable that drives feed and draw. Two conditions limit the cable that can be drawn:
 //
-// - No rest length is below 0. What the chain has, and what is wound on a free drum at its end, is all that there is: a
-//   load has come up to its drum.
-// - Where nothing but drives can move any part of a rigid chain (wheels on fixed axles may turn in between: they gain for
-//   one span what they take from the other), rest lengths are no shorter than the spans: a belt over two wheels that are
-//   driven at different speeds.
+// - No rest length is below 0. The rest lengths of the chain and the cable wound on a free drum at
+//   its end are all the cable there is: a load has reached its drum.
+// - If only drives can move any part of a rigid chain, rest lengths are not shorter than the spans:
+//   a belt over two wheels that are driven at different speeds. (Wheels on fixed axles between the
+//   spans may turn: they give to one span the cable that they take from the other.)
 //
-// And from a drum that is not round no more can be paid out than is on it. (A round one then holds
-// the cable by its rim.)
+// And no more cable can be paid out from a drum that is not round than is stored on it. (A round
+// drum then holds the cable's end by its rim.)
 //
-// What is drawn beyond that, nothing can give. The drives that draw then stall: of their way in the
-// substep they do the share for which it is enough, and at its end they have the speed at which
-// they draw what is fed; the other drives go on. If a drive that is slowed down feeds another
-// chain, that one may be short in turn, and so on; shares only fall. So lengths stay where they can
-// be, none is lost, and the solver meets no rows that contradict each other.
+// A drive that would draw more than that stalls: it does the fraction of its motion in the substep
+// for which the cable suffices, and at the end of the substep it has the speed at which it draws
+// exactly the cable that is fed. Other drives continue. A slowed drive may feed another chain,
+// which then may lack cable in turn, and so on; the fractions only decrease. Lengths thus remain
+// possible, no cable is lost, and the solver gets no contradictory rows.
 //
-// A drum that has drawn all cable stays locked until its drive turns the other way or stops, though
-// its load, thrown up as the drum stops, may unwind a little: the load is at the drum.
+// A drum that has drawn all cable stays locked until its drive turns the other way or stops, even
+// if the load swings up when the drum stops and could unwind a little.
 
 #include <algorithm>
 #include <cmath>
@@ -34,17 +34,17 @@
 namespace sheave {
 namespace {
 
-/// What rounding leaves of lengths that are drawn and fed alike, relative to both together; the
-/// next substep finds it again.
+/// Rounding error of lengths that are drawn and fed equally, relative to both together. The next
+/// substep corrects it.
 constexpr double overlooked = 1e-9;
 
-/// By how much its drive turns body `index` in the substep if it does its whole share [rad].
+/// Rotation of body `index` by its drive in the substep, at its whole share [rad].
 double driven_turn(const Substep& substep, int index) {
   return BodyDrive(substep.bodies[index], substep.start.controls, index)
       .turn(substep.start.time, substep.next.time);
 }
 
-/// The largest lever that a cable has on the link's body [m].
+/// Largest lever arm of a cable on the link's body [m].
 double reach_of(const LinkGeometry& link) {
   return link.outline ? 0.5 * link.perimeter() : std::abs(link.signed_radius);
 }
@@ -122,7 +122,7 @@ void CableSystem::limit_drives(Substep& substep) {
     add_stored_cable(substep, cable);
   }
   if (drive_work_.chains.empty()) return;
-  // Slower drives may leave others short; where that goes on and on they stop.
+  // Slowed drives may leave other chains short. After so many rounds the drives stop.
   constexpr int patience = 50;
   const int most = patience + static_cast<int>(drive_work_.pulls.size());
   bool short_of_cable = true;
@@ -143,7 +143,7 @@ void CableSystem::limit_drives(Substep& substep) {
 }
 
 bool CableSystem::stall(Substep& substep, const Chain& chain, bool altogether) {
-  std::array<double, 2> fed{};  // way [m] and speed [m/s] of cable
+  std::array<double, 2> fed{};  // length [m] and speed [m/s] of the moved cable
   std::array<double, 2> drawn{};
   double gross = 0.0;
   const auto pulls =
@@ -181,7 +181,7 @@ void CableSystem::find_chains(Substep& substep, const CompiledCable& cable) {
   int first = first_active_span(cable, spans_);
   if (first < 0) return;
   if (cable.closed) {
-    // Begin behind a link that ends a chain; if there is none, the ring is one.
+    // Begin behind a link that ends a chain; without one the ring is one chain.
     for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
       if (!spans_[at(k)].active || !ends_chain(bodies, links_[at(spans_[at(k)].second)])) continue;
       first = next_span(cable, k);
@@ -221,8 +221,8 @@ void CableSystem::end_chain(const Substep& substep, const CompiledCable& cable, 
   chain.pull_count = static_cast<int>(drive_work_.pulls.size()) - chain.first_pull;
   chain.moves = lengths.moves;
   chain.available = lengths.moves ? lengths.rest_length : lengths.rest_length - lengths.length;
-  // Points that a drive moves change the spans, which matters where these have to be as long as
-  // they are.
+  // Points that a drive moves change the lengths of spans. That matters only if rest lengths are
+  // limited by the spans.
   const auto begin = drive_work_.pulls.begin() + chain.first_pull;
   if (lengths.moves) {
     for (auto pull = begin; pull != drive_work_.pulls.end(); ++pull) {
@@ -253,7 +253,7 @@ void CableSystem::add_to_chain(const Substep& substep, int span, ChainLengths& l
     const LinkGeometry& link = links_[at(index)];
     if (link.feeds) {
       const double fed = fed_[at(span)][at(end)];
-      // What is fed is in the rest length already.
+      // The rest length already contains the fed cable.
       lengths.rest_length -= fed;
       add_pull({index, span, end, fed, link.feed_end_speed, std::abs(fed), 0.0, 0.0});
     }
@@ -261,7 +261,7 @@ void CableSystem::add_to_chain(const Substep& substep, int span, ChainLengths& l
     if (!body.prescribed()) continue;
     const double turn = driven_turn(substep, link.body);
     const double speed = substep.driven_speed(link.body);
-    // As in the gradient of the span's row.
+    // The lever as in the gradient of the span's row.
     const Vector3& point = end == 0 ? geometry.start : geometry.end;
     const Vector3 arm = cross(point - substep.position(link.body), geometry.direction);
     const double lever = (end == 0 ? 1.0 : -1.0) * dot(body.axis, arm);
@@ -296,8 +296,8 @@ void CableSystem::add_stored_cable(const Substep& substep, const CompiledCable& 
 }
 
 void CableSystem::add_pull(const Pull& pull) {
-  // A wheel that cable passes, or that has both ends of the chain, draws only what it does not
-  // feed.
+  // For a wheel that cable passes, or at which both ends of the chain lie, only the difference of
+  // drawn and fed cable counts.
   for (std::size_t i = at(drive_work_.chains.back().first_pull); i < drive_work_.pulls.size();
        ++i) {
     Pull& other = drive_work_.pulls[i];
@@ -321,7 +321,7 @@ void CableSystem::wind(int span, const SpanTransport& transport, FeatureState& n
   const std::array<int, 2> ends{setup.first, setup.second};
   const std::array<double, 2> amounts{transport.from_first, transport.from_second};
   std::array<double, 2> moved{};
-  // What is smaller than the quantum waits for the next substep.
+  // The part below the quantum waits for the next substep.
   for (std::size_t end = 0; end < 2; ++end) {
     if (!links_[at(ends[end])].wraps()) continue;
     double& remainder = next.reals[remainder_index(span, static_cast<int>(end))];
@@ -332,7 +332,7 @@ void CableSystem::wind(int span, const SpanTransport& transport, FeatureState& n
   for (std::size_t end = 0; end < 2; ++end) {
     double& stored = next.reals[stored_length_index(ends[end])];
     if (moved[end] > stored && runs_out(cable, ends[end])) {
-      // The cable's end slides over the edge that it has come to.
+      // The cable's end slides over the edge of the drum.
       next.reals[slip_index(ends[end])] += (end == 0 ? -1.0 : 1.0) * (moved[end] - stored);
       moved[end] = stored;
       drive_work_.slid[at(ends[end])] = 1;
@@ -344,7 +344,7 @@ void CableSystem::wind(int span, const SpanTransport& transport, FeatureState& n
   }
 }
 
-// Wheels that would take in cable which is not there: it slides over them instead.
+// Lets cable slide over a wheel that would take more than the span has.
 void CableSystem::slide_over_ends(int span, std::array<double, 2>& moved, FeatureState& next) {
   double missing = -(next.reals[rest_length_index(span)] + moved[0] + moved[1]);
   for (std::size_t end = 0; end < 2; ++end) {

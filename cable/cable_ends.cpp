@@ -1,29 +1,30 @@
 // Ends of a cable that change: hybrid links and drums, whose cable may be used up, and attachments
 // that feed cable.
 //
-// A hybrid end is wound one way (as defined), wound the other way, or attached. Wound, it becomes
-// attached when its stored length falls below 0: the cable then ends at the point of the rim that
-// lies |s| before the tangent point in the direction of the free cable, and the negative s goes
-// into the span's rest length, so none is lost. Attached, it is wound again when the free cable
-// would run through the wheel, which is when its direction away from the wheel and the radius to
-// the attachment enclose more than a right angle; the arc between attachment and tangent is then
-// stored.
+// A hybrid end is wound as defined, wound the other way, or attached. A wound end becomes attached
+// when its stored length s falls below 0. The cable then ends at the point of the rim that lies |s|
+// before the tangent point in the direction of the free cable, and the negative s goes into the
+// span's rest length, so no cable is lost. An attached end is wound again when the free cable would
+// run through the wheel, that is, when the angle between the cable's direction away from the wheel
+// and the radius to the attachment exceeds a right angle. The arc between attachment and tangent
+// point is then stored.
 //
-// Over a small arc r a the two descriptions of a path differ in length by r a^3 / 6, and a row
-// whose value jumped by that under a tension T would make the energy T r a^3 / 6: up to 6e-5 J per
-// event in paper/hybrid at 240 Hz, which xpbd's damping hides and `rattle` does not. So lengths are
-// kept and arcs give way: what is stored is by how much the free cable becomes shorter, and the
-// attachment lies where the free cable is |s| shorter than from the tangent point. The attachment
-// moves along the rim by those r a^3 / 6, the one way at one end of its winding and the other way
-// at the other.
+// For a small arc r a the two descriptions of a path differ in length by r a^3 / 6. A row whose
+// value jumped by that under a tension T would create the energy T r a^3 / 6: up to 6e-5 J per
+// event in paper/hybrid at 240 Hz, which the damping of xpbd hides and `rattle` does not. Lengths
+// are therefore kept and arcs adapted: the stored length is the length by which the free cable
+// becomes shorter, and the attachment lies where the free cable is |s| shorter than from the
+// tangent point. The attachment moves along the rim by r a^3 / 6, in opposite directions at the two
+// ends of its winding.
 //
-// That is a law of small angles. The last of the cable runs off, and the rim with the attachment
-// turns, within a substep by what its force and speed make of it, and a row is linear: beyond a
-// part of a radian the arm that the cable has at the end of the substep is not the one that it has
-// had, an attachment that has gone round is taken for one that has gone back, and lengths would
-// have to be less than nothing. Load and light drum jerk each other at the end of a cable, so that
-// is the rule there, and it made energy without a bound. So such a substep has failed, and is done
-// in parts in which the rim turns by no more (engine/substep_driver.h).
+// This is a law of small angles. At the end of a cable, the last of it runs off and the rim turns
+// with the attachment within one substep, as far as force and speed take it, and rows are linear.
+// For a rotation of a large part of a radian the lever arm at the end of the substep is not the one
+// during it, an attachment that has gone round would count as one that has gone back, and lengths
+// would have to be negative. A load and a light drum always jerk each other at the end of a cable,
+// so large rotations are the rule there; they created energy without a bound. A substep with such a
+// rotation has failed, and the engine repeats it in parts with smaller rotations
+// (engine/substep_driver.h).
 
 #include <algorithm>
 #include <cmath>
@@ -39,12 +40,12 @@ constexpr int wound = 0;       ///< as defined
 constexpr int wound_back = 1;  ///< the other way round
 constexpr int attached = 2;
 
-/// The most that a rim may turn in a substep while the cable's end is at a point of it [rad], by
-/// the way it goes and by its speeds at both ends, and be turned beyond the end of what was wound.
-/// The trapezoidal rule does the work of a force whose arm turns by an angle a with an error of its
-/// share a^2 / 12, and the half impulse p of a force before the turn and the one behind it leave
-/// kinetic energies p^2 J W J^T / 2 that differ by their share a^2. Implicit Euler takes a share
-/// a^2 / 2, and gives none as long as it is on the right side of the turn.
+/// Largest rotation of a rim in a substep while the cable's end is at a point of it [rad]: its
+/// path, h times its speeds at both ends, and its rotation beyond the end of the wound cable. The
+/// trapezoidal rule computes the work of a force whose arm turns by an angle a with a relative
+/// error of a^2 / 12. The half impulses p of a force before and after the rotation leave kinetic
+/// energies p^2 J W J^T / 2 that differ by a^2 of their value. Implicit Euler dissipates a fraction
+/// a^2 / 2, and creates no energy as long as it is on the right side of the rotation.
 constexpr double most_turn = 0.1;
 constexpr double most_turn_of_euler = 0.3;
 
@@ -53,13 +54,13 @@ struct PlaneAxes {
   Vector3 y;
 };
 
-/// Axes in the link's plane, from which the angle of an attachment is counted.
+/// Axes in the link's plane; the angle of an attachment is counted from x.
 PlaneAxes axes_of(const LinkGeometry& link) {
   const Vector3 y = any_perpendicular(link.rim_normal);
   return {y.cross(link.rim_normal), y};
 }
 
-/// Makes `link` a point of the rim, at `angle`.
+/// Turns `link` into the point of the rim at `angle`.
 void attach_at(LinkGeometry& link, double radius, double angle) {
   const PlaneAxes axes = axes_of(link);
   link.side = 0;
@@ -121,7 +122,7 @@ void CableSystem::change_ends(const Substep& substep, FeatureState& next) {
       change_end(substep, cable, cable.first_link, cable.first_span, true, next);
     }
     if (definitions_[at(last_link)].hybrid) {
-      // Not simply the last span: the cable may have left the link before.
+      // The cable may have left links before this one, so the span is not always the last.
       change_end(substep, cable, last_link, span_before(cable, last_link, spans_), false, next);
     }
   }
@@ -194,16 +195,16 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
   const SpanGeometry geometry = geometry_of(substep, span);
   const double strain = strain_of(cable, geometry.length, rest_length);
   if (mode != attached) {
-    // From the tangent point along the free cable: with the cable's run at its first link, against
-    // it at its last.
+    // The direction from the tangent point along the free cable: along the cable at its first link,
+    // against it at its last.
     const double sense = first ? links_[at(index)].side : -links_[at(index)].side;
     const double missing = stored * (1.0 + strain);  // < 0
     const double wanted = geometry.length + missing;
     const Vector3 leaves = first ? geometry.start : geometry.end;
     const Vector3 own = orientation.conjugate() * (leaves - center);
     double angle = portable::atan2(axes.y.dot(own), axes.x.dot(own)) - sense * missing / radius;
-    // The free cable gets shorter by r per radian, but for a share of a^2 / 2, by which each round
-    // leaves less.
+    // The free cable becomes shorter by r per radian, except for a relative error a^2 / 2, so each
+    // round reduces the error.
     constexpr int rounds = 6;
     for (int round = 0; round < rounds && -missing < radius; ++round) {
       angle += sense * (attached_span(substep, index, span, angle).length - wanted) / radius;
@@ -221,8 +222,8 @@ void CableSystem::change_end(const Substep& substep, const CompiledCable& cable,
   const Vector3 outward = attachment - center;
   if (!(dot(away, outward) < 0.0)) return;
   const Vector3 normal = orientation * definition.rim_normal;
-  const int around =
-      dot(away, cross(normal, outward)) >= 0.0 ? 1 : -1;  // of the way out of the wheel
+  // direction of the shorter way out of the wheel
+  const int around = dot(away, cross(normal, outward)) >= 0.0 ? 1 : -1;
   LinkGeometry wheel = definition;
   wheel.side = first ? around : -around;
   wheel.signed_radius = wheel.side * radius;
@@ -247,7 +248,7 @@ void CableSystem::feed(const FeatureState& state, double h, int span) {
   auto& [first, second] = fed_[at(span)];
   first = links_[at(setup.first)].feed_speed * h;
   second = links_[at(setup.second)].feed_speed * h;
-  // No more can be taken out than there is.
+  // No more cable can be taken out than there is.
   const double rest_length = std::max(state.reals[rest_length_index(span)], 0.0);
   const std::array wanted{first, second};
   first = std::max(first, -rest_length);

@@ -1,4 +1,4 @@
-// Cables measured at the end of a substep, from the lengths that it has found anyway.
+// Measures of cables at the end of a substep, from lengths that the substep has computed anyway.
 
 #include <algorithm>
 
@@ -14,8 +14,8 @@ bool CableSystem::gauge(const FeatureState& own, std::vector<CableGauge>& gauges
     const CompiledCable& cable = cables_[c];
     const bool rigid = cable.compliance == 0.0 && cable.inverse_stiffness == 0.0;
     const bool cut = own.integers[cut_index(static_cast<int>(c))] != 0;
-    // Of a span that is all but used up there is no stretch worth the name; it counts against this
-    // share of the cable.
+    // The stretch of a span that is almost used up has no meaning; its divisor is this fraction of
+    // the cable.
     const double shortest = 1e-6 * cable.start_length;
     CableGauge gauge;
     double fed = cable.added_length;

@@ -1,14 +1,16 @@
-// Tensions that no body decides: those of spans that nothing can lengthen, as
-// cable/cable_friction.cpp has them.
+// Tensions that no body determines: those of spans that no motion lengthens (see
+// cable/cable_friction.cpp).
 //
-// While the links around them hold, statics leaves such a tension open within the cones of its
-// neighbours, and so beside a dead end. It keeps what it had, which is what the last slip left, if
-// that is inside, or takes the nearest value that is.
+// While the links around such spans hold, statics leaves the tension undetermined within the
+// friction cones of its neighbours and next to dead ends. The tension keeps its last value, which
+// the last slip has left, if the cones contain that value, and otherwise takes the nearest value
+// within them.
 //
-// Over a free wheel between such spans cable may slide while nothing else moves: a rope from a wall
-// over a spinning brake drum into a rough eyelet. Their common row then asks for nothing, but the
-// difference of their tensions turns the wheel. So it is a force that is given: in every round
-// what the neighbours of the round before hold, in the first one what there was before.
+// Over a free wheel between such spans cable may slide while no other body moves: a rope from a
+// wall over a spinning brake drum into a rough eyelet. Their common row then has no residual, but
+// the difference of their tensions turns the wheel. It is therefore a given force: in every round
+// the force that the neighbours of the last round hold, in the first round that of the last
+// substep.
 
 #include <algorithm>
 #include <cmath>
@@ -21,19 +23,19 @@
 namespace sheave {
 namespace {
 
-/// Nothing pulls, as the logarithm of a tension.
+/// Logarithm of a zero tension.
 constexpr double slack_pull = -std::numeric_limits<double>::infinity();
 
-/// Rounds that change a given force by less than this share of it are done.
+/// Relative changes of a given force up to this count as converged.
 constexpr double settled_share = 1e-10;
 
-/// So many of them in a substep come nearer to nothing.
+/// Further changes in a substep would not bring it nearer to convergence.
 constexpr int most_changes = 20;
 
 }  // namespace
 
 bool CableSystem::turns_wheel(const Substep& substep, const CompiledCable& cable, Run run) const {
-  // Of the body that holds the whole run, which moves as one with it, no part turns.
+  // A body that holds the whole run moves with it as one, so the run does not turn it.
   const int holds = links_[at(spans_[at(run.first)].first)].body;
   for (int i = 0, k = run.first; i + 1 < run.count; ++i, k = next_span(cable, k)) {
     const LinkGeometry& between = links_[at(spans_[at(k)].second)];
@@ -64,7 +66,7 @@ void CableSystem::find_given(const Substep& substep, const CompiledCable& cable)
 void CableSystem::give(const Substep& substep, const CompiledCable& cable,
                        const RunWeights& heaviest, Row& row) {
   find_given(substep, cable);
-  // Bounds are those of the unknown of the run.
+  // Bounds refer to the unknown of the run.
   const double most = substep.load_share < 1.0 ? heaviest.start : heaviest.now;
   row.lower = row.upper = portable::exp(given_.pulls[at(row.index)] + most);
 }
@@ -103,11 +105,11 @@ void CableSystem::hold_all(const Substep& substep, const CompiledCable& cable, H
 
 void CableSystem::hold_between(const Substep& substep, const CompiledCable& cable, Held what,
                                std::size_t first, std::size_t last) {
-  // What was given has acted.
+  // Given forces have acted already.
   const auto open = [&](const Piece& p) {
     return p.kind != Piece::Kind::moves && !(what == Held::reported && p.turns);
   };
-  // The cone that what lies behind leaves for each of them.
+  // The cone that the pieces behind each piece leave for it.
   double low = slack_pull;
   double high = -slack_pull;
   for (std::size_t i = last + 1; i-- > first;) {
@@ -126,7 +128,7 @@ void CableSystem::hold_between(const Substep& substep, const CompiledCable& cabl
     piece.high = high;
   }
   const double square = substep.h * substep.h;
-  bool known = false;  // what lies before
+  bool known = false;  // whether the piece before has a tension
   double pull = 0.0;
   for (std::size_t i = first; i <= last; ++i) {
     Piece& piece = pieces_[i];

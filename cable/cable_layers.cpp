@@ -1,12 +1,12 @@
-// Drums with layers: the radius belongs to the value of the row.
+// Drums with layers: the value of the row contains the radius.
 //
-// With the pitch p a drum of radius r0 that holds s has the radius q = sqrt(r0^2 + p s / pi),
-// because s is the integral of q = r0 + p angle / 2 pi over the angle. Where the span leaves the
-// drum depends on q, and what is wound on by then, hence q, on where the span leaves it. Taken at
-// the start of a substep, q would jump at its end, and the span's length with it by T dq per
-// substep: energy of first order in dq, however small the step. So q is found for the positions at
-// hand, by the secant method, since it hardly depends on itself (by p / 2 pi over the span's length
-// and by p angle / 2 pi q).
+// With the pitch p a drum of radius r0 that stores s has the radius q = sqrt(r0^2 + p s / pi),
+// because s is the integral of q = r0 + p angle / 2 pi over the angle. The tangent point depends on
+// q. The cable wound until then, and hence q, depends on the tangent point. If q were taken at the
+// start of a substep, it would jump at the end and the span's length with it, which creates the
+// energy T dq per substep, of first order in dq however small the step. Therefore q is solved for
+// the present positions, by the secant method, since q hardly depends on itself (by p / 2 pi over
+// the span's length and by p angle / 2 pi q).
 //
 // The row's gradient is exact (cable/span_row.h).
 
@@ -20,7 +20,7 @@
 namespace sheave {
 namespace {
 
-/// Solves q = f(q) by the secant method, one f at a time.
+/// Solves q = f(q) by the secant method, one evaluation of f at a time.
 class LayerRadius {
  public:
   LayerRadius(const LinkGeometry& link, double sense)
@@ -31,8 +31,8 @@ class LayerRadius {
         radius_(start_) {}
 
   [[nodiscard]] bool changes() const { return pitch_ > 0.0; }
-  /// Takes what the drum has taken on with the radius so far [m], and finds a better one. Whether
-  /// there was one.
+  /// Takes the length that the drum has taken on with the present radius [m] and improves the
+  /// radius. False if the radius has converged.
   bool improve(double taken_on) {
     if (!changes()) return false;
     const double found = std::sqrt(std::max(start_ * start_ + pitch_ * taken_on / pi, 0.0));

@@ -1,47 +1,49 @@
-// Cable of a material (`axial_stiffness` EA) that comes onto wheels and off them with its strain.
+// Cable with a material (`axial_stiffness` EA) that comes onto wheels and off them with its strain.
 //
 // Lengths in the state are unstretched: L of a span, s of a link. A rim that turns by an arc moves
-// arc / (1 + strain) of that, with the strain e = l / L - 1 of the span for what comes onto the
-// link, and the strain w with which it lies there for what comes off (cable/stored_strain.h). With
-// the arcs `on` and G = the unstretched length that `off` brings (where the cable slides over the
-// rim instead: cable/strained_arcs.cpp),
+// the unstretched length arc / (1 + strain). For cable that comes onto the link, the strain is that
+// of the span, e = l / L - 1; for cable that comes off, it is the strain w with which the cable
+// lies there (cable/stored_strain.h). With the arcs `on`, and G = the unstretched length of the
+// arcs `off` (for cable that slides over the rim see cable/strained_arcs.cpp),
 //   dL = dG - d(on) / (1 + e)     =>     L de = dl + d(on) - (1 + e) dG.
-// Energy: of the span EA e^2 L / 2, of what is stored EA / 2 times the integral of w^2 over its
-// unstretched length. With the tension T = EA e and d(off) = (1 + w) dG,
+// Energy: EA e^2 L / 2 of the span, and EA / 2 times the integral of w^2 over the unstretched
+// length of the stored cable. With the tension T = EA e and d(off) = (1 + w) dG,
 //   d(energy) = T (dl + d(on) - d(off)) - EA (e - w)^2 / 2 dG.
-// So the force is T along the span's direction and T R on the rims, as of a rigid cable: the row's
-// gradient stays what it is. And what comes off with another strain than the span's loses EA (e -
-// w)^2 / 2 per unstretched length: the creep of belts (Grashof). A driving wheel's rim runs with
-// the tight side, a driven one's with the slack side, so the rims' speeds have the ratio (1 +
-// e_slack) / (1 + e_tight), 1 - (T1 - T2) / EA to first order. `creep_loss` adds it up.
+// The force is therefore T along the span's direction and T R on the rims, as for a rigid cable:
+// the row's gradient is the same. Cable that comes off with another strain than that of the span
+// loses EA (e - w)^2 / 2 per unstretched length: the creep of belts (Grashof). The rim of a driving
+// wheel runs with the tight side, that of a driven wheel with the slack side, so the rims' speeds
+// have the ratio (1 + e_slack) / (1 + e_tight), 1 - (T1 - T2) / EA to first order. `creep_loss` is
+// the sum of these losses.
 //
-// Over a substep, with e0 and L0 at its start and both on and G linear in between (trapezoidal, so
-// of second order),
+// Over a substep, with e0 and L0 at its start and both `on` and G linear in between (trapezoidal
+// rule, second order),
 //   A (e1 - e0) = l1 - l0 + on - (1 + e0) G,   A = L0 + G - on / (2 (1 + e0)).
-// That is a spring of the length A: the row's value is -A e1, its compliance A / EA, and L1 = l1 /
-// (1 + e1), which leaves no difference between the force's law and the geometry. A is written with
-// y = on / (2 (1 + e0)) as B^2 / (B + y), B = L0 + G, the same to second order and positive however
-// much is wound on. For on = 0 it is L0 + G, the value L0 + G - l1. A slack span has e = 0; then
-// the value is L0 + G - on - l1, as of a rigid cable.
+// That is a spring of the length A: the row's value is -A e1 and its compliance A / EA. L1 = l1 /
+// (1 + e1) then makes the force law and the geometry agree exactly. With y = on / (2 (1 + e0)) and
+// B = L0 + G, A is written as B^2 / (B + y), which is the same to second order and positive however
+// much is wound on. For on = 0 this is A = L0 + G and the value is L0 + G - l1. A slack span has e
+// = 0; its value is L0 + G - on - l1, as for a rigid cable.
 //
-// Spans of a run share one strain e, times the weights k_i that friction gives their tensions, so
-// they share one equation, too: what is left of the run when it has run on and off its links is
-// what its spans have in the end,
+// Spans of a run share one strain e, times the weights k_i that friction gives their tensions. They
+// share one equation, too: the length of the run after it has run on and off its links equals the
+// sum of its spans' lengths at the end,
 //   F(e) = sum (L0_i + G_i - on_i / (1 + (e0_i + k_i e) / 2) - l_i / (1 + k_i e)) = 0.
-// Their rows then have the lengths of the end, A_i = L1_i = l_i / (1 + k_i e), and the values -A_i
-// k_i e, and finish() gives the spans just these. (With the A of each span by itself, and cable
-// passed on afterwards, the sum of A_i e_i is not that of L1_i e_i: what has passed makes a
-// difference of the strain times the slip, which is 1 % of the stretch and more where that is
-// small.) Where F(0) > 0 the run is slack. Where spans are damped, k_i e is what springs alone
-// would have, and cable/cable_damping.cpp says what is in its place.
+// Their rows have the lengths at the end, A_i = L1_i = l_i / (1 + k_i e), and the values -A_i k_i
+// e, and finish() gives the spans exactly these. (With the A of each span by itself, and cable
+// passed on afterwards, the sum of A_i e_i would differ from that of L1_i e_i: the passed cable
+// makes a difference of strain times slip, which is 1 % of a small stretch or more.) If F(0) > 0
+// the run is slack. If spans are damped, k_i e is the strain that springs alone would have;
+// cable/cable_damping.cpp gives the strain that replaces it.
 //
-// Where attachments keep their places for the substep, what has rolled is still between them: the
-// length that spans have afterwards is none that anything has pulled at, but that of the law that
-// has acted says what strain comes with what is wound.
+// If attachments keep their places for the substep, the rolled cable still lies between them. The
+// length that a span gets afterwards is then not the one on which the tension acted, and the strain
+// of the wound cable follows from the law that has acted.
 //
-// The residual value + compliance T, whose zero solvers seek, changes by -(dl + d(on) - d(off)) for
-// T = EA e0 and w = e0, and by a share e1 - e0 or w - e0 of the arcs besides. So Newton's method
-// with the row's gradient is exact but for changes of strain, which also vanish for stiff cables.
+// The residual value + compliance T, whose zero the solvers seek, changes by -(dl + d(on) - d(off))
+// for T = EA e0 and w = e0, and otherwise by an additional fraction e1 - e0 or w - e0 of the arcs.
+// Newton's method with the row's gradient is therefore exact except for changes of strain, which
+// vanish for stiff cables.
 
 #include <algorithm>
 #include <cmath>
@@ -119,7 +121,7 @@ double CableSystem::rest_length_at(const StretchedSpan& span, double strain) {
 
 std::optional<double> CableSystem::run_strain(std::span<const StretchedSpan> spans,
                                               std::span<const double> weights) const {
-  // F is concave and rises: Newton's method comes to its zero from below.
+  // F is concave and rises, so Newton's method approaches its zero from below.
   constexpr double rounding = 1e-15;
   constexpr int most_rounds = 50;
   double strain = 0.0;
@@ -188,7 +190,7 @@ std::optional<double> CableSystem::end_strain(const Substep& substep, const Comp
   for (double& weight : weights) weight = heaviest > 0.0 ? weight / heaviest : 1.0;
   find_arcs(substep, cable, run, weights);
   std::optional<double> strain = run_strain(run_work_.stretched, weights);
-  // What would be stretched without a pull keeps its own strains.
+  // A run that would be stretched without a tension keeps the strains of its spans.
   if (!(heaviest > 0.0) && strain != 0.0) strain.reset();
   settle_arcs(strain);
   return strain;
@@ -200,7 +202,7 @@ void CableSystem::keep_end_strains(const Substep& substep) {
       for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
         const double rest_length = std::max(references_[at(k)].rest_length, 0.0);
         double share = cable.damping * cable.inverse_stiffness * rest_length / substep.h;
-        if (knows_start_) share -= 0.5;  // cable/cable_damping.cpp
+        if (knows_start_) share -= 0.5;  // see cable/cable_damping.cpp
         const double pull = multipliers_[at(k)] * cable.inverse_stiffness / (substep.h * substep.h);
         end_strains_[at(k)] = std::max(SpanDamping{strains_[at(k)], share}.end(pull), 0.0);
       }
@@ -226,7 +228,7 @@ double CableSystem::rest_length_of(const CompiledCable& cable, const Row& row, d
 }
 
 double CableSystem::rest_length_under(double value, double spring_length, double length) {
-  // l1 / (1 + e1) with e1 = -value / A; slack cable has its rest length as value + length.
+  // l1 / (1 + e1) with e1 = -value / A; the rest length of a slack span is value + length.
   if (value >= 0.0) return value + length;
   return spring_length > 0.0 ? length * (spring_length / (spring_length - value)) : 0.0;
 }
@@ -277,8 +279,8 @@ void CableSystem::keep_strains(FeatureState& next) {
     const int place = strain_places_[i];
     if (place < 0) continue;
     const auto link = static_cast<int>(i);
-    // What is below the quantum stays with the spans; the end where the cable came off or on last
-    // has the strain of either.
+    // The part below the quantum stays with the spans. The end where cable came off or on last has
+    // a strain close to the mean, which is used for the difference.
     StoredStrain& stored = stored_end_[at(place)];
     const StoredStrain::Piece total = stored.total();
     stored.fit(End::outgoing, next.reals[stored_length_index(link)], total.strain());

@@ -1,10 +1,8 @@
-// Bodies that are put elsewhere between two steps.
-//
-// It is done as a substep of no time in which nothing acts: wheels that the cable now meets
-// elsewhere have taken or given the arcs in between, as they do when bodies move there, so lengths
-// are conserved to the last bit. What the spans are then longer or shorter than before stays as it
-// is, if the cable's length is to be kept, or else is made up for: a span keeps the stretch, or the
-// slack, that it had.
+// Placement of bodies between two steps, as a substep of almost no time without forces. Wheels take
+// and give the arcs between the old and the new contacts, as they do when bodies move there, so
+// lengths are conserved to the last bit. If the cable's length is to be kept, spans get longer or
+// shorter than before; otherwise their rest lengths are adapted so that each span keeps its stretch
+// or its slack.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +15,7 @@
 namespace sheave {
 namespace {
 
-/// The rotation vector of the shorter turn between two orientations.
+/// Rotation vector of the shorter rotation between two orientations.
 Vector3 shorter_turn(const Quaternion& from, const Quaternion& to) {
   Quaternion change = to * from.conjugate();
   if (change.w() < 0.0) change.coeffs() = -change.coeffs();
@@ -26,7 +24,7 @@ Vector3 shorter_turn(const Quaternion& from, const Quaternion& to) {
   return change.vec() * (2.0 * portable::atan2(sine, change.w()) / sine);
 }
 
-/// Puts the bodies of a substep where `end` has them.
+/// Gives the bodies of a substep their poses in `end`.
 void move_bodies(const State& end, Substep& substep) {
   const BodySet& bodies = substep.bodies;
   for (int i = 0; i < bodies.count(); ++i) {
@@ -40,7 +38,7 @@ void move_bodies(const State& end, Substep& substep) {
                       ? Vector3((to.angle - from.angle) * bodies[i].axis)
                       : shorter_turn(from.orientation, to.orientation);
     for (const int rotor : bodies[i].mounted_rotors) {
-      // They turn with it, and not on their axles.
+      // The rotors turn with the body, without rotation about their axles.
       const Vector3 axle = from.orientation * bodies[rotor].axis;
       substep.moving[at(rotor)].turn = axle * axle.dot(moving.turn);
     }
@@ -52,7 +50,7 @@ void move_bodies(const State& end, Substep& substep) {
 
 CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start, const State& end,
                                        const FeatureState& own, bool keeps_tension) {
-  // Long enough for tensions, of which there are none, to be numbers.
+  // [s] Long enough for h^2 to be a usable number; tensions are 0.
   constexpr double no_time = 1e-9;
   Placed placed{own, std::vector<double>(cables_.size(), 0.0), {}};
   FeatureState& next = placed.own;
@@ -83,7 +81,7 @@ CableSystem::Placed CableSystem::place(const BodySet& bodies, const State& start
     const CompiledCable& cable = cables_[at(index)];
     double& rest_length = next.reals[rest_length_index(k)];
     const double length = geometry_of(substep, k).length;
-    // Of a material it is the strain that has the tension.
+    // With a material the tension follows from the strain.
     const double before = own.reals[rest_length_index(k)];
     const bool strained = cable.inverse_stiffness > 0.0 && stretches[at(k)] > 0.0 && before > 0.0;
     const double wanted =
@@ -111,7 +109,8 @@ std::string CableSystem::placement_fault(const Substep& substep, const CompiledC
   const double slop = 1e-9 * substep.bodies.scale();
   const std::string name = "cable \"" + cable.name + "\"";
   if (cable.inverse_stiffness > 0.0) {
-    // With which strain what lies on its wheels has come there depends on the way.
+    // The strain of the cable stored on a wheel depends on the path of the bodies, which a
+    // placement does not have.
     for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
       const SpanSetup& setup = spans_[at(k)];
       if (!setup.active) continue;
@@ -128,7 +127,7 @@ std::string CableSystem::placement_fault(const Substep& substep, const CompiledC
   double excess = 0.0;
   int at_span = 0;
   for_each_run(cable, [&](Run run) {
-    // Cable passes the links in a run.
+    // Cable passes the links within a run, so only the sum of its spans counts.
     double missing = 0.0;
     int k = run.first;
     for (int i = 0; i < run.count; ++i, k = next_span(cable, k)) {

@@ -8,7 +8,7 @@
 namespace sheave {
 namespace {
 
-/// The angle over which the stored length is wound; layers lie on growing radii
+/// Angle over which the stored length is wound [rad]. Layers lie on growing radii
 /// (cable/cable_ends.cpp).
 double wound_angle(const LinkGeometry& definition, const LinkGeometry& link, double stored_length) {
   if (!(link.layer_pitch > 0.0)) return 2.0 * pi * stored_length / link.perimeter();
@@ -16,28 +16,28 @@ double wound_angle(const LinkGeometry& definition, const LinkGeometry& link, dou
   return 2.0 * pi * grown / link.layer_pitch;
 }
 
-/// Corners from `entry` to `exit`, -1 where there is none, and so many whole turns more that the
-/// stored length is used.
+/// The corners of the cable's path from `entry` to `exit` (-1: none), with as many whole turns as
+/// the stored length needs.
 std::vector<Vector3> outline_path(const Substep& now, const LinkGeometry& link, int entry, int exit,
                                   double stored_length) {
   const Outline& curve = link.outline->curve;
   const int count = curve.corner_count();
-  constexpr double most_turns = 50.0;  // more cannot be seen
+  constexpr double most_turns = 50.0;  // further turns cannot be seen
   const double longest = std::min(stored_length, most_turns * curve.perimeter());
-  // Walked backwards from the exit, or forwards from the entry where the cable ends on the body.
+  // Backwards from the exit; forwards from the entry if the cable ends on the body.
   const bool backwards = exit >= 0;
   const int step = (link.side > 0) == backwards ? count - 1 : 1;
   int corner = backwards ? exit : entry;
   const auto point = [&](int k) { return now.point(link.carrier, link.outline->corners[at(k)]); };
   std::vector<Vector3> path{point(corner)};
   double walked = 0.0;
-  // Counted, because outlines of extreme size have edges that are no numbers.
+  // A bounded count, because edges of outlines of extreme size may be NaN.
   const int most_corners = static_cast<int>(most_turns + 1.0) * count;
   for (int k = 0; k < most_corners; ++k) {
     const int next = (corner + step) % count;
     const double edge = (curve.corner(next) - curve.corner(corner)).norm();
     const bool arrived = entry >= 0 && exit >= 0 && corner == entry;
-    // Half an edge decides what rounding or a corner between two contacts leaves open.
+    // The tolerance of half an edge covers rounding, and a corner between two contacts.
     if (walked + 0.5 * edge > longest && (arrived || entry < 0 || exit < 0)) break;
     if (walked > longest + curve.perimeter()) break;
     path.push_back(point(next));
@@ -48,7 +48,7 @@ std::vector<Vector3> outline_path(const Substep& now, const LinkGeometry& link, 
   return path;
 }
 
-/// Where a span is and what it carries.
+/// Report of a span from its geometry and state.
 SpanReport span_report(const SpanGeometry& geometry, double rest_length, double tension) {
   SpanReport span;
   span.start = geometry.start;
@@ -62,7 +62,7 @@ SpanReport span_report(const SpanGeometry& geometry, double rest_length, double 
 
 }  // namespace
 
-/// A state as it is reported: the geometry that belongs to it, and where its spans are.
+/// A state to be reported, with the geometry that belongs to it and its spans.
 struct CableSystem::CableView {
   const Substep& now;
   const FeatureState& own;
@@ -122,7 +122,8 @@ void CableSystem::append_wraps(const CableView& view, const CompiledCable& cable
   const int start = first_active_span(cable, view.current.spans);
   if (start < 0) return;
   int after = 0;
-  // Of an open cable there is none; a belt that has left all its listed links begins with a wrap.
+  // An open cable has no span before its first; a belt that has left all listed links begins with a
+  // wrap.
   int incoming = span_before(cable, view.current.spans[at(start)].first, view.current.spans);
   for (int walked = 0, k = start; walked <= cable.span_count && k >= 0; ++walked) {
     const SpanSetup& setup = view.current.spans[at(k)];
@@ -147,8 +148,8 @@ void CableSystem::append_wraps(const CableView& view, const CompiledCable& cable
 void CableSystem::measure(const CableView& view, const CompiledCable& cable, int cut_span,
                           CableReport& report) const {
   const bool rigid = compliance_of(cable, 1.0) == 0.0;
-  // Of a span that is all but used up there is no stretch worth the name; it counts against this
-  // share of the cable.
+  // The stretch of a span that is almost used up has no meaning; its divisor is this fraction of
+  // the cable.
   constexpr double shortest = 1e-6;
   const auto add_span = [&](const SpanReport& span) {
     report.total_length += span.rest_length;
@@ -170,7 +171,7 @@ void CableSystem::measure(const CableView& view, const CompiledCable& cable, int
     report.total_length += wrap.link.stored_length;
   }
   if (report.cut) {
-    // Wraps are gone with the spans; their cable is that of the listed span before them.
+    // The wraps of a cut cable are gone; their cable belongs to the listed span before them.
     report.total_length = 0.0;
     const FeatureState& own = view.own;
     for (int i = 0; i < cable.link_count; ++i) {
@@ -209,7 +210,7 @@ std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State&
   const Substep now(bodies, state, 1.0, 1);
   const Geometry current = geometry_for(bodies, own);
   std::vector<SpanGeometry> ends(spans_.size());
-  std::vector<int> incoming(links_.size(), -1);  // span that ends at the link
+  std::vector<int> incoming(links_.size(), -1);  // the span that ends at the link
   for (int k = 0; k < span_count(); ++k) {
     const SpanSetup& setup = current.spans[at(k)];
     if (!setup.active) continue;
@@ -240,7 +241,8 @@ std::vector<CableReport> CableSystem::report(const BodySet& bodies, const State&
         span =
             span_report(ends[at(k)], own.reals[rest_length_index(k)], own.reals[tension_index(k)]);
       } else {
-        // The cable has left the link: a point where the span that passes it ends.
+        // The cable has left the link: the span is a point at the end of the span that passes the
+        // link.
         span.start = span.end = i > 0 ? report.spans[at(i - 1)].end : report.links.back().center;
       }
     }

@@ -1,30 +1,32 @@
 // Spans that share a tension.
 //
-// Cable passes freely through a pinhole without friction and over a massless wheel, and it slides
-// over a link with friction once the tensions on both sides differ by the factor e^(m a)
-// (Euler-Eytelwein; a: wrap angle). A maximal row of spans joined by such links is a run. What
-// moves between its spans cannot move anything else, so only the sum of their rest lengths counts,
-// and one multiplier l gives all tensions, T_i = k_i l / h^2, with k_i the product of the e^(+-m a)
-// up to span i (1 without friction). One step of XPBD for the run, with C_i = rest length - length:
+// Cable passes freely through a pinhole without friction and over a massless wheel. It slides over
+// a link with friction once the ratio of the tensions on both sides reaches e^(m a)
+// (Euler-Eytelwein; a: wrap angle). A run is a maximal sequence of spans joined by such links.
+// Cable that moves between spans of a run moves no body, so only the sum of their rest lengths
+// counts, and one multiplier l determines all tensions, T_i = k_i l / h^2, where k_i is the product
+// of the e^(+-m a) up to span i (1 without friction). One step of XPBD for the run, with C_i = rest
+// length - length:
 //
 //   sum_i (C_i + k_i a~_i l) = 0,   motion  x += W sum_i grad C_i d(k_i l)
-//   =>  l' = (-sum C_i + sum_j w_j l_j) / sum_j k_j (w_j + a~_j),   w_j = (sum_i grad C_i) W grad C_j^T
+//   =>  l' = (-sum C_i + sum_j w_j l_j) / sum_j k_j (w_j + a~_j),
+//       w_j = (sum_i grad C_i) W grad C_j^T
 //
-// with l_j the multiplier that span j has so far. Dampers: cable/cable_damping.cpp. Without
-// friction that is one ordinary row, so any number of pinholes is exact in one visit. (The paper's Algorithm 1 instead moves rest length
-// across each pinhole so that the ratios of length to rest length become equal; as printed it swaps
-// the two excesses, see tests/physics/pinhole_test.cpp.)
+// where l_j is the present multiplier of span j. Dampers: cable/cable_damping.cpp. Without friction
+// this is one ordinary row, so any number of pinholes is solved exactly in one visit. (Algorithm 1
+// of the paper instead moves rest length across each pinhole so that the ratios of length to rest
+// length become equal; as printed it swaps the two excesses, see tests/physics/pinhole_test.cpp.)
 //
-// Whether a link with friction sticks or slides is found in the sweeps: cable/cable_friction.cpp.
+// The sweeps determine whether a link with friction sticks or slides: cable/cable_friction.cpp.
 //
-// A span of constant compliance c can be stretched by all of its length and has no cable left to
-// give then, so that what it shares with the next one ends: it has its length / c, and the link is
-// held until the other side pulls less.
+// A span of constant compliance c can be stretched by its whole length. It has no cable left to
+// give then, so it cannot share the next span's tension any further: its own tension is its length
+// / c, and the link is held until the other side pulls less.
 //
-// When the substep is complete, rest length is moved within each run so that every span has its
-// tension; what passed a link is its slip, or turns the massless wheel. A slack run is not touched,
-// except that a span that has become longer than its rest length takes what it lacks from the
-// nearest spans that have some to spare.
+// At the end of the substep rest length is moved within each run so that every span has its
+// tension. The cable that passed a link is its slip, or turns the massless wheel. A slack run is
+// not changed, except that a span that has become longer than its rest length takes the missing
+// length from the nearest spans that have some to spare.
 
 #include <algorithm>
 #include <cmath>
@@ -37,9 +39,9 @@
 namespace sheave {
 namespace {
 
-/// Takes what spans with a negative entry of `spare` lack from the nearest ones with a positive
-/// entry. Of two equally near, each gives the same share as far as it can, so a cable's mirror
-/// image does the mirror image.
+/// Spans with a negative entry of `spare` take the missing length from the nearest spans with a
+/// positive entry. Two equally near spans give equal amounts as far as they can, so a mirrored
+/// cable gives the mirrored result.
 void pull_slack(std::vector<double>& spare) {
   const auto count = static_cast<int>(spare.size());
   for (int i = 0; i < count; ++i) {
@@ -59,12 +61,12 @@ void pull_slack(std::vector<double>& spare) {
   }
 }
 
-/// Makes the lengths of spans [m] the rest lengths with which their springs and dampers have forces
-/// in the ratios of `tensions` [N]. Not those themselves: those of `rattle` are of the middle of
-/// the substep, or half of that in the course of its rounds. So all strains are those of s times
-/// what tensions say, with the s for which the sum of `rest_lengths` remains; none of them is below
-/// 0. False where friction is and nothing is stretched: what has pulled in the mean is slack at the
-/// end, and slack does not slide.
+/// Replaces the lengths of spans [m] by the rest lengths with which their springs and dampers have
+/// forces in the ratios of `tensions` [N]. The tensions themselves do not fit: those of `rattle`
+/// are at the middle of the substep, and half of that during its rounds. Therefore all strains are
+/// those of s times the tensions, with the factor s for which the sum of `rest_lengths` is kept; no
+/// strain is below 0. False if the cable has friction and no span is stretched at the end: tensions
+/// existed in the mean, but slack cable does not slide.
 bool shorten_by_strain(const CompiledCable& cable, const std::vector<double>& rest_lengths,
                        const std::vector<double>& tensions,
                        const std::vector<cable_parts::SpanDamping>& dampings,
@@ -82,7 +84,7 @@ bool shorten_by_strain(const CompiledCable& cable, const std::vector<double>& re
                ? lengths[i] / (1.0 + dampings[i].end(s * tensions[i] * cable.inverse_stiffness))
                : std::max(lengths[i] - dampings[i].end(s * tensions[i] * cable.compliance), 0.0);
   };
-  // The sum is convex: Newton's method comes to s from below.
+  // The sum is convex, so Newton's method approaches s from below.
   double s = 0.0;
   for (int round = 0; round < 20; ++round) {
     double left = excess;
@@ -104,8 +106,8 @@ bool shorten_by_strain(const CompiledCable& cable, const std::vector<double>& re
   return true;
 }
 
-/// Makes the lengths of spans [m] the rest lengths with which springs that nothing pulls at come out
-/// of their stretch against their dampers.
+/// Replaces the lengths of spans [m] by the rest lengths with which springs without tension lose
+/// their stretch against their dampers.
 void shorten_without_pull(const CompiledCable& cable,
                           const std::vector<cable_parts::SpanDamping>& dampings,
                           std::vector<double>& lengths) {
@@ -215,7 +217,7 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
   const double heaviest = evaluate_run(substep, cable, run);
   double numerator = -weigh_run(substep, cable, run, heaviest);
   double denominator = 0.0;
-  double parts = 0.0;  // the same without what cancels between the spans
+  double parts = 0.0;  // the denominator without the terms that cancel between spans
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     const Row& row = run_work_.rows[at(i)];
     const double weight = run_work_.weights[at(i)];
@@ -241,8 +243,8 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
     for (const RowTerm& term : run_work_.rows[i].active_terms())
       run_work_.gradient[at(term.body)] = {};
   }
-  // Where nothing but wheels that the cable slides over can move, rounding is left of w; it is no
-  // yield.
+  // If the only movable bodies are wheels over which cable slides, w is rounding error and must not
+  // count as an inverse mass.
   constexpr double cancelled = 64.0 * std::numeric_limits<double>::epsilon();
   const bool idle = !(denominator > cancelled * parts);
   const bool acts = idle && cable.has_friction && turns_wheel(substep, cable, run) &&
@@ -266,7 +268,7 @@ double CableSystem::solve_run(Substep& substep, const CompiledCable& cable, Run 
 }
 
 void CableSystem::start_without_feed(int span, Row& row) const {
-  // What is fed in a substep comes evenly: at the start none of it is there.
+  // Cable is fed evenly during a substep, so at its start no fed cable is there.
   const SpanSetup& setup = spans_[at(span)];
   if (!links_[at(setup.first)].feeds && !links_[at(setup.second)].feeds) return;
   const double fed = fed_[at(span)][0] + fed_[at(span)][1];
@@ -277,14 +279,14 @@ void CableSystem::start_without_feed(int span, Row& row) const {
 void CableSystem::linearise_run(Substep& substep, const CompiledCable& cable, Run run,
                                 RowList& rows) {
   const std::size_t start = rows.size();
-  // Logarithms, and the largest of them.
+  // The logarithms of the weights, and their maximum.
   RunWeights weights;
   RunWeights heaviest;
   SpanGeometry last;
-  // Where nothing can yield a multiplier does nothing: the links around decide what the spans
-  // carry.
+  // A multiplier has no effect if no body can move: the links around the run determine its
+  // tensions.
   const bool open = cable.has_friction && is_open(substep, cable, run);
-  // What spans were strained by at the start of the substep they need not have shared.
+  // The strains at the start of the substep need not have been shared.
   const bool at_start = substep.time == substep.start.time;
   const bool stretches = run.count > 1 && strains_runs(cable);
   const bool strains = stretches && !at_start;
@@ -341,7 +343,7 @@ void CableSystem::strain_shared(const Substep& substep, const CompiledCable& cab
   run_work_.weights.clear();
   for (const Row& row : rows) run_work_.weights.push_back(row.start_weight);
   if (substep.time == substep.start.time) {
-    // Spans have the strains that they have; what lies on links has its own, too.
+    // Spans have their own strains at the start, and so does the cable stored on links.
     find_arcs(substep, cable, run, run_work_.weights);
     add_arcs(substep, cable, run_work_.weights, 0.0, rows);
     return;
@@ -415,7 +417,7 @@ const std::vector<double>& CableSystem::run_spare(const Substep& substep,
     count_arcs(-1.0);
     return spare;
   }
-  // What the solver has left over is spread evenly over spans that it has something to do with.
+  // The solver's residual is spread evenly over the spans that the solver can change.
   if (cable.has_friction) {
     length = 0.0;
     for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
@@ -448,8 +450,8 @@ void CableSystem::share_lengths(Substep& substep, const CompiledCable& cable, Fe
 void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run run,
                             FeatureState& next) {
   const std::vector<double>& spare = run_spare(substep, cable, run);
-  double passed = 0.0;         // over the link after span i
-  double passed_before = 0.0;  // over the link before it, as moved
+  double passed = 0.0;         // length over the link behind span i
+  double passed_before = 0.0;  // length moved over the link before span i
   for (int i = 0, k = run.first; i < run.count; ++i, k = next_span(cable, k)) {
     double& rest_length = next.reals[rest_length_index(k)];
     const bool arcs = run_work_.arcs[at(i)].link >= 0;
@@ -458,7 +460,7 @@ void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run ru
       break;
     }
     passed += spare[at(i)];
-    // A multiple of the quantum, and no more than there is.
+    // A multiple of the quantum, limited to the available cable.
     double moved = std::min(cable.quantised(passed), rest_length + passed_before);
     rest_length += passed_before - moved;
     passed_before = moved;
@@ -470,13 +472,13 @@ void CableSystem::share_run(Substep& substep, const CompiledCable& cable, Run ru
       moved = 0.5 * (moved + passed_before);
       over = slid;
     }
-    // Cable at the bound over which nothing passes is looked at anew in the next substep: what holds
-    // from then on is found from where all holds.
+    // Cable that is at its bound without passing is examined again in the next substep: sticking is
+    // decided starting from links that all hold.
     if (std::abs(over) <= cable_parts::length_rounding * substep.bodies.scale()) {
       run_work_.rests[at(link - cable.first_link)] = 1;
     }
     if (links_[at(link)].massless) {
-      // Both sides have the same tension and, but for dampers, strain.
+      // Both sides have the same tension and, without dampers, the same strain.
       double strain = multipliers_[at(k)] * cable.inverse_stiffness / (substep.h * substep.h);
       const double own = end_strains_[at(k)];
       if (cable.damping > 0.0 && strains_runs(cable) && own >= 0.0) {

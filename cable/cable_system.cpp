@@ -1,4 +1,4 @@
-// Cost of a substep: per span one tangent in begin(), one per sweep, one in finish(); see bench/.
+// Cost of a substep per span: one tangent in begin(), one per sweep, one in finish(); see bench/.
 
 #include "cable/cable_system.h"
 
@@ -9,13 +9,13 @@
 namespace sheave {
 namespace {
 
-/// Whether the beginning of a substep asks where a span lies.
+/// Whether begin() needs the geometry of the span.
 bool asks_where(const SpanSetup& setup, const CompiledCable& cable) {
   return setup.kind != SpanKind::straight || cable.inverse_stiffness > 0.0 ||
          cable.tangent_update == TangentUpdate::substep;
 }
 
-/// Where the ends of a span are on their bodies, for the substep.
+/// Keeps the ends of a span in the frames of their bodies, for the substep.
 void keep_places(const Substep& substep, const LinkGeometry& first, const LinkGeometry& second,
                  const SpanGeometry& span, SpanReference& reference) {
   const auto own_point = [&](int body, const Vector3& point) -> Vector3 {
@@ -25,18 +25,18 @@ void keep_places(const Substep& substep, const LinkGeometry& first, const LinkGe
   reference.second_point = own_point(second.body, span.end);
 }
 
-/// As long as no span has to follow.
+/// Freezes cables that ask for it; begin() cancels that if a span has to follow.
 void freeze_where_asked(std::vector<CompiledCable>& cables) {
   for (CompiledCable& cable : cables) {
     cable.frozen = cable.tangent_update == TangentUpdate::substep;
   }
 }
 
-/// Whether the attachment of a span cannot keep its place on a link for a substep. Where the span
-/// leans to the link's plane it would do work with the arm r cos(lean) while the rim takes on cable
-/// with the arm r, at any step size; below 1e-6 that is less than rounding, 5e-13 of it. On an
-/// outline it jumps by an edge. And what a material is stretched by on a link over which it slides
-/// needs to know how long the arc is.
+/// Whether a frozen attachment would be wrong on this link. If the span leans to the link's plane,
+/// the force would do work with the arm r cos(lean) while the rim takes cable with the arm r, at
+/// any step size; for a lean below 1e-6 the difference is 5e-13, below rounding. On an outline a
+/// frozen attachment jumps by an edge. And where cable with a material slides, its stretch depends
+/// on the present length of the arc.
 bool must_follow(const Substep& substep, const LinkGeometry& link, const SpanGeometry& span,
                  const CompiledCable& cable) {
   if (!link.wraps()) return false;
@@ -49,7 +49,7 @@ bool must_follow(const Substep& substep, const LinkGeometry& link, const SpanGeo
 }  // namespace
 
 double CableSystem::compliance_of(const CompiledCable& cable, double rest_length) const {
-  // A material's spring gets softer in proportion to the length that stretches.
+  // The compliance of a material is proportional to the stretched length.
   return cable.compliance + cable.inverse_stiffness * std::max(rest_length, 0.0);
 }
 
@@ -90,8 +90,8 @@ void CableSystem::begin(const Substep& substep, const FeatureState& state) {
     start_tensions_[k] = state.reals[tension_index(static_cast<int>(k))];
     const LinkGeometry& first = links_[at(setup.first)];
     const LinkGeometry& second = links_[at(setup.second)];
-    // What is smaller than the quantum counts in the row, too: left out of 1e5 spans, it amounts to
-    // more than gravity does.
+    // The length below the quantum counts in the row, too: over 1e5 spans its effect would exceed
+    // that of gravity.
     const int span_index = static_cast<int>(k);
     const double below_quantum =
         state.reals[remainder_index(span_index, 0)] + state.reals[remainder_index(span_index, 1)];
@@ -139,7 +139,7 @@ SpanGeometry CableSystem::evaluate(const Substep& substep, int span, Row& row,
   row.rate = first.feeds || second.feeds ? drive_work_.feed_rates[at(span)] : 0.0;
   const bool frozen = cable.frozen;
   SpanTransport transport;
-  // A conditional, so that the span is made where it is kept.
+  // One expression, so that the span is constructed in place.
   const SpanGeometry geometry =
       frozen ? evaluate_span_frozen(substep, first, second, reference, row)
       : has_layers_ && layered(span)
@@ -199,10 +199,10 @@ double CableSystem::sweep_spans(Substep& substep, const CompiledCable& cable) {
 
 void CableSystem::linearise(Substep& substep, RowList& rows) {
   turn_geodesics(substep);
-  // Only `rattle` asks before anything has moved.
+  // Only `rattle` linearises before bodies have moved.
   const bool at_start = substep.time == substep.start.time;
   const std::size_t first = rows.size();
-  // What the speeds of the start tell needs no rounds.
+  // The speeds at the start can show that the substep fails, without any rounds.
   if (at_start && substep.resort != Resort::anything && !changing_links_.empty()) {
     substep.failed = turns_too_far(substep);
   }
@@ -282,7 +282,7 @@ void CableSystem::finish_span(Substep& substep, int k, FeatureState& next) {
 }
 
 void CableSystem::finish(Substep& substep, FeatureState& next) {
-  // Before anything is noted.
+  // This check comes before any notes are taken.
   substep.failed =
       substep.resort != Resort::anything && !changing_links_.empty() && turns_too_far(substep);
   if (substep.failed) return;
@@ -318,8 +318,8 @@ void CableSystem::finish(Substep& substep, FeatureState& next) {
   if (!changing_links_.empty()) {
     known_.forget();
     if (has_layers_) refresh_ends(next, links_, spans_);
-    // A pose on the way to a rest is none that the machine is ever in: nothing comes off there, no
-    // end is used up, nothing breaks (statics/equilibrium.cpp).
+    // The machine is never in the intermediate poses of a search for equilibrium: no end may change
+    // and no cable may break there (statics/equilibrium.cpp).
     if (!substep.at_rest) change_ends(substep, next);
   }
   if (course_changes_) {
@@ -343,17 +343,17 @@ void CableSystem::count_numerical_damping(Substep& substep, const FeatureState& 
   }
 }
 
-// Implicit Euler on a spring: with the change dx of its length, a dv of the relative velocity and
-// the mass m of both ends, energy falls by dx^2 / 2a + m dv^2 / 2 per substep, and in a vibration
-// both parts are equal in the mean. Without damping dx = a dT; with damping b the row asks for a T
-// = x + a b dx / h. A slack span has no spring, and at time 0 tensions are not known: 0 means
-// either.
+// Implicit Euler on a spring: with the change dx of its length, the change dv of the relative
+// velocity and the mass m of both ends, energy falls by dx^2 / 2a + m dv^2 / 2 per substep. In a
+// vibration both parts are equal in the mean. Without damping dx = a dT; with damping b the row
+// requires a T = x + a b dx / h. A slack span has no spring, and tensions are not known at time 0:
+// a tension of 0 stands for both.
 double CableSystem::numerical_damping(const CompiledCable& cable, std::array<double, 2> tensions,
                                       double stretch, double rest_length, double h) const {
-  // Less damping than this share of the spring's force is lost in the rounding of the stretch.
+  // A damping below this fraction of the spring's force is lost in the rounding of the stretch.
   constexpr double negligible = 1e-6;
   const double compliance = compliance_of(cable, rest_length);
-  // Of a material that is used up: nothing is there to vibrate.
+  // A span of a material without rest length cannot vibrate.
   if (!(compliance > 0.0)) return 0.0;
   const double share = cable.damping * compliance / h;
   const auto [before, now] = tensions;
@@ -380,7 +380,8 @@ void CableSystem::return_to(NoteMark mark) {
   const std::uint64_t edition = notes_.edition;
   notes_ = notes;
   events_.resize(notes.events);
-  // Editions do not come back: another mark may hold what has just been forgotten.
+  // An edition must not return to an old number: the other mark may hold the notes that were just
+  // discarded.
   notes.edition = notes_.edition = edition + 1;
 }
 

@@ -172,7 +172,7 @@ void CableTransfer::put_link(int cable, int link, const RunningLink& running, Fe
 
 namespace {
 
-/// Gives the link the way by which a contact has moved on it, out of the span there.
+/// Moves the path by which a contact has moved from the span to the link.
 void move_contact(double way, StoredStrain::End end, const CompiledCable& cable, RunningLink& link,
                   RunningSpan& span) {
   const double strain = span.tension * cable.inverse_stiffness;
@@ -197,7 +197,7 @@ void CableTransfer::move_contacts(int cable, RunningCable& running, const Subste
   const CompiledCable& own = system_.cables_[at(cable)];
   struct Stop {
     int number;         // of the link within the cable, and of the span behind it
-    std::size_t place;  // in the running cable
+    std::size_t place;  // index in the running cable
   };
   std::vector<Stop> course;
   int listed = 0;
@@ -224,8 +224,8 @@ void CableTransfer::move_contacts(int cable, RunningCable& running, const Subste
     const Stop& second = course[(i + 1) % course.size()];
     const auto left_by = running.links[first.place].went_by.lock();
     const auto met_by = running.links[second.place].came_by.lock();
-    if (left_by == met_by) continue;  // the same one, or links that have touched nothing before
-    // Links that have just come have no length of their own yet.
+    if (left_by == met_by) continue;  // the same span as before, or new links
+    // New links have no length of their own yet; the link before them holds it.
     std::size_t holder = first.place;
     while (holder > 0 && running.links[holder].is_fresh) --holder;
     if (!running.links[holder].span) continue;
@@ -239,7 +239,8 @@ void CableTransfer::move_contacts(int cable, RunningCable& running, const Subste
       moved(second, *met_by, is, StoredStrain::End::incoming, span);
     }
   }
-  // The shorter way round led past it; but where there is no other wheel it cannot leave this one.
+  // The shorter way round passed the wheel; but the cable cannot leave this wheel, as there is no
+  // other.
   for (const Stop& stop : course) {
     RunningLink& link = running.links[stop.place];
     const LinkGeometry& geometry = geometry_at(stop);
@@ -310,7 +311,7 @@ std::string CableTransfer::copy_cable(int cable, CableSystem& before, int then,
     const int index = now.first_link + i;
     std::string fault = size_fault(now, index, link);
     if (!fault.empty()) return fault;
-    // All of it as it is, wraps by their numbers.
+    // Copies everything unchanged, wraps by their numbers.
     if (i < now.span_count) {
       const int span = before.cables()[at(then)].first_span + i;
       link.span = RunningSpan{from.reals[before.rest_length_index(span)],
@@ -364,7 +365,7 @@ Errors CableTransfer::continue_from(const TransferFrom& from, const Substep* now
     } else if (start.same_as >= 0 && has_layout_of(cable, *before, start.same_as)) {
       fault = copy_cable(cable, *before, start.same_as, *from.state, system_.initial_);
     } else if (start.same_as >= 0) {
-      // A body has come or gone that it could touch.
+      // A body that the cable can touch was added or removed.
       CableDef listed;
       listed.links.assign(at(system_.cables_[c].listed_links),
                           std::make_shared<const AttachmentLink>());

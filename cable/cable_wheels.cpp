@@ -1,4 +1,4 @@
-// Wheels without inertia turn as far as cable passes over them.
+// Wheels without inertia turn exactly as far as cable passes over them.
 
 #include "cable/cable_system.h"
 #include "engine/index.h"
@@ -6,7 +6,7 @@
 namespace sheave {
 
 void CableSystem::stop_wheel(Substep& substep, int wheel) const {
-  // The prediction lets it go on turning, which its bearing does not.
+  // Undoes the predicted rotation, which the bearing does not allow.
   const BodyProperties& properties = substep.bodies[wheel];
   BodyState& next = substep.next.bodies[at(wheel)];
   next.angle = substep.start.bodies[at(wheel)].angle;

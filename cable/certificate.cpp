@@ -48,7 +48,7 @@ std::string_view what_is_off(Kind kind) {
 
 }  // namespace
 
-// Of what is not in use.
+// Advises settings that are not in use.
 std::string certificate_advice(const CertificateItem& item, const StepSettings& step) {
   const bool direct = step.solver == SolverKind::direct;
   const bool rattle = step.integrator == IntegratorKind::rattle;
@@ -84,7 +84,7 @@ std::string certificate_advice(const CertificateItem& item, const StepSettings& 
 std::string CertificateItem::sentence() const {
   std::string text = "at " + number(time, 6) + " s " + std::string(what_is_off(kind)) + " " + name +
                      " is off by " + number(value) + " " + std::string(unit);
-  // Beside nothing all is much.
+  // A percentage of a scale near 0 would be a meaningless number.
   constexpr double beyond = 1e9;
   text += relative < beyond ? ", " + number(100.0 * relative) + " % of " : " beside ";
   text += number(scale) + " " + std::string(unit);
@@ -145,9 +145,9 @@ std::optional<Certificate> Simulation::certificate() const {
   return certificate;
 }
 
-// Costs in instructions, fitted to callgrind's counts for 34 scenes of the repository with three
-// pairs of solver and integrator: what a check costs at most there, and what a substep costs at
-// least (docs/certificate.md).
+// Costs in instructions, fitted to the counts of callgrind for 34 scenes of the repository with
+// three pairs of solver and integrator: the largest cost of a check there, and the smallest cost of
+// a substep (docs/certificate.md).
 CertificateSchedule::CertificateSchedule(const Simulation& simulation, double share) {
   const World& world = simulation.world;
   const Model& model = world.model();
@@ -159,8 +159,8 @@ CertificateSchedule::CertificateSchedule(const Simulation& simulation, double sh
   if (simulation.cable_definitions) {
     for (const CableDef& cable : *simulation.cable_definitions) spans += cable.span_count();
   }
-  // Of joints and spans; what else has rows (the floor, places for wraps) costs little as long as
-  // nothing is there.
+  // Rows of joints and spans. Other rows (the floor, places for wraps) cost little while they are
+  // not in contact.
   double rows = spans;
   for (const auto& feature : world.features()) {
     if (dynamic_cast<const JointFeature*>(feature.get()) != nullptr) rows += feature->row_count();
@@ -178,7 +178,7 @@ bool CertificateSchedule::is_due(bool is_last, std::size_t events, bool suspicio
   events_ = events;
   ++steps_;
   ++since_;
-  // What events ask for is taken from what the stride would have allowed.
+  // Checks after events are taken from the number of checks that the stride allows.
   const bool affordable = checked_ * stride_ <= steps_;
   constexpr int most_suspects = 16;
   const bool suspect = suspicious && (affordable || suspects_ < most_suspects);

@@ -39,7 +39,8 @@ BodyId Edit::id(BodyHandle body) {
 }
 
 BodyHandle Edit::add(BodyDef body) {
-  // Not where this edit has removed one: what refers to that must not come to refer to this.
+  // Not in the slot of a body that this edit removes: references to that body must not refer to
+  // this one.
   const BodyHandle handle = draft_.bodies.add(-1, draft_.next_generation++, draft_.is_new);
   const std::size_t slot = at(handle.slot);
   draft_.has_other_bodies = true;

@@ -1,4 +1,4 @@
-// Cables taken apart and put together.
+// Edits that split, open, join, attach and detach cables.
 
 #include <algorithm>
 #include <cmath>
@@ -26,14 +26,14 @@ bool same_settings(const CableDef& a, const CableDef& b) {
 
 bool same_number(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
-/// What has been set of them.
+/// Whether the controls are equal.
 bool same_controls(const CableControl& a, const CableControl& b) {
   return same_number(a.compliance, b.compliance) &&
          same_number(a.breaking_tension, b.breaking_tension) &&
          same_number(a.wrap_friction, b.wrap_friction);
 }
 
-/// Place of the listed link at an end.
+/// Index of the listed link at an end.
 std::size_t end_of(const RunningCable& cable, CableEnd end) {
   return cable.place_of(end == CableEnd::first ? 0 : cable.listed_count() - 1);
 }
@@ -41,14 +41,14 @@ std::size_t end_of(const RunningCable& cable, CableEnd end) {
 std::size_t number(CableEnd end) { return end == CableEnd::first ? 0 : 1; }
 std::string_view name_of(CableEnd end) { return end == CableEnd::first ? "first" : "last"; }
 
-/// The last element before `end` that the cable touches.
+/// The last link before `end` that the cable touches.
 std::size_t last_touched(const std::vector<RunningLink>& links, std::size_t end) {
   std::size_t place = end - 1;
   while (place > 0 && !links[place].is_on_course()) --place;
   return place;
 }
 
-/// Takes the last link off with the span before it, wraps and all; how long that was.
+/// Removes the last link with the span and the wraps before it; returns their length.
 double take_last(RunningCable& cable) {
   std::vector<RunningLink>& links = cable.links;
   double length = links.back().stored_length;
@@ -97,7 +97,7 @@ std::string run_off(DraftCable& cable) {
     }
   }
   if (cable.running.links.empty()) {
-    // One piece of cable that lies about.
+    // One loose piece of cable, which no link holds.
     cable.loose[0] = cable.loose[0].value_or(0.0) + cable.loose[1].value_or(0.0);
     cable.loose[1] = 0.0;
     return {};
@@ -154,8 +154,8 @@ DraftCable* EditDraft::running(CableHandle handle, bool may_be_cut) {
   return &cable;
 }
 
-/// Place of the link behind which the cable shall come apart; none, and a fault, if it cannot
-/// there.
+/// Index of the link behind which the cable is to be parted. None and a fault if that is
+/// impossible.
 std::optional<std::size_t> EditDraft::place_to_part(const DraftCable& cable, int span,
                                                     double share) {
   const std::string who = "cable \"" + cable.definition.name + "\"";
@@ -206,7 +206,7 @@ CableHandle Edit::split(CableHandle cable, int span, double share, std::string n
   const double length = running.links[place].span->rest_length;
   running.links[place].span.reset();
   const double first = quantised(share * length, running.quantum);
-  // Wraps right behind the split belong to the piece that comes off them.
+  // Wraps directly behind the split belong to the piece that comes off them.
   double second = length - first;
   while (!rest.running.links.empty() && rest.running.links.front().is_wrap()) {
     second += take_first(rest.running);
@@ -236,7 +236,7 @@ void Edit::open(CableHandle belt, int span, double share) {
   running.links[*place].span.reset();
   std::rotate(running.links.begin(),
               running.links.begin() + static_cast<std::ptrdiff_t>(*place) + 1, running.links.end());
-  // What it lies on right behind there is not listed, and holds nothing.
+  // Wraps directly behind the opening are not listed and hold no cable.
   while (running.links.front().is_wrap()) first += take_first(running);
   own->loose = {first, last};
   own->definition.closed = false;
@@ -283,7 +283,8 @@ void Edit::join(CableHandle cable, CableHandle next) {
   }
   RunningCable& one = first->running;
   RunningCable& other = second->running;
-  // Both lengths are multiples of the finer quantum; what is too long for it is rounded.
+  // Both lengths are multiples of the finer quantum. If the sum is too long for it, the coarser one
+  // is used and lengths are rounded.
   constexpr double most = 4503599627370496.0;  // 2^52
   const double finer = std::min(one.quantum, other.quantum);
   const bool fits =
@@ -332,7 +333,7 @@ void Edit::attach(CableHandle cable, CableEnd end, BodyId body, const Vector3& p
   running.link = std::move(link);
   std::vector<RunningLink>& links = own->running.links;
   if (links.empty()) {
-    // A piece that lay about hangs from here now.
+    // The loose piece hangs from this attachment now.
     std::optional<double>& other = own->loose[1 - number(end)];
     other = other.value_or(0.0) + *loose;
     links.push_back(std::move(running));
@@ -376,7 +377,7 @@ void Edit::insert(CableHandle cable, int span, std::shared_ptr<const LinkDef> li
   RunningLink inserted;
   inserted.link = std::move(link);
   inserted.is_fresh = true;
-  // The span before it keeps all of the length until it is known how far it is.
+  // The span before the link keeps the whole length until the path over the link is known.
   inserted.span = RunningSpan{0.0, running.links[place].span->tension, {}};
   running.links.insert(running.links.begin() + static_cast<std::ptrdiff_t>(place) + 1,
                        std::move(inserted));
@@ -395,7 +396,7 @@ void Edit::remove_link(CableHandle cable, int link) {
   const RunningLink& gone = running.links[place];
   if (gone.is_on_course()) {
     std::size_t before = last_touched(running.links, place);
-    // A belt that has left its first links comes from its last one.
+    // The predecessor of the first touched link of a belt is the last touched link.
     if (!running.links[before].is_on_course()) {
       before = last_touched(running.links, running.links.size());
     }

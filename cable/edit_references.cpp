@@ -12,14 +12,15 @@ void fail(EditDraft& draft, std::string path, std::string message) {
   draft.errors.push_back({std::move(path), std::move(message)});
 }
 
-/// `is_new`: what refers to the body, `who` at `path`, comes with this edit.
+/// Checks the reference of `who` at `path` to a body. `is_new`: the reference was added by this
+/// edit.
 void refer(EditDraft& draft, BodyId body, bool is_new, const std::string& who,
            const std::string& path) {
   if (body.is_world()) return;
   const auto& slots = draft.bodies.slots();
   const bool known = body.index >= 0 && at(body.index) < slots.size();
   if (known && !is_new && draft.is_new[at(body.index)] != 0) {
-    // Another one may have its place by now.
+    // Another body may have been added in the slot.
     fail(draft, path,
          who + " is on body \"" + slots[at(body.index)].last_name + "\", which is removed");
   } else if (!known || slots[at(body.index)].generation == 0) {

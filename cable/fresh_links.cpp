@@ -6,10 +6,10 @@
 namespace sheave {
 namespace {
 
-/// A link, and the fresh ones behind it.
+/// A link and the new links behind it.
 struct Group {
-  std::vector<std::size_t> listed;  // numbers among the listed links
-  double length = 0.0;              // of their spans together [m]
+  std::vector<std::size_t> listed;  // indices among the listed links
+  double length = 0.0;              // sum of their spans [m]
 };
 
 class FreshShare {
@@ -38,7 +38,7 @@ class FreshShare {
     return CompiledCable::quantised(length, running_.quantum, 1.0 / running_.quantum);
   }
 
-  /// Of a belt those behind its last link are its first ones.
+  /// In a belt the links behind the last link are its first ones.
   [[nodiscard]] Group group_of(std::size_t first) {
     Group group;
     const std::size_t count = places_.size();
@@ -66,7 +66,7 @@ class FreshShare {
       spans += ways_.spans[i];
       arcs += ways_.arcs[i];
     }
-    // A material is strained on the links, too.
+    // With a material the cable stored on links is strained, too.
     const bool strained = cable_.inverse_stiffness > 0.0 && group.length < spans + arcs;
     const double on_links = strained ? group.length / (spans + arcs) : 1.0;
     double left = group.length;
@@ -93,7 +93,7 @@ class FreshShare {
   const CompiledCable& cable_;
   const LinkWays& ways_;
   RunningCable& running_;
-  std::vector<std::size_t> places_;  // of the listed links, among all
+  std::vector<std::size_t> places_;  // indices of the listed links among all
 };
 
 }  // namespace

@@ -20,7 +20,7 @@ bool on_one_outline(const LinkGeometry& a, const LinkGeometry& b) {
   const double near = tolerance * a.perimeter();
   if (cross(a.normal, b.normal).norm() > tolerance || std::abs(dot(a.normal, between)) > near)
     return false;
-  // Of circles of one body there may be several.
+  // One body may have several circles.
   return a.outline != nullptr || between.norm() <= near;
 }
 

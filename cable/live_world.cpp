@@ -10,10 +10,10 @@
 namespace sheave {
 namespace {
 
-/// What handles of things that are there from the start have; default ones have 0.
+/// Generation of the handles of initial objects; default handles have 0.
 constexpr std::uint32_t first_generation = 1;
 
-/// Slots for things that are there from the start.
+/// Slots of initial objects.
 template <class Tag>
 SlotTable<Tag> first_slots(std::size_t count) {
   SlotTable<Tag> slots;
@@ -21,7 +21,7 @@ SlotTable<Tag> first_slots(std::size_t count) {
   return slots;
 }
 
-/// The handle of the thing with this name, or an error that tells the names there are.
+/// The handle of the object with this name, or an error that lists the existing names.
 template <class Tag, class NameOf>
 Result<Handle<Tag>> find(const SlotTable<Tag>& slots, std::string_view kind, std::string_view name,
                          const NameOf& name_of) {
@@ -342,8 +342,8 @@ std::string LiveWorld::busy_fault() const {
 
 Errors LiveWorld::restore(const State& state) { return restore(revision_, state); }
 
-/// The world of `revision` goes to the state, or stays as it is; only then it becomes the one there
-/// is, which cannot fail.
+/// Restores the state in the world of `revision`; on an error that world is unchanged. Only then
+/// `revision` becomes the current one, which cannot fail.
 Errors LiveWorld::restore(std::shared_ptr<LiveRevision> revision, const State& state) {
   if (is_busy_) return {because(busy_fault())};
   Errors errors = revision->simulation.world.restore(state);

@@ -1,4 +1,4 @@
-// The setters of LiveWorld: those of World and Simulation, by handle.
+// Setters of LiveWorld: those of World and Simulation, by handle.
 
 #include "cable/live_revision.h"
 #include "cable/live_world.h"
@@ -8,7 +8,7 @@
 namespace sheave {
 namespace {
 
-// Texts are made away from what is executed where there is no fault.
+// Error texts are composed in cold functions, away from the hot path.
 
 template <class Tag>
 [[gnu::cold, gnu::noinline]] Errors refuse(const SlotTable<Tag>& slots, Handle<Tag> handle,
@@ -18,7 +18,7 @@ template <class Tag>
 
 [[gnu::cold, gnu::noinline]] Errors refuse(std::string fault) { return {{"", std::move(fault)}}; }
 
-/// Of a cable that is there and between holds: its index in the simulation; otherwise -1.
+/// Index in the simulation of a cable that exists and lies between two holds; otherwise -1.
 int place_of(const LiveRevision& revision, CableHandle cable) {
   return revision.cables.has(cable) ? revision.records[at(cable.slot)].place : -1;
 }

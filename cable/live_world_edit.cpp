@@ -1,5 +1,5 @@
-// An edit at work: a new world is made beside the old one, what stays takes its state along, and if
-// nothing is wrong the new one takes the place of the old one.
+// Carries out an edit: builds a new world beside the old one and moves the state of everything that
+// stays into it. Only if there is no fault does the new world replace the old one.
 
 #include <algorithm>
 #include <cmath>
@@ -44,16 +44,16 @@ class EditMaker {
   void fail(std::string path, std::string message) {
     draft_.errors.push_back({std::move(path), std::move(message)});
   }
-  /// Faults of the new model and its cables; their paths get the slots of handles for the places in
-  /// lists.
+  /// Adds faults of the new model and its cables. In their paths indices of lists become slots of
+  /// handles.
   void take(const Errors& found);
 
   EditDraft& draft_;
   const World& old_;
   State then_;
   std::shared_ptr<const BodySet> bodies_;
-  State now_;                           // of bodies
-  std::optional<Substep> now_substep_;  // where cables change
+  State now_;                           // the state of the bodies
+  std::optional<Substep> now_substep_;  // only if cables are changed
   BodyFrames frames_;
   std::vector<Kept> kept_;
   std::vector<CableDef> definitions_;
@@ -93,8 +93,7 @@ void EditMaker::list_joints() {
   }
 }
 
-/// Mounted rotors are told where they are now; a model tells them where they are when their carrier
-/// is as at time 0.
+/// Edits give a mounted rotor's present pose. A model needs its pose with the carrier as at time 0.
 void EditMaker::place_rotors() {
   for (std::size_t i = 0; i < draft_.model.bodies.size(); ++i) {
     BodyDef& body = draft_.model.bodies[i];
@@ -120,7 +119,7 @@ BodyState EditMaker::state_of(int body, const State& initial) const {
   BodyState state = then_.bodies[at(body)];
   const Vector3& before = old_.bodies()[body].center_of_mass;
   if (own.center_of_mass == before) return state;
-  // Its frame stays where it is, whatever has become of its centre of mass.
+  // The body's frame stays in place if its centre of mass changes.
   const Vector3 way = state.orientation * (own.center_of_mass - before);
   state.position += way;
   state.velocity += state.angular_velocity.cross(way);
@@ -365,7 +364,7 @@ Result<std::shared_ptr<LiveRevision>> EditMaker::make() {
                                         draft_.cables, records());
 }
 
-/// Length of what a handle stands for [m].
+/// Length of the cable of a handle [m].
 double length_of(const LiveRevision& revision, std::size_t slot) {
   const CableRecord& record = revision.records[slot];
   double length = record.loose[0].value_or(0.0) + record.loose[1].value_or(0.0);

@@ -1,5 +1,5 @@
-// Putting a body elsewhere, all or nothing: a new state is made beside the old one and restored if
-// it is right.
+// Places a body, all or nothing: builds a new state beside the old one and restores it if it is
+// valid.
 
 #include <cmath>
 
@@ -14,14 +14,14 @@
 namespace sheave {
 namespace {
 
-/// The angle of a planar body with this orientation that is nearest to the one it has.
+/// Angle of a planar body with this orientation that is nearest to `now` [rad].
 double angle_of(const BodyProperties& body, const Quaternion& orientation, double now) {
   const Quaternion turn = orientation * body.start_orientation.conjugate();
   const double angle = 2.0 * portable::atan2(body.axis.dot(turn.vec()), turn.w());
   return angle + 2.0 * pi * std::round((now - angle) / (2.0 * pi));
 }
 
-/// Puts the rotors on a body where it now is, with the spins that they have.
+/// Moves the rotors mounted on a body to its new pose; they keep their spins.
 void carry_rotors(const BodySet& bodies, int carrier, const BodyState& before, State& state) {
   const BodyState& on = state.bodies[at(carrier)];
   for (const int i : bodies[carrier].mounted_rotors) {

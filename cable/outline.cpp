@@ -9,7 +9,7 @@
 namespace sheave {
 namespace {
 
-/// Angle of the outward normal of the edge from `a` to `b`, counter-clockwise about z.
+/// Angle of the outward normal of the edge from `a` to `b`, counter-clockwise about z [rad].
 double edge_normal_angle(const Vector3& a, const Vector3& b) {
   return portable::atan2(a.x() - b.x(), b.y() - a.y());
 }
@@ -36,7 +36,7 @@ Result<Outline> Outline::create(std::span<const Vector3> points, double corner_r
     const Vector3& after = outline.corner((i + 1) % count);
     outline.edge_sums_.push_back(sum);
     sum += (after - here).norm();
-    // The corner's normals lie between those of its two edges.
+    // A corner's normals lie between those of its two edges.
     const double incoming = edge_normal_angle(before, here);
     const double outgoing = at_or_after(edge_normal_angle(here, after), incoming);
     const double middle = 0.5 * (incoming + outgoing);
@@ -52,7 +52,7 @@ int Outline::support(double x, double y, int near) const {
   const auto height = [&](int i) { return x * corner(i).x() + y * corner(i).y(); };
   int best = near;
   double best_height = height(best);
-  // On a convex polygon the height has one maximum, so climbing to either side ends there.
+  // On a convex polygon the height has one maximum, so climbing in both directions finds it.
   for (const int step : {1, count - 1}) {
     for (int walked = 0; walked < count; ++walked) {
       const int next = (best + step) % count;

@@ -1,8 +1,9 @@
-// A rotor of mass m and angular momentum L moves by all that acts on it, F and T of cables, joints,
-// contacts and loads among it, so what is missing from m (v1 - v0) / h and (L1 - L0) / h comes from
-// its bearings and its drive: the force, the torque across the axle, and about the axle the
-// drive's. With `rattle` the parts of F and T act where bodies were at the start and are at the end
-// (cable/certificate/evidence.h), which makes the balance exact for the states that it joins.
+// A rotor of mass m and angular momentum L moves under the forces F and torques T of cables,
+// joints, contacts and loads and under the reactions of its bearings and its drive. The differences
+// m (v1 - v0) / h - F and (L1 - L0) / h - T are therefore these reactions: the force and the torque
+// perpendicular to the axle belong to the bearings, the torque about the axle to the drive. With
+// `rattle` the parts of F and T act at the poses of the start and of the end
+// (cable/certificate/evidence.h), so the balance is exact for the two states.
 
 #include "cable/reactions.h"
 
@@ -23,8 +24,8 @@ using certify::last_end;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Angular momentum of a rotor about its centre. Its inertia about the axle may be told apart from
-/// that of its shape.
+/// Angular momentum of a rotor about its centre. Its inertia about the axle may differ from that of
+/// its shape.
 Vector3 spin_momentum(const BodySet& bodies, int rotor, const BodyState& state,
                       const Vector3& axle) {
   const BodyProperties& body = bodies[rotor];
@@ -46,7 +47,7 @@ struct Reactions::Content {
     return body.mount >= 0 ? Vector3(evidence.moments[at(when)].orientation(body.mount) * body.axis)
                            : body.axis;
   }
-  /// What acts on a rotor besides its bearings and its drive, about its centre.
+  /// Force and torque on a rotor about its centre, without those of its bearings and its drive.
   struct Applied {
     Vector3 force = Vector3::Zero();
     Vector3 torque = Vector3::Zero();
@@ -59,7 +60,7 @@ struct Reactions::Content {
     const ForceControl* set = evidence.start.controls.forces.find(rotor);
     for (const End when : {first_end, last_end}) {
       if (set != nullptr) {
-        // As loads act: `rattle` has half of them where bodies are at the end.
+        // Like loads: `rattle` applies half of them at the poses of the end.
         const Quaternion q =
             evidence.moments[at(evidence.rattle ? when : first_end)].orientation(rotor);
         all.force += 0.5 * set->force_in_world(q);
@@ -78,7 +79,7 @@ struct Reactions::Content {
             spin_momentum(evidence.bodies, rotor, from, axle(rotor, first_end))) /
            evidence.h;
   }
-  /// How far it has turned against its mount, per second.
+  /// Mean rate of rotation relative to its mount [rad/s].
   [[nodiscard]] double turning(int rotor) const {
     return (evidence.end.bodies[at(rotor)].angle - evidence.start.bodies[at(rotor)].angle) /
            evidence.h;
@@ -89,7 +90,7 @@ struct Reactions::Content {
     }
     return 0.0;
   }
-  /// Of a drive that holds the rotor, whatever pulls at it.
+  /// Torque of a drive that prescribes the rotor's motion [N m].
   [[nodiscard]] double holding_torque(int rotor) const {
     const BodyProperties& body = evidence.bodies[rotor];
     const Applied others = applied(rotor);
@@ -122,7 +123,7 @@ BearingReaction Reactions::bearing(int body) const {
   BearingReaction reaction;
   reaction.force = rotor.mass * (change / e.h - e.gravity) - others.force;
   const Vector3 torque = content_->momentum_rate(body) - others.torque;
-  // What acts about the axle is the drive's, and drag.
+  // The component about the axle belongs to the drive and to drag.
   const Vector3 axle =
       (content_->axle(body, first_end) + content_->axle(body, last_end)).normalized();
   reaction.torque = torque - axle * axle.dot(torque);
@@ -147,7 +148,7 @@ DriveReaction Reactions::drive(int body) const {
   }
   reaction.power = reaction.torque * content_->turning(body);
   if (kind == DriveKind::angle) {
-    // What has been set is the body's angle; of a table only the change counts.
+    // A control sets the body's angle; a table sets only the change of the angle since time 0.
     const bool set = e.start.controls.body_drives.find(body) != nullptr;
     const double start = set || mounted ? 0.0 : rotor.drive_table.at(0.0);
     reaction.error = state.angle - (drive.at(now) - start);
@@ -196,7 +197,7 @@ double Reactions::joint_friction(int joint) const {
 
 namespace {
 
-/// Power that a bearing takes from its wheel [W].
+/// Power that a bearing dissipates [W].
 double loss_of(const Evidence& e, const certify::BearingEvidence& bearing) {
   return -(bearing.torque[0] + bearing.torque[1]) * bearing.turn / e.h;
 }
@@ -212,7 +213,7 @@ double Reactions::link_friction(int cable, int link) const {
   }
   for (const certify::PassEvidence& pass : found.passes) {
     if (pass.link != link) continue;
-    // Friction pulls back what slides on: the tension that it comes on with is the smaller one.
+    // Friction opposes the sliding, so the incoming tension is the smaller one.
     sum += pass.travel / e.h *
            (found.spans[at(pass.after)].tension() - found.spans[at(pass.before)].tension());
   }

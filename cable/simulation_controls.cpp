@@ -1,5 +1,5 @@
-// The setters of Simulation: each checks, then writes one entry of the state's controls. Texts are
-// made where there is a fault alone.
+// Setters of Simulation. Each checks its arguments and writes one entry of the state's controls.
+// Error texts are composed only if there is a fault.
 
 #include "cable/cable_system.h"
 #include "cable/simulation.h"
@@ -30,7 +30,7 @@ bool has_cable(const Simulation& simulation, int cable) {
   return refuse(cable, "links/" + std::to_string(link) + "/" + key, std::move(fault));
 }
 
-/// `change(entry)` sets something of a cable.
+/// Sets a control of a cable by `change(entry)`.
 template <class Change>
 Errors change_cable(Simulation& simulation, int cable, const Change& change) {
   simulation.world.controls_of_features().cables.change(cable, simulation.cables->cables().size(),
@@ -42,7 +42,7 @@ int link_index(const Simulation& simulation, int cable, int link) {
   return simulation.cables->cables()[at(cable)].first_link + link;
 }
 
-/// Likewise of a link.
+/// The same for a link.
 template <class Change>
 Errors change_link(Simulation& simulation, int cable, int link, const Change& change) {
   simulation.world.controls_of_features().links.change(link_index(simulation, cable, link),

@@ -16,7 +16,7 @@ std::string substeps_text(std::int64_t count) {
 
 constexpr int digits = 3;
 
-/// What nothing could have done as asked.
+/// Warnings of requests that no solver could have met.
 void append_impossible(const StepStatistics& statistics, std::vector<Warning>& warnings) {
   const std::string most = number_text(statistics.most_impossible, digits) + " m or rad";
   if (statistics.impossible > 0) {
@@ -48,7 +48,7 @@ std::string link_name(const CableSystem::LinkWarning& warning, const BodySet& bo
 }  // namespace
 
 void append_solver_warnings(const StepStatistics& statistics, std::vector<Warning>& warnings) {
-  // At a dead end neither could any other have done it.
+  // A substep at a singular configuration counts as a dead end only.
   const std::int64_t fallbacks = statistics.integrator_fallbacks - statistics.dead_ends;
   const std::int64_t unconverged = statistics.unconverged - statistics.dead_ends;
   if (statistics.solver_fallbacks > 0) {

@@ -87,7 +87,7 @@ void StoredStrain::merge_cheapest() {
     const Piece& a = pieces_[i];
     const Piece& b = pieces_[i + 1];
     const double apart = a.strain() - b.strain();
-    // Twice the energy, over EA, of what the common strain does not tell.
+    // Twice the energy / EA that the common strain does not represent.
     const double cost = apart * apart * a.length * b.length / (a.length + b.length);
     if (!(cost < least)) continue;
     least = cost;

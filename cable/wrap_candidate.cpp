@@ -8,7 +8,7 @@
 namespace sheave {
 namespace {
 
-/// The shape that a wheel on the body would use (cable/links/wheel_link.h), if any.
+/// The shape that a wheel on the body would use (cable/links/wheel_link.h); null if there is none.
 const PlacedShape* first_wheel(const std::vector<PlacedShape>& shapes) {
   const auto wheel = std::find_if(shapes.begin(), shapes.end(), [](const PlacedShape& placed) {
     return placed.shape->wheel_radius() > 0.0;
@@ -16,7 +16,7 @@ const PlacedShape* first_wheel(const std::vector<PlacedShape>& shapes) {
   return wheel == shapes.end() ? nullptr : &*wheel;
 }
 
-/// Half the length of a box round all shapes along an axis through `center`.
+/// Half the length of the shapes' bounding box along an axis through `center` [m].
 double half_length_along(const std::vector<PlacedShape>& shapes, const Vector3& center,
                          const Vector3& axis) {
   double longest = 0.0;
@@ -74,7 +74,7 @@ std::optional<WrapPlane> wrap_plane(const Substep& substep, const WrapCandidate&
   const Quaternion orientation = substep.orientation(candidate.body);
   const Vector3 center = substep.point(candidate.body, candidate.center) - span.start;
   Vector3 moment = cross(span.direction, center);
-  // Through the centre: on no side of it, and in every plane through it.
+  // The span passes through the centre, so any plane through the span will do.
   if (!(moment.norm() > 0.0)) moment = any_perpendicular(span.direction);
   if (candidate.axes.empty()) {
     return WrapPlane{candidate.center, orientation.conjugate() * moment.normalized()};
@@ -85,7 +85,7 @@ std::optional<WrapPlane> wrap_plane(const Substep& substep, const WrapCandidate&
   const auto best =
       std::max_element(candidate.axes.begin(), candidate.axes.end(),
                        [&](const WrapAxis& a, const WrapAxis& b) { return fit(a) < fit(b); });
-  // Where the span comes nearest to the axis.
+  // The point of the span that is nearest to the axis.
   const Vector3 axis = orientation * best->direction;
   const double cosine = dot(axis, span.direction);
   const double sine_squared = 1.0 - cosine * cosine;
