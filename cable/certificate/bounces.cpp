@@ -1,19 +1,20 @@
-// What bounces make of the energy, exactly.
+// Change of energy by bounces, exactly.
 //
 // Impulses P of contacts, which act at the end of a substep of `xpbd`, change the kinetic energy by
-// P . (v- + v+) / 2, with v+ the velocities at the end and v- = v+ - W P those without them: what
-// friction and other forces have done before is theirs. Bodies also are not where v- has led them:
-// at the acceleration a by all that is no contact they have been put d = x1 - x0 - h v- elsewhere,
-// out of what they had cut into, too. That costs -m a . d, along the normals of their contacts.
-// (Across them it is friction that holds them.) Newton's law of the normal velocities and friction
-// together take energy, if any: what friction takes may turn a body so that its normal force works.
+// P . (v- + v+) / 2, where v+ are the velocities at the end and v- = v+ - W P those without the
+// impulses: the earlier work of friction and other forces does not belong to the bounce. In
+// addition, bodies are not where v- has led them. With the acceleration a by all forces except
+// contacts, they have been displaced by d = x1 - x0 - h v-, also out of penetrations. That costs
+// the energy -m a . d, along the normals of their contacts. (Perpendicular to the normals friction
+// holds them.) Newton's law of the normal velocities together with friction dissipates energy or
+// none: the energy that friction takes may turn a body so that its normal force does work.
 //
-// Velocities of `xpbd` are means over a substep, a h / 2 behind those at its end, and with those
-// energy is kept in free fall: (v- + v+) / 2 has a h / 2 more. What leaves the surface at w < a h
-// and is put back on it within the substep gains m w (a h - w) / 2, m a^2 h^2 / 8 at most: so short
-// a bounce has no height. `rattle`, whose substeps with impacts are done by the rule of `xpbd`, has
-// the velocities of the end; there the fall h^2 a is too long by half, and the m a^2 h^2 / 2 that
-// this loses is not the bounces'.
+// Velocities of `xpbd` are means over a substep, a h / 2 behind those at its end. With these
+// velocities energy is kept in free fall: (v- + v+) / 2 has a h / 2 more. A body that leaves a
+// surface at w < a h and is put back on it within the substep gains m w (a h - w) / 2, at most m
+// a^2 h^2 / 8, because so short a bounce has no height. `rattle`, whose substeps with impacts are
+// done by the rule of `xpbd`, has the velocities of the end. Its fall h^2 a is too long by half,
+// and the loss m a^2 h^2 / 2 by that does not belong to the bounces.
 
 #include "cable/certificate/bounces.h"
 
@@ -58,7 +59,7 @@ void BounceCheck::push(int body, const Vector3& point, const Vector3& impulse) {
   const int mount = e_.bodies[body].mount;
   Vector3 spin = Vector3::Zero();
   if (mount >= 0) {
-    // The bearing passes on all but the torque about the axle.
+    // The bearing transmits everything except the torque about the axle.
     const Vector3 axle = now.orientation(mount) * e_.bodies[body].axis;
     spin = axle * axle.dot((point - now.center(body)).cross(impulse));
     changes_[at(body)].angular += spin;
@@ -121,7 +122,7 @@ Vector3 BounceCheck::without(int body, const Vector3& point) const {
   const Change& led = changes_[at(leader(body))];
   velocity -= led.linear + led.angular.cross(point - now.center(leader(body)));
   if (leader(body) == body) return velocity;
-  // A mounted rotor has of its carrier's turn all but that about the axle.
+  // A mounted rotor shares its carrier's rotation except the part about the axle.
   const Vector3 axle = now.orientation(leader(body)) * e_.bodies[body].axis;
   const Vector3 spun = changes_[at(body)].angular - axle * axle.dot(led.angular);
   return velocity - spun.cross(point - now.center(body));
@@ -157,7 +158,8 @@ Bounced BounceCheck::sum() const {
       const double a = sense * contact.normal.dot(acceleration(leader(body)));
       worked -= (means ? 0.5 : 1.0) * e_.h * a * push;
     }
-    // Friction may turn a body so that the normal force works on it, by no more than it takes.
+    // Friction may turn a body so that the normal force works on it, by at most the energy that
+    // friction takes.
     const double rubbed = 0.5 * e_.h * contact.drag[last_end].dot(meeting + parting);
     bounced.energy += worked > 0.0 ? std::max(worked + std::min(rubbed, 0.0), 0.0) : worked;
     bounced.flow += push * std::max(std::abs(before), std::abs(after));

@@ -1,16 +1,16 @@
-// What nothing in the substep explains.
+// Energy that no work in the substep explains.
 //
-// An impulse P changes the kinetic energy by P . (v0 + v1) / 2, exactly. So with the balance of
-// momentum closed, energy is lost or gained where a force does work at something that should not do
-// any: a rigid span whose violation changes, a wheel that moves more or less cable than its rim
-// passes, a strained rope whose strain is left behind, a contact that pushes what already moves
-// away. What implicit Euler takes (m |v1 - v0|^2 / 2, springs, the curvature of ways) follows from
-// these forces and the states, and is explained. So are dissipation by friction, slip and damping,
-// and the work of drives.
+// An impulse P changes the kinetic energy by P . (v0 + v1) / 2, exactly. If the balance of momentum
+// is closed, energy is lost or gained only where a force does work that it should not do: a rigid
+// span whose violation changes, a wheel that moves more or less cable than its rim passes, a
+// strained rope whose strain is left behind, a contact that pushes bodies that already separate.
+// The dissipation of implicit Euler (m |v1 - v0|^2 / 2, springs, the curvature of paths) follows
+// from these forces and the states, so it counts as explained. So do friction, slip, damping and
+// the work of drives.
 //
-// Cable of a material takes its strain and energy onto wheels, and what comes off with another
-// strain loses by creep (cable/cable_material.cpp): both balances close if the rim has moved what
-// its strain says, and that is checked.
+// Cable with a material takes its strain and energy onto wheels, and cable that comes off with
+// another strain dissipates by creep (cable/cable_material.cpp). Both balances close if the rim has
+// moved the length that the strain implies, which is checked.
 
 #include <algorithm>
 #include <cmath>
@@ -36,11 +36,11 @@ class EnergyCheck {
     }
     const Energy reported = evidence.simulation.world.energy();
     level_ = kinetic_ + std::abs(reported.elastic) + weight_ * evidence.bodies.scale();
-    // What 1e5 substeps may lose without anybody noticing, and what is nothing beside all that
-    // moves.
+    // A loss that adds up to nothing noticeable in 1e5 substeps, and one that is negligible against
+    // the energy flow.
     floor_ = std::max(1e-6 * level_, 1e-3 * flow_);
-    // Lengths are differences of coordinates of this size: what is loaded and at rest, where no
-    // weight and no motion is a scale, works over their rounding.
+    // Lengths are differences of coordinates of this size. Forces on bodies that are loaded and at
+    // rest, without a weight or a motion as scale, work over the rounding of these lengths.
     double reach = evidence.bodies.scale();
     for (const BodyState& body : evidence.end.bodies) {
       reach = std::max(reach, body.position.norm() + evidence.bodies.scale());
@@ -74,7 +74,7 @@ class EnergyCheck {
   }
 
  private:
-  /// Energy from nowhere, beside the energy that passed there.
+  /// Adds unexplained energy, with the energy that passed there as scale.
   template <class Name>
   void add(double unexplained, double flow, const Name& name) {
     sum_ += unexplained;
@@ -83,8 +83,8 @@ class EnergyCheck {
                    name);
   }
 
-  /// Energy that passes through a body in the substep: in from some forces and loads, out to others
-  /// or into its motion.
+  /// Energy that passes through a body in the substep [J]: in from some forces and loads, out to
+  /// others or into its motion.
   [[nodiscard]] double flow_of(int i) const {
     const BodyProperties& body = e_.bodies[i];
     double power = e_.balances[at(i)].power;
@@ -132,8 +132,9 @@ class EnergyCheck {
     return span.tension() * e_.h * speed;
   }
 
-  /// What the span would work if its ends moved along it at their speeds: what frozen attachments
-  /// are off by goes with how far their bodies move and turn, not with how they pull.
+  /// Energy flow of the span if its ends moved along it at their full speeds [J]. The error of
+  /// frozen attachments is proportional to the motion of their bodies, not to its component along
+  /// the span.
   [[nodiscard]] double flow_beside(const SpanEvidence& span) const {
     double speed = 0.0;
     for (const End when : {first_end, last_end}) {
@@ -144,8 +145,8 @@ class EnergyCheck {
     return span.tension() * e_.h * speed;
   }
 
-  /// Attachments that have kept their places for the substep are laid anew at its end: the spring
-  /// then has another length than it was stretched to.
+  /// Attachments that kept their places for the substep are computed again at its end. The spring
+  /// then has another length than the one on which the tension acted.
   void check_laid(const CableEvidence& cable, std::size_t k) {
     const SpanEvidence& span = cable.spans[k];
     const CableDef& definition = *cable.definition;
@@ -160,7 +161,7 @@ class EnergyCheck {
     const double acted = (span.to.point[last_end] - span.from.point[last_end]).norm();
     const double gained = rest_length - span.rest_length[first_end];
     const double rolled = gained - span.fed - passed_into(cable, static_cast<int>(k));
-    // Cable that a rim passes is as long off it as on it.
+    // Cable that passes a rim has the same length on it and off it.
     const auto [first, second] = rim_travels(e_, cable, span, rolled);
     const double off = span.length[last_end] - acted - first - second;
     const double laid = span.length[last_end] - rest_length;
@@ -191,18 +192,18 @@ class EnergyCheck {
                         : tension * unrolled(e_, cable, span, rolled);
     } else {
       unexplained -= tension * rolled;
-      // What a body has cut into when the cable comes to touch it is taken in afterwards.
+      // When the cable has come to touch a body, the penetration is removed afterwards.
       if (!(cable.definition->compliance.value_or(0.0) > 0.0) && !cable.was_changed) {
         const double excess0 = span.length[first_end] - span.rest_length[first_end];
         const double excess1 = span.length[last_end] - rest;
-        // What comes taut has stopped what pulled at it: an impact.
+        // A span that becomes taut has stopped its load: an impact.
         unexplained -= tension * (std::max(excess1, 0.0) - std::max(excess0, 0.0));
       }
     }
     add(unexplained, flow_through(span), [&] { return span.name(); });
   }
 
-  /// Cable that slid into a span over its links [m].
+  /// Length that slid into a span over its links [m].
   static double passed_into(const CableEvidence& cable, int span) {
     double passed = 0.0;
     for (const PassEvidence& pass : cable.passes) {
@@ -214,15 +215,16 @@ class EnergyCheck {
 
   void check_joint(const JointEvidence& joint) {
     const JointWork work = work_of(e_, joint);
-    // What a drive does against a lock of the same joint passes through no body.
+    // Work of a drive against a lock of the same joint passes through no body.
     within_joints_ += work.flow;
     add(work.unexplained, work.flow, [&] {
       return std::string(joint.definition->type()) + " \"" + joint.definition->name + "\"";
     });
   }
 
-  /// Friction takes energy by the way that bodies slide over each other, and gives none: with
-  /// `rattle` that way need not be in the velocities, which are those at both ends of a substep.
+  /// Friction dissipates along the path on which bodies slide over each other, and creates no
+  /// energy. With `rattle` that path is not visible in the velocities, which are those at both ends
+  /// of a substep.
   void check_rubbing(const ContactEvidence& contact) {
     if (bounced_) return;
     const Vector3 drag = contact.drag[0] + contact.drag[1];
@@ -260,7 +262,7 @@ class EnergyCheck {
       check_damper(contact);
       return;
     }
-    // A bounce is in the velocities: its energy is that of all of them.
+    // BounceCheck checks the energy of bounces, from the velocities of all contacts together.
     if (bounces(contact) && !e_.rattle) return;
     const auto speed_at = [&](End when) {
       const Moment& now = e_.moments[at(when)];
@@ -270,8 +272,8 @@ class EnergyCheck {
     const double press = contact.press[0] + contact.press[1];
     const double flow =
         press * e_.h * std::max(std::abs(speed_at(first_end)), std::abs(speed_at(last_end)));
-    // An overlap is opened by a fiftieth per substep: what that gives, sinking has taken. How deep
-    // it is, is a figure of its own.
+    // Contacts remove 1/50 of a penetration per substep; sinking has taken the energy for that. The
+    // depth of the penetration is a figure of its own.
     constexpr double opened_share = 0.02;
     const double opened =
         contact.ground ? 0.0 : opened_share * std::max(-contact.gap[first_end], 0.0);
@@ -289,13 +291,14 @@ class EnergyCheck {
   double weight_ = 0.0;
   double flow_ = 0.0;
   double within_joints_ = 0.0;
-  double beside_spans_ = 0.0;  ///< by which those with frozen attachments are judged
+  /// energy flow by which spans with frozen attachments are judged [J]
+  double beside_spans_ = 0.0;
   double level_ = 0.0;
   double floor_ = 0.0;
-  double rounding_ = 0.0;  ///< of the largest force times the rounding of lengths [J]
+  double rounding_ = 0.0;  ///< largest force times the rounding of lengths [J]
   double sum_ = 0.0;
-  int added_ = 0;         ///< figures in sum_
-  bool bounced_ = false;  ///< what touches has velocities that are not those of its way
+  int added_ = 0;         ///< number of figures in sum_
+  bool bounced_ = false;  ///< contacts bounce, so velocities are not those of the paths
 };
 
 }  // namespace

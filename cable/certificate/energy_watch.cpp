@@ -15,7 +15,7 @@ namespace sheave::certify {
 namespace {
 
 constexpr std::int64_t block_steps = 16;
-/// Of what moves, in one step.
+/// relative to the energy of the motion, in one step
 constexpr double suspicious_share = 0.01;
 constexpr double most_growth = 1e6;
 
@@ -36,8 +36,8 @@ double fastest_feed(const Simulation& simulation) {
   return fastest;
 }
 
-/// What all springs would store if they were drawn out by the size of the scene, or by a turn: what
-/// is led can strain any of them [J].
+/// Energy of all springs when stretched by the size of the scene, or by one turn [J]: driven bodies
+/// can strain any of them.
 double full_springs(const Model& model, const std::vector<CableDef>* cables, double size) {
   constexpr double turn = 6.3;  // [rad]
   const double way = std::max(size, turn);
@@ -58,8 +58,8 @@ double full_springs(const Model& model, const std::vector<CableDef>* cables, dou
   return sum;
 }
 
-/// Whether `xpbd` takes from the spin of a body in a way that is not that of smooth motion: one whose
-/// moments of inertia differ and that turns far in a substep.
+/// Whether `xpbd` dissipates spin of a body in another way than that of smooth motion: a body with
+/// different moments of inertia that turns far in a substep.
 bool spins_fast(const World& world) {
   constexpr double far = 0.05;  // [rad]
   const StepSettings& step = world.model().step;
@@ -118,7 +118,7 @@ void EnergyWatch::observe(const Simulation& simulation, const StepStatistics& st
     begin(simulation);
     return;
   }
-  // What is set may do work, and is over only when a new balance begins.
+  // Controls may do work. They stay in effect until a new balance begins.
   if (passive_ && has_controls(simulation)) passive_ = keeps_ = false;
   steps_ = state.steps;
   const double before = energy_.total();
@@ -140,7 +140,7 @@ void EnergyWatch::observe(const Simulation& simulation, const StepStatistics& st
 }
 
 double EnergyWatch::rounding() const {
-  // Of heights that weights could have in the scene, and have: positions are as coarse as those.
+  // Rounding of potential energies, at the heights of the scene and at the present ones.
   return 1e-12 * (vivid_ + weight_ + std::abs(start_.potential) + std::abs(energy_.potential));
 }
 
@@ -165,7 +165,7 @@ void EnergyWatch::follow_loss(const Simulation& simulation, double loss,
   const bool is_taut =
       cables == nullptr || cables->all_pull(simulation.world.state().features.back());
   const std::size_t events = cables == nullptr ? 0 : cables->events().size();
-  // What comes taut within a step of `xpbd` stops at the end of the next one.
+  // A span that becomes taut within a step of `xpbd` is stopped only at the end of the next step.
   constexpr int settled = 2;
   const bool smooth =
       is_taut && taut_steps_ >= settled && events == events_ && !spins_fast(simulation.world);
@@ -196,13 +196,13 @@ double EnergyWatch::most_put_in(const Simulation& simulation) const {
   const State& state = world.state();
   double fastest = fastest_feed(simulation);
   double fastest_spin = 0.0;
-  double inertia = 0.0;  // of all, about their own centres
+  double inertia = 0.0;  // of all bodies, about their own centres
   double work = 0.0;
   for (int i = 0; i < world.bodies().count(); ++i) {
     const BodyProperties& body = world.bodies()[i];
     const BodyState& now = state.bodies[at(i)];
     const double spin = now.angular_velocity.norm();
-    // Of mounted rotors, too, which rows drive.
+    // Includes mounted rotors, which rows drive.
     const DriveKind drive = world.bodies().definition(i).drive;
     const bool led = body.mobility == Mobility::kinematic || drive == DriveKind::speed ||
                      drive == DriveKind::angle;
@@ -211,7 +211,7 @@ double EnergyWatch::most_put_in(const Simulation& simulation) const {
       fastest = std::max(fastest, now.velocity.norm() + spin * size_);
       fastest_spin = std::max(fastest_spin, spin);
     }
-    // Of a body that turns freely the angle is not counted.
+    // The state does not count the angle of a freely turning body.
     const double angle = std::max(std::abs(now.angle), spin * state.time);
     work += world.bodies().definition(i).torque.norm() * angle;
     if (drive == DriveKind::torque) {
@@ -233,8 +233,8 @@ double EnergyWatch::most_put_in(const Simulation& simulation) const {
 
 std::optional<CertificateItem> EnergyWatch::finding() const {
   const double floor = rounding();
-  // As in single substeps, a millionth of what weights could do counts as what moves: what is as
-  // good as at rest creeps within the solver's tolerance.
+  // As in single substeps, a millionth of the energy of the weights counts as moving: a machine
+  // almost at rest creeps within the solver's tolerance.
   const double scale = std::max(vivid_, 1e-6 * weight_);
   CertificateItem item{
       CertificateItem::Kind::energy, "the whole run", 0.0, "J", scale, 0.0, gain_time_, {}};

@@ -18,15 +18,14 @@
 namespace sheave::certify {
 namespace {
 
-/// A feature's state with other forces: the first ones of `reals` where `acting` says, or all of
-/// `forces`.
+/// A copy of a feature's state in which `forces` replace the first reals.
 FeatureState with_forces(const FeatureState& like, const std::vector<double>& forces) {
   FeatureState own = like;
   std::copy(forces.begin(), forces.end(), own.reals.begin());
   return own;
 }
 
-/// A drum with layers acts with the radius that it has at the end.
+/// A drum with layers acts with its radius at the end of the substep.
 void let_drums_grow(const Simulation& simulation, const FeatureState& now, FeatureState& acting) {
   const CableSystem& system = *simulation.cables;
   for (std::size_t c = 0; c < simulation.cable_definitions->size(); ++c) {
@@ -41,7 +40,7 @@ void let_drums_grow(const Simulation& simulation, const FeatureState& now, Featu
   }
 }
 
-/// Bodies where they are at the end of a substep that began at `start`.
+/// The substep that began at `start`, with bodies at their poses in `end`.
 Substep placed_at(const BodySet& bodies, const State& start, const State& end, double h) {
   Substep now(bodies, start, h, 1);
   for (int i = 0; i < bodies.count(); ++i) {
@@ -103,7 +102,8 @@ Evidence::Evidence(const Simulation& observed, const LastSubstep& last)
     largest_force = std::max(largest_force, balance.largest_force);
   }
   force_rounding = rounding_of_forces();
-  // Spans that depend on each other share a load as if each yielded by 1e-9 of what it moves.
+  // Rigid spans that depend on each other share a load as if each yielded by 1e-9 of its effective
+  // inverse mass.
   shared_rounding = std::numeric_limits<double>::epsilon() / 1e-9 * largest_force;
 }
 
@@ -111,7 +111,7 @@ Vector3 Evidence::displacement(int body, const Vector3& point, End at_end) const
   if (body == bodies.count()) return Vector3::Zero();
   const Vector3 center = moments[at(at_end)].center(body);
   const Vector3 arm = point - center;
-  // A mounted rotor is led by its carrier, whose turn counts to first order.
+  // The carrier leads a mounted rotor; its rotation counts to first order.
   const int mount = bodies[body].mount;
   if (mount >= 0) return displacement(mount, center, at_end) + turn_of(body).cross(arm);
   return end.bodies[at(body)].position - start.bodies[at(body)].position + turn_of(body).cross(arm);
@@ -134,18 +134,18 @@ void Evidence::push(End when, int body, const Vector3& point, const Vector3& for
   if (mount < 0) {
     add(body, force, (point - now.center(body)).cross(force));
   } else if (brakes(body)) {
-    // What its bearing does not let turn it turns what holds the bearing.
+    // A torque that the bearing holds acts on the carrier.
     add(mount, force, (point - now.center(mount)).cross(force));
     balances[at(body)].largest_force = std::max(balances[at(body)].largest_force, size);
   } else {
-    // The bearing passes on all but the torque about the axle.
+    // The bearing transmits everything except the torque about the axle.
     const Vector3 axle = now.orientation(mount) * bodies[body].axis;
     const Vector3 spin = axle * axle.dot((point - now.center(body)).cross(force));
     add(mount, force, (point - now.center(mount)).cross(force) - spin);
     add(body, Vector3::Zero(), spin);
     balances[at(body)].largest_force = std::max(balances[at(body)].largest_force, size);
   }
-  // What it stops has passed all of its energy.
+  // A force that stops a body has passed all of its energy, so the larger of both powers counts.
   balances[at(body)].power +=
       std::max(std::abs(force.dot(moments[first_end].velocity(body, point))),
                std::abs(force.dot(moments[last_end].velocity(body, point))));
@@ -196,7 +196,7 @@ void Evidence::collect_cables(const LastSubstep& last) {
   const bool has_late = late.size() == spans + bearing_count;
   const auto force = parts(tensions, rattle, has_late ? late.first(spans) : late);
   const auto torque = parts(torques, rattle, has_late ? late.subspan(spans) : late);
-  // The course of a substep is that of its start.
+  // The substep acted with the course of its start.
   FeatureState first = before;
   FeatureState second = before;
   for (std::size_t k = 0; k < spans; ++k) {
@@ -222,7 +222,7 @@ void Evidence::collect_cables(const LastSubstep& last) {
     cable.end = after[c];
     const CompiledCable& layout = system.cables()[c];
     const auto differs = [&](std::size_t i) { return before.integers[i] != now.integers[i]; };
-    // How a wheel has been left is nothing to the cable that passes it by.
+    // The way in which a wheel has been left does not matter to the cable that passes it.
     const auto mode = [&](const FeatureState& state, int link) {
       return std::min(state.integers[system.mode_index(link)], RunningLink::lifted_mode);
     };
@@ -252,7 +252,7 @@ void find_directions(SpanEvidence& span) {
   }
 }
 
-/// Whether its attachments cannot keep their places: cable/cable_system.cpp.
+/// Whether attachments cannot keep their places, as in cable/cable_system.cpp.
 bool must_follow(const SpanEvidence& span) {
   const auto must = [&](const SpanSide& side) {
     return side.winding != 0 &&
@@ -325,7 +325,8 @@ void Evidence::collect_cable(CableEvidence& cable, const CableReport& first,
 
 namespace {
 
-/// The way of a braked wheel's rim over its carrier, towards the next span [m]; 0 of other links.
+/// Travel of a braked wheel's rim relative to its carrier, towards the next span [m]; 0 for other
+/// links.
 double braked_travel(const Evidence& evidence, const LinkReport& link) {
   const int body = evidence.bodies.index(link.body);
   if (link.winding == 0 || !evidence.brakes(body)) return 0.0;
@@ -345,7 +346,7 @@ void Evidence::collect_passes(CableEvidence& cable, const CableReport& first,
     return after.links[at(link)].*of - first.links[at(link)].*of;
   };
   for (SpanEvidence& span : cable.spans) {
-    // Only the ends of a cable feed.
+    // Feeds exist only at the ends of a cable.
     span.fed = change(span.from.link, &LinkReport::fed) + change(span.to.link, &LinkReport::fed);
   }
   for (std::size_t k = 0; k < cable.spans.size(); ++k) {

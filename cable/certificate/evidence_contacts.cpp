@@ -1,4 +1,4 @@
-// What the last substep tells of the floor and of contacts.
+// Evidence of ground contacts and of contacts between bodies in the last substep.
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +15,9 @@
 namespace sheave::certify {
 namespace {
 
-/// Where a point of the surface [m, world] that touches the floor is at the end, if it was at
-/// `start`: material of a corner; of what is round the place that does not turn along with it.
+/// Position at the end of the surface point that touches the floor at `start` [m, world]. For a
+/// corner it is the same material point. On a round surface it is the contact, which does not turn
+/// with the body.
 Vector3 place_at_end(const Evidence& evidence, int body, const PlacedShape& placed,
                      const Vector3& start, const Vector3& normal) {
   const std::array<Moment, 2>& moments = evidence.moments;
@@ -31,7 +32,7 @@ Vector3 place_at_end(const Evidence& evidence, int body, const PlacedShape& plac
     return carried(start - below) + below;
   }
   if (dynamic_cast<const Cylinder*>(shape) == nullptr) return carried(start);
-  // The turn between the two moments without its twist about the axis.
+  // The rotation between the two moments without its twist about the axis.
   const Quaternion first = moments[first_end].orientation(body);
   const Vector3 axis = first * (placed.orientation * Vector3::UnitZ());
   const Vector3 center =
@@ -40,7 +41,7 @@ Vector3 place_at_end(const Evidence& evidence, int body, const PlacedShape& plac
   const Quaternion turn = moments[last_end].orientation(body) * first.conjugate();
   const double along = turn.vec().dot(axis);
   Quaternion twist(turn.w(), along * axis.x(), along * axis.y(), along * axis.z());
-  // Turned over by half a turn it has none.
+  // A rotation by half a turn has no defined twist.
   if (twist.norm() < 1e-9) return carried(start);
   twist.normalize();
   return carried(core) + turn * (twist.conjugate() * (start - core));
@@ -124,7 +125,7 @@ void Evidence::collect_contacts(const LastSubstep& last, std::size_t feature) {
       contact.gap[at(when)] =
           report.normal.dot(contact.point_a[at(when)] - contact.point_b[at(when)]);
     }
-    // What is round does not take its lowest point along.
+    // The lowest point of a round surface does not move with the material.
     const Vector3 rolled = radius_a * turn_of(contact.body_a) + radius_b * turn_of(contact.body_b);
     contact.slip = contact.point_a[last_end] - contact.point_a[first_end] -
                    (contact.point_b[last_end] - contact.point_b[first_end]) -

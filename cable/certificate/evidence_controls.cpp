@@ -1,4 +1,4 @@
-// What has been set, as the certificate sees it (engine/controls.h).
+// Controls (engine/controls.h) as the certificate applies them.
 
 #include <cmath>
 

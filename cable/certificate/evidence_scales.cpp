@@ -1,4 +1,4 @@
-// Which size, and which force, counts as nothing.
+// Scales below which sizes and forces are rounding.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace sheave::certify {
 
 double Evidence::rounding_of_forces() const {
-  // A few operations on coordinates of this size.
+  // Rounding of a few operations on coordinates of this size.
   constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
   double sum = 0.0;
   for (int i = 0; i < bodies.count(); ++i) {

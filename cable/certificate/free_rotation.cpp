@@ -42,7 +42,7 @@ FreeRotation free_rotation(const Evidence& evidence, int i) {
   const Vector3 middle =
       result.momentum + 0.5 * h * load_torque_with_rotors(evidence, i, first_end);
   if (body.symmetry_axis && body.mounted_rotors.empty()) {
-    // Precession about the momentum, spin about the axis of symmetry.
+    // Precession about the angular momentum, spin about the axis of symmetry.
     const Vector3& own = *body.symmetry_axis;
     const double along = own.dot(body.inverse_inertia * own);
     const double across = 0.5 * (body.inverse_inertia.trace() - along);

@@ -1,5 +1,6 @@
-// Bounds of friction: e^(m a) at links, Coulomb's cone at contacts. Slip is at the bound and
-// forwards: cable goes where the larger tension is, contacts are dragged against their sliding.
+// Bounds of friction: e^(m a) at links, Coulomb's cone at contacts. A slipping link or contact is
+// at its bound and dissipates: cable slides towards the larger tension, and the friction of
+// contacts is opposed to their sliding.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,7 @@ namespace {
 
 using Kind = CertificateItem::Kind;
 
-/// What the spring of a span without damping pulls with at an end of the substep.
+/// Force of the spring of a span without damping, at one end of the substep [N].
 double pull_at(const CableDef& cable, const SpanEvidence& span, End when) {
   const double rest = span.rest_length[at(when)];
   const double compliance = cable.axial_stiffness ? std::max(rest, 0.0) / *cable.axial_stiffness
@@ -20,9 +21,10 @@ double pull_at(const CableDef& cable, const SpanEvidence& span, End when) {
   return compliance > 0.0 ? std::max(span.length[at(when)] - rest, 0.0) / compliance : 0.0;
 }
 
-/// By how much less than the bound asks for a link is pulled the way that cable slides. With
-/// `rattle` a spring's force is the mean of those at both ends: where they lie on either side of
-/// the bound, as where a cable goes slack, it has slid by one of them.
+/// Difference between the tension that the bound requires on the side to which cable slides and the
+/// actual tension [N]. With `rattle` the force of a spring is the mean of those at both ends. If
+/// these lie on different sides of the bound, as when a cable becomes slack, the slip obeyed one of
+/// them, so the smallest difference counts.
 double missing_pull(const Evidence& evidence, const CableEvidence& cable, const PassEvidence& pass,
                     const SpanEvidence& held, const SpanEvidence& pulling) {
   const double missing = carried(pass, held) - pulling.tension();
@@ -44,17 +46,17 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
   const double after = cable.spans[at(pass.after)].tension();
   const double bound = portable::exp(
       pass.friction * std::max(pass.wrap_angle[first_end], pass.wrap_angle[last_end]));
-  // Out of a span of constant compliance that has no rest length left nothing can slide.
+  // No cable can slide out of a span of constant compliance without rest length.
   const SpanEvidence& giving = cable.spans[at(before < after ? pass.before : pass.after)];
   const bool drained = cable.definition->compliance.value_or(0.0) > 0.0 &&
                        giving.rest_length[first_end] <= 1e-13 * evidence.bodies.scale();
   if (drained) return;
   const double high = std::max(before, after);
   const double low = std::min(before, after);
-  // Tensions that are nothing beside those of the cable, or beside rounding, have no ratio that
-  // would count.
+  // The ratio of tensions has no meaning if they are negligible against the cable's largest tension
+  // or against rounding.
   const double scale = std::max({high, 1e-3 * largest, evidence.force_rounding});
-  // Only rigid spans share a load that they leave open.
+  // Only rigid spans share a load that they do not determine.
   const bool rigid =
       !cable.definition->axial_stiffness && cable.definition->compliance.value_or(0.0) == 0.0;
   const double rounding = std::max(
@@ -65,9 +67,10 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
   };
   findings.note(Kind::friction, "N", std::max(high - bound * low, 0.0), scale, rounding, name);
   if (pass.travel == 0.0 || pass.friction == 0.0 || !(scale > 0.0)) return;
-  // Cable that comes or goes at both ends of an arc does not slide one way.
+  // If cable comes onto or off an arc at both ends, its slip has no single direction.
   if (std::abs(pass.travel) <= 0.5 * std::abs(pass.gained)) return;
-  // Slipping: the side to which it goes pulls harder by all of the bound.
+  // A slipping link is at its bound: the tension on the side of the slip is larger by the full
+  // factor.
   const SpanEvidence& pulling = cable.spans[at(pass.travel > 0.0 ? pass.after : pass.before)];
   const SpanEvidence& held = cable.spans[at(pass.travel > 0.0 ? pass.before : pass.after)];
   const double asked = carried(pass, held);
@@ -78,8 +81,9 @@ void check_pass(const Evidence& evidence, const CableEvidence& cable, const Pass
                 rounding, name);
 }
 
-/// A bearing takes no more than its bound, and all of it, against the turning, where it turns: in
-/// the first half of a substep by the way, in the second one of `rattle` by the speed at the end.
+/// The torque of a bearing is within its bound. While the wheel turns it is at the bound, against
+/// the rotation: in the first half of a substep by the rotation over the substep, in the second
+/// half of `rattle` by the rate at the end.
 void check_bearing(const Evidence& evidence, const BearingEvidence& bearing, Findings& findings) {
   const auto name = [&] {
     return "the bearing of " + evidence.body_name(bearing.rotor) + " under \"" +
@@ -90,7 +94,7 @@ void check_bearing(const Evidence& evidence, const BearingEvidence& bearing, Fin
     const double bound = bearing.arm * bearing.pressed[at(when)];
     const double torque = bearing.torque[at(when)];
     const double scale = std::max(bound, 1e-3 * bearing.arm * evidence.largest_force);
-    // Rounds end when bounds have settled to this.
+    // Rounds end when bounds have converged to this accuracy.
     const double rounding = 1e-7 * scale + size * evidence.force_rounding;
     findings.note(Kind::friction, "N m", std::max(std::abs(torque) - bound, 0.0), scale, rounding,
                   name);
@@ -119,8 +123,8 @@ void check_contact(const Evidence& evidence, const ContactEvidence& contact, Fin
   };
   findings.note(Kind::friction, "N", std::max(drag.norm() - bound, 0.0), scale, 1e-7 * scale, name);
   if (contact.sticks) return;
-  // What slides is dragged against its sliding: by its way, and where other contacts bounce, whose
-  // velocities are not those of the way, by either.
+  // Friction of a sliding contact is opposed to the sliding, by its path. If other contacts bounce,
+  // velocities are not those of the paths, so either of the two may count.
   const Moment& now = evidence.moments[last_end];
   const Vector3& at_a = contact.point_a[last_end];
   const Vector3& at_b = contact.point_b[last_end];
@@ -193,8 +197,9 @@ void check_contacts(const Evidence& evidence, Findings& findings) {
     if (compliance > 0.0) {
       const double from = std::min(contact.gap[first_end], 0.0);
       const double mean = evidence.rattle ? 0.5 * (from + gap) : gap;
-      // The first half of `rattle` has none of the damper that acts at the end. A damper's part is
-      // against the way of the gap; within a substep of `rattle` it is at most that of implicit Euler.
+      // The first half of `rattle` contains no damper, as the damper acts at the end. The damper's
+      // part is opposed to the change of the gap; within a substep of `rattle` it is at most that
+      // of implicit Euler.
       const double spring = evidence.rattle ? 2.0 * contact.press[first_end] : press;
       const double way = gap - from;
       double left = mean + compliance * spring;
@@ -207,7 +212,7 @@ void check_contacts(const Evidence& evidence, Findings& findings) {
       continue;
     }
     findings.note(Kind::contact, "m", std::max(-gap, 0.0), size, slop, name);
-    // What bounces has parted again within the substep.
+    // A bouncing contact has separated again within the substep.
     if (bounces || !(gap > 0.0) || !(press > 0.0)) continue;
     findings.note(Kind::complementarity, "N", press * std::min(1.0, gap / size),
                   std::max(press, evidence.largest_force), 1e-9 * press, name);

@@ -18,7 +18,7 @@ bool turns_about_axis(const BodyProperties& body) {
   return body.mobility == Mobility::rotor || body.mobility == Mobility::planar;
 }
 
-/// In the world frame; of mounted rotors the carrier turns it.
+/// World frame; the carrier rotates the axis of a mounted rotor.
 Vector3 axis_of(const World& world, const BodyProperties& body) {
   if (body.mount < 0) return body.axis;
   return world.state().bodies[static_cast<std::size_t>(body.mount)].orientation * body.axis;
@@ -82,7 +82,7 @@ void IntegratorLoss::observe(const World& world, double energy, std::int64_t fal
     step.share = by_xpbd / (substeps * substeps);
     step.energy = energy;
     recent_.push_back(step);
-    // A step has all its neighbours when two more are done.
+    // A step has both neighbours on each side after two further steps.
     if (recent_.size() - counted_ > 2) {
       sums_.add(recent_[counted_], smooth_part(counted_));
       ++counted_;
@@ -108,8 +108,8 @@ double IntegratorLoss::smooth_part(std::size_t step) const {
 
 void IntegratorLoss::Sums::add(const Step& step, double smooth) {
   const double limit = step.square > smooth ? smooth / step.square : 1.0;
-  // The law holds between impacts: where one changes the velocity, a smooth motion ends and another
-  // begins, each with v . a of its own.
+  // The law holds between impacts. At an impact one smooth motion ends and another begins, each
+  // with its own v . a.
   const bool smooth_motion = limit > 0.5;
   const double first = begun && smooth_motion ? power : std::sqrt(limit) * step.first_power;
   power = std::sqrt(limit) * step.power;

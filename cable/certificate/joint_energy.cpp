@@ -1,13 +1,15 @@
-// What joints do to the energy beside what is theirs to do.
+// Work of joints that their springs, dampers and friction do not explain.
 //
-// A lock is a value C of B against A that is to be 0, and an effort f on B along it: a force, or a
-// torque over what an angle changes C by. Its work on the bodies is f . dC. A rigid lock should do
-// none. An elastic one has C^2 / 2c; by its rule, f = -C / c with C of the end (`xpbd`) or the mean
-// of both ends (`rattle`), for which f . dC is what the spring gives, exactly, or as much less as
-// implicit Euler takes. So what nothing explains is (f + C / c) . dC: stiff springs store, over a
-// gap that sweeps have left, much more than their force has done.
+// A lock requires a value C of B relative to A to be 0. Its effort f on B along C is a force, or a
+// torque divided by the derivative of C with respect to the angle. The work on the bodies is f .
+// dC. A rigid lock should do none. An elastic lock stores C^2 / 2c; by its rule, f = -C / c with C
+// at the end (`xpbd`) or the mean of both ends (`rattle`), f . dC is the energy that the spring
+// gives, exactly, or less by the dissipation of implicit Euler. The unexplained work is therefore
+// (f + C / c) . dC. A stiff spring with a residual gap from unfinished sweeps stores much more
+// energy than its force has worked.
 //
-// What a ball resists turning with, beyond its damper, is friction and does no work > 0.
+// Resistance of a ball joint to rotation in excess of its damper is friction, whose work is not
+// above 0.
 
 #include "cable/certificate/joint_energy.h"
 
@@ -33,7 +35,7 @@ class JointWorker {
       return work_;
     }
     add_flow();
-    // A gap that is within what the solver takes for none changes within it.
+    // Below the gap that the solver takes for closed, changes of the gap are rounding.
     const double gap = 2e-10 * e_.bodies.scale();
     const double size = std::max(e_.size_of(frame_.body_a), e_.size_of(frame_.body_b));
     const double angle = size > 0.0 ? gap / size : 0.0;
@@ -49,7 +51,7 @@ class JointWorker {
   }
 
  private:
-  /// A lock at one end of the substep, B against A.
+  /// Value and effort of a lock at one end of the substep, B relative to A.
   struct Lock {
     Vector3 value = Vector3::Zero();
     Vector3 effort = Vector3::Zero();
@@ -74,11 +76,11 @@ class JointWorker {
     work_.flow = std::max(work_.flow, std::abs(taken));
   }
 
-  /// Of a distance, with what its damper takes. A string is one while it pulls; a rigid one while it
-  /// is stretched: what comes taut has stopped what pulled at it.
+  /// Work of a distance lock, including its damper. A string is a lock while it has a tension, a
+  /// rigid one while it is stretched: a string that becomes taut has stopped its load.
   void rod() {
     const bool any = frame_.lower != 0.0 && frame_.upper != 0.0;
-    // What acts along the extension besides is not told apart from the rod.
+    // Further forces along the extension cannot be separated from that of the rod.
     if (any || coordinates_of(*joint_.definition).front().settings->acts()) return;
     add_flow();
     const bool elastic = frame_.compliance > 0.0;
@@ -101,7 +103,7 @@ class JointWorker {
     if (!elastic) return;
     const double ruled =
         e_.rattle ? 0.5 * (stretch[first_end] + stretch[last_end]) : stretch[last_end];
-    // A damper of `xpbd` sees what its force at the end works against.
+    // A damper of `xpbd` sees the motion along the force's direction at the end.
     const bool was_free = one_sided && stretch[first_end] == 0.0;
     const double seen = e_.rattle || was_free ? opened : linear_opening();
     const double taken = (ruled / frame_.compliance + frame_.damping / e_.h * seen) * opened;
@@ -133,14 +135,14 @@ class JointWorker {
     return {locked(frame_.anchor_b(now) - frame_.anchor_a(now)),
             locked(joint_.acting[at(when)].force)};
   }
-  /// By the sine of the angle between the axes.
+  /// Value: the sine of the angle between the axes, as a vector.
   [[nodiscard]] Lock tilt(End when) const {
     const Vector3 own = axis_at(when);
     const Vector3 other = frame_.turned_by(e_.moments[at(when)], frame_.body_b) * frame_.axis_b;
     const Vector3 held = without_twist(joint_.acting[at(when)].torque, own, other);
     return {own.cross(other), held / own.dot(other)};
   }
-  /// By twice the sine of half the angle of the turn.
+  /// Value: twice the sine of half the rotation angle, as a vector.
   [[nodiscard]] Lock turn(End when) const {
     const Moment& now = e_.moments[at(when)];
     Quaternion off = frame_.turned_by(now, frame_.body_b) * frame_.turned_a(now).conjugate();
@@ -148,7 +150,7 @@ class JointWorker {
     return {2.0 * off.vec(), joint_.acting[at(when)].torque / off.w()};
   }
 
-  /// What the joint stops has passed all of its energy.
+  /// A joint that stops a body has passed all of its energy.
   void add_flow() {
     for (const End when : {first_end, last_end}) {
       const JointReport& acting = joint_.acting[at(when)];

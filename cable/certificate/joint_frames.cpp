@@ -16,7 +16,7 @@
 namespace sheave::certify {
 namespace {
 
-/// Calls `visit` with the joint as its own type.
+/// Calls `visit` with the joint as its derived type.
 template <class Visit>
 void visit_joint(const JointDef& joint, const Visit& visit) {
   const std::string_view type = joint.type();
@@ -46,7 +46,7 @@ class FrameMaker {
     frame_.kind.meets = frame_.kind.parallel = true;
     common(joint, joint.axis);
     const auto keeps = [&](int body) { return bodies_.stays_in_plane(body, frame_.axis_a); };
-    // Bodies of one plane are held in it by their mobility.
+    // The mobilities of both bodies keep the axes parallel.
     if (keeps(frame_.body_a) && keeps(frame_.body_b)) frame_.kind.parallel = false;
   }
   void operator()(const SliderJoint& joint) const {
@@ -64,7 +64,7 @@ class FrameMaker {
   void operator()(const UniversalJoint& joint) const {
     frame_.kind.meets = frame_.kind.right_angle = true;
     common(joint, joint.axis_a);
-    // Exactly perpendicular, whatever was printed.
+    // Makes the axes exactly perpendicular; the settings may be rounded.
     const Vector3 across = frame_.axis_a.cross(joint.axis_b).normalized();
     frame_.axis_b = across.cross(frame_.axis_a);
   }

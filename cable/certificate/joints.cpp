@@ -1,7 +1,6 @@
-// Joints against what they lock, their drives against what they prescribe, and what acts along
-// their coordinates against the laws of springs, dampers and friction. Rates and forces by the
-// integrator's rule: `xpbd` asks for its laws at the end of the substep, `rattle` for the mean of
-// both ends.
+// Residuals of joints: locks, drives, and the laws of springs, dampers and friction along
+// coordinates. Rates and forces follow the integrator's rule: `xpbd` requires its laws at the end
+// of the substep, `rattle` for the mean of both ends.
 
 #include <algorithm>
 #include <cmath>
@@ -20,11 +19,11 @@ namespace {
 
 using Kind = CertificateItem::Kind;
 
-/// What a drive is asked for, by its settings or by what has been set.
+/// Target of a drive, from its settings or its control.
 struct Demand {
   TimeSignal signal;
   const DriveControl* set;
-  double most = 0.0;  ///< of what it is asked for
+  double most = 0.0;  ///< largest absolute target
   double limit = std::numeric_limits<double>::infinity();
 
   Demand(const JointCoordinate& settings, const DriveControl* control)
@@ -81,7 +80,7 @@ class JointCheck {
  private:
   static constexpr double rounding = 1e-12;
 
-  /// What its gaps are measured by: the bodies that it joins, as far as their anchors reach.
+  /// Scale of the gaps [m]: the joined bodies, as far as their anchors reach.
   [[nodiscard]] double size() const {
     double size = 0.0;
     for (const auto& [body, anchor] : {std::pair{frame_.body_a, &frame_.own_anchor_a},
@@ -99,7 +98,7 @@ class JointCheck {
   void note(Kind kind, std::string_view unit, double value, double scale, double eps) {
     findings_.note(kind, unit, value, scale, eps, [&] { return name(); });
   }
-  /// The value of a lock by its rule, from those at both ends.
+  /// Value of a lock to which its law applies, from the values at both ends.
   template <class Value>
   [[nodiscard]] Vector3 ruled(const Value& value) const {
     const Vector3 now = value(e_.moments[last_end]);
@@ -120,7 +119,7 @@ class JointCheck {
       if (frame_.kind.in_plane) return axis * axis.dot(apart);
       return apart;
     };
-    // Rigid: what is there at the end. Elastic: the spring's law, force = gap / compliance.
+    // Rigid: the gap at the end. Elastic: residual of the spring's law, force = gap / compliance.
     Vector3 open = a > 0.0 ? ruled(gap) : gap(e_.moments[last_end]);
     if (a > 0.0) {
       const Vector3 axis = axis_of(e_.moments[last_end]);
@@ -190,13 +189,13 @@ class JointCheck {
     const double x1 = stretch(e_.moments[last_end]);
     const Vector3 apart =
         frame_.anchor_a(e_.moments[last_end]) - frame_.anchor_b(e_.moments[last_end]);
-    // On B towards A: > 0 pulls.
+    // Force on B towards A; > 0 pulls.
     const double pull = force_.dot(apart.normalized());
     if (frame_.compliance > 0.0) {
-      // What acts along the extension besides is not told apart from the rod.
+      // Further forces along the extension cannot be separated from that of the rod.
       if (coordinates_of(*joint_.definition).front().settings->acts()) return;
       const bool one_sided = frame_.lower != 0.0 || frame_.upper != 0.0;
-      // What was free has no damper before it closes.
+      // The damper of a one-sided distance begins where the distance closes.
       const bool pulls = frame_.lower != 0.0;
       const bool pushes = frame_.upper != 0.0;
       const double moved = x1 - x0;
@@ -270,13 +269,14 @@ class JointCheck {
     double over = 0.0;
     if (settings.lower) over = std::max(over, *settings.lower - c);
     if (settings.upper) over = std::max(over, c - *settings.upper);
-    // What drives and springs of the coordinate push it with does not come out of the joint.
+    // Drives and springs of the coordinate push against its stop inside the joint, so their force
+    // is not in the joint's reaction.
     const JointCoordinateReport& now = joint_.end.coordinates[k];
     const double inner = std::abs(now.drive_force) + settings.friction +
                          settings.stiffness * std::abs(now.value - settings.rest);
     const double give =
         settings.limit_compliance * (inner + (now.angle ? torque_.norm() : force_.norm()));
-    // An elastic one gives; by how much, the balance of momentum tells.
+    // An elastic stop yields. The balance of momentum checks its force.
     if (settings.limit_compliance > 0.0) over = std::max(over - 2.0 * give, 0.0);
     note(Kind::joint, unit_of(k), over, scale_of(k), rounding * scale_of(k));
   }
@@ -301,11 +301,11 @@ class JointCheck {
       note(Kind::drive, now.angle ? "N m" : "N", std::max(std::abs(force) - limit, 0.0), limit,
            1e-9 * limit);
     }
-    // What has all the force it can have is stalled, not wrong.
+    // A drive at its limit is stalled, not wrong.
     const double enough = (1.0 - 1e-6) * limit;
     if (std::abs(force) >= enough) return;
-    // The first half of `rattle` has to make all of the way and may not have more than half of the
-    // limit; what it has not reached the second half may, with less.
+    // The first half of `rattle` has to do all of the motion with at most half of the limit. The
+    // second half may complete it with less.
     const double early = joint_.acting[first_end].coordinates[k].drive_force;
     if (e_.rattle && std::abs(early) >= 0.5 * enough) return;
     const double slop = rounding * (scale_of(k) + std::abs(now.value)) +
@@ -322,9 +322,9 @@ class JointCheck {
          std::max(now.angle ? 1.0 : size_, most), slop);
   }
 
-  /// Speed along a translation as a damper sees it that is one with a spring: of `xpbd` what its
-  /// force at the end works against. Where the joint turns about something far away that is of
-  /// another second order than `moved`, the change of the coordinate.
+  /// Rate of a translation as a damper sees it that acts together with a spring. With `xpbd` it is
+  /// the motion along the force's direction at the end. If the joint turns about a distant point,
+  /// this differs in second order from `moved`, the change of the coordinate.
   [[nodiscard]] double seen_by_damper(int along, double moved) const {
     if (e_.rattle || (along != 1 && along != 3)) return moved;
     const Moment& moment = e_.moments[last_end];
@@ -337,15 +337,16 @@ class JointCheck {
            e_.h;
   }
 
-  /// A speed far below which nothing is known to slip: a millionth of its size in the time that has
-  /// passed, and a hundred times what rounds may leave of a row that holds in each substep.
+  /// Rate below which slip cannot be told from rounding [m/s, rad/s]: a millionth of the joint's
+  /// size in the time so far, and a hundred times the residual that the solver may leave per
+  /// substep in a closed row.
   [[nodiscard]] double crawl_of(bool angle) const {
     const double passed = 1e-6 * (angle ? 1.0 : size_) / std::max(e_.end.time, e_.h);
     return passed + 1e-8 * e_.bodies.scale() / e_.h;
   }
 
-  /// What acts along a coordinate is its drive, its spring and its damper, friction as far as it
-  /// goes, and stops that push.
+  /// The effort along a coordinate is the sum of its drive, spring and damper, of friction within
+  /// its bound, and of stops that push.
   void check_law(std::size_t k, const CoordinateSettings& entry) {
     const JointCoordinate& settings = *entry.settings;
     const JointCoordinateReport& now = joint_.end.coordinates[k];
@@ -372,9 +373,9 @@ class JointCheck {
         damping > 0.0 && settings.stiffness > 0.0 ? seen_by_damper(entry.along, moved) : moved;
     const double expected = now.drive_force + spring - damping * slowed;
     const double rest = acting - expected;
-    // As near as rows count as closed (engine/solvers/row_velocities.cpp).
+    // The tolerance of closed rows (engine/solvers/row_velocities.cpp).
     const double slop = 2e-8 * std::max(scale_of(k), e_.bodies.scale());
-    // A stop pushes while the coordinate is at it.
+    // A stop pushes only while the coordinate is at it.
     const auto at_stop = [&](const std::optional<double>& stop, double sense) {
       if (!stop || sense * rest <= 0.0) return false;
       const double nearest = std::min(sense * (now.value - *stop), sense * (before.value - *stop));
@@ -385,7 +386,7 @@ class JointCheck {
     const double largest =
         std::max({std::abs(acting), std::abs(now.drive_force), std::abs(spring),
                   std::abs(damping * moved), settings.friction, now.angle ? load_ * size_ : load_});
-    // Values and forces are known to the rounding of poses: to that laws can tell.
+    // Values and forces are known only to the rounding of poses.
     constexpr double digits = 64.0 * std::numeric_limits<double>::epsilon();
     const double value_rounding =
         digits * (std::abs(now.value) + (now.angle ? 1.0 : e_.bodies.scale()));
@@ -393,19 +394,19 @@ class JointCheck {
                                 e_.force_rounding * (now.angle ? size_ : 1.0);
     note(Kind::force_law, now.angle ? "N m" : "N", stopped ? 0.0 : excess, largest,
          rounding * 1e2 * largest + law_rounding);
-    // Dry friction takes energy: all of it, against what moves.
+    // Dry friction dissipates: while the coordinate moves it is at its bound, against the motion.
     if (settings.friction > 0.0 && !stopped) {
       const double speed = std::abs(moved);
       const double crawl = crawl_of(now.angle);
       const double weight = speed / (speed + crawl);
       const double along = moved > 0.0 ? rest : -rest;
-      // At its bound where it slips: rest = -friction sign(moved).
+      // At the bound rest = -friction sign(moved).
       note(Kind::friction, now.angle ? "N m" : "N", weight * std::max(along, 0.0),
            std::max(largest, settings.friction), law_rounding);
     }
   }
 
-  /// Dry friction in several directions is a vector within a ball, against what moves.
+  /// Dry friction in several directions is a vector within a ball, against the motion.
   void check_shared_friction() {
     const auto* ball = dynamic_cast<const BallJoint*>(joint_.definition);
     const auto* plane = dynamic_cast<const PlaneJoint*>(joint_.definition);
@@ -482,7 +483,7 @@ void check_body_drives(const Evidence& evidence, Findings& findings) {
     const double t1 = evidence.end.time;
     const bool speed = kind == DriveKind::speed;
     const double asked = speed ? drive.integral(t0, t1) : drive.at(t1) - drive.at(t0);
-    // One that has stalled is told as such; it may do less than it is asked for, but nothing else.
+    // A stalled drive is reported as such. It may do less than its target, but not more.
     const double least = stalls(evidence, i) ? std::min(asked, 0.0) : asked;
     const double greatest = stalls(evidence, i) ? std::max(asked, 0.0) : asked;
     const double off = std::max({least - turned, turned - greatest, 0.0});

@@ -1,5 +1,5 @@
-// Cable is neither made nor lost: the sum of rest lengths and stored lengths is that of time 0 and
-// what was fed, a span gains what its wheels and holes give, and nothing is shorter than 0.
+// Conservation of cable: the sum of rest lengths and stored lengths is that of time 0 plus the fed
+// length, a span gains the length that its wheels and pinholes give, and no length is below 0.
 
 #include <algorithm>
 #include <array>
@@ -47,8 +47,8 @@ void check_cable(const Evidence& evidence, const CableEvidence& cable, Findings&
   findings.note(Kind::length, "m", -shortest, size, 1e-12 * longest, whole);
 }
 
-/// What is stored on a round wheel between two spans is the arc from one to the other, up to whole
-/// turns.
+/// The cable stored on a round wheel between two spans covers the arc between their contacts, up to
+/// whole turns.
 void check_arcs(const Evidence& evidence, const CableEvidence& cable, Findings& findings) {
   const CableReport& end = cable.end;
   if (end.cut) return;
@@ -72,7 +72,7 @@ void check_arcs(const Evidence& evidence, const CableEvidence& cable, Findings& 
   for (const WrapReport& wrap : end.wraps) check(wrap.link);
 }
 
-/// What an attachment with a feed speed pays out, as long as there is cable to take in.
+/// The length that an attachment with a feed speed pays out, as long as there is cable to take in.
 void check_feeds(const Evidence& evidence, const CableEvidence& cable, Findings& findings) {
   if (cable.has_changed || cable.start.cut) return;
   for (const SpanEvidence& span : cable.spans) {
@@ -92,7 +92,7 @@ void check_feeds(const Evidence& evidence, const CableEvidence& cable, Findings&
     }
     const double asked = speed * evidence.h;
     if (speed == 0.0 || span.rest_length[first_end] + asked <= 0.0) continue;
-    // One that has stalled is told as such; it may do less than it is asked for, but nothing else.
+    // A stalled feed is reported as such. It may do less than its target, but not more.
     const double least = stalled ? std::min(asked, 0.0) : asked;
     const double most = stalled ? std::max(asked, 0.0) : asked;
     const double off = std::abs(span.fed - std::clamp(span.fed, least, most));
@@ -114,7 +114,7 @@ void check_spans_of(const Evidence& evidence, const CableEvidence& cable, Findin
     }
     const double rolled = span.rest_length[last_end] - span.rest_length[first_end] - passed;
     const auto [first, second] = rim_travels(evidence, cable, span, rolled);
-    // What moves is the scale; what is slower than a size in the run so far does not count.
+    // The scale is the moved length, but at least a millionth of the cable or scene.
     const double size = std::min(cable.free_length, evidence.bodies.scale());
     const double moved = std::max({std::abs(first), std::abs(second), std::abs(passed)});
     findings.note(Kind::length, "m", std::abs(unrolled(evidence, cable, span, rolled)),
@@ -123,7 +123,7 @@ void check_spans_of(const Evidence& evidence, const CableEvidence& cable, Findin
   }
 }
 
-/// The massless wheel at that end of a span, over which cable passes to another; null: none.
+/// The massless wheel at this end of a span over which cable passes; null: none.
 const PassEvidence* massless_wheel(const CableEvidence& cable, const SpanSide& side) {
   for (const PassEvidence& pass : cable.passes) {
     if (pass.massless && pass.link == side.place && side.place >= 0) return &pass;
@@ -131,7 +131,7 @@ const PassEvidence* massless_wheel(const CableEvidence& cable, const SpanSide& s
   return nullptr;
 }
 
-/// Turn of a wheel on an axle about the normal of its link [rad], given that about the axle.
+/// Rotation of a wheel about the normal of its link [rad], from its rotation about the axle.
 double about_normal(const Evidence& evidence, const SpanSide& side, double turn) {
   const BodyProperties& wheel = evidence.bodies[side.body];
   Vector3 axis = wheel.axis;
@@ -143,8 +143,8 @@ double turn_on_axle(const Evidence& evidence, int body) {
   return evidence.end.bodies[at(body)].angle - evidence.start.bodies[at(body)].angle;
 }
 
-/// Of what the rim of a massless wheel has travelled what passing cable has turned it by [m]: all
-/// but what it goes on turning by as in the substep before, if its bearing does not brake it.
+/// The part of the rim travel of a massless wheel that passing cable has caused [m]: all except the
+/// rotation that continues from the last substep, if its bearing does not brake it.
 double passed_travel(const Evidence& evidence, const SpanSide& side, double sense) {
   const BodyProperties& wheel = evidence.bodies[side.body];
   Vector3 axis = wheel.axis;
@@ -156,7 +156,7 @@ double passed_travel(const Evidence& evidence, const SpanSide& side, double sens
   return -sense * side.winding * side.radius[first_end] * about_normal(evidence, side, turned);
 }
 
-/// At either end of the substep.
+/// At both ends of the substep.
 std::array<double, 2> strains_of(const SpanEvidence& span) {
   std::array<double, 2> strains{};
   for (const End when : {first_end, last_end}) {
@@ -167,8 +167,9 @@ std::array<double, 2> strains_of(const SpanEvidence& span) {
   return strains;
 }
 
-/// The least and the most that a span gains [m] by cable that turns a massless wheel by `passed`
-/// [m]: it has a strain between those of both sides at both ends of the substep.
+/// Least and largest length that a span gains [m] from cable that turns a massless wheel by the rim
+/// travel `passed` [m]. The strain of that cable lies between those of both sides at both ends of
+/// the substep.
 std::array<double, 2> gain_by_passing(const CableEvidence& cable, const PassEvidence& wheel,
                                       double passed) {
   const auto before = strains_of(cable.spans[at(wheel.before)]);
@@ -178,15 +179,16 @@ std::array<double, 2> gain_by_passing(const CableEvidence& cable, const PassEvid
           passed / (1.0 + (passed > 0.0 ? least : most))};
 }
 
-/// How far the rim of a wheel has passed the end of a span by the poses alone [m]: what rolling
-/// gives to the span at its first end (sense -1) or its second (1). `reported` chooses among whole
-/// turns.
+/// Travel of a wheel's rim past the end of a span, from the poses alone [m]: the length that
+/// rolling gives to the span at its first end (sense -1) or at its second (1). `reported` chooses
+/// among whole turns.
 double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, double reported) {
-  // What slides over an arc is no matter of the rim: check_arcs() and check_arc() of spans.cpp.
+  // Cable that slides over an arc does not move with the rim; check_arcs() and check_arc() in
+  // spans.cpp check it.
   if (side.winding == 0 || side.slides || !(side.radius[first_end] > 0.0)) return 0.0;
   const Moment& start = evidence.moments[first_end];
   const Moment& end = evidence.moments[last_end];
-  // In the wheel's own frame the contact moves by what rolls.
+  // In the wheel's own frame the contact moves by the rolled arc.
   const auto own = [&](const Moment& now, const Vector3& world) -> Vector3 {
     return now.orientation(side.body).conjugate() * world;
   };
@@ -194,11 +196,12 @@ double rim_travel(const Evidence& evidence, const SpanSide& side, double sense, 
   const Vector3 to = own(end, side.laid - side.center[last_end]);
   const Vector3 normal = own(start, side.normal[first_end]);
   const double angle = portable::atan2(normal.dot(from.cross(to)), from.dot(to));
-  // Exact for layers, too: their radius grows in proportion to the angle.
+  // Exact for layers, too, since their radius is linear in the angle.
   const double radius = 0.5 * (side.radius[first_end] + side.radius[last_end]);
   const double factor = sense * side.winding * radius;
-  // A massless wheel may turn many times, and cable that is stretched tells less of it; but its
-  // angle counts them, and the contact goes round the axle by less than half a turn.
+  // A massless wheel may turn many times, and the reported length of stretched cable does not
+  // determine the number. Its angle does, because the contact moves round the axle by less than
+  // half a turn.
   const bool counts = side.body < evidence.bodies.count() && evidence.bodies[side.body].massless();
   const double nearly =
       counts ? -about_normal(evidence, side, turn_on_axle(evidence, side.body)) : reported / factor;
@@ -220,10 +223,9 @@ double unrolled(const Evidence& evidence, const CableEvidence& cable, const Span
                 double rolled) {
   const auto [first, second] = rim_travels(evidence, cable, span, rolled);
   if (!cable.definition->axial_stiffness) return rolled - first - second;
-  // What comes onto a rim has the strain of the span, what comes off it one with which some of it
-  // lies there. A massless wheel does so, too, while it goes on turning as in the substep before;
-  // what it has turned by too much or too little then passes from span to span, and none of that is
-  // what has lain on it.
+  // Cable that comes onto a rim has the strain of the span; cable that comes off has a strain with
+  // which some of it lies there. This holds for the continued rotation of a massless wheel, too.
+  // The excess or deficit of that rotation passes from span to span and has not lain on the wheel.
   const auto strains = strains_of(span);
   const double strain = 0.5 * (strains[0] + strains[1]);
   double most = strain;

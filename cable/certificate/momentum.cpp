@@ -1,7 +1,7 @@
-// Each body's substep again, by the integrator's own rule (engine/integrators), from the state at
-// its start with the loads and the reported forces. Where that ends elsewhere than the state says,
-// forces are wrong or missing: a difference dx of the position is the force m dx / h^2, one dv of
-// the velocity m dv / h.
+// Repeats each body's substep by the integrator's own rule (engine/integrators), from the state at
+// its start with the loads and the reported forces. A result that differs from the state at the end
+// shows wrong or missing forces: a difference dx of the position is the force m dx / h^2, a
+// difference dv of the velocity the force m dv / h.
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ struct Replay {
   Quaternion orientation = Quaternion::Identity();
   Vector3 velocity = Vector3::Zero();
   Vector3 spin = Vector3::Zero();  ///< angular velocity
-  double angle = 0.0;              ///< turned about the axis
+  double angle = 0.0;              ///< rotation about the axis [rad]
   bool has_angle = false;
 };
 
@@ -37,14 +37,14 @@ class Player {
     const Drag drag(bodies_.definition(i).damping / body.mass, first);
     const Vector3 load = body.mass * e_.gravity + load_force(i, first_end);
     const double yield = drag.share / body.mass;
-    // The first half of `rattle` acts for all of the way; of `xpbd` all forces do.
+    // The first half of `rattle` acts over the whole path; with `xpbd` all forces do.
     const Vector3& pushed = balance.force[e_.rattle ? first_end : last_end];
     const Vector3 v =
         drag.keep * from.velocity + allowed(body, yield * (first * load + e_.h * pushed));
     replay.position = from.position + e_.h * v;
     replay.velocity = v;
     if (!e_.rattle) return;
-    // The second half starts from how the body has really moved.
+    // The second half starts from the actual motion of the body.
     const Vector3 moved = (e_.end.bodies[at(i)].position - from.position) / e_.h;
     replay.velocity =
         drag.keep * moved +
@@ -52,7 +52,7 @@ class Player {
                                e_.h * balance.force[last_end]));
   }
 
-  /// About the axis that the body keeps.
+  /// Rotation about the axis that the body keeps.
   void spin(int i, Replay& replay) const {
     const BodyProperties& body = bodies_[i];
     const Balance& balance = e_.balances[at(i)];
@@ -149,8 +149,8 @@ class Player {
                     change;
       return;
     }
-    // Angular momentum is kept from the first half on, then the second half acts at the end; what
-    // the rotors have got in between is theirs.
+    // Angular momentum is conserved after the first half, and the second half acts at the end. The
+    // angular momentum that rotors have gained in between is their own.
     const Quaternion& to = e_.end.bodies[at(i)].orientation;
     const Matrix3 inertia1 = in_world(body.inertia, to);
     Vector3 total = momentum + 0.5 * h * torque + h * pushed;
@@ -176,7 +176,7 @@ class Player {
   double first_share_;
 };
 
-/// Rotation vector from one orientation to another, for small ones.
+/// Rotation vector between two orientations, for small rotations.
 Vector3 difference(const Quaternion& to, const Quaternion& from) {
   Quaternion change = to * from.conjugate();
   if (change.w() < 0.0) change.coeffs() = -change.coeffs();
@@ -195,7 +195,7 @@ class MomentumCheck {
     bounces_ = bounces_ && !evidence.rattle;
   }
 
-  /// Returns the work of what is off [J].
+  /// Returns the work of the residual [J].
   double check(int i) {
     const BodyProperties& body = e_.bodies[i];
     if (e_.balances[at(i)].unknown || body.prescribed()) return 0.0;
@@ -228,7 +228,7 @@ class MomentumCheck {
     player_.translate(i, replay);
     const Vector3 missing = (to.velocity - replay.velocity) * (mass / h);
     const Vector3 placed = (to.position - replay.position) * (mass / (h * h));
-    // A bounce has its velocity from elsewhere than its way.
+    // The velocity of a bounce is not that of its path.
     const double value = std::max(missing.norm(), bounces_ ? 0.0 : placed.norm());
     const Balance& balance = e_.balances[at(i)];
     const double largest = std::max({balance.largest_force, mass * e_.gravity.norm(),
@@ -239,20 +239,20 @@ class MomentumCheck {
                         (from.velocity.norm() + to.velocity.norm()) / h);
     findings_.note(CertificateItem::Kind::momentum, "N", value, largest, eps,
                    [&] { return e_.body_name(i); });
-    // What rounding alone may leave does no work; beside a body at rest any of it would be much.
+    // Rounding does no work; for a body at rest any amount would exceed its energy.
     if (missing.norm() <= eps) return 0.0;
     return h * missing.dot(0.5 * (from.velocity + to.velocity));
   }
 
-  /// Forces alone, through the centre, still make torques by what rounding leaves of their arms:
-  /// the least that a torque is measured by.
+  /// Smallest scale of a torque [N m]: forces through the centre of mass cause torques by the
+  /// rounding of their arms.
   [[nodiscard]] double lever(int i) const {
     const double size = e_.size_of(i);
     return 0.1 * size * e_.balances[at(i)].largest_force;
   }
 
-  /// What turns a body are lengths that are rounded like all places of the scene: how many times
-  /// its own size these are.
+  /// Number of the body's own sizes in the coordinates of the scene. Torques come from lengths that
+  /// are rounded like these coordinates.
   [[nodiscard]] double rounded_turns(int i) const {
     const double size = e_.size_of(i);
     if (!(size > 0.0)) return 0.0;
@@ -321,9 +321,9 @@ class MomentumCheck {
     return beside + h * missing.dot(0.5 * (from.angular_velocity + to.angular_velocity));
   }
 
-  /// What it makes of the energy of its spin that a body has been put elsewhere than this leads, as
-  /// out of what it had cut into. A bounce, whose velocity is not that of its way, may be off by
-  /// what the velocity changes by.
+  /// Change of rotational energy because a body has been turned further than its replay, as when a
+  /// penetration is removed [J]. The velocity of a bounce is not that of its path, so the
+  /// orientation may differ by the change of velocity times h.
   [[nodiscard]] double turned_beside(int i, const Replay& replay) const {
     const BodyState& from = e_.start.bodies[at(i)];
     const BodyState& to = e_.end.bodies[at(i)];
@@ -336,7 +336,7 @@ class MomentumCheck {
     return energy(to.orientation) - energy(replay.orientation);
   }
 
-  /// Nothing may be left to turn a wheel without inertia.
+  /// The torques on a wheel without inertia must sum to 0 about its axle.
   void check_massless(int i) {
     if (e_.brakes(i)) return;
     const Balance& balance = e_.balances[at(i)];

@@ -24,15 +24,15 @@ JointPushes pushes_of(const Evidence& evidence, const JointEvidence& joint, End 
   const Vector3 at_b = frame.anchor_b(now);
   if (!frame.kind.coupling) {
     result.push_back({frame.body_b, at_b, report.force, report.torque});
-    // Locks of points act at either anchor; what slides is held where B's anchor is.
+    // Locks of points act at their own anchors; sliding locks act at B's anchor on both bodies.
     const bool own_point = frame.kind.meets;
     const Vector3 at_a = own_point ? frame.anchor_a(now) : at_b;
     result.push_back({frame.body_a, at_a, -report.force, -report.torque});
     return result;
   }
-  // The factor of the coupling from what it does to body_b; virtual work gives the rest:
-  // C = c_b - ratio c_a, so body_a gets -ratio times it about its axis, and the carrier what is
-  // left of both.
+  // The factor of the coupling follows from its effort on body_b, and virtual work gives the rest:
+  // with C = c_b - ratio c_a, body_a gets -ratio times the factor about its axis, and the carrier
+  // gets the opposite of both.
   const Quaternion carried = frame.turned_by(now, frame.carrier);
   const Vector3 axis_a = carried * frame.axis_a;
   const Vector3 axis_b = carried * frame.axis_b;
@@ -55,7 +55,7 @@ JointPushes pushes_of(const Evidence& evidence, const JointEvidence& joint, End 
 
 namespace {
 
-/// Angle by which the cable is wound between its spans at a link [rad].
+/// Wrap angle of the cable between its spans at a link [rad].
 double angle_at(const SpanEvidence& in, const SpanEvidence& out, const LinkReport& link, End when) {
   const Vector3& u = in.direction[at(when)];
   const Vector3& v = out.direction[at(when)];
@@ -69,11 +69,11 @@ double angle_at(const SpanEvidence& in, const SpanEvidence& out, const LinkRepor
   const Vector3 normal = link.winding * link.normal;
   const double angle =
       portable::atan2(normal.dot(from.cross(to)), from.dot(to) - normal.dot(from) * normal.dot(to));
-  // Whole turns from how much cable there is.
+  // The reported wrap angle gives the number of whole turns.
   return std::max(0.0, angle + 2.0 * pi * std::round((link.wrap_angle - angle) / (2.0 * pi)));
 }
 
-/// Of a listed wheel; 1 of all else.
+/// Efficiency of a listed wheel; 1 for all other links.
 double efficiency_of(const CableEvidence& cable, int link) {
   if (link < 0) return 1.0;
   const auto* rolling = dynamic_cast<const RollingLink*>(cable.definition->links[at(link)].get());

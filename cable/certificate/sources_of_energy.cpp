@@ -11,7 +11,7 @@
 namespace sheave::certify {
 namespace {
 
-// What takes energy, by the ends of the names of its fields.
+// Settings that dissipate energy, by the ends of their field names.
 constexpr std::array<std::string_view, 8> joint_takers{
     "damping", "friction", "limit", "lower", "upper", "backlash", "compliance", "stiffness"};
 constexpr std::array<std::string_view, 2> link_takers{"friction", "efficiency"};
@@ -20,12 +20,12 @@ FieldSlot slot_in(const Field& field, const void* settings) {
   return field.slot(const_cast<void*>(settings));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
 }
 
-/// Whether there is a field whose name ends so that is not zero, not the first of its choices, or
-/// optional and given.
+/// Whether a field with this suffix is set: a number that is not 0, a choice that is not the first,
+/// or an optional value that is given.
 bool is_set(std::span<const Field> fields, const void* settings, std::string_view suffix) {
   for (const Field& field : fields) {
     if (!field.name.ends_with(suffix)) continue;
-    // Nothing is written through it.
+    // Nothing is written through the slot.
     const FieldSlot slot = slot_in(field, settings);
     if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) {
       if (choice->get(choice->object) != 0) return true;
@@ -45,7 +45,7 @@ bool is_any_set(std::span<const Field> fields, const void* settings,
                      [&](std::string_view suffix) { return is_set(fields, settings, suffix); });
 }
 
-/// The fields of an object's own type, by the registry that has it.
+/// The fields of an object's derived type, from the registry of its types.
 template <class Object, class Types>
 std::span<const Field> fields_of(const Object& object, const Types& types) {
   const auto type = std::find_if(types.begin(), types.end(),

@@ -1,12 +1,12 @@
-// Spans against their rest lengths, and springs against their tensions.
+// Residuals of spans: rigid ones against their rest lengths, springs against their tensions.
 //
-// Where cable passes from span to span only the sum of a chain's lengths is asked for, so the law
-// of a spring is that of chains of spans joined by links over which cable may come; a rigid span
-// keeps its own length either way. With the stretch x = l - L, the compliance a and the damping b,
-// XPBD asks for a T = x + a b (change of x) / h at the end of the substep, `rattle` for the mean of
-// both ends; a tension below 0 is none. Each span has a damper of its own, which what passes moves,
-// too: with g = a b / h and the stretch x0 at the start the law says what x is, and the sum of that
-// is asked for. Of a material it is a law of strains.
+// If cable passes between spans, only the sum of a chain's lengths is determined. The law of a
+// spring is therefore checked for chains of spans joined by links over which cable may pass; a
+// rigid span keeps its own length in any case. With the stretch x = l - L, the compliance a and the
+// damping b, XPBD requires a T = x + a b (change of x) / h at the end of the substep, `rattle` for
+// the mean of both ends; a tension below 0 is 0. Each span has its own damper, which the passing
+// cable moves, too: with g = a b / h and the stretch x0 at the start the law determines x, and the
+// sum of the x is checked. With a material it is a law of strains.
 
 #include <algorithm>
 
@@ -26,7 +26,8 @@ bool is_rigid(const CableDef& cable) {
   return !cable.axial_stiffness && !(cable.compliance.value_or(0.0) > 0.0);
 }
 
-/// Change of the stretch as damping sees it: what a unit of tension works at the end, backwards.
+/// Change of the stretch as the damper sees it: minus the work of a unit tension along its
+/// direction at the end.
 double linear_stretch(const Evidence& evidence, SpanEvidence span) {
   span.force[last_end] = 1.0;
   double work = 0.0;
@@ -64,8 +65,8 @@ class SpanCheck {
  private:
   static constexpr double rounding = 1e-13;
 
-  /// The reported ends lie in the planes of their wheels, where the span comes nearest to the
-  /// centre, and the span has the moment of the wheel's radius about the axle.
+  /// The reported ends lie in the planes of their wheels, at the point of the span nearest to the
+  /// centre, and the span's moment about the axle is the wheel's radius.
   void check_geometry(const SpanEvidence& span) {
     if (!span.has_tangent || span.length[last_end] <= 0.0) return;
     double off = std::abs((span.to.laid - span.from.laid).norm() - span.length[last_end]);
@@ -78,7 +79,7 @@ class SpanCheck {
       const double moment = side->normal[last_end].dot(arm.cross(to_other)) / to_other.norm();
       off = std::max(off, std::abs(std::abs(moment) - radius));
       off = std::max(off, std::abs(arm.dot(side->normal[last_end])));
-      // Seen along the plane's normal the other end lies on the tangent.
+      // Seen along the plane's normal, the other end lies on the tangent.
       off = std::max(off, std::abs(to_other.dot(arm)) / radius);
       const double way = side->winding * side->normal[last_end].cross(arm).dot(
                                              side == &span.from ? to_other : Vector3(-to_other));
@@ -97,24 +98,25 @@ class SpanCheck {
     }
     const double stretch0 = span.length[first_end] - span.rest_length[first_end];
     const double stretch1 = span.length[last_end] - span.rest_length[last_end];
-    // What was taut for a part of the substep has pulled.
+    // A span that was taut for a part of the substep had a tension.
     const double slack =
         -(e_.rattle && !is_rigid(*cable_.definition) ? std::max(stretch0, stretch1) : stretch1);
     if (!(slack > 0.0) || !(tension > 0.0)) {
       note(CertificateItem::Kind::complementarity, "N", 0.0, e_.largest_force, 0.0, span);
       return;
     }
-    // A slack of the whole size lets all of the tension count, one that trust cannot see none.
+    // A slack as large as the scene counts the whole tension, a slack below the trust level none of
+    // it.
     const double share = std::min(1.0, slack / size_);
     note(CertificateItem::Kind::complementarity, "N", tension * share, std::max(largest_, tension),
          std::max(tension * rounding * 100.0, e_.force_rounding), span);
   }
 
-  /// Cable that slides over an arc is stretched with the spans on both sides, and its strain goes
-  /// from that of the one to that of the other by e^(m phi): with their ratio q the unstretched
-  /// length is arc (1 - ln((1 + e1) / (1 + e0)) / ln q). Where links are judged by the means of both
-  /// ends of a substep, where dampers pull, and on outlines, which have no friction between their
-  /// corners, it has strains of both.
+  /// Cable that slides over an arc is stretched together with the spans on both sides. Its strain
+  /// changes from that of the one to that of the other by e^(m phi): with the ratio q of the
+  /// strains, the unstretched length is arc (1 - ln((1 + e1) / (1 + e0)) / ln q). If links are
+  /// judged by the mean strains of a substep, if dampers act, and on outlines, which have no
+  /// friction between their corners, only the range of the strains is known.
   void check_arc(const PassEvidence& pass) {
     const SpanEvidence& before = cable_.spans[at(pass.before)];
     const SpanEvidence& after = cable_.spans[at(pass.after)];
@@ -137,7 +139,7 @@ class SpanCheck {
     double high = arc / (1.0 + least);
     if (exact && least > 0.0 && pass.laid.path.empty()) {
       const double ratio = portable::log(most / least);
-      // The logarithms of what is alike leave rounding.
+      // For almost equal strains the ratio of logarithms is rounding error.
       constexpr double alike = 1e-6;
       if (ratio > alike) {
         low = high = arc * (1.0 - portable::log((1.0 + most) / (1.0 + least)) / ratio);
@@ -175,9 +177,9 @@ class SpanCheck {
     }
   }
 
-  /// Whether a link divides what shares a tension. With all the difference that it carries it need
-  /// not: the spans on both sides then have the law of their sum, as where cable slides, and none
-  /// that nothing pulls at are held.
+  /// Whether a link separates the spans on its two sides. A link at its bound need not: the spans
+  /// on both sides then obey the law of their sum, as while cable slides. A link without tension on
+  /// both sides does not hold.
   [[nodiscard]] bool holds(const PassEvidence& pass) const {
     if (!(pass.friction > 0.0) || pass.slip != 0.0) return false;
     const SpanEvidence& before = cable_.spans[at(pass.before)];
@@ -193,9 +195,9 @@ class SpanCheck {
     return rest > 0.0 ? std::max(span.length[at(when)] / rest - 1.0, 0.0) : 0.0;
   }
 
-  /// Whether cable has begun to slide over an arc: the spans beside it began the substep with
-  /// strains that did not have the ratio of its end. With `rattle` the arc's strain at the start
-  /// then counts, too, which spans do not tell.
+  /// Whether cable has begun to slide over an arc: the strains of the adjacent spans had another
+  /// ratio at the start of the substep than at its end. With `rattle` the strain of the arc at the
+  /// start then matters, too, which spans do not show.
   [[nodiscard]] bool begins_apart(const std::vector<std::size_t>& chain) const {
     constexpr double alike = 1e-6;
     return std::any_of(cable_.passes.begin(), cable_.passes.end(), [&](const PassEvidence& pass) {
@@ -218,23 +220,23 @@ class SpanCheck {
       if (!cable_.spans[k].has_tangent) return;
       add_span(cable, k, sum);
     }
-    // A spring that was slack counts from 0.
+    // The stretch of a slack spring counts as 0.
     if (e_.rattle) sum.off += 0.5 * (std::max(sum.before, 0.0) - sum.before);
     const double given = sum.most_damped * sum.off;
     double off = sum.pulled == 0.0 ? std::max(given, 0.0) : std::abs(given);
-    // What is slack as a whole leaves nothing stretched but what dampers hold.
+    // In a slack chain only dampers can hold a span stretched.
     if (sum.pulled == 0.0 && !(sum.now > 0.0)) off = std::max(off, sum.stretched);
     note(CertificateItem::Kind::span, "m", off, std::max(sum.most, 1e-6 * size_),
          rounding * 1e3 * e_.bodies.scale(), cable_.spans[chain.front()]);
   }
 
   struct ChainSum {
-    double off = 0.0;          ///< of the stretches, what no law says [m]
-    double before = 0.0;       ///< stretches at the start that count as they are [m]
-    double now = 0.0;          ///< stretches at the end [m]
-    double stretched = 0.0;    ///< the most that a span has more of than its damper holds [m]
-    double pulled = 0.0;       ///< [N]
-    double most = 0.0;         ///< of stretches and what tensions stretch [m]
+    double off = 0.0;          ///< sum of the residuals of the stretches [m]
+    double before = 0.0;       ///< sum of the stretches at the start that count in full [m]
+    double now = 0.0;          ///< sum of the stretches at the end [m]
+    double stretched = 0.0;    ///< largest stretch of a span in excess of what its damper holds [m]
+    double pulled = 0.0;       ///< sum of the tensions [N]
+    double most = 0.0;         ///< largest stretch, or stretch by a tension [m]
     double most_damped = 0.0;  ///< 1 + g
   };
 
@@ -244,13 +246,13 @@ class SpanCheck {
     double rest_length = span.rest_length[last_end];
     double stretch = span.length[last_end] - rest_length;
     if (cable_.frozen) {
-      // What acted is between attachments that keep their places on the bodies; what rolls is in
-      // their distance.
+      // The force acted between attachments that keep their places on the bodies; their distance
+      // contains the rolled cable.
       rest_length = span.rest_length[first_end] + span.fed + passed;
       stretch = (span.to.point[last_end] - span.from.point[last_end]).norm() - rest_length;
     }
     const double pull = compliance_of(cable, rest_length) * span.tension();
-    // What has passed has its own damper with it no sooner than in the next substep.
+    // The damper of the passed cable begins in the next substep.
     double own_length = rest_length - passed;
     if (e_.rattle && !cable_.frozen && cable.axial_stiffness && cable.damping > 0.0) {
       own_length =
@@ -272,8 +274,8 @@ class SpanCheck {
     sum.off += 0.5 * (stretch + ((1.0 - twice) * start - 2.0 * pull) / (1.0 + twice));
   }
 
-  /// Stretch of the span at the start of the substep, as its law counts it [m], from that at the
-  /// end and the rest length there.
+  /// Stretch of the span at the start of the substep as its law counts it [m]. `stretch` and
+  /// `rest_length` are those at the end.
   double stretch_before(const CableDef& cable, const SpanEvidence& span, double stretch,
                         double rest_length, double passed) const {
     double start = span.length[first_end] - span.rest_length[first_end];
@@ -285,13 +287,13 @@ class SpanCheck {
         start -= linear_stretch(e_, span);
       }
     }
-    // A material's force is that of its strain, whatever the length is at either end.
+    // With a material the force follows from the strain, independent of the length at either end.
     if (cable.axial_stiffness && length > 0.0) start *= rest_length / length;
-    // A damper begins where its span is taut.
+    // A damper begins where its span becomes taut.
     return cable.damping > 0.0 ? std::max(start, 0.0) : start;
   }
 
-  /// Cable that slid into the span over its links [m].
+  /// Length that slid into the span over its links [m].
   [[nodiscard]] double slid_into(int span) const {
     double passed = 0.0;
     for (const PassEvidence& pass : cable_.passes) {

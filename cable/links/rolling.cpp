@@ -40,7 +40,7 @@ std::span<const Field> RollingLink::field_table() {
 
 namespace {
 
-/// Why the wheel of a link has no bearing that could take a part of a tension; empty: it has one.
+/// Why the wheel of a link has no bearing that could have an efficiency; empty if it has one.
 std::string bearing_fault(const BodySet& bodies, const LinkGeometry& link) {
   const bool rotor = link.body != bodies.count() && bodies[link.body].mobility == Mobility::rotor;
   if (!rotor) return "only a rotor has a bearing that takes a part of the tension";
@@ -60,7 +60,7 @@ std::string bearing_fault(const BodySet& bodies, const LinkGeometry& link) {
 Result<LinkGeometry> RollingLink::compile(const BodySet& bodies, const std::string& path) const {
   Result<LinkGeometry> link = place(bodies, path);
   if (!link) return link;
-  // An end of the cable is fixed to the wheel.
+  // With a stored length the link is an end of the cable, fixed to the wheel.
   if (stored_length && !link->outline) link->hold_end();
   carry_by_axle(bodies, *link);
   link->given_stored_length = stored_length.value_or(std::numeric_limits<double>::quiet_NaN());

@@ -7,9 +7,9 @@
 namespace sheave {
 namespace {
 
-constexpr double parallel_tolerance = 1e-6;  // what six printed decimals leave
+constexpr double parallel_tolerance = 1e-6;  // settings with six decimals
 
-/// The first shape of a body that a cable can roll on as on a wheel; null if there is none.
+/// The first wheel-like shape of a body; null if there is none.
 const PlacedShape* wheel_shape(const BodySet& bodies, int body) {
   if (body == bodies.count()) return nullptr;
   for (const PlacedShape& placed : bodies.definition(body).shapes) {
@@ -18,14 +18,14 @@ const PlacedShape* wheel_shape(const BodySet& bodies, int body) {
   return nullptr;
 }
 
-/// Whether the section of the wheel with a plane of this normal is a circle.
+/// Whether the wheel's section with a plane of this normal is a circle.
 bool is_circle(const PlacedShape& wheel, const Vector3& normal) {
   if (wheel.shape->type() == "sphere") return true;
   return (wheel.orientation * Vector3::UnitZ()).cross(normal).norm() <= parallel_tolerance;
 }
 
-/// A cable plane must be perpendicular to the axis that the body turns about, or the body would
-/// leave it.
+/// The cable's plane must be perpendicular to the axis of rotation, otherwise the body would leave
+/// the plane.
 bool plane_fits_axle(const BodySet& bodies, int body, const Vector3& normal) {
   if (body == bodies.count()) return true;
   const BodyProperties& properties = bodies[body];
@@ -38,7 +38,8 @@ bool plane_fits_axle(const BodySet& bodies, int body, const Vector3& normal) {
          parallel_tolerance;
 }
 
-/// Hull of the section of all shapes of the body with the plane; an error if it has no area.
+/// Hull of the section of all shapes of the body with the plane; an error if the section has no
+/// area.
 Result<LinkOutline> section_outline(const BodySet& bodies, int body, const Vector3& center,
                                     const Vector3& normal) {
   std::vector<Vector3> points;
@@ -126,8 +127,8 @@ void carry_by_axle(const BodySet& bodies, LinkGeometry& link) {
   const int mount = bodies[wheel].mount;
   const bool mounted = mount >= 0;
   const Quaternion orientation = bodies.initial_orientation(wheel);
-  // A mounted rotor turns about the origin of its frame, one on a fixed axle about its centre of
-  // mass.
+  // A mounted rotor turns about the origin of its frame, a rotor on a fixed axle about its centre
+  // of mass.
   const Vector3& center_of_mass = bodies[wheel].center_of_mass;
   const Quaternion to_carrier =
       mounted ? Quaternion(bodies.initial_orientation(mount).conjugate() * orientation)
