@@ -248,7 +248,7 @@ class CableSystem final : public ConstraintBatch,
                    std::size_t last);
   /// Whether the spans of the run, with a constant compliance, have no rest length left.
   [[nodiscard]] bool is_drained(const CompiledCable& cable, Run run) const;
-  /// Holds one link of a ring that would all slide; returns what passes its first link then [m].
+  /// Holds one link of a ring that would all slide; returns the passage over its first link [m].
   double hold_ring(const Substep& substep, const CompiledCable& cable, Run run,
                    const std::vector<double>& spare);
   void update_slip(const Substep& substep, const CompiledCable& cable);

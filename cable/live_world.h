@@ -11,8 +11,8 @@
 //     show(*world->tension(rope, 2));
 //   }
 //
-// Handles identify bodies, joints and cables. Errors are values: an error says why a call cannot be
-// done and what is allowed, and a call that returns an error has changed nothing. Readers return
+// Handles identify bodies, joints and cables. Errors are values: an error gives the reason and the
+// allowed values, and a call that returns an error has changed nothing. Readers return
 // the state between two steps. No reader allocates or searches, except energy() and length().
 
 #include <functional>

@@ -211,7 +211,7 @@ class Evidence {
   std::vector<Balance> balances;  ///< per body, then the world
   double largest_force = 0.0;     ///< largest force on any body [N]
   /// Force that moves all bodies by the rounding error of their positions within the substep [N].
-  /// Smaller forces cannot be told from zero.
+  /// Smaller forces are indistinguishable from zero.
   double force_rounding = 0.0;
   /// The same for a tension shared by rigid spans that depend on each other [N].
   double shared_rounding = 0.0;

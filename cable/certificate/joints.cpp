@@ -337,7 +337,7 @@ class JointCheck {
            e_.h;
   }
 
-  /// Rate below which slip cannot be told from rounding [m/s, rad/s]: a millionth of the joint's
+  /// Rate below which slip may be rounding [m/s, rad/s]: a millionth of the joint's
   /// size in the time so far, and a hundred times the residual that the solver may leave per
   /// substep in a closed row.
   [[nodiscard]] double crawl_of(bool angle) const {

@@ -234,7 +234,7 @@ class SpanCheck {
     double off = 0.0;          ///< sum of the residuals of the stretches [m]
     double before = 0.0;       ///< sum of the stretches at the start that count in full [m]
     double now = 0.0;          ///< sum of the stretches at the end [m]
-    double stretched = 0.0;    ///< largest stretch of a span in excess of what its damper holds [m]
+    double stretched = 0.0;    ///< largest stretch of a span beyond that which its damper holds [m]
     double pulled = 0.0;       ///< sum of the tensions [N]
     double most = 0.0;         ///< largest stretch, or stretch by a tension [m]
     double most_damped = 0.0;  ///< 1 + g
