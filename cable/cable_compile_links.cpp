@@ -58,10 +58,10 @@ void CableCompiler::lift_links(const RunningCable& running) {
 void CableCompiler::check_passage(const LinkGeometry& link, bool end, const std::string& field) {
   if (end && link.slides) fail(field, "a cable cannot end in a pinhole; attach it");
   if (end && link.wraps() && !std::isnan(link.friction)) {
-    fail(field + "/friction", "at the end of a cable nothing can slip; leave friction out");
+    fail(field + "/friction", "a cable cannot slip at its end; leave friction out");
   }
   if (end && link.starts_lifted) {
-    fail(field + "/lifted", "at its ends a cable cannot be off the wheel");
+    fail(field + "/lifted", "a cable cannot be off the wheel at its end");
   }
   if (link.starts_lifted && link.extra_turns > 0) {
     fail(field + "/turns", "a cable that is off the wheel has no turns on it");
@@ -81,7 +81,7 @@ void CableCompiler::check_massless(const LinkGeometry& link, bool end, const std
                               "\", which has no spin inertia: it would turn without resistance");
   }
   if (end && (link.loss_exponent > 0.0 || link.bearing_arm > 0.0)) {
-    fail(field + "/efficiency", "at the end of a cable nothing passes; leave efficiency out");
+    fail(field + "/efficiency", "no cable passes the wheel at its end; leave efficiency out");
   }
   if (!link.massless) return;
   const std::string& wheel = bodies_.name(link.touched());
@@ -89,7 +89,7 @@ void CableCompiler::check_massless(const LinkGeometry& link, bool end, const std
   if (link.outline) fail(field, "the massless wheel \"" + wheel + "\" must be circular");
   if (!massless_wheels_.insert(link.touched()).second) {
     fail(field, "the massless wheel \"" + wheel +
-                    "\" can carry only one cable once: nothing would hold two together");
+                    "\" can carry only one cable once: the tensions of two would be undetermined");
   }
 }
 
@@ -106,7 +106,8 @@ void CableCompiler::check_stored_length(const LinkGeometry& link, bool end,
          "for whole turns more");
   }
   if (end && link.extra_turns > 0) {
-    fail(field + "/turns", "at the end of a cable \"stored_length\" says all; leave turns out");
+    fail(field + "/turns",
+         "at the end of a cable \"stored_length\" contains the turns; leave turns out");
   }
 }
 

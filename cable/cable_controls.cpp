@@ -103,10 +103,9 @@ std::string CableSystem::compliance_fault(int cable, double compliance) const {
   const std::string name = "cable \"" + cables_[at(cable)].name + "\"";
   if (!(defined_[at(cable)].compliance > 0.0)) {
     return name +
-           (cables_[at(cable)].inverse_stiffness > 0.0
-                ? " has the stiffness of its material and no compliance"
-                : " is rigid") +
-           "; only one that has a compliance in the model can be given another";
+           (cables_[at(cable)].inverse_stiffness > 0.0 ? " has an axial_stiffness and no compliance"
+                                                       : " is rigid") +
+           "; only a compliance above 0 in the model can be changed";
   }
   return above_zero_fault("the compliance of " + name, compliance);
 }
@@ -121,9 +120,7 @@ std::string CableSystem::wrap_friction_fault(int cable, double friction) const {
   if (defined_[at(cable)].wrap_friction > 0.0 && is_above_zero(friction)) return {};
   const std::string name = "cable \"" + cables_[at(cable)].name + "\"";
   if (!(defined_[at(cable)].wrap_friction > 0.0)) {
-    return name +
-           " lies on bodies without friction; only one that has a wrap_friction above 0 in "
-           "the model can be given another";
+    return name + " has no wrap_friction; only one above 0 in the model can be changed";
   }
   return above_zero_fault("the wrap_friction of " + name, friction);
 }
@@ -143,7 +140,7 @@ std::string CableSystem::friction_fault(int cable, int link, double friction) co
   const std::string name =
       "link " + std::to_string(link) + " of cable \"" + cables_[at(cable)].name + "\"";
   if (!(defined > 0.0)) {
-    return name + " has no friction; only one that has some in the model can be given another";
+    return name + " has no friction; only one above 0 in the model can be changed";
   }
   return above_zero_fault("the friction of " + name, friction);
 }

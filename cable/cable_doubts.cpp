@@ -98,10 +98,10 @@ std::string CableSystem::dead_end(const Substep& substep) const {
            (body == substep.bodies.count() ? "world" : substep.bodies.name(body)) + "\"";
   };
   return "cable \"" + cable.name + "\": its attachment, " +
-         name_of(wheel_first ? setup.second : setup.first) + ", has come to the wheel of " +
+         name_of(wheel_first ? setup.second : setup.first) + ", has reached the wheel of " +
          name_of(wheel_first ? setup.first : setup.second) +
-         ", and attachments do not pass wheels: stop the drive before, end the run before, or end "
-         "the cable there";
+         ", and attachments do not pass wheels: stop the drive or the run before that, or end the "
+         "cable there";
 }
 
 void CableSystem::note_leans(const Substep& substep, const CompiledCable& cable) {

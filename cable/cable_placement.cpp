@@ -119,8 +119,8 @@ std::string CableSystem::placement_fault(const Substep& substep, const CompiledC
       const Vector3 turned = geometry_of(substep, k).direction - geometry_of(before, k).direction;
       if (wheels && turned.norm() > 1e-9) {
         return name +
-               " is of a material and lies on wheels that it would meet elsewhere; it "
-               "cannot be led there at once";
+               " has an axial_stiffness and lies on wheels whose contacts would move; such a cable "
+               "cannot be placed at once";
       }
     }
   }
@@ -139,12 +139,13 @@ std::string CableSystem::placement_fault(const Substep& substep, const CompiledC
   });
   if (cable.compliance == 0.0 && cable.inverse_stiffness == 0.0 && excess > slop) {
     return name + " is " + number_text(excess) + " m too short for that at its span " +
-           std::to_string(at_span) + ", and it is rigid; its tension can be kept instead";
+           std::to_string(at_span) + ", and it is rigid; keep its tension instead of its length";
   }
   for (int k = cable.first_span; k < cable.first_span + cable.span_count; ++k) {
     if (!spans_[at(k)].active) continue;
     const std::string span = " at its span " + std::to_string(k - cable.first_span);
-    if (next.reals[rest_length_index(k)] < 0.0) return name + " has not so much to give" + span;
+    if (next.reals[rest_length_index(k)] < 0.0)
+      return name + " would need a negative rest length" + span;
     if (!geometry_of(substep, k).has_tangent) return name + " would run through a wheel" + span;
   }
   return {};

@@ -132,7 +132,7 @@ std::string CableTransfer::size_fault(const CompiledCable& cable, int link,
   if (!running.size || !running.is_on_course()) return {};
   if (size_of(cable, link, running.body) == *running.size) return {};
   return "cable \"" + cable.name + "\" lies on link " + std::to_string(link - cable.first_link) +
-         ", which would have another size; take the cable off it before, and lead it over it again";
+         ", which would have another size; remove the link before the change and insert it again";
 }
 
 void CableTransfer::put_link(int cable, int link, const RunningLink& running, FeatureState& own) {
@@ -268,7 +268,7 @@ std::string CableTransfer::put_cable(int cable, const RunningCable& running, Fea
     const bool known = link.is_listed() ||
                        std::any_of(compiled.candidates.begin(), compiled.candidates.end(),
                                    [&](const WrapCandidate& c) { return c.body == link.body; });
-    if (!known) return name + " lies on a body that it could not lie on then";
+    if (!known) return name + " lies on a body that it could no longer wrap";
     if (!link.is_listed() && wrap >= compiled.link_count) {
       return name + " lies on more bodies than its most_wraps, " +
              std::to_string(compiled.link_count - compiled.listed_links) + ", would allow";
@@ -408,7 +408,7 @@ std::string CableTransfer::start_fault(const Substep& now, int cable, double all
     const std::string span = " at its span " + std::to_string(k - own.first_span);
     const SpanSetup& setup = system_.spans_[at(k)];
     if (!(system_.initial_.reals[system_.rest_length_index(k)] >= 0.0))
-      return name + " has not so much to give" + span;
+      return name + " would need a negative rest length" + span;
     if (!system_.geometry_of(now, k).has_tangent) return name + " would run through a wheel" + span;
     const LinkGeometry& a = system_.links_[at(setup.first)];
     const LinkGeometry& b = system_.links_[at(setup.second)];

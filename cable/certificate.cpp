@@ -33,7 +33,7 @@ std::string_view what_is_off(Kind kind) {
     case Kind::contact:
       return "the gap of";
     case Kind::complementarity:
-      return "a pull where there is none in";
+      return "the complementarity of";
     case Kind::friction:
       return "the friction of";
     case Kind::force_law:

@@ -120,10 +120,9 @@ void Edit::change(BodyHandle body, const std::function<void(BodyDef&)>& change) 
                      changed.velocity == definition.velocity &&
                      changed.angular_velocity == definition.angular_velocity;
   if (!stays) {
-    draft_.fail(
-        "body \"" + definition.name +
-        "\": mobility, axis, mount, position, orientation and velocities cannot be changed; "
-        "place() puts it elsewhere, and a body of another kind is another body");
+    draft_.fail("body \"" + definition.name +
+                "\": mobility, axis, mount, position, orientation and velocities cannot be "
+                "changed; move it with place(), or add another body");
     return;
   }
   definition = std::move(changed);
@@ -132,7 +131,7 @@ void Edit::change(BodyHandle body, const std::function<void(BodyDef&)>& change) 
 
 void Edit::set_step(const StepSettings& step) {
   if (step.dt != draft_.model.step.dt) {
-    draft_.fail("dt cannot be changed in a world that runs, which counts its time by it");
+    draft_.fail("dt cannot be changed in a running world, which counts its time in steps of dt");
     return;
   }
   draft_.model.step = step;

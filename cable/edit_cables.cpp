@@ -106,7 +106,7 @@ std::string run_off(DraftCable& cable) {
     if (cable.definition.closed || !cable.running.links[end_of(cable.running, end)].is_fresh)
       continue;
     return "cable \"" + cable.definition.name + "\" would have an inserted link at its " +
-           std::string(name_of(end)) + " end, where nothing is left to share; attach it there";
+           std::string(name_of(end)) + " end, where no span is left for it; attach the cable there";
   }
   return {};
 }
@@ -144,11 +144,11 @@ DraftCable* EditDraft::running(CableHandle handle, bool may_be_cut) {
   }
   DraftCable& cable = found->second;
   if (!cable.runs) {
-    fail(name + " is being added by this edit; define it as it shall be");
+    fail(name + " is added by this edit; put the change into its definition");
     return nullptr;
   }
   if (cable.running.is_cut && !may_be_cut) {
-    fail(name + " is cut; split it, which makes two of it, or open it if it is a belt");
+    fail(name + " is cut; split it into two cables, or open it if it is a belt");
     return nullptr;
   }
   return &cable;
@@ -161,7 +161,7 @@ std::optional<std::size_t> EditDraft::place_to_part(const DraftCable& cable, int
   const std::string who = "cable \"" + cable.definition.name + "\"";
   const RunningCable& running = cable.running;
   if (!(share >= 0.0 && share <= 1.0)) {
-    fail(who + ": the share of the span at which it comes apart must be from 0 to 1, not " +
+    fail(who + ": the fraction of the span at which it is parted must be from 0 to 1, not " +
          number_text(share));
     return std::nullopt;
   }
@@ -171,12 +171,12 @@ std::optional<std::size_t> EditDraft::place_to_part(const DraftCable& cable, int
     const std::size_t place = running.place_of(span);
     const std::size_t next = running.place_of((span + 1) % running.listed_count());
     if (!running.links[place].is_fresh && !running.links[next].is_fresh) return place;
-    fail(who + " has just got a link beside its span number " + std::to_string(span) +
-         ", and how long that is comes out at the end of the edit; let it come apart first, or " +
-         "in an edit of its own");
+    fail(who + " has a new link beside its span number " + std::to_string(span) +
+         ", whose length is known only at the end of the edit; part the cable first, or in an " +
+         "edit of its own");
     return std::nullopt;
   }
-  fail(who + " has no span number " + std::to_string(span) + " that it could come apart in");
+  fail(who + " has no span number " + std::to_string(span) + " in which it could be parted");
   return std::nullopt;
 }
 
@@ -185,7 +185,7 @@ CableHandle Edit::split(CableHandle cable, int span, double share, std::string n
   if (whole == nullptr) return {};
   if (whole->definition.closed) {
     draft_.fail("cable \"" + whole->definition.name +
-                "\" is closed, so there are no two of it; open it");
+                "\" is closed and cannot be split in two; open it");
     return {};
   }
   const std::optional<std::size_t> parted = draft_.place_to_part(*whole, span, share);
@@ -275,7 +275,7 @@ void Edit::join(CableHandle cable, CableHandle next) {
   if (!same_settings(first->definition, second->definition) ||
       !same_controls(first->running.control, second->running.control)) {
     return draft_.fail(names +
-                       " have different settings; only cables that are alike can be joined");
+                       " have different settings; only cables with equal settings can be joined");
   }
   if (first->running.links.empty() || second->running.links.empty()) {
     return draft_.fail(names +
@@ -390,7 +390,7 @@ void Edit::remove_link(CableHandle cable, int link) {
   RunningCable& running = own->running;
   if (link <= 0 || link + 1 >= running.listed_count()) {
     return draft_.fail(who + " has no link number " + std::to_string(link) +
-                       " between its ends; an end is detached");
+                       " between its ends; detach an end instead");
   }
   const std::size_t place = running.place_of(link);
   const RunningLink& gone = running.links[place];

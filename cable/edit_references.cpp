@@ -25,7 +25,7 @@ void refer(EditDraft& draft, BodyId body, bool is_new, const std::string& who,
          who + " is on body \"" + slots[at(body.index)].last_name + "\", which is removed");
   } else if (!known || slots[at(body.index)].generation == 0) {
     fail(draft, path,
-         who + " is on a body that is not there, number " + std::to_string(body.index));
+         who + " is on a body that does not exist, number " + std::to_string(body.index));
   }
 }
 

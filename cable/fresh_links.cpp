@@ -56,8 +56,8 @@ class FreshShare {
     const std::size_t first = group.listed.front();
     const std::size_t behind = places_[group.listed.back()] + 1;
     if (behind < running_.links.size() && running_.links[behind].is_wrap()) {
-      return "lies on another body behind its span " + std::to_string(first) +
-             "; a link can be inserted where it does not";
+      return "wraps another body behind its span " + std::to_string(first) +
+             "; insert the link elsewhere";
     }
     double spans = ways_.spans[first];
     double arcs = 0.0;
@@ -78,7 +78,7 @@ class FreshShare {
     }
     if (!(left > 0.0) || !(spans > 0.0)) {
       return "has " + number_text(group.length) + " m in its span " + std::to_string(first) +
-             ", too little to lie on that";
+             ", too little for the inserted link";
     }
     const double part = left / spans;
     for (const std::size_t i : group.listed) {

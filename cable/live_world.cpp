@@ -188,7 +188,7 @@ std::string LiveWorld::pull_fault(CableHandle cable) const {
   std::string fault = fault_of(cable);
   if (!fault.empty() || index_of(cable) >= 0) return fault;
   return "cable \"" + revision_->records[at(cable.slot)].definition.name +
-         "\" hangs loose and pulls at nothing; attach it first";
+         "\" hangs loose and has no tension; attach it first";
 }
 
 std::string LiveWorld::span_fault(CableHandle cable, int span) const {
@@ -337,7 +337,7 @@ Result<Wrench> LiveWorld::force(JointHandle joint) const {
 }
 
 std::string LiveWorld::busy_fault() const {
-  return is_busy_ ? "this cannot be done from within a step or an edit; do it after that" : "";
+  return is_busy_ ? "this cannot be done from within a step or an edit; do it afterwards" : "";
 }
 
 Errors LiveWorld::restore(const State& state) { return restore(revision_, state); }
@@ -362,7 +362,7 @@ LiveSnapshot LiveWorld::snapshot() const { return {state(), revision_, identity_
 
 Errors LiveWorld::restore(const LiveSnapshot& snapshot) {
   if (snapshot.identity_ != identity_) {
-    return {{"", "the snapshot is one of another world"}};
+    return {{"", "the snapshot belongs to another world"}};
   }
   return restore(snapshot.revision_, snapshot.state_);
 }

@@ -44,7 +44,7 @@ std::string LiveWorld::place_fault(int body) const {
   const World& world = simulation().world;
   const std::string name = "body \"" + world.bodies().name(body) + "\"";
   const Mobility mobility = world.bodies()[body].mobility;
-  if (mobility == Mobility::kinematic) return name + " is kinematic; tell it where to go instead";
+  if (mobility == Mobility::kinematic) return name + " is kinematic; set its motion instead";
   if (mobility == Mobility::fixed) return name + " is static; it stays where it is";
   if (mobility == Mobility::rotor) return name + " is a rotor; it stays on its axle";
   for (std::size_t j = 0; j < world.model().joints.size(); ++j) {
@@ -54,7 +54,7 @@ std::string LiveWorld::place_fault(int body) const {
           !held.is_world() && (held.index == body || world.bodies()[held.index].mount == body);
       if (!its || is_broken(static_cast<int>(j))) continue;
       return name + " is held by joint \"" + joint.name +
-             "\"; only one that no joint holds can be put elsewhere";
+             "\"; only a body without joints can be placed";
     }
   }
   return {};
@@ -71,11 +71,12 @@ std::string LiveWorld::place_fault(int body, const BodyState& there) const {
   constexpr double turn_slop = 1e-9;
   if (own.mobility == Mobility::slider) {
     if (way.cross(own.axis).norm() > slop) return name + " slides along its axis alone";
-    if (turn.vec().norm() > turn_slop) return name + " slides, and does not turn";
+    if (turn.vec().norm() > turn_slop) return name + " is a slider and cannot turn";
   }
   if (own.mobility == Mobility::planar) {
-    if (std::abs(way.dot(own.axis)) > slop) return name + " stays in its plane";
-    if (turn.vec().cross(own.axis).norm() > turn_slop) return name + " turns about its axis alone";
+    if (std::abs(way.dot(own.axis)) > slop) return name + " is planar and cannot leave its plane";
+    if (turn.vec().cross(own.axis).norm() > turn_slop)
+      return name + " is planar and turns only about its axis";
   }
   return {};
 }

@@ -23,18 +23,18 @@ void append_impossible(const StepStatistics& statistics, std::vector<Warning>& w
     warnings.push_back(
         {"impossible", "",
          "in " + substeps_text(statistics.impossible) +
-             " bodies that move as they are told asked for what cannot be, by up to " + most +
-             ": a rigid cable or a joint between them has nothing else that it could move; let one "
-             "of them yield, or give the cable an axial_stiffness"});
+             " bodies with a prescribed motion required a motion that is impossible, by up to " +
+             most +
+             ": a rigid cable or a joint between them moves no other body; make one of them "
+             "elastic, or give the cable an axial_stiffness"});
   }
   if (statistics.dead_ends > 0) {
-    warnings.push_back(
-        {"dead_end", "",
-         "in " + substeps_text(statistics.dead_ends) +
-             " no motion met all that cables, joints and drives ask for: as where a winch draws a "
-             "load beyond what it can reach, or a drive passes its dead centre; bodies were left "
-             "where the least is off, up to " +
-             most});
+    warnings.push_back({"dead_end", "",
+                        "in " + substeps_text(statistics.dead_ends) +
+                            " no motion met all cables, joints and drives: as where a winch draws "
+                            "a load beyond its reach, or a drive passes its dead centre; bodies "
+                            "were left at the least residual, up to " +
+                            most});
   }
 }
 
@@ -53,14 +53,14 @@ void append_solver_warnings(const StepStatistics& statistics, std::vector<Warnin
   const std::int64_t unconverged = statistics.unconverged - statistics.dead_ends;
   if (statistics.solver_fallbacks > 0) {
     warnings.push_back({"solver_fallback", "",
-                        "the direct solver did not find which rows act in " +
+                        "the direct solver did not find the active set in " +
                             substeps_text(statistics.solver_fallbacks) + " and left " +
                             (statistics.solver_fallbacks == 1 ? "it" : "them") +
-                            " to Gauss-Seidel sweeps, so that precision is theirs there"});
+                            " to Gauss-Seidel sweeps, which limit the precision there"});
   }
   if (fallbacks > 0) {
     warnings.push_back({"integrator_fallback", "",
-                        "things moved too far for rattle in " + substeps_text(fallbacks) +
+                        "bodies moved too far for rattle in " + substeps_text(fallbacks) +
                             ", or in the smallest part of one, which left " +
                             (fallbacks == 1 ? "it" : "them") +
                             " to xpbd and its damping; more substeps avoid that"});
@@ -68,26 +68,27 @@ void append_solver_warnings(const StepStatistics& statistics, std::vector<Warnin
   if (statistics.cut_substeps > 0) {
     warnings.push_back({"cut_substeps", "",
                         substeps_text(statistics.cut_substeps) +
-                            " did not converge as a whole, or made energy, and " +
+                            " did not converge as a whole, or created energy, and " +
                             (statistics.cut_substeps == 1 ? "was" : "were") + " done in " +
                             std::to_string(statistics.substep_parts) +
-                            " parts: things move far there, and each part may be off by a "
-                            "hundredth of their energy; more substeps avoid that"});
+                            " parts: bodies move far there, and each part may be off by 1 % of "
+                            "their energy; more substeps avoid that"});
   }
   if (statistics.exhausted > 0) {
-    warnings.push_back({"exhausted", "",
-                        substeps_text(statistics.exhausted) +
-                            " took all the rounds or factorisations that a substep may and " +
-                            (statistics.exhausted == 1 ? "was" : "were") +
-                            " done as a whole: what moves there is hard to solve; more substeps "
-                            "may avoid that"});
+    warnings.push_back(
+        {"exhausted", "",
+         substeps_text(statistics.exhausted) +
+             " took all the rounds or factorisations that a substep may and " +
+             (statistics.exhausted == 1 ? "was" : "were") +
+             " done as a whole: the motion there is hard to solve; more substeps may avoid that"});
   }
   append_impossible(statistics, warnings);
   if (unconverged > 0) {
-    warnings.push_back({"unconverged", "",
-                        substeps_text(unconverged) +
-                            " did not converge, in however small parts: constraints that "
-                            "contradict each other? What they left off has become velocity"});
+    warnings.push_back(
+        {"unconverged", "",
+         substeps_text(unconverged) +
+             " did not converge, not even in small parts, perhaps because constraints contradict "
+             "each other; their residual has become velocity"});
   }
 }
 
@@ -103,7 +104,7 @@ void append_cable_warnings(const CableSystem& cables, const BodySet& bodies, dou
         warning.cable + (warning.span < 0 ? " behind a wrap" : "." + std::to_string(warning.span));
     std::string message = "span " + span + " had no tangent" + when(warning) +
                           ": its wheels overlap, or it leans so far out of a wheel's plane that "
-                          "no groove would hold it; its numbers mean little there";
+                          "no groove would hold it; its tension and length are not reliable there";
     warnings.push_back({"no_tangent", std::move(span), std::move(message)});
   }
   for (const CableSystem::WrapWarning& warning : cables.wrap_warnings()) {
@@ -114,14 +115,13 @@ void append_cable_warnings(const CableSystem& cables, const BodySet& bodies, dou
   }
   for (const CableSystem::LeanWarning& warning : cables.lean_warnings()) {
     if (!(warning.first_time > since)) continue;
-    warnings.push_back({"wrap_off_plane", warning.cable,
-                        "cable " + warning.cable + " lies on " + bodies.name(warning.body) +
-                            " in the plane in which it came onto it, and its spans left that plane "
-                            "by up to " +
-                            number_text(warning.angle * 180.0 / pi, digits) + " degrees" +
-                            when(warning) +
-                            ": it lies as in a groove there, where on a smooth body it would slide "
-                            "sideways to a shorter way"});
+    warnings.push_back(
+        {"wrap_off_plane", warning.cable,
+         "cable " + warning.cable + " lies on " + bodies.name(warning.body) +
+             " in the plane of their first contact, and its spans left that plane by up to " +
+             number_text(warning.angle * 180.0 / pi, digits) + " degrees" + when(warning) +
+             ": the model holds it as in a groove; on a smooth body it would slide sideways to a "
+             "shorter path"});
   }
   for (const CableSystem::LinkWarning& warning : cables.stall_warnings()) {
     if (!(warning.first_time > since)) continue;
@@ -133,10 +133,10 @@ void append_cable_warnings(const CableSystem& cables, const BodySet& bodies, dou
   }
   for (const CableSystem::LinkWarning& warning : cables.slide_warnings()) {
     if (!(warning.first_time > since)) continue;
-    warnings.push_back({"slid", warning.cable,
-                        "cable " + warning.cable + " slid over " + link_name(warning, bodies) +
-                            when(warning) +
-                            ", although it cannot slip there: the span next to it was used up"});
+    warnings.push_back(
+        {"slid", warning.cable,
+         "cable " + warning.cable + " slid over " + link_name(warning, bodies) + when(warning) +
+             ", although that link allows no slip: the span next to it was used up"});
   }
 }
 

@@ -19,8 +19,8 @@ using Kind = EditModel::Kind;
 
 /// Why an edit that the model knows nothing against may yet be refused: where things are.
 bool is_of_geometry(const std::string& fault) {
-  constexpr std::array reasons{"would run through a wheel", "has not so much to give",
-                               "too little to lie on that", "m too short for that"};
+  constexpr std::array reasons{"would run through a wheel", "would need a negative rest length",
+                               "too little for the inserted link", "m too short for that"};
   return std::any_of(reasons.begin(), reasons.end(),
                      [&](const char* reason) { return fault.find(reason) != std::string::npos; });
 }

@@ -182,7 +182,7 @@ TEST(EditBelts, WhatCannotBeIsTold) {
     e.attach(tether, CableEnd::first, e.id(*world.body("sled")), Vector3::Zero());
   });
   for (const char* text :
-       {"\"belt\" is closed, so there are no two of it; open it", "\"tether\" is open; split it",
+       {"\"belt\" is closed and cannot be split in two; open it", "\"tether\" is open; split it",
         "has no span number 2", "must be from 0 to 1, not 1.5",
         "\"tether\" cannot be joined to itself: both its ends must be loose",
         "\"belt\" cannot be joined to itself"}) {

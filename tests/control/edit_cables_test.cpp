@@ -267,7 +267,7 @@ TEST(EditCables, NothingIsSharedWithoutAWay) {
   const Result<EditReport> done =
       world.edit([&](Edit& e) { e.insert(world.cables()[0], 0, std::make_shared<PinholeLink>()); });
   ASSERT_FALSE(done.ok());
-  EXPECT_THAT(done.errors()[0].message, HasSubstr("too little to lie on that"));
+  EXPECT_THAT(done.errors()[0].message, HasSubstr("too little for the inserted link"));
 }
 
 // Also of what has been set.

@@ -238,7 +238,7 @@ TEST_P(EditContacts, NothingComesApartBesideALinkJustInserted) {
                   e.insert(rope, 1, roll(e.id(c), test::right));
                   e.split(rope, span, 0.5, "rest");
                 }),
-        HasSubstr("\"rope\" has just got a link beside its span number " + std::to_string(span)));
+        HasSubstr("\"rope\" has a new link beside its span number " + std::to_string(span)));
   }
   edit(world, [&](Edit& e) {
     e.pay_out(rope, 1, 6.0);

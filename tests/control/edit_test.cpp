@@ -172,7 +172,7 @@ TEST(Edit, ABodyThatGoesIsNotTheOneThatComes) {
     e.remove(*world.body("old"));
     e.add(test::lump("new", {0.25, -2.0, 0.0}, 1.0));
   });
-  EXPECT_THAT(fault, HasSubstr("on a body that is not there"));
+  EXPECT_THAT(fault, HasSubstr("on a body that does not exist"));
 }
 
 TEST(Edit, RotorOnACarrierThatHasTurned) {
@@ -369,7 +369,7 @@ TEST(Edit, AllFaultsAreToldAndNothingIsDone) {
   EXPECT_THAT(faults, HasSubstr("number 77"));
   faults = refused(
       world, [&](Edit& e) { e.change(wheel, [](BodyDef& def) { def.position.x() += 1.0; }); });
-  EXPECT_THAT(faults, HasSubstr("place() puts it elsewhere"));
+  EXPECT_THAT(faults, HasSubstr("move it with place()"));
   faults = refused(world, [&](Edit& e) { e.pay_out(rope, 0, -1e3); });
   EXPECT_THAT(faults, HasSubstr("cannot give"));
   faults = refused(world, [&](Edit& e) { e.pay_out(rope, 0, -0.5); });

@@ -248,7 +248,7 @@ TEST(ControlsState, BadRequestsAreToldAndChangeNothing) {
       {s.set_compliance(0, 0.0), "above 0, not 0"},
       {s.set_compliance(2, 1e-5), "no cable number 2; there are 2"},
       {s.set_breaking_tension(0, -1.0), "above 0, not -1"},
-      {s.set_wrap_friction(0, 0.3), "\"rope\" lies on bodies without friction"},
+      {s.set_wrap_friction(0, 0.3), "\"rope\" has no wrap_friction"},
       {s.set_friction(0, 0, 0.1), "link 0 of cable \"rope\" has no friction"},
       {s.set_friction(1, 1, nan), "above 0, not nan"},
       {s.set_friction(1, 9, 0.1), "\"line\" has no link number 9; it has 3"},
