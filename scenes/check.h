@@ -1,5 +1,5 @@
 #pragma once
-// Whether a run showed what its scene promises.
+// Evaluates the checks of a scene during a run.
 
 #include <string>
 #include <vector>
@@ -16,13 +16,13 @@ struct CheckResult {
   double error = 0.0;      ///< measured - equals
   double tolerance = 0.0;  ///< largest |error| that passes
   bool passed = false;
-  std::string message;  ///< one line: what was measured, what was wanted, or why it failed
+  std::string message;  ///< one line: the measured and the required value, or why the check failed
 };
 
 /// Follows a simulation and evaluates the checks of its scene as it goes: no history is kept.
 class CheckRecorder {
  public:
-  /// Checks whose quantity does not exist, which no loaded scene has, fail.
+  /// A check whose quantity does not exist fails. No loaded scene has such a check.
   CheckRecorder(const Scene& scene, const Simulation& simulation);
 
   /// To be called at time 0 and after every step.
@@ -30,13 +30,13 @@ class CheckRecorder {
   [[nodiscard]] std::vector<CheckResult> results() const;
 
  private:
-  /// What a check needs of the samples in its window.
+  /// Sums over the samples in the window of a check.
   struct Course {
     CheckDef check;
     int value = -1;     ///< index into values_; -1: the quantity does not exist
-    double from = 0.0;  ///< the window [s]; of the statistic `at`, the time twice
+    double from = 0.0;  ///< the window [s]; for the statistic `at` both members are its time
     double to = 0.0;
-    long count = 0;  ///< of samples in the window
+    long count = 0;  ///< number of samples in the window
     double first = 0.0, last = 0.0, first_time = 0.0, last_time = 0.0;
     double minimum = 0.0, maximum = 0.0, sum = 0.0, area = 0.0;
     bool finite = true;
@@ -53,7 +53,7 @@ class CheckRecorder {
   double dt_;
   double last_time_ = -1.0;      // of the last sample; < 0: none yet
   std::vector<int> indices_;     // of the observables that checks need
-  std::vector<double> values_;   // of those
+  std::vector<double> values_;   // the values of these observables
   std::vector<Course> courses_;  // one per check
 };
 

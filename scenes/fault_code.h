@@ -1,6 +1,6 @@
 #pragma once
-// Codes of what `sheave validate --json` tells. A code never changes its meaning; new ones may be
-// added.
+// Codes of the faults that `sheave validate --json` reports. A code never changes its meaning; new
+// codes may be added.
 
 #include <cstdint>
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace sheave {
 
-/// What kind of fault a scene has.
+/// The kind of a fault of a scene.
 enum class FaultCode : std::uint8_t {
   not_found,
   unreadable,

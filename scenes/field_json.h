@@ -12,7 +12,7 @@ namespace sheave {
 /// The name of a body, for references.
 using BodyNamer = std::function<std::string(BodyId)>;
 
-/// The value of a field as it stands in a scene file; null for an absent optional one.
+/// The value of a field as in a scene file; null for an optional field without a value.
 [[nodiscard]] nlohmann::ordered_json field_json(const Field& field, const FieldSlot& slot,
                                                 const BodyNamer& name_of);
 

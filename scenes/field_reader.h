@@ -1,5 +1,5 @@
 #pragma once
-// Reads the objects of a scene file into C++ objects by their field tables, and reports everything
+// Reads the objects of a scene file into C++ objects by their field tables, and reports every value
 // that does not fit.
 
 #include <span>
@@ -19,28 +19,28 @@ class FieldReader {
   FieldReader(const json::Document& document, json::Faults& faults)
       : document_(document), faults_(faults) {}
 
-  /// Checks the keys of the object `node` and reads its fields: `objects` are of the types of the
-  /// format's tables, `settings` of the type of `variant` (both null if there is none). Members are
-  /// left to the caller. False if the node is no object.
+  /// Checks the keys of the object `node` and reads its fields. `objects` have the types of the
+  /// format's tables, `settings` has the type of `variant` (both null if there is none). Members
+  /// are left to the caller. False if the node is not an object.
   bool read_object(json::NodeId node, const ObjectFormat& format, std::span<void* const> objects,
                    const Variant* variant = nullptr, void* settings = nullptr);
-  /// The variant that the key "type" of an object chooses; null, reported, if it chooses none.
+  /// The variant that the object's key "type" chooses. Null, with a report, if it chooses none.
   const Variant* read_type(json::NodeId node, const ObjectFormat& format);
-  /// The elements of a list member of an object; none if it is missing, which is reported if it is
-  /// required, no list or too long.
+  /// The elements of a list member of an object. Empty if the member is missing (reported if it is
+  /// required), not a list, or too long (reported).
   std::span<const json::NodeId> list(json::NodeId object, const Member& member);
 
-  /// The value of an object member of an object; no_node if it is missing, which is reported if it
-  /// is required.
+  /// The value of an object member of an object. no_node if it is missing (reported if it is
+  /// required).
   json::NodeId member(json::NodeId object, const Member& member);
 
-  /// Tells a body that references may name from now on, and what its BodyId is. `name` must outlive
-  /// the reader.
+  /// Allows references to a body from now on. `number` is its BodyId. `name` must outlive the
+  /// reader.
   void declare_body(std::string_view name, int number);
-  /// References may not name it any more.
+  /// Forbids references to the body from now on.
   void forget_body(std::string_view name);
-  /// Reports names that occur twice among `entities`, objects called `what`; returns the index of
-  /// each name's first occurrence. Values that are no strings are reported by read_object.
+  /// Reports names that occur twice among `entities`; messages call the objects `what`. Returns the
+  /// index of each name's first occurrence. read_object() reports values that are not strings.
   std::unordered_map<std::string_view, int> unique_names(std::span<const json::NodeId> entities,
                                                          std::string_view what);
 

@@ -1,7 +1,7 @@
 #pragma once
-// The tree of objects that a scene file is made of. The loader, the writer, the JSON Schema and the
-// reference documentation all walk this tree; what stands in it comes from the field tables and the
-// registries of types, so a new field or type needs no line here.
+// The tree of objects in a scene file. The loader, the writer, the JSON Schema and the reference
+// documentation all walk this tree. Its content comes from the field tables and the registries of
+// types, so a new field or type needs no line here.
 
 #include <memory>
 #include <span>
@@ -13,7 +13,7 @@
 
 namespace sheave {
 
-/// A field table with a default-constructed object of the type it belongs to.
+/// A field table with a default-constructed object of its type.
 struct TableFormat {
   std::span<const Field> fields;
   std::shared_ptr<const void> defaults;
@@ -38,24 +38,25 @@ struct Variant {
   std::vector<Member> members{};
 };
 
-/// What may stand in an object of a scene file.
+/// The keys that an object of a scene file may have.
 struct ObjectFormat {
   std::string_view name;  ///< "body", "shape", ...
   std::string_view meaning;
-  bool named = false;  ///< its "name" is one that others refer to, or a column's
+  bool named = false;  ///< its "name" is used in references, or in column names
   std::vector<TableFormat> tables;
   std::vector<Variant> variants;  ///< not empty: the key "type" is required and chooses one
   std::vector<Member> members;
   std::vector<std::pair<std::string_view, std::string_view>>
-      exclusive;  ///< keys not to be given both
-  /// It changes something that is there: what is not given stays, and null gives the default.
+      exclusive;  ///< pairs of keys that exclude each other
+  /// The object changes an existing one: missing keys leave their values, and null restores the
+  /// default.
   bool partial = false;
 
   [[nodiscard]] const Variant* variant(std::string_view type) const;
   [[nodiscard]] const Member* member(std::string_view key) const;
 };
 
-/// The format of a whole scene; all others hang on it.
+/// The format of a whole scene; it contains all other formats.
 [[nodiscard]] const ObjectFormat& scene_format();
 [[nodiscard]] const ObjectFormat& step_format();
 [[nodiscard]] const ObjectFormat& body_format();
@@ -71,10 +72,10 @@ struct ObjectFormat {
 [[nodiscard]] const ObjectFormat& paint_format();
 [[nodiscard]] const ObjectFormat& check_format();
 
-/// Most elements that a list of objects may have.
+/// Largest number of elements in a list of objects.
 inline constexpr std::size_t max_list_length = 1'000'000;
-/// What names of bodies, joints and cables look like (a regular expression, and in words). A dot
-/// would make column names ambiguous, a comma or quote would break CSV files.
+/// Rule for names of bodies, joints and cables, as a regular expression and in words. A dot would
+/// make column names ambiguous; a comma or quote would break CSV files.
 inline constexpr std::string_view name_pattern =
     "^[A-Za-z0-9_-]([A-Za-z0-9_ -]{0,126}[A-Za-z0-9_-])?$";
 inline constexpr std::string_view name_rule =
@@ -84,19 +85,19 @@ inline constexpr std::string_view name_rule =
 /// Largest deviation of a quaternion's length from 1.
 inline constexpr double quaternion_tolerance = 1e-6;
 
-/// The field's place in `object`, which is of the type the table belongs to.
+/// The field's slot in `object`, which has the type of the table.
 [[nodiscard]] FieldSlot slot_of(const Field& field, const void* object);
 /// Whether two objects of a table's type have bit for bit the same value in a field.
 [[nodiscard]] bool same_value(const Field& field, const void* a, const void* b);
-/// Gives `to` the value of a field of `from`; both are objects of a table's type.
+/// Copies the value of a field from `from` to `to`; both have the type of the table.
 void copy_value(const Field& field, const void* from, void* to);
-/// Whether an optional slot holds no value; false for slots that always do. A quaternion of zeros
-/// is none.
+/// Whether an optional slot has no value; false for slots that always have one. A quaternion of
+/// zeros counts as no value.
 [[nodiscard]] bool is_absent(const FieldSlot& slot);
 
-/// What a field accepts, for messages and documentation: "a number > 0 [kg]".
+/// The values that a field accepts, for messages and documentation: "a number > 0 [kg]".
 [[nodiscard]] std::string describe(const Field& field, const FieldSlot& slot);
-/// "> 0", "1 ... 1000" or, without bounds, nothing.
+/// "> 0", "1 ... 1000", or an empty text without bounds.
 [[nodiscard]] std::string range_text(const Range& range);
 
 }  // namespace sheave

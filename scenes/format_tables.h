@@ -21,14 +21,14 @@ std::vector<Variant> variants_of(std::span<const TypeEntry<Base>> types) {
   std::vector<Variant> variants;
   for (const TypeEntry<Base>& type : types) {
     const std::shared_ptr<const Base> made = type.make();
-    // Shares ownership of the object but points to it as its own type.
+    // Shares ownership of the object but points to its derived type.
     const std::shared_ptr<const void> settings(made, made->settings());
     variants.push_back({type.name, type.meaning, {type.fields(), settings}});
   }
   return variants;
 }
 
-/// The table that all types of a registry have in common, with one of them as the default object.
+/// The table common to all types of a registry, with one of them as the default object.
 template <class Base>
 TableFormat common_table(std::span<const TypeEntry<Base>> types) {
   if (types.empty()) return {Base::common_field_table(), nullptr};

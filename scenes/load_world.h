@@ -1,5 +1,5 @@
 #pragma once
-// A scene as a world that lives.
+// Loads a scene as a LiveWorld.
 
 #include <string>
 
@@ -7,8 +7,8 @@
 
 namespace sheave {
 
-/// The world of a scene file (scenes/scene.h), at time 0, with its controllers and triggers. Errors
-/// have the file, line and column of what is wrong in their messages.
+/// The world of a scene file (scenes/scene.h) at time 0, with its controllers and triggers.
+/// Messages of errors contain file, line and column.
 [[nodiscard]] Result<LiveWorld> load(const std::string& path);
 
 }  // namespace sheave

@@ -1,6 +1,7 @@
 #pragma once
-// Reads the parts of a world as scene files have them: bodies, joints, cables, links, colliders.
-// Whoever takes such parts takes the same keys, has the same defaults and tells the same faults.
+// Reads the parts of a world in the form of scene files: bodies, joints, cables, links, colliders.
+// All readers of such parts accept the same keys, have the same defaults and report the same
+// faults.
 
 #include <algorithm>
 #include <array>
@@ -16,9 +17,9 @@
 
 namespace sheave {
 
-/// What is wrong with a part is a fault of the document; what is returned is then of no use. What
-/// several settings mean together is not checked here. Bodies that parts refer to must have been
-/// told: fields().declare_body().
+/// Reports faults of a part to the document; the returned value is then unusable. Combinations of
+/// settings are not checked here. Bodies that parts refer to must have been declared:
+/// fields().declare_body().
 class PartReader {
  public:
   /// Both must outlive the reader.
@@ -28,13 +29,13 @@ class PartReader {
   [[nodiscard]] const json::Document& document() const { return document_; }
   [[nodiscard]] FieldReader& fields() { return fields_; }
 
-  /// Where `placement` is given, a body may be relative to another one, which is told there and
-  /// left to the caller (PlacementResolver); elsewhere that is a fault.
+  /// With `placement`, a body may be relative to another body, which is stored there and left to
+  /// the caller (PlacementResolver). Otherwise a relative body is a fault.
   [[nodiscard]] BodyDef read_body(json::NodeId node, BodyPlacementDef* placement = nullptr);
-  /// The shapes of an object that has them as a body has; false if it has neither key.
+  /// Reads the shapes of an object that has them as a body has. False if it has neither key.
   bool read_shapes(json::NodeId node, std::vector<PlacedShape>& shapes);
-  /// Null if there is no such type. Where `bodies` are given, in the order of their numbers, the
-  /// joint may be relative to one of them; elsewhere that is a fault.
+  /// Null if there is no such type. With `bodies`, in the order of their numbers, the joint may be
+  /// relative to one of them. Otherwise a relative joint is a fault.
   [[nodiscard]] std::shared_ptr<JointDef> read_joint(json::NodeId node,
                                                      const std::vector<BodyDef>* bodies = nullptr);
   [[nodiscard]] CableDef read_cable(json::NodeId node);
@@ -43,7 +44,7 @@ class PartReader {
   [[nodiscard]] ColliderDef read_collider(json::NodeId node);
 
   /// A new object of the type that the node's key "type" chooses, with its settings; null if it
-  /// chooses none. `common` gives the object of the table that all types share.
+  /// chooses none. `common` returns the object of the table that all types share.
   template <class Base, class Common>
   std::shared_ptr<Base> read_typed(json::NodeId node, const ObjectFormat& format,
                                    std::span<const TypeEntry<Base>> types, const Common& common) {
@@ -59,7 +60,7 @@ class PartReader {
   }
 
  private:
-  /// The object is ours and not constant; settings() is only the way to its own type.
+  /// The object was created here and is not constant; settings() only gives its derived type.
   template <class Base>
   static void* settings_of(const Base& object) {
     return const_cast<void*>(object.settings());  // NOLINT(*-const-cast)
@@ -71,7 +72,7 @@ class PartReader {
   FieldReader fields_;
 };
 
-/// The pointer by which a text knows a setting: a body's only shape may be written in two ways.
+/// Pointer of a setting in a text, where a body's only shape may be written in two ways.
 [[nodiscard]] std::string pointer_in_text(const json::Document& document, const std::string& path);
 
 }  // namespace sheave

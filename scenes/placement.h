@@ -1,6 +1,6 @@
 #pragma once
-// Places in a scene's text that are told relative to a body, and turns that are told in degrees.
-// The loader makes world frames and quaternions of them; a scene that is loaded knows no others.
+// Positions relative to a body, and rotations in degrees, in the text of a scene. The loader
+// converts them to world frames and quaternions; a loaded scene has only these.
 
 #include <optional>
 #include <span>
@@ -13,22 +13,22 @@
 
 namespace sheave {
 
-/// A turn about an axis, in place of a quaternion.
+/// A rotation about an axis, in place of a quaternion.
 struct RotationDef {
-  Vector3 axis{0.0, 0.0, 1.0};  ///< any length but 0
-  double degrees = 0.0;         ///< counter-clockwise seen against the axis
+  Vector3 axis{0.0, 0.0, 1.0};  ///< any length except 0
+  double degrees = 0.0;         ///< counter-clockwise, seen from the tip of the axis
 
   static std::span<const Field> field_table();
 };
 
-/// Whose frame a body's position, orientation and axis are told in.
+/// The body in whose frame a body's position, orientation and axis are given.
 struct BodyPlacementDef {
   std::optional<BodyId> relative_to;
 
   static std::span<const Field> field_table();
 };
 
-/// Whose frame a joint's points and directions are told in.
+/// The body in whose frame a joint's points and directions are given.
 struct JointPlacementDef {
   std::optional<BodyId> relative_to;
 
@@ -38,23 +38,23 @@ struct JointPlacementDef {
 /// The format of RotationDef.
 [[nodiscard]] const ObjectFormat& rotation_format();
 
-/// The quaternion of an object's member "rotation", if it has one; nothing also if that is at fault,
-/// which is reported.
+/// The quaternion of an object's member "rotation". Nothing if the object has none, or if it has a
+/// fault, which is reported.
 [[nodiscard]] std::optional<Quaternion> read_rotation(const json::Document& document,
                                                       FieldReader& reader, json::NodeId object);
 
-/// Resolves what bodies and joints of one document are relative to.
+/// Resolves the relative placements of the bodies and joints of one document.
 class PlacementResolver {
  public:
   PlacementResolver(const json::Document& document, FieldReader& reader)
       : document_(document), reader_(reader) {}
 
-  /// Gives all bodies, which must be in the order of their numbers, their places in the world.
-  /// Bodies that are relative to each other in a circle are reported.
+  /// Computes the world poses of all bodies, which must be in the order of their numbers. Bodies
+  /// that are relative to each other in a cycle are reported.
   void place_bodies(std::span<const json::NodeId> nodes,
                     std::span<const std::optional<BodyId>> relative_to,
                     std::vector<BodyDef>& bodies);
-  /// Turns and moves the points (fields in m) and directions that the text gives a joint.
+  /// Rotates and moves the points (fields in m) and directions in the text of a joint.
   static void place_joint(const json::Document& document, json::NodeId node, const BodyDef& base,
                           std::span<const Field> fields, void* settings);
 

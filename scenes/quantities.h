@@ -59,7 +59,7 @@ inline constexpr std::array<Quantity, 9> joint_quantities{{
     {"tz", "N m", "the same"},
     {"broken", "", "1 when the joint has broken, 0 before"},
 }};
-// "<coordinate>" stands for the names that JointDef::coordinates() gives.
+// "<coordinate>" stands for the names in JointDef::coordinates().
 inline constexpr std::array<Quantity, 3> coordinate_quantities{{
     {"<coordinate>", "m, rad",
      "what the joint leaves free, since time 0, angles with all turns: extension (distance), twist "

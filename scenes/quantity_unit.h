@@ -1,5 +1,5 @@
 #pragma once
-// Units of observables by their names, for axes and tables that have no scene at hand.
+// Units of observables by name, for axes and tables without access to the scene.
 
 #include <optional>
 #include <string>
@@ -8,8 +8,8 @@
 namespace sheave {
 
 /// The unit of "t", "weight.vy", "rope.1.tension", "door.angle_rate", ...: empty for a pure number,
-/// nothing for a name that no quantity has. Where the joint decides ("door.drive_force"), both:
-/// "N, N m".
+/// nothing for an unknown name. Both units if the joint determines it ("door.drive_force"): "N, N
+/// m".
 [[nodiscard]] std::optional<std::string> quantity_unit(std::string_view name);
 
 }  // namespace sheave

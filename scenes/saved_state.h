@@ -1,5 +1,5 @@
 #pragma once
-// States in files: of which machine they are, and whether they are as they were written.
+// States in files, with a check that the machine is the same and that the bytes are unchanged.
 
 #include <string>
 #include <vector>
@@ -8,20 +8,20 @@
 
 namespace sheave {
 
-/// Of which machine states of the simulation are, as it is made now. The scene is all that it is
-/// made of, but for how it is stepped; the layout is what bodies, joints, cables, controllers and
-/// triggers there are, in which order.
+/// Identifies the machine of the simulation as it is now. The scene part covers all settings except
+/// those of the step. The layout part covers the bodies, joints, cables, controllers and triggers,
+/// in their order.
 [[nodiscard]] StateOrigin origin_of(const Simulation& simulation);
 
 /// The simulation's state as bytes, for a file.
 [[nodiscard]] std::string saved_state(const Simulation& simulation);
 
-/// Puts a saved state into the simulation; what users should know of it. An error, and nothing has
-/// changed, if the bytes are not as they were written, if the state is one of a machine with another
-/// layout, or if its time is not that of its steps.
+/// Restores a saved state in the simulation and returns notes for the user. It is an error, and
+/// nothing changes, if the bytes are damaged, if the state belongs to a machine with another
+/// layout, or if its time does not match its number of steps.
 [[nodiscard]] Result<std::vector<std::string>> load_saved_state(Simulation& simulation,
                                                                 const std::string& bytes);
-/// The same without putting it there: makes `state` what is to be restored.
+/// The same without restoring: writes the state into `state`.
 [[nodiscard]] Result<std::vector<std::string>> check_saved_state(const Simulation& simulation,
                                                                  const std::string& bytes,
                                                                  State& state);

@@ -1,11 +1,11 @@
 #pragma once
-// Scenes that must behave alike: the same machine with all lengths times a factor L and all masses
-// times a factor M.
+// Similar scenes: the same machine with all lengths times a factor L and all masses times a factor
+// M.
 //
-// Where every setting is multiplied by the power of L and M that its unit says (a force by M L, a
-// compliance [m/N] by 1/M, gravity by L), Newton's equations are the same in units of L and M, at
-// the same times. So for any scene, whatever it is, there is a right answer: the run of the
-// original, with its lengths times L and its forces times M L.
+// If every setting is multiplied by the powers of L and M in its unit (a force by M L, a compliance
+// [m/N] by 1/M, gravity by L), Newton's equations are the same in units of L and M, at the same
+// times. Every scene therefore has a known result: the run of the original with its lengths times L
+// and its forces times M L.
 
 #include <optional>
 #include <string>
@@ -16,7 +16,7 @@
 
 namespace sheave {
 
-/// What a setting is multiplied by: L^length M^mass T^time.
+/// Factor of a setting: L^length M^mass T^time.
 struct UnitPowers {
   int length = 0;
   int mass = 0;
@@ -24,23 +24,23 @@ struct UnitPowers {
   [[nodiscard]] bool operator==(const UnitPowers&) const = default;
 };
 
-/// The powers in a unit as field tables have it ("N s/m", "rad/(N m)", ""); nothing if it is no
-/// such unit.
+/// The powers in a unit of the field tables ("N s/m", "rad/(N m)", ""); nothing if it is not such a
+/// unit.
 [[nodiscard]] std::optional<UnitPowers> unit_powers(std::string_view unit);
 
-/// A number, vector or list in the text of a scene that has powers of length or mass in its unit.
+/// A number, vector or list in the text of a scene whose unit has powers of length or mass.
 struct ScalableSetting {
   std::string pointer;  ///< JSON pointer
   std::string value;    ///< as JSON
   UnitPowers powers;
 };
 
-/// All of them but those of camera, paint and checks, in the order of the text, which must be that
-/// of a valid scene.
+/// All scalable settings except those of camera, paint and checks, in the order of the text. The
+/// text must be a valid scene.
 [[nodiscard]] std::vector<ScalableSetting> scalable_settings(std::string_view text);
-/// The setting with all its numbers times `factor`.
+/// The setting with all its numbers multiplied by `factor`.
 [[nodiscard]] Override scaled(const ScalableSetting& setting, double factor);
-/// The overrides that make the scene of `text` similar to itself.
+/// The overrides that make the scene similar to its original.
 [[nodiscard]] std::vector<Override> similar_scene(const std::vector<ScalableSetting>& settings,
                                                   double length_factor, double mass_factor);
 

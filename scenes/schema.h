@@ -7,11 +7,11 @@
 
 namespace sheave {
 
-/// The schema of an object of `format`; what its members hold is told by references to
-/// "#/definitions/<name of their format, with hyphens for spaces>".
+/// The schema of an object of `format`. Its members refer to "#/definitions/<name of their format,
+/// with hyphens for spaces>".
 [[nodiscard]] nlohmann::ordered_json format_schema(const ObjectFormat& format);
-/// Adds the schemas of the formats that members of `format` hold, and of theirs, that are not there
-/// yet.
+/// Adds the schemas of the formats in the members of `format`, recursively, that are not in
+/// `definitions` yet.
 void add_definitions(const ObjectFormat& format, nlohmann::ordered_json& definitions);
 
 }  // namespace sheave

@@ -6,14 +6,14 @@
 
 namespace sheave {
 
-/// Finds the candidate that a user probably meant by a word that means nothing: the nearest by the
-/// number of inserted, deleted, replaced and swapped letters, ignoring case.
+/// Finds the candidate that a user probably meant by an unknown word: the nearest by the number of
+/// inserted, deleted, replaced and swapped letters, ignoring case.
 class Suggestion {
  public:
   explicit Suggestion(std::string_view text);
-  /// Of candidates that are equally near the first one wins. Must outlive the suggestion.
+  /// Of equally near candidates the first wins. `candidate` must outlive the suggestion.
   void consider(std::string_view candidate);
-  /// The best candidate so far; empty if none is near enough to be worth naming.
+  /// The best candidate so far; empty if none is near enough.
   [[nodiscard]] std::string_view best() const { return best_; }
   /// ", did you mean \"...\"?", or nothing.
   [[nodiscard]] std::string question() const;
@@ -27,8 +27,7 @@ class Suggestion {
   std::vector<std::size_t> before_previous_, previous_, current_;  // rows of the distance table
 };
 
-/// The candidates that are near enough to `word` to be worth naming, the nearest first, at most so
-/// many.
+/// The candidates that are near enough to `word`, the nearest first, at most `most`.
 [[nodiscard]] std::vector<std::string_view> nearest(std::string_view word,
                                                     std::vector<std::string_view> candidates,
                                                     std::size_t most);

@@ -11,17 +11,17 @@
 
 namespace sheave {
 
-/// The bodies that references may name.
+/// The bodies to which references are allowed.
 struct BodyNames {
   std::unordered_map<std::string_view, int> indices;
-  std::vector<std::string_view> in_order;  ///< some of which may not be there any more
+  std::vector<std::string_view> in_order;  ///< may contain bodies that were removed
 };
 
-/// Reads `node` into a slot of `field`; reports what the field does not accept.
+/// Reads `node` into a slot of `field`; reports values that the field does not accept.
 void read_value(const json::Document& document, json::Faults& faults, const BodyNames& bodies,
                 const Field& field, json::NodeId node, const FieldSlot& slot);
 
-/// Adds a fault of a value, with its place, pointer and text.
+/// Adds a fault of a value, with its position, pointer and text.
 void report(const json::Document& document, json::Faults& faults, json::NodeId node, FaultCode code,
             std::string message, std::string allowed);
 

@@ -4,8 +4,8 @@
 
 namespace sheave {
 
-/// Switches between two outputs: `high` when the measured value is below the setpoint by more than
-/// half of the hysteresis, `low` when it is above it by more; in between it stays as it is.
+/// Switches between two outputs: `high` when the measured value is more than half of the hysteresis
+/// below the setpoint, `low` when it is more than that above; in between the output stays as it is.
 class BangBangController final : public ControllerDef {
  public:
   double low = 0.0;         ///< [control]

@@ -1,6 +1,5 @@
 #pragma once
-// What can be set while a simulation runs, by name: the outputs of controllers, and what triggers
-// change.
+// Settings that controllers and triggers can change during a run, by name.
 
 #include <functional>
 #include <span>
@@ -29,19 +28,20 @@ struct ControlPoint {
   };
   Kind kind = Kind::body_drive;
   int entity = 0;           ///< index of the body, joint or cable
-  int item = 0;             ///< of the coordinate, the link, or the component
-  bool takes_time = false;  ///< a drive to an angle or a position, which is not there at once
+  int item = 0;             ///< index of the coordinate, the link, or the component
+  bool takes_time = false;  ///< a drive to an angle or a position, which needs time to reach it
 
-  /// Sets it, to be reached in `over` seconds if it takes time; an error if that is not possible.
+  /// Sets the value, to be reached in `over` seconds if it takes time. An error if that is
+  /// impossible.
   [[nodiscard]] Errors set(Simulation& simulation, double value, double over) const;
-  /// It is again what the scene says.
+  /// Restores the value of the scene.
   [[nodiscard]] Errors clear(Simulation& simulation) const;
 };
 
-/// The names of all of them, for the documentation.
+/// The names of all control points, for the documentation.
 [[nodiscard]] std::span<const QuantityGroup> control_groups();
 
-/// The one with this name; an error suggests names that are nearly the same.
+/// The control point with this name. The error suggests similar names.
 [[nodiscard]] Result<ControlPoint> find_control(std::string_view name, const Model& model,
                                                 const std::vector<CableDef>& cables);
 

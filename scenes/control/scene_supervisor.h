@@ -1,5 +1,5 @@
 #pragma once
-// The controllers and triggers of a scene, at work.
+// Runs the controllers and triggers of a scene.
 
 #include <memory>
 #include <optional>
@@ -13,11 +13,10 @@
 
 namespace sheave {
 
-/// Acts before each substep: triggers first, then controllers, both in the order of the scene. What
-/// it remembers is part of the state (State::memory): whether the run stops, how often a control
-/// has refused a value; per trigger when it has acted last and whether its condition holds; per
-/// controller whether it is on, how many samples have been due, and what the controller itself
-/// remembers.
+/// Acts before each substep: triggers first, then controllers, both in the order of the scene. Its
+/// memory is part of the state (State::memory): whether the run stops, and how often a control has
+/// refused a value; per trigger the time of its last action and whether its condition holds; per
+/// controller whether it is on, the number of its samples, and the controller's own memory.
 class SceneSupervisor final : public Supervisor {
  public:
   /// Faults have the paths of controllers and triggers in the scene.
@@ -31,15 +30,15 @@ class SceneSupervisor final : public Supervisor {
   [[nodiscard]] bool has_stopped(const State& state) const override;
   [[nodiscard]] std::string memory_fault(const State& state) const override;
 
-  /// When each trigger has acted last [s], in the order of the scene.
+  /// Time at which each trigger acted last [s], in the order of the scene.
   [[nodiscard]] std::vector<std::optional<double>> acted_at(const State& state) const;
-  /// The trigger at this place of the scene.
+  /// The trigger at this index of the scene.
   [[nodiscard]] const TriggerDef& trigger(std::size_t index) const {
     return triggers_[index].definition;
   }
-  /// Gives a scene the controllers and triggers.
+  /// Adds the controllers and triggers to a scene.
   void append_to(Scene& scene) const;
-  /// How often a control has not taken what it was given.
+  /// Number of values that controls have refused.
   [[nodiscard]] std::int64_t refusals(const State& state) const;
 
  private:
@@ -47,23 +46,24 @@ class SceneSupervisor final : public Supervisor {
     std::shared_ptr<const ControllerDef> definition;
     TimeTable setpoint;
     ControlPoint control;
-    std::size_t measured = 0;           // among the sampled
-    std::size_t setpoint_quantity = 0;  // likewise, if there is one
+    std::size_t measured = 0;           // index among the sampled observables
+    std::size_t setpoint_quantity = 0;  // the same, if the setpoint is a quantity
     double sample_time = 0.0;
-    std::size_t first = 0;  // of its memory: on, samples, acted at, its own
+    // start of its memory: on, samples, time of its last action, its own memory
+    std::size_t first = 0;
   };
   struct TriggerAtWork {
     TriggerDef definition;
-    ControlPoint control;      // of set and clear
+    ControlPoint control;      // for the actions set and clear
     int target = 0;            // index of the joint, cable or controller
-    std::size_t quantity = 0;  // among the sampled
-    std::size_t first = 0;     // of its memory: acted at, holds
+    std::size_t quantity = 0;  // index among the sampled observables
+    std::size_t first = 0;     // start of its memory: time of its last action, condition
   };
 
   explicit SceneSupervisor(const Simulation& simulation) : observables_(simulation) {}
   Errors add_trigger(const Scene& scene, std::size_t index);
   Errors add_controller(const Scene& scene, std::size_t index);
-  /// Where the observable will be among the sampled.
+  /// Index among the sampled observables that the observable will have.
   Result<std::size_t> sampled(const std::string& quantity, const std::string& path);
   void act(const TriggerAtWork& trigger, Simulation& simulation) const;
   void act(const ControllerAtWork& controller, std::span<const double> values,
@@ -71,15 +71,15 @@ class SceneSupervisor final : public Supervisor {
   static void note(const Errors& errors, Simulation& simulation);
 
   ObservableSet observables_;
-  std::vector<int> indices_;  // of the sampled
+  std::vector<int> indices_;  // of the sampled observables
   bool waits_for_step_ = false;
   std::vector<TriggerAtWork> triggers_;
   std::vector<ControllerAtWork> controllers_;
   std::size_t memory_size_ = 2;
 };
 
-/// Sets what controllers and triggers may set once, at their limits, at the start of a simulation
-/// of its own: what of it cannot be set at all.
+/// Sets every control that controllers and triggers may set once, at its limits, at the start of a
+/// separate simulation. Returns the faults of controls that cannot be set at all.
 [[nodiscard]] Errors try_controls(const Scene& scene);
 
 /// The simulation of a scene, with its controllers and triggers.

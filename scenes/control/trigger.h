@@ -1,5 +1,5 @@
 #pragma once
-// What happens once something has happened.
+// Actions that are carried out when a condition becomes true.
 
 #include <array>
 #include <optional>
@@ -12,35 +12,36 @@
 
 namespace sheave {
 
-/// What a trigger does.
+/// The action of a trigger.
 enum class TriggerAction {
-  set,      ///< a control (scenes/control/control_point.h) to a value
-  clear,    ///< the control is again what the scene says
-  release,  ///< a joint holds nothing any more, as if it had broken
-  lock,     ///< such a joint holds again, from where its bodies are (World::lock_joint())
-  cut,      ///< a cable parts, as soon as it pulls
+  set,      ///< sets a control (scenes/control/control_point.h) to a value
+  clear,    ///< restores the control's value of the scene
+  release,  ///< a joint no longer holds, as if it had broken
+  lock,     ///< a released joint holds again, in the present pose (World::lock_joint())
+  cut,      ///< a cable is cut as soon as it has a tension
   on,       ///< a controller acts from now on, as if it were new
-  off,      ///< a controller acts no more; what it has set stays
+  off,      ///< a controller no longer acts; its last output stays
   stop,     ///< the run ends
 };
 inline constexpr std::array<std::string_view, 8> trigger_action_names{
     "set", "clear", "release", "lock", "cut", "on", "off", "stop"};
 
-/// Looks before each substep, at what the state then is.
+/// The condition is evaluated before each substep, from the state.
 struct TriggerDef {
   std::string name;          ///< unique among the triggers
   std::optional<double> at;  ///< [s]
-  std::string quantity;  ///< name of an observable that follows from the state; with above or below
-  std::optional<double> above;  ///< the quantity comes to be above this
-  std::optional<double> below;  ///< ... below this
-  bool repeats = false;         ///< whenever it comes to be so again, not the first time alone
+  /// name of an observable that follows from the state alone; with above or below
+  std::string quantity;
+  std::optional<double> above;  ///< the quantity rises above this value
+  std::optional<double> below;  ///< the quantity falls below this value
+  bool repeats = false;  ///< acts each time the condition becomes true, not only the first time
   TriggerAction action = TriggerAction::stop;
   std::string target;           ///< name of the control, joint, cable or controller; not of stop
   std::optional<double> value;  ///< of set
-  double over = 0.0;            ///< of set: time that a drive takes to be there [s], >= 0
+  double over = 0.0;            ///< of set: time that a drive takes to reach the value [s], >= 0
 
   static std::span<const Field> field_table();
-  /// Faults beyond the ranges of the fields and the names; `path` is prepended to theirs.
+  /// Faults beyond the ranges of the fields and the names. `path` is the prefix of their paths.
   [[nodiscard]] Errors validate(const std::string& path) const;
 };
 

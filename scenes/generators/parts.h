@@ -1,5 +1,5 @@
 #pragma once
-// What generated scenes have in common. Numbers are made tidy.
+// Common parts of generated scenes. Numbers are rounded to 12 digits.
 
 #include <string>
 
@@ -7,11 +7,11 @@
 
 namespace sheave::generators {
 
-/// The number with 12 digits: 0.6 instead of 0.6000000000000001, so that scenes read well.
+/// The number rounded to 12 digits: 0.6 instead of 0.6000000000000001, so that scenes are readable.
 [[nodiscard]] double tidy(double value);
 [[nodiscard]] Vector3 tidy(const Vector3& value);
 
-/// A solid wheel about z on an axle that does not move.
+/// A solid wheel about z on a fixed axle.
 [[nodiscard]] BodyDef wheel(std::string name, const Vector3& center, double radius, double width,
                             double mass);
 /// A box that slides along y.
@@ -22,11 +22,12 @@ namespace sheave::generators {
 [[nodiscard]] std::shared_ptr<const LinkDef> attach(BodyId body, const Vector3& point);
 [[nodiscard]] std::shared_ptr<const LinkDef> roll(BodyId body, Winding winding);
 
-/// A check over the whole duration, within 0.1 % of `equals` or of `scale`, whichever is more.
+/// A check over the whole duration with a tolerance of 0.1 % of `equals` or of `scale`, whichever
+/// is larger.
 [[nodiscard]] CheckDef check(std::string quantity, Statistic statistic, double equals, double scale,
                              std::string because);
 
-/// Steps of the paper's kind, whose iterations a generator counts.
+/// Step settings as in the paper, with a fixed number of iterations.
 void step_as_the_paper(Scene& scene, double dt, int substeps, int iterations);
 
 /// A view nearly along the axles, framed automatically.

@@ -1,10 +1,10 @@
 #pragma once
-// Receives nlohmann-json's parse events and builds a Document from them.
+// Receives the parse events of nlohmann-json and builds a Document from them.
 //
-// The parser tells what it read but not where. Every event comes right after the last token of what
-// it tells was read, and between two tokens there are only blanks, comments, commas and colons. So
-// one cursor that skips those and then the token stays in step with the parser; since the parser
-// has checked the token, finding its end needs no grammar.
+// The parser reports values without their positions. Every event comes directly after the last
+// token of its value, and only blanks, comments, commas and colons lie between two tokens. A cursor
+// that skips these and then the token therefore stays in step with the parser. The parser has
+// checked the token, so finding its end needs no grammar.
 
 #include <string>
 #include <unordered_map>
@@ -19,7 +19,7 @@ namespace sheave::json {
 /// A SAX handler (the interface is nlohmann's).
 class Builder {
  public:
-  /// Builds into `document`, whose text from `begin` on is what is being parsed.
+  /// Builds into `document`; the parser reads the text of `document` from `begin` on.
   Builder(Document& document, std::uint32_t begin, const Limits& limits, Faults& faults);
 
   bool null();
@@ -37,24 +37,24 @@ class Builder {
   bool parse_error(std::size_t position, const std::string& token,
                    const nlohmann::detail::exception& error);
 
-  /// The outermost value; no_node if nothing was read.
+  /// The outermost value; no_node if no value was read.
   [[nodiscard]] NodeId root() const { return root_; }
 
  private:
   struct Open {
     NodeId node;
-    std::size_t first_child;  // in pending_
+    std::size_t first_child;  // index in pending_
   };
 
   [[nodiscard]] std::uint32_t next_token() const;
   [[nodiscard]] std::uint32_t token_end(std::uint32_t begin) const;
-  /// Adds a node for the token that was just read; no_node if there are too many.
+  /// Adds a node for the token that was just read; no_node if the limit of values is reached.
   NodeId add(Kind kind);
   bool open(Kind kind);
   bool close();
   bool number(double value);
   void report_duplicates(NodeId object);
-  /// Pointer of the value that is being read.
+  /// Pointer of the value being read.
   [[nodiscard]] std::string current_pointer() const;
   bool fail(std::uint32_t offset, FaultCode code, std::string message, std::string value = {});
 
@@ -64,11 +64,12 @@ class Builder {
   std::uint32_t begin_;
   std::uint32_t cursor_;  // end of the last token
   NodeId root_ = no_node;
-  std::vector<Open> open_;       // containers that are not complete, outermost first
+  std::vector<Open> open_;       // containers that are still open, outermost first
   std::vector<NodeId> pending_;  // their children so far
-  std::vector<NodeId> by_key_;   // scratch of report_duplicates
-  std::unordered_map<std::string, std::uint32_t> known_keys_;  // where they are
-  std::uint32_t key_ = Document::no_key;                       // of the value to come
+  std::vector<NodeId> by_key_;   // scratch of report_duplicates()
+  // key text to its index in the document's strings
+  std::unordered_map<std::string, std::uint32_t> known_keys_;
+  std::uint32_t key_ = Document::no_key;  // key of the next value
   std::uint32_t key_begin_ = 0;
 };
 

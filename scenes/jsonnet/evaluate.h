@@ -1,5 +1,5 @@
 #pragma once
-// Scenes in Jsonnet (https://jsonnet.org): from a program to JSON.
+// Scenes in Jsonnet (https://jsonnet.org): evaluates a program to JSON.
 
 #include <string>
 #include <string_view>
@@ -9,24 +9,25 @@
 
 namespace sheave::jsonnet {
 
-/// Bounds on an evaluation, far above any sensible scene.
+/// Limits of an evaluation, far above any sensible scene.
 struct Limits {
-  unsigned stack = 500;                        ///< nested calls
-  unsigned seconds = 20;                       ///< of CPU time
-  std::size_t memory = std::size_t{2} << 30U;  ///< more than the process has [bytes]
-  std::size_t text = std::size_t{64} << 20U;   ///< of the JSON, and of each imported file [bytes]
+  unsigned stack = 500;   ///< nested calls
+  unsigned seconds = 20;  ///< of CPU time
+  /// memory in addition to that of the process [bytes]
+  std::size_t memory = std::size_t{2} << 30U;
+  std::size_t text = std::size_t{64} << 20U;  ///< of the JSON, and of each imported file [bytes]
 };
 
-/// One file that took part.
+/// A file that the evaluation has read.
 struct Source {
-  std::string name;  ///< as errors call it
+  std::string name;  ///< as in error messages
   std::string text;
 };
 
 struct Outcome {
   std::string json;                ///< empty if there are errors
-  std::vector<SceneError> errors;  ///< located in the source where that is known
-  std::vector<Source> sources;     ///< the program first, then what it imports
+  std::vector<SceneError> errors;  ///< located in the source if that is known
+  std::vector<Source> sources;     ///< the program first, then its imports
 };
 
 /// Whether a file of this name is a program.
@@ -36,15 +37,15 @@ struct Outcome {
 /// Whether this build can evaluate programs.
 [[nodiscard]] bool is_available();
 
-/// Evaluates a program. Imports come from the program's folder (and below), from the library
-/// "sheave.libsonnet", which is built in, and from options.import_folders, and from nowhere else;
-/// symbolic links that leave these folders are refused. Runs in a process of its own, so that no
-/// program can exhaust or end this one.
+/// Evaluates a program. Imports come only from the program's folder (and below), from the built-in
+/// library "sheave.libsonnet", and from options.import_folders; symbolic links out of these folders
+/// are errors. The evaluation runs in a separate process, so no program can exhaust or end this
+/// one.
 [[nodiscard]] Outcome evaluate(std::string_view text, const std::string& file_name,
                                const JsonnetOptions& options, const Limits& limits = {});
 
-/// Moves errors that are located in the made JSON to the source: to the one place where the name of
-/// the body, joint, cable, ... is written, if there is only one. Both places are told.
+/// Moves errors that are located in the generated JSON to the source, if the name of the body,
+/// joint, cable, ... occurs there only once. The message then contains both places.
 void locate(std::vector<SceneError>& errors, const std::string& file_name, const Outcome& made);
 
 }  // namespace sheave::jsonnet

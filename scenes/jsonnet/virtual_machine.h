@@ -1,5 +1,5 @@
 #pragma once
-// Jsonnet's own evaluator, with imports that cannot leave their folders.
+// The evaluator of Jsonnet, with imports restricted to their folders.
 
 #include <functional>
 #include <string>
@@ -10,13 +10,13 @@
 
 namespace sheave::jsonnet {
 
-/// The outcome of one evaluation, within this process.
+/// The outcome of an evaluation within this process.
 struct Evaluation {
   bool good = false;
-  std::string text;  ///< the JSON, or what Jsonnet says of the fault
+  std::string text;  ///< the JSON, or Jsonnet's message
 };
 
-/// Evaluates; `imported` is told every file that is imported.
+/// Evaluates a program; calls `imported` with every imported file.
 [[nodiscard]] Evaluation run_program(std::string_view text, const std::string& file_name,
                                      const JsonnetOptions& options, const Limits& limits,
                                      const std::function<void(const Source&)>& imported);
