@@ -1,5 +1,5 @@
 #pragma once
-// Which rows act where a machine is linearised, and with what forces.
+// The active rows of a machine that is linearised, and their forces.
 
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace sheave {
 
-/// Rows that are closed or have a force.
+/// The rows that are closed or have a force.
 struct Acting {
   ConfigurationRows rows;
   VectorX unknowns;        ///< forces [N or N m]
@@ -15,9 +15,9 @@ struct Acting {
   bool slides = false;     ///< cable slides with friction
 };
 
-/// Forces of rigid rows that balance loads as well as any can, in turns with which rows act. `size`
-/// is the scene's [m]. What has all the force that it can have (a drive at its limit, dry friction)
-/// keeps it and holds nothing.
+/// Forces of rigid rows that balance the loads as well as possible, found in turn with the active
+/// set. `size`: size of the scene [m]. A row at its bound (a drive at its limit, dry friction)
+/// keeps its force and holds nothing.
 [[nodiscard]] Acting find_acting(Configuration& configuration, double size);
 
 }  // namespace sheave

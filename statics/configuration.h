@@ -1,20 +1,21 @@
 #pragma once
-// The rows and loads of a simulation at a pose, while nothing moves and no time passes.
+// The rows and loads of a simulation in one pose, at rest and without passing time.
 //
 // With displacements q along the degrees of freedom (engine/dynamics/coordinates.h) from the pose
-// of a state, each unknown l of a force gives
+// of a state, each unknown force l satisfies
 //
 //   loads + P^T l = 0           P: the gradients along which the unknown acts, rows times weights
-//   C + A l = 0                 where the row acts, with its compliance A
+//   C + A l = 0                 if the row is active, with its compliance A
 //
-// and a displacement dq changes C + A l by J dq with l fixed, where J are the rows' own gradients:
-// of joints, contacts and cables with a constant compliance A does not change, and of a cable of a
-// material (cable/cable_material.cpp) the change of A is in J. There what a wheel gives a span is
-// taken to have the strain of that span. A machine that vibrates has seen to that after its first
-// swing there and back, for what comes off a wheel last in, first out, has come onto it from there.
+// A displacement dq changes C + A l by J dq with l fixed, where J are the rows' own gradients. For
+// joints, contacts and cables with a constant compliance A does not change. For a cable with a
+// material (cable/cable_material.cpp) J contains the change of A. There, cable that a wheel gives
+// to a span is assumed to have the strain of that span. In a vibrating machine that holds after the
+// first oscillation, because cable that comes off a wheel (last in, first out) has come onto it
+// from that span.
 //
-// Rows are those that the solvers of the step ask features for, in a substep of no time: what has
-// been driven stays where it is, dampers do nothing, dry friction holds.
+// The rows are those that the solvers of a step get from the features, in a substep of length 0:
+// driven bodies stay in place, dampers have no force, dry friction holds.
 
 #include <memory>
 #include <vector>
@@ -33,12 +34,12 @@ using MatrixX = Eigen::MatrixXd;
 /// Forces of all features [N or N m], by the index of the row's multiplier.
 using RowForces = std::vector<std::vector<double>>;
 
-/// One unknown: a row, or several that share a tension.
+/// One unknown force: that of a row, or of several rows that share a tension.
 struct ForceUnknown {
-  /// One of the rows that share it.
+  /// One of the rows that share the unknown.
   struct Part {
-    int index = 0;        ///< of its multiplier among those of the feature
-    double weight = 1.0;  ///< its force is this times the unknown
+    int index = 0;        ///< index of its multiplier in the feature
+    double weight = 1.0;  ///< its force / the unknown
   };
   std::size_t feature = 0;
   std::vector<Part> parts;
@@ -49,8 +50,8 @@ struct ForceUnknown {
   double upper = 0.0;
   double friction = 0.0;  ///< bounds are +- this times the force of `pressed_by`
   int pressed_by = -1;    ///< another unknown
-  int shares = 0;         ///< of the first of several that bound one friction: how many
-  bool damper = false;    ///< acts on speed alone
+  int shares = 0;  ///< for the first of several rows with a common bound of friction: their number
+  bool damper = false;  ///< depends on the velocity only
 
   [[nodiscard]] bool bilateral() const {
     return lower == -Row::unbounded && upper == Row::unbounded;
@@ -59,64 +60,67 @@ struct ForceUnknown {
   [[nodiscard]] bool dry_friction() const { return lower == -upper && !bilateral() && !given(); }
 };
 
-/// All of it at one pose.
+/// The rows and loads in one pose.
 struct ConfigurationRows {
   VectorX loads;  ///< per degree of freedom [N or N m]
   std::vector<ForceUnknown> unknowns;
-  /// J = d(C + A l)/dq with l fixed, from where the pose is that of the state: unknowns x degrees of
-  /// freedom. (Of a cable of a material with `axial_stiffness` C and A both change with what a wheel
-  /// takes and gives; only their sum has the gradient that the forces act along.)
+  /// J = d(C + A l)/dq with l fixed, at the pose of the state: unknowns x degrees of freedom. (For
+  /// a cable with `axial_stiffness`, C and A both change with the cable that a wheel takes or
+  /// gives; only their sum has the gradient along which the forces act.)
   MatrixX gradients;
-  MatrixX actions;        ///< P: the same with weights
-  bool weighted = false;  ///< J and P differ: cable slides with friction
+  MatrixX actions;        ///< P: J with weights
+  bool weighted = false;  ///< J and P differ because cable slides with friction
 };
 
-/// Of `simulation`, whose features it uses as scratch; both must outlive it.
+/// The configuration uses the features of `simulation` as scratch; simulation and state must
+/// outlive it.
 class Configuration {
  public:
-  /// `load` scales all loads: gravity, forces, torques.
+  /// `load`: factor of all loads: gravity, forces, torques.
   Configuration(Simulation& simulation, const State& state, double load);
 
   [[nodiscard]] int freedoms() const { return freedoms_; }
-  /// Displaces the bodies from the state's pose.
+  /// Displaces the bodies from the pose of the state.
   void place(const VectorX& displacement);
-  /// What acts there. `forces` tell which friction slides.
+  /// The rows in the present pose.
   [[nodiscard]] ConfigurationRows rows();
-  /// Loads and the forces `unknowns` of rows(), P^T l, at the place of now.
+  /// Loads plus forces of the unknowns of rows(), P^T l, in the present pose.
   [[nodiscard]] VectorX forces_at(const VectorX& unknowns);
-  /// The unknowns that row forces stand for, and back.
+  /// The unknowns for given row forces, and the reverse.
   [[nodiscard]] static VectorX unknowns_of(const ConfigurationRows& rows, const RowForces& forces);
   [[nodiscard]] RowForces forces_of(const ConfigurationRows& rows, const VectorX& unknowns) const;
-  /// No forces.
+  /// Row forces that are all zero.
   [[nodiscard]] RowForces no_forces() const;
-  /// Lets features choose what rows do not tell, with these forces; whether anything has changed.
+  /// Lets features update their discrete choices (e.g. slipping links) with these forces. Returns
+  /// whether any has changed.
   bool revise(const RowForces& forces);
-  /// What the rows of all features but `except` do to bodies, and to the world, which comes last
-  /// [N].
+  /// Forces of the rows of all features except `except` on each body, and on the world, which comes
+  /// last [N].
   [[nodiscard]] std::vector<Vector3> forces_on_bodies(const RowForces& forces, std::size_t except);
-  /// The state of this pose with these forces, at rest. A pose on the way of a search is none that
-  /// the machine is ever in: no cable leaves a wheel, breaks or is used up there, unless `lets_go`.
+  /// The state in this pose with these forces, at rest. The machine is never in the intermediate
+  /// poses of a search, so no cable leaves a wheel, breaks or is used up, unless `lets_go`.
   [[nodiscard]] State finish(const RowForces& forces, bool lets_go = false);
 
   [[nodiscard]] MatrixX mass() const;       ///< [kg, kg m2]
   [[nodiscard]] MatrixX body_drag() const;  ///< [N s/m, N m s]
-  /// What a force [N] and a torque [N m] on a body (about its centre of mass) are along the degrees
-  /// of freedom.
+  /// Components along the degrees of freedom of a force [N] and a torque [N m] on a body (about its
+  /// centre of mass).
   [[nodiscard]] VectorX along(int body, const Vector3& force, const Vector3& torque) const;
-  /// Change of each unknown's C + A l per turn of a prescribed rotor, at the place of now, with the
-  /// unknowns l fixed [m/rad].
+  /// Change of each unknown's C + A l per rotation of a prescribed rotor, in the present pose, with
+  /// the unknowns l fixed [m/rad].
   [[nodiscard]] VectorX by_drive(int body);
   /// Gives the bodies of a state these velocities along the degrees of freedom.
   void set_velocities(const VectorX& rates, State& state) const;
-  /// How far a displacement moves anything [m], and turns what is not on an axle [rad].
+  /// Largest translation by a displacement [m], and largest rotation of bodies not on an axle
+  /// [rad].
   struct Reach {
     double translation = 0.0;
     double turn = 0.0;
     double spin = 0.0;  ///< of rotors [rad]
   };
   [[nodiscard]] Reach reach(const VectorX& displacement) const;
-  /// How far a displacement moves what is `arm` [m] away from the centre of mass of a body, or of
-  /// that which it is mounted on, at most [m].
+  /// Largest motion by a displacement of a point at the distance `arm` [m] from the centre of mass
+  /// of a body, or of its mount [m].
   [[nodiscard]] double moved(int body, double arm, const VectorX& displacement) const;
 
  private:
@@ -134,7 +138,7 @@ class Configuration {
   RowList rows_;
   std::vector<int> feature_rows_;
   std::vector<std::vector<int>> unknown_at_;  ///< of rows(): per feature and multiplier; -1: none
-  std::vector<std::vector<double>> doubled_;  ///< compliances in a substep twice as long
+  std::vector<std::vector<double>> doubled_;  ///< compliances in a substep of twice the length
 };
 
 }  // namespace sheave

@@ -1,12 +1,13 @@
 #pragma once
-// One linear step towards equilibrium, with the rows found that act.
+// One linear step towards equilibrium, with the active set of rows.
 //
-//   [ K + s M   -P^T ] [dq]   [ loads ]      rows that act
-//   [ J          A   ] [l ] = [ -C    ]      l at its bound, and its row not violated, where not
+//   [ K + s M   -P^T ] [dq]   [ loads ]      active rows
+//   [ J          A   ] [l ] = [ -C    ]      inactive rows: l at its bound, row not violated
 //
-// K is how forces turn; s M makes a step of implicit Euler of it, from rest, whose length is
-// 1 / sqrt(s). With the factors of an LU decomposition where the matrix has its full rank, else the
-// solution of the smallest norm: redundant rows share what they bear, and what nothing moves stays.
+// K is the geometric stiffness of the forces. s M turns the step into one of implicit Euler from
+// rest, of the length 1 / sqrt(s). The matrix is solved by an LU decomposition if it has full rank,
+// otherwise for the solution of smallest norm: redundant rows share their load, and free motions
+// stay at 0.
 
 #include "statics/tangent.h"
 
@@ -20,7 +21,7 @@ struct NewtonStep {
   bool finite = false;
 };
 
-/// `before`: the unknowns of now. `shift`: s [1/s2], >= 0.
+/// `before`: the present unknowns. `shift`: s [1/s2], >= 0.
 [[nodiscard]] NewtonStep solve_step(const ConfigurationRows& rows, const ForceTurn& turn,
                                     const MatrixX& mass, const VectorX& before, double shift,
                                     double size);

@@ -9,7 +9,8 @@
 
 namespace sheave {
 
-/// Fills Modes::state_matrix and what comes with it; motions, damping and stiffness must be there.
+/// Fills Modes::state_matrix and the members that depend on it. Motions, damping and stiffness must
+/// be filled already.
 void fill_state_space(Configuration& configuration, const World& world, const Tangent& tangent,
                       const Acting& acting, const std::vector<ModeInput>& inputs, Modes& modes);
 
