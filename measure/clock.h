@@ -1,8 +1,8 @@
 #pragma once
-// Where measurements read the time.
+// Clocks of measurements.
 //
-// What is measured is not always the same, so what is decided by it (how many runs, the cheapest
-// setting, what is skipped) is not either. Tests hand in a clock of their own.
+// Measured times vary, and so do decisions that depend on them (the number of runs, the cheapest
+// setting, skipped runs). Tests therefore pass a clock of their own.
 
 #include <functional>
 
@@ -10,13 +10,13 @@ namespace sheave::measure {
 
 /// CPU time of this thread [s].
 [[nodiscard]] double thread_time();
-/// [s] since some moment; never goes back.
+/// Time since a fixed moment [s]; never decreases.
 [[nodiscard]] double wall_time();
 
-/// Both are called from several threads at once.
+/// Both functions may be called from several threads at once.
 struct Clock {
   std::function<double()> cpu = thread_time;  ///< CPU time of the calling thread [s]
-  std::function<double()> wall = wall_time;   ///< time that passes for everybody [s]
+  std::function<double()> wall = wall_time;   ///< wall time [s]
 };
 
 }  // namespace sheave::measure

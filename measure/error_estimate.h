@@ -1,11 +1,12 @@
 #pragma once
-// What the step alone makes a run wrong by: the run beside itself with half and with a quarter of
-// its substep.
+// Discretisation error of a run, estimated from two further runs with half and a quarter of its
+// substep.
 //
-// No balance of forces or of energy can see that: a step may obey its own rule to the last digit,
-// and the rule be that of a motion a little different. Comparing with finer steps shows it, and
-// nothing else: what the model leaves out, and what all three runs do alike, it does not. The three
-// go side by side, frame by frame, so that a long run needs no more memory than a short one.
+// No balance of forces or of energy can show that error: a step may obey its rule to the last digit
+// while the rule describes a slightly different motion. Only a comparison with finer steps shows
+// it. The comparison does not show errors of the model, nor errors that all three runs have in
+// common. The three runs advance side by side, frame by frame, so a long run needs no more memory
+// than a short one.
 //
 //   auto estimator = *ErrorEstimator::create(scene, simulation.world.state());
 //   while (simulation.step().ok() && ...) estimator.observe(simulation);
@@ -25,72 +26,72 @@
 
 namespace sheave::measure {
 
-/// What the differences of positions, or of tensions, are ruled by.
+/// The cause of the differences of positions, or of tensions.
 enum class StepErrorKind {
-  /// There are none but for rounding and the solver's tolerance: below 1e-9 of their scale
+  /// Only rounding and the solver's tolerance: differences below 1e-9 of their scale
   rounding,
-  regular,  ///< the step: they have an order
-  /// No order, and things happened at moments that depend on the step: contacts, slack, links left,
-  /// breaks; or sudden ones may have moved more than the differences show (StepDifference::unseen)
+  regular,  ///< the step: the differences have an order
+  /// No order, and events occurred at times that depend on the step: contacts, slack, links left,
+  /// breaks; or sudden events may have moved bodies by more than the differences show
+  /// (StepDifference::unseen)
   events,
   chaos,   ///< no order, no events, and differences that grow exponentially
-  sweeps,  ///< no order, and Gauss-Seidel sweeps, of which half the step has twice as many
-  coarse,  ///< no order for none of these reasons: the step is too long for one to show
+  sweeps,  ///< no order, and Gauss-Seidel sweeps, of which half the step does twice as many
+  coarse,  ///< no order for any of these reasons: the step is too long
 };
 inline constexpr std::array<std::string_view, 6> step_error_kind_names{
     "rounding", "regular", "events", "chaos", "sweeps", "coarse"};
 
-/// The scene's size, below: the larger of BodySet::scale(), the diagonal of the box round its
-/// bodies, and of the box round the ends of its spans, both at the start.
+/// "Size of the scene" below means the larger of BodySet::scale(), the diagonal of the box round
+/// its bodies, and the diagonal of the box round the ends of its spans, both at the start.
 struct BodyDifference {
   std::string name;
   StepDifference position;  ///< of the body frame's origin [m]; scale: the size of the scene
-  /// [rad]; scale: the turn that moves the surface by the size of the scene. A body without a
-  /// shape: 1 rad.
+  /// [rad]; scale: the rotation that moves the surface by the size of the scene. For a body without
+  /// a shape 1 rad.
   StepDifference turn;
 };
 
 struct SpanDifference {
   std::string name;  ///< "<cable>.<span>"
-  /// [N]; scale: the largest root of the mean square over time of all spans of its cable and all
-  /// three runs.
+  /// [N]; scale: the largest root mean square over time of all spans of its cable and all three
+  /// runs.
   StepDifference tension;
 };
 
 struct ErrorEstimate {
-  std::array<int, 3> substeps{};  ///< of the run, and of those beside it
-  double end = 0.0;               ///< of what was compared [s]
-  /// Root of the mean square over all bodies of their displacements, turns at their surface
-  /// included, as in measure/run_error.h [m]; scale: the size of the scene.
+  std::array<int, 3> substeps{};  ///< of the run, and of the two finer runs
+  double end = 0.0;               ///< end of the compared time [s]
+  /// Root mean square over all bodies of their displacements, including rotations at their
+  /// surfaces, as in measure/run_error.h [m]; scale: the size of the scene.
   StepDifference position{};
   StepErrorKind position_kind = StepErrorKind::rounding;
-  /// Root of the mean square over all spans [N]; scale: the root of the mean square of all spans
-  /// and frames.
+  /// Root mean square over all spans [N]; scale: the root mean square of all spans and frames.
   StepDifference tension{};
   StepErrorKind tension_kind = StepErrorKind::rounding;
-  double motion =
-      0.0;  ///< how far the bodies of the run get from where they started, the same measure [m]
-  RunChanges changes;  ///< of the run with the shortest substep, looked at after each of them
+  /// largest displacement of the bodies from their start, in the same measure [m]
+  double motion = 0.0;
+  RunChanges changes;  ///< of the run with the shortest substep, observed after each substep
   std::optional<double>
-      growth{};  ///< of differences of positions, if they grow exponentially [1/s]
-  /// If kinds are neither `rounding` nor `regular`: until when differences of positions stay below
-  /// 0.1 % of the size [s].
+      growth{};  ///< growth rate of differences of positions, if they grow exponentially [1/s]
+  /// If the kinds are neither `rounding` nor `regular`: time until which differences of positions
+  /// stay below 0.1 % of the size [s].
   double trusted_time = 0.0;
   std::vector<BodyDifference>
-      bodies{};  ///< that move otherwise than as a function of time, in the order of the model
+      bodies{};  ///< bodies whose motion is not a function of time, in the order of the model
   std::vector<SpanDifference> spans{};  ///< that the scene lists, cable by cable
-  /// Of a run with a shorter substep, which ended the comparison.
+  /// Divergence of a run with a shorter substep, which ended the comparison.
   std::optional<Divergence> divergence{};
 };
 
 class ErrorEstimator {
  public:
   /// For a run of this scene that begins at `start`. Errors: the scene does not build, or four
-  /// times its substeps are more than a step can have ("/step/substeps").
+  /// times its substeps exceed the limit ("/step/substeps").
   static Result<ErrorEstimator> create(const Scene& scene, const State& start);
 
-  /// To be called after every step of the run; takes the finer runs as far. Once `stop` has ended
-  /// one of their steps the comparison is over: the estimate is of what came before.
+  /// To be called after every step of the run; advances the finer runs to the same time. When
+  /// `stop` ends one of their steps, the comparison ends; the estimate covers the time before.
   void observe(const Simulation& run, const StopRequest& stop = {});
   [[nodiscard]] ErrorEstimate estimate() const;
 
@@ -98,9 +99,10 @@ class ErrorEstimator {
   ErrorEstimator(const Scene& scene, std::vector<Simulation> finer);
   void compare(const Frame& run, const Frame& finer, const Frame& finest, double time);
   void compare_tensions(const std::array<const Frame*, 3>& frames, double time);
-  /// Takes a finer run as far as the run; false if that has ended the comparison.
+  /// Advances a finer run to the time of the run; false if that has ended the comparison.
   bool follow(Simulation& finer, bool is_finest, const StopRequest& stop);
-  /// How far what came after sudden events has moved within the moment that no run can tell them to.
+  /// Finds how far bodies have moved after sudden events within the time by which all runs find the
+  /// events late.
   void look_for_unseen();
   void estimate_tensions(ErrorEstimate& estimate) const;
   [[nodiscard]] StepErrorKind kind_of(const StepDifference& difference,
@@ -113,8 +115,8 @@ class ErrorEstimator {
   std::vector<std::string> span_names_;
   std::vector<std::size_t> cable_of_span_;
   Frame start_;
-  EventWatch watch_;                                     // of the finest run
-  double unseen_ = 0.0;                                  // of all bodies, as StepDifference::unseen
+  EventWatch watch_;     // of the finest run
+  double unseen_ = 0.0;  // of all bodies, see StepDifference::unseen
   std::vector<double> unseen_positions_, unseen_turns_;  // of each body
   double end_ = 0.0;
   double motion_ = 0.0;
@@ -123,7 +125,8 @@ class ErrorEstimator {
   StepDifferenceSum tension_;
   std::vector<StepDifferenceSum> positions_, turns_, tensions_;
   std::vector<std::array<double, 3>> square_tensions_;  // sums over frames, of each run
-  std::vector<double> course_{0.0};  // relative differences of positions, that of the start first
+  // relative differences of positions, beginning with that of the start
+  std::vector<double> course_{0.0};
   std::optional<Divergence> divergence_;
   bool stopped_ = false;
 };

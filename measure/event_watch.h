@@ -1,13 +1,13 @@
 #pragma once
-// What happens in a run at moments that its step finds to within a substep, looked at substep by
-// substep: what acts in two substeps of a step and is over at its end leaves nothing in the frames.
+// Events whose time a run resolves only to within a substep. They are observed substep by substep,
+// because an effect that lasts two substeps and ends within a step leaves no trace in the frames.
 //
-// An event is sudden if all that comes after it comes later as it does: a cable that is cut, a joint
-// that breaks, an impact. An impact is one that changes a body's velocity within one substep by a
-// twentieth of the largest speed that the body has had and by four times what any of the three
-// substeps before has changed it by. (Forces change velocities evenly: by as much in one substep as
-// in the next. In a vibration of less than a third of a radian per substep, where one change is
-// small by chance, the one before that is not.)
+// An event is sudden if a delay of the event delays everything after it: a cable is cut, a joint
+// breaks, an impact. An impact changes a body's velocity within one substep by at least 1/20 of the
+// largest speed that the body has had and by at least four times the change in each of the three
+// substeps before. (Forces change velocities evenly, by about the same amount in successive
+// substeps. In a vibration of less than 1/3 rad per substep one change may be small by chance, but
+// not the one before it.)
 
 #include <array>
 #include <vector>
@@ -16,27 +16,27 @@
 
 namespace sheave::measure {
 
-/// Things that happen at a moment, which a step finds to within itself.
+/// Events at certain times, which a run finds to within a substep.
 struct RunChanges {
   std::size_t events = 0;    ///< of cables' links, cuts, broken joints
-  std::size_t slack = 0;     ///< spans that went slack or taut
-  std::size_t contacts = 0;  ///< the number of points at which bodies touch changed
-  std::size_t sudden = 0;    ///< those among them that are sudden, and other impacts
+  std::size_t slack = 0;     ///< spans that became slack or taut
+  std::size_t contacts = 0;  ///< changes of the number of points at which bodies touch
+  std::size_t sudden = 0;    ///< sudden events among them, and other impacts
 
   [[nodiscard]] std::size_t count() const { return events + slack + contacts; }
 };
 
 class EventWatch {
  public:
-  /// For a run that begins with the state that `start` has.
+  /// For a run that begins with the state of `start`.
   EventWatch(const Simulation& start, std::vector<TrackedBody> bodies);
 
-  /// To be called after every substep, and at will between.
+  /// To be called after every substep, and optionally in between.
   void observe(const Simulation& run);
   [[nodiscard]] const RunChanges& changes() const { return changes_; }
 
  private:
-  /// How a body's velocity changes.
+  /// Changes of a body's velocity.
   struct Motion {
     Vector3 velocity = Vector3::Zero();          ///< [m/s]
     Vector3 angular_velocity = Vector3::Zero();  ///< [rad/s]
@@ -45,7 +45,7 @@ class EventWatch {
   };
   void look_at_cables(const Simulation& run);
   void look_at_joints(const World& world);
-  /// Whether any body has been hit.
+  /// Whether an impact has occurred on any body.
   bool look_at_motions(const World& world);
 
   std::vector<TrackedBody> bodies_;

@@ -1,5 +1,5 @@
 #pragma once
-// Counts the instructions that this thread executes, where the machine allows it.
+// Counts the instructions of this thread, if the machine allows it.
 
 #include <cstdint>
 #include <optional>
@@ -16,10 +16,10 @@ class InstructionCounter {
   InstructionCounter& operator=(const InstructionCounter&) = delete;
 
   [[nodiscard]] bool available() const { return descriptor_ >= 0; }
-  /// Why not, in a few words; empty if it is.
+  /// Why the counter is not available, in a few words; empty if it is.
   [[nodiscard]] const std::string& reason() const { return reason_; }
-  /// Instructions since the counter was made; nothing if it is not available or lost its place to
-  /// other counters, so that a number is always a whole count.
+  /// Instructions since the counter was made. Nothing if it is not available or was replaced by
+  /// other counters for a time, so every returned number is a complete count.
   [[nodiscard]] std::optional<std::uint64_t> read() const;
 
  private:

@@ -6,24 +6,25 @@
 namespace sheave::measure {
 
 struct LoadCycle {
-  double range = 0.0;  ///< largest less smallest value
-  double mean = 0.0;   ///< half way between them
-  double count = 0.0;  ///< 1: a whole cycle, 0.5: a half of one
+  double range = 0.0;  ///< largest minus smallest value
+  double mean = 0.0;   ///< mean of the largest and the smallest value
+  double count = 0.0;  ///< 1: a full cycle, 0.5: a half cycle
 };
 
-/// Takes values one by one; keeps turning points that have not closed a cycle, and what has.
+/// Takes values one by one; keeps closed cycles, and the turning points that have not closed a
+/// cycle.
 class Rainflow {
  public:
   void add(double value);
-  /// The cycles so far; what has not closed counts as halves (5.4.4).
+  /// The cycles so far; open ones count as half cycles (5.4.4).
   [[nodiscard]] std::vector<LoadCycle> cycles() const;
-  /// The cycles of a history that repeats itself (5.4.5): all are whole, loading and unloading are
-  /// one. What has not come back when it ends comes back when it begins again.
+  /// The cycles of a history that repeats (5.4.5). All are full; loading and unloading form one
+  /// cycle. Open cycles at the end are closed by the next repetition.
   [[nodiscard]] std::vector<LoadCycle> closed_cycles() const;
 
  private:
-  std::vector<double> points_;     ///< turning points; the last one may still move on
-  std::vector<LoadCycle> cycles_;  ///< whole ones
+  std::vector<double> points_;     ///< turning points; the last may still change
+  std::vector<LoadCycle> cycles_;  ///< full cycles
 };
 
 /// Cycles in bins of equal widths from 0 to the largest range: their counts.

@@ -1,13 +1,14 @@
 #pragma once
-// What a run does to its ropes: bends over sheaves, cycles of tension, slack, travel on drums.
+// Load history of the ropes in a run: bends over sheaves, cycles of tension, slack, travel on
+// drums.
 //
-// A cable is divided into sections of equal unstretched lengths, which move along it as it runs:
-// the place of a section's middle follows from what is stored on links and what lies between them,
-// counted from the cable's first end. One that comes onto a wheel, or passes over it between two
-// steps, is bent there once, with what follows when it comes off again: straight, bent, straight. Its
-// middle has come to another place when it is there by a tenth of the section's length: where it
-// lies at an edge, rounding and vibrations that are smaller than that move nothing. It says what has
-// happened and claims no life of a rope by any standard.
+// A cable is divided into sections of equal unstretched lengths, which move along it as it runs.
+// The place of a section's middle follows from the stored lengths of links and the rest lengths
+// between them, counted from the cable's first end. A section that comes onto a wheel, or passes
+// over it between two steps, is bent there once (straight, bent, straight). Its middle counts as
+// moved to another place when it is there by a tenth of the section's length, so that rounding and
+// small vibrations at an edge count nothing. The history reports events and makes no statement
+// about a rope's life by any standard.
 
 #include <string>
 #include <vector>
@@ -17,34 +18,35 @@
 
 namespace sheave::measure {
 
-/// What one sheave has done to one section.
+/// Bends of one section by one sheave.
 struct SectionBends {
-  int link = 0;   ///< of the cable's list
-  int bends = 0;  ///< how often it has come onto the wheel
-  /// Of these, how often it had last been bent in the opposite sense, on this wheel or on another.
+  int link = 0;   ///< index in the cable's list
+  int bends = 0;  ///< number of times that it has come onto the wheel
+  /// Number of these at which it had last been bent in the opposite sense, on this wheel or on
+  /// another.
   int reverse = 0;
-  double diameter = 0.0;      ///< of the wheel, to the rope's middle, when it last did [m]
-  double most_tension = 0.0;  ///< at a bend [N]
-  double mean_tension = 0.0;  ///< of all bends [N]
+  double diameter = 0.0;      ///< of the wheel, to the rope's centre line, at the last bend [m]
+  double most_tension = 0.0;  ///< largest tension at a bend [N]
+  double mean_tension = 0.0;  ///< mean over all bends [N]
 };
 
 struct SectionHistory {
-  double from = 0.0;  ///< unstretched, from the cable's first end [m]
+  double from = 0.0;  ///< unstretched position, from the cable's first end [m]
   double to = 0.0;    ///< [m]
   std::vector<SectionBends> bends;
   double most_tension = 0.0;  ///< [N]
-  /// Of its tension, by rainflow counting of a run that repeats: loading and unloading are one cycle
-  /// (Rainflow::closed_cycles()). Those of less than a thousandth of `most_tension` are not told.
+  /// Cycles of its tension, by rainflow counting of a repeated run: loading and unloading form one
+  /// cycle (Rainflow::closed_cycles()). Cycles below 1/1000 of `most_tension` are left out.
   std::vector<LoadCycle> cycles;
 };
 
 struct SpanSlack {
   int span = 0;
-  double longest = 0.0;  ///< without tension [s]
-  double deepest = 0.0;  ///< rest length less length [m]
+  double longest = 0.0;  ///< longest time without tension [s]
+  double deepest = 0.0;  ///< largest rest length - length [m]
 };
 
-/// Rope that has been wound onto a drum, or off it, while so many whole turns lay on it.
+/// Rope that was wound onto a drum or off it while this number of whole turns lay on it.
 struct LayerTravel {
   int link = 0;
   int turns = 0;
@@ -53,27 +55,27 @@ struct LayerTravel {
 
 struct CableHistory {
   std::string cable;
-  bool followed = true;  ///< false: closed, or cut; there are no sections then
+  bool followed = true;  ///< false: the cable is closed or cut, and has no sections
   std::vector<SectionHistory> sections;
   std::vector<SpanSlack> slack;  ///< of spans that have been slack
   std::vector<LayerTravel> layers;
 };
 
-/// Watches a run.
+/// Observes a run.
 class RopeHistory {
  public:
-  /// `sections`: of each cable, 1 ... 10000.
+  /// `sections`: number per cable, 1 ... 10000.
   explicit RopeHistory(int sections) : sections_(sections) {}
-  /// To be called at the start and after every step. Tensions at time 0 are not known and not
-  /// counted.
+  /// To be called at the start and after every step. Tensions at time 0 are unknown and do not
+  /// count.
   void observe(const Simulation& simulation);
   [[nodiscard]] std::vector<CableHistory> history() const;
 
  private:
   struct Section {
     double middle = 0.0;  ///< [m]
-    int place = -1;       ///< 2 k: on link k; 2 k + 1: on the span behind it
-    /// About which axis it was bent last, by the right-hand rule along the cable; 0: not yet.
+    int place = -1;       ///< 2 k: on link k; 2 k + 1: on the span behind link k
+    /// Axis about which it was bent last, by the right-hand rule along the cable; 0: not bent yet.
     Vector3 sense = Vector3::Zero();
     std::vector<SectionBends> bends;
     double most_tension = 0.0;
@@ -83,8 +85,8 @@ class RopeHistory {
     CableHistory told;
     double section_length = 0.0;
     std::vector<Section> sections;
-    std::vector<double> slack_since;  ///< per span; < 0: it is not slack
-    std::vector<double> stored;       ///< per link, of the step before
+    std::vector<double> slack_since;  ///< per span [s]; < 0: it is not slack
+    std::vector<double> stored;       ///< per link, at the step before
   };
 
   void begin(const std::vector<CableReport>& reports);

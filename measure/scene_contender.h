@@ -9,8 +9,8 @@
 
 namespace sheave::measure {
 
-/// A scene with its own settings, ready to be timed from time 0 to its duration. It owns what it
-/// runs.
+/// A scene with its own settings, ready to be timed from time 0 to its duration. The contender owns
+/// the simulation.
 [[nodiscard]] Result<Contender> scene_contender(std::string name, const Scene& scene,
                                                 StopRequest stop = {});
 

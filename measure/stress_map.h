@@ -1,5 +1,5 @@
 #pragma once
-// Stability maps: one machine over two numbers that go to their extremes.
+// Stability maps: one machine over two numbers that are varied to their extremes.
 
 #include <functional>
 #include <string>
@@ -15,30 +15,30 @@ struct StressAxis {
 };
 
 struct StressMap {
-  std::string name;     ///< by which it is chosen: letters and hyphens
+  std::string name;     ///< by which it is selected: letters and hyphens
   std::string meaning;  ///< one sentence: the machine, and its closed form
   StressAxis x, y;
   std::vector<StressCell> cells;  ///< row by row: x changes fastest
 
-  /// A map whose cells `make` makes of their coordinates.
+  /// A map whose cells `make` makes from their coordinates.
   [[nodiscard]] static StressMap over(
       std::string name, std::string meaning, StressAxis x, StressAxis y,
       const std::function<StressCell(double across, double down)>& make);
 };
 
 struct StressRange {
-  /// Fewer values per axis and shorter runs: for a first look, and for tests.
+  /// Fewer values per axis and shorter runs, for a first look and for tests.
   bool quick = false;
 };
 
 /// Machines with closed forms: measure/stress_machines.cpp derives them.
 [[nodiscard]] std::vector<StressMap> standard_stress_maps(const StressRange& range);
 
-/// Maps of the scenes that are part of the program (measure/stress_scenes.h), named "hand-gravity"
-/// and so on; fewer cells than of a scene file.
+/// Maps of the built-in scenes (measure/stress_scenes.h), named "hand-gravity" and so on, with
+/// fewer cells than those of a scene file.
 [[nodiscard]] std::vector<StressMap> built_in_stress_maps(const StressRange& range);
 
-/// Maps of any scene file: measure/stress_scene.cpp tells how they are judged. Errors are those of
+/// Maps of any scene file; measure/stress_scene.cpp explains the verdict. Errors are those of
 /// reading the file.
 [[nodiscard]] Result<std::vector<StressMap>> scene_stress_maps(const std::string& path,
                                                                const StressRange& range);

@@ -1,6 +1,5 @@
 #pragma once
-// Rungs that set fields to their defaults, by the field tables: what a type says of itself is all
-// they need.
+// Rungs that set fields to their defaults. They need only the field tables.
 
 #include <initializer_list>
 #include <string>
@@ -12,15 +11,15 @@
 
 namespace sheave::measure {
 
-/// Names of fields. Those of joints with several coordinates begin with the coordinate's: "damping"
-/// is also "twist_damping".
+/// Names of fields. Fields of joints with several coordinates begin with the coordinate's name:
+/// "damping" also selects "twist_damping".
 using FieldNames = std::vector<std::string_view>;
 
-/// Each returns how many things it changed.
+/// Each function returns the number of changed objects.
 [[nodiscard]] int reset_bodies(Scene& scene, const FieldNames& fields);
 [[nodiscard]] int reset_joints(Scene& scene, const FieldNames& fields);
 [[nodiscard]] int reset_cables(Scene& scene, const FieldNames& fields);
-/// Of links of one type.
+/// For links of one type.
 [[nodiscard]] int reset_links(Scene& scene, std::string_view type, const FieldNames& fields);
 [[nodiscard]] int reset_colliders(Scene& scene, const FieldNames& fields);
 

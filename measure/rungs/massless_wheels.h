@@ -4,9 +4,9 @@
 
 namespace sheave::measure {
 
-/// Gives no inertia about their axles to all rotors that can do without
+/// Removes the inertia about the axle from all rotors for which that is allowed
 /// (cable/cable_compile_links.cpp): round wheels that one cable passes over without end or slip,
-/// with neither drive, torque, drag, joint nor contact. Returns their number.
+/// without drive, torque, drag, joint or contact. Returns their number.
 [[nodiscard]] int make_wheels_massless(Scene& scene);
 
 }  // namespace sheave::measure
