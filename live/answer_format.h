@@ -1,7 +1,6 @@
 #pragma once
-// The formats of what comes out: answers and events, for the schema and for the reference. Objects
-// that come out may get further keys in later versions of the program, so what reads them ignores
-// those that it does not know.
+// Formats of the output, answers and events, for the schema and the reference. Later versions may
+// add keys to objects, so readers must ignore keys that they do not know.
 
 #include <span>
 #include <string_view>
@@ -13,11 +12,11 @@ namespace sheave::live {
 
 struct AnswerFormat;
 
-/// What a key of an answer may hold.
+/// The value of a key of an answer.
 struct AnswerValue {
   enum class Kind {
     number,
-    number_or_null,  ///< null where it is beyond the range of numbers
+    number_or_null,  ///< null if it is beyond the range of numbers
     integer,
     boolean,
     text,             ///< one of `words`, if there are any
@@ -25,9 +24,9 @@ struct AnswerValue {
     quaternion,       ///< [w, x, y, z]
     texts,            ///< a list of strings
     object,           ///< of `format`
-    objects,          ///< a list of them
-    numbers_by_name,  ///< an object with numbers, or null for what is not known
-    objects_by_name,  ///< an object with objects of `format`, or null for what is no more
+    objects,          ///< a list of objects of `format`
+    numbers_by_name,  ///< an object with numbers; null for an unknown one
+    objects_by_name,  ///< an object with objects of `format`; null for a removed one
   };
   Kind kind = Kind::text;
   std::string_view unit{};
@@ -43,22 +42,22 @@ struct AnswerKey {
   Presence presence = required;  ///< whether it is always there
 };
 
-/// An object that comes out.
+/// An object of the output.
 struct AnswerFormat {
   std::string_view name;
   std::string_view meaning;
   std::vector<AnswerKey> keys;
 };
 
-/// What every answer begins with; "ok" says whether the request was done.
+/// The keys with which every answer begins; "ok" says whether the request was done.
 [[nodiscard]] const AnswerFormat& answer_head_format();
-/// What an answer with "ok": false has besides.
+/// The additional keys of an answer with "ok": false.
 [[nodiscard]] const AnswerFormat& refusal_format();
-/// By how much a cable is longer.
+/// Change of a cable's length.
 [[nodiscard]] const AnswerFormat& length_change_format();
-/// "values" and "poses", as far as they were asked for.
+/// "values" and "poses", as far as they were requested.
 [[nodiscard]] std::vector<AnswerKey> reading_keys();
-/// What a change of place or of what there is does: "energy" and "cables".
+/// Effects of a placement or an edit: "energy" and "cables".
 [[nodiscard]] std::vector<AnswerKey> consequence_keys();
 /// All events, each with all its keys; their names are the values of "event".
 [[nodiscard]] std::span<const AnswerFormat> event_formats();

@@ -1,5 +1,5 @@
 #pragma once
-// What every change of an edit must provide. Adding one: a file in live/edits/ and a line in
+// Interface of all changes of an edit. A new change is a file in live/edits/ and a line in
 // change_registry.cpp.
 
 #include <memory>
@@ -15,7 +15,7 @@
 
 namespace sheave::live {
 
-/// One change of what the world is made of. Settings; derived types add all of them.
+/// One change of an edit. Derived types add its settings.
 class EditChange {
  public:
   virtual ~EditChange() = default;
@@ -23,24 +23,25 @@ class EditChange {
   EditChange& operator=(const EditChange&) = delete;
 
   [[nodiscard]] virtual std::string_view type() const = 0;  ///< key in the registry
-  [[nodiscard]] virtual const void* settings() const = 0;   ///< this, as its own type
-  /// The objects that it has.
+  /// this, as a pointer to the derived type
+  [[nodiscard]] virtual const void* settings() const = 0;
+  /// The members that are objects.
   [[nodiscard]] virtual std::span<const Member> members() const { return {}; }
-  /// Reads these from the object `node`; tells the reader of bodies that come and go.
+  /// Reads the members from the object `node`; declares added and removed bodies to the reader.
   virtual void read(json::NodeId node, EditReader& reader) {
     static_cast<void>(node), static_cast<void>(reader);
   }
-  /// How many parts it adds: bodies and their shapes, joints, cables and their links.
+  /// Number of added parts: bodies and their shapes, joints, cables and their links.
   [[nodiscard]] virtual std::size_t parts() const { return 0; }
-  /// Tells the edit; faults of names have pointers within the change. What cannot be is a fault of
-  /// the edit.
+  /// Applies the change to the edit. Faults of names have pointers within the change; impossible
+  /// changes are faults of the edit.
   [[nodiscard]] virtual Errors apply(Edit& edit, EditNames& names) const = 0;
 
  protected:
   EditChange() = default;
 };
 
-/// One of a cable.
+/// A change of a cable.
 class CableChange : public EditChange {
  public:
   std::string cable;
@@ -57,7 +58,7 @@ class CableChange : public EditChange {
   [[nodiscard]] virtual Errors change(Edit& edit, CableHandle handle, EditNames& names) const = 0;
 };
 
-/// All of them, in the order of the documentation.
+/// All types of changes, in the order of the documentation.
 [[nodiscard]] std::span<const TypeEntry<EditChange>> change_types();
 /// The format of the objects in the list "changes".
 [[nodiscard]] const ObjectFormat& change_format();
@@ -68,7 +69,7 @@ template <class Type>
   return type_entry<EditChange, Type>();
 }
 
-// By the files in live/edits/.
+// Defined in the files in live/edits/.
 [[nodiscard]] TypeEntry<EditChange> add_body_change();
 [[nodiscard]] TypeEntry<EditChange> add_joint_change();
 [[nodiscard]] TypeEntry<EditChange> add_cable_change();

@@ -1,5 +1,5 @@
 #pragma once
-// What every control that can be set or cleared must provide. Adding one: a file in live/controls/
+// Interface of all controls that can be set or cleared. A new control is a file in live/controls/
 // and a line in control_registry.cpp.
 
 #include <memory>
@@ -15,7 +15,7 @@
 
 namespace sheave::live {
 
-/// One change of a control. Settings; derived types add all of them.
+/// One change of a control. Derived types add its settings.
 class Control {
  public:
   virtual ~Control() = default;
@@ -23,15 +23,16 @@ class Control {
   Control& operator=(const Control&) = delete;
 
   [[nodiscard]] virtual std::string_view type() const = 0;  ///< key in the registry
-  [[nodiscard]] virtual const void* settings() const = 0;   ///< this, as its own type
-  /// Sets or clears it; faults have pointers within the control.
+  /// this, as a pointer to the derived type
+  [[nodiscard]] virtual const void* settings() const = 0;
+  /// Sets or clears the control. Faults have pointers within it.
   [[nodiscard]] virtual Errors apply(LiveWorld& world, const Names& names) const = 0;
 
  protected:
   Control() = default;
 };
 
-/// What can be set, and what can be cleared, in the order of the documentation.
+/// The controls that can be set, and those that can be cleared, in the order of the documentation.
 [[nodiscard]] std::span<const TypeEntry<Control>> set_types();
 [[nodiscard]] std::span<const TypeEntry<Control>> clear_types();
 
@@ -45,7 +46,7 @@ template <class Type>
   return type_entry<Control, Type>();
 }
 
-// By the files in live/controls/.
+// Defined in the files in live/controls/.
 [[nodiscard]] TypeEntry<Control> set_speed();
 [[nodiscard]] TypeEntry<Control> set_angle();
 [[nodiscard]] TypeEntry<Control> set_torque();
@@ -70,7 +71,7 @@ template <class Type>
 [[nodiscard]] TypeEntry<Control> set_feed_speed();
 [[nodiscard]] TypeEntry<Control> clear_feed_speed();
 
-/// `errors` with the pointer of what they are about.
+/// `errors` with this pointer.
 [[nodiscard]] Errors at_pointer(Errors errors, const std::string& pointer);
 
 }  // namespace sheave::live

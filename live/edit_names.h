@@ -1,6 +1,5 @@
 #pragma once
-// What the changes of one edit are told by: the names that there are, and those that come and go
-// with it.
+// Names during one edit: the existing ones, and those that the edit adds and removes.
 
 #include <map>
 #include <memory>
@@ -18,9 +17,9 @@
 
 namespace sheave::live {
 
-/// Reads the parts that an edit adds. References to bodies are read as their slots, those to the
-/// bodies that the edit itself adds as numbers from Names::body_slots() on, in their order;
-/// EditNames::id() tells what they are.
+/// Reads the parts that an edit adds. References to existing bodies are read as their slots,
+/// references to bodies that the edit adds as numbers from Names::body_slots() on, in their order.
+/// EditNames::id() resolves both.
 class EditReader {
  public:
   /// Both must outlive the reader.
@@ -29,9 +28,9 @@ class EditReader {
   [[nodiscard]] FieldReader& fields() { return parts_.fields(); }
   [[nodiscard]] const json::Document& document() const { return parts_.document(); }
 
-  /// A body that later parts may refer to. `name` must outlive the reader.
+  /// Declares a body to which later parts may refer. `name` must outlive the reader.
   void add_body(std::string_view name);
-  /// One that they may not refer to any more.
+  /// Later parts may no longer refer to this body.
   void remove_body(std::string_view name);
 
  private:
@@ -39,10 +38,10 @@ class EditReader {
   int next_number_;
 };
 
-/// Names and numbers while an edit is being made.
+/// Names and numbers while an edit is collected.
 class EditNames {
  public:
-  /// Both must outlive this.
+  /// Both must outlive this object.
   EditNames(const LiveWorld& world, const Names& names);
 
   [[nodiscard]] Result<BodyHandle> body(const std::string& name,
@@ -55,33 +54,32 @@ class EditNames {
   void add(BodyHandle body, const BodyDef& definition);
   void add(JointHandle joint, std::shared_ptr<const JointDef> definition);
   void add(CableHandle cable, const std::string& name);
-  /// A body has been changed to this.
+  /// Notes the changed definition of a body.
   void change(const BodyDef& definition);
   void remove_body(const std::string& name) { removed_bodies_.insert(name); }
   void remove_joint(const std::string& name) { removed_joints_.insert(name); }
 
-  /// What the edit calls a body that a part has been read with.
+  /// The edit's id of a body that was read with a part.
   [[nodiscard]] BodyId id(Edit& edit, BodyId read) const;
-  /// Lets all references of an object of the table's type, as read, be what the edit calls them.
+  /// Replaces all references in an object of the table's type by the ids of the edit.
   void put_ids(Edit& edit, std::span<const Field> fields, void* object) const;
 
-  /// Joints and bodies of one name of which a quantity could be that of either; with the paths of
-  /// parts.
+  /// Faults of joints and bodies with the same name and a common quantity, with the paths of parts.
   [[nodiscard]] Errors shared_names() const;
 
-  /// From now on changes are those at this pointer.
+  /// Sets the pointer of the following change.
   void begin(std::string pointer) { change_ = std::move(pointer); }
-  /// What is wrong with the part that faults of an edit call `path` ("/bodies/3") is wrong with its
-  /// definition, the value at `pointer` in this change; if not `exact`, with the change.
+  /// Relates the part that faults of an edit call `path` ("/bodies/3") to its definition, the value
+  /// at `pointer` in this change; if not `exact`, to the change as a whole.
   void tell_part(const std::string& path, const std::string& pointer, bool exact = true);
-  /// It is wrong with what this change changes of it at `pointer`, unless an earlier change has
-  /// told of the same part; if not `exact`, wherever in it.
+  /// Relates that part to the value at `pointer` that this change modifies, unless an earlier
+  /// change has related the same part; if not `exact`, to any place in it.
   void tell_change(const std::string& path, const std::string& pointer, bool exact);
-  /// The pointer in the request of a fault that an edit tells with a path; empty if it is not about
-  /// a part that it was told of.
+  /// The pointer in the request of an edit's fault with this path; empty if the path belongs to no
+  /// related part.
   [[nodiscard]] std::string pointer_of(const std::string& path) const;
 
-  StepSettings step;  ///< as this edit has them
+  StepSettings step;  ///< step settings within this edit
 
  private:
   struct Part {
@@ -102,15 +100,15 @@ class EditNames {
   const LiveWorld& world_;
   const Names& names_;
   std::vector<BodyHandle> added_bodies_;  // in the order in which they were read
-  std::map<std::string, Body> bodies_;    // that have been added or changed
-  std::map<std::string, Joint> joints_;   // that have been added
+  std::map<std::string, Body> bodies_;    // added or changed bodies
+  std::map<std::string, Joint> joints_;   // added joints
   std::map<std::string, CableHandle> cables_;
   std::set<std::string> removed_bodies_, removed_joints_;
   std::string change_;
   std::map<std::string, Part> parts_;
 };
 
-/// The path by which an edit's faults call a part: "/bodies/3".
+/// The path of a part in the faults of an edit: "/bodies/3".
 template <class Tag>
 [[nodiscard]] std::string part_path(std::string_view list, Handle<Tag> handle) {
   return "/" + std::string(list) + "/" + std::to_string(handle.slot);

@@ -1,5 +1,5 @@
 #pragma once
-// Bodies, joints and cables by the names that requests use.
+// Bodies, joints and cables by their names in requests.
 
 #include <string>
 #include <string_view>
@@ -10,20 +10,19 @@
 
 namespace sheave::live {
 
-/// The names of a world, found at once. A fault is told at `pointer`, and says which name may have
-/// been meant.
+/// Index of the names of a world. A fault has the pointer `pointer` and suggests a similar name.
 class Names {
  public:
-  /// `world` must outlive this.
+  /// `world` must outlive this object.
   explicit Names(const LiveWorld& world);
-  /// Those of the world as it is now.
+  /// Reads the names of the world again.
   void refresh();
   Names(const Names&) = delete;
   Names& operator=(const Names&) = delete;
 
-  /// Of all bodies, in the order of their handles.
+  /// Names of all bodies, in the order of their handles.
   [[nodiscard]] const std::vector<std::string>& bodies() const { return bodies_.names; }
-  /// How many slots their handles have.
+  /// Number of slots of body handles.
   [[nodiscard]] int body_slots() const { return body_slots_; }
   [[nodiscard]] Result<BodyHandle> body(const std::string& name,
                                         const std::string& pointer = "/body") const;
@@ -35,7 +34,7 @@ class Names {
   [[nodiscard]] Result<int> coordinate(JointHandle joint, const std::string& name) const;
 
  private:
-  /// The names of one kind, in their order, and what they are of.
+  /// The names of one kind of objects in their order, with their handles.
   template <class Handle>
   struct Index {
     std::vector<std::string> names;
@@ -55,7 +54,7 @@ class Names {
   Index<CableHandle> cables_;
 };
 
-/// What is wrong with a name that none of `names` is: there is no body "drun", did you mean "drum"?
+/// The fault of an unknown name: there is no body "drun", did you mean "drum"?
 [[nodiscard]] Error no_such(const std::string& what, const std::string& name,
                             const std::vector<std::string_view>& names, const std::string& pointer);
 

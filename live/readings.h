@@ -1,5 +1,5 @@
 #pragma once
-// What is read of a world again and again: quantities and poses.
+// Values that are read repeatedly from a world: quantities and poses.
 
 #include <string>
 #include <string_view>
@@ -13,7 +13,7 @@
 
 namespace sheave::live {
 
-/// The quantities of a world, found by their names at once.
+/// Index of the quantities of a world by name.
 class QuantityIndex {
  public:
   explicit QuantityIndex(const Simulation& simulation);
@@ -28,23 +28,23 @@ class QuantityIndex {
   std::unordered_map<std::string_view, int> indices_;
 };
 
-/// Quantities and poses, by their places. Those that a request names.
+/// The quantities and poses that a request names, by their indices.
 class Readings {
  public:
-  /// Faults have pointers into the lists "quantities" and "poses". Names must not be given twice.
+  /// Faults have pointers into the lists "quantities" and "poses". Names must not occur twice.
   static Result<Readings> create(const QuantityIndex& index, const Names& names,
                                  const std::vector<std::string>& quantities,
                                  const std::vector<std::string>& poses);
   [[nodiscard]] bool empty() const { return indices_.empty() && bodies_.empty(); }
-  /// The same of a world that has been edited: what is no more is null from now on.
+  /// Updates the indices for an edited world. Removed objects read as null from then on.
   void find_again(const QuantityIndex& index, const Names& names);
-  /// Appends "values" and "poses", as far as there are any. What is not known, as forces before the
-  /// first step, is null.
+  /// Appends "values" and "poses", if there are any. Unknown values, such as forces before the
+  /// first step, are null.
   void read(const QuantityIndex& index, const LiveWorld& world, Json& answer) const;
 
  private:
   std::vector<std::string> quantities_;
-  std::vector<int> indices_;  // -1: is no more
+  std::vector<int> indices_;  // -1: removed
   std::vector<std::string> bodies_;
   std::vector<BodyHandle> handles_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What every type of request must provide. Adding one: a file in live/requests/ and a line in
+// Interface of all requests. A new request is a file in live/requests/ and a line in
 // request_registry.cpp.
 
 #include <memory>
@@ -22,10 +22,10 @@ namespace sheave::live {
 
 struct SessionState;
 
-/// What an answer says, key by key.
+/// The keys and values of an answer.
 using Json = nlohmann::ordered_json;
 
-/// Something that is asked of a session. Settings; derived types add their own.
+/// A request to a session. Derived types add its settings.
 class Request {
  public:
   virtual ~Request() = default;
@@ -37,32 +37,33 @@ class Request {
 
   static std::span<const Field> common_field_table();
   [[nodiscard]] virtual std::string_view type() const = 0;  ///< key in the registry, e.g. "step"
-  [[nodiscard]] virtual const void* settings() const = 0;   ///< this, as its own type
-  /// The lists of objects that it has.
+  /// this, as a pointer to the derived type
+  [[nodiscard]] virtual const void* settings() const = 0;
+  /// The members that are lists of objects.
   [[nodiscard]] virtual std::span<const Member> members() const { return {}; }
-  /// Keys that must not be given both.
+  /// Pairs of keys that exclude each other.
   [[nodiscard]] virtual std::span<const std::pair<std::string_view, std::string_view>> exclusive()
       const {
     return {};
   }
-  /// Reads its lists from the object `node`, for a world with these names.
+  /// Reads the lists from the object `node`, for a world with these names.
   virtual void read_members(json::NodeId node, PartReader& reader, const Names& names) {
     static_cast<void>(node), static_cast<void>(reader), static_cast<void>(names);
   }
-  /// What its answer has besides what all have.
+  /// The keys of its answer in addition to those of all answers.
   [[nodiscard]] virtual std::vector<AnswerKey> answer_keys() const { return {}; }
-  /// Does it, and adds to the answer what there is to say. Faults have pointers within the request;
-  /// then nothing has changed.
+  /// Carries out the request and adds its results to the answer. Faults have pointers within the
+  /// request; after a fault nothing has changed.
   [[nodiscard]] virtual Errors run(SessionState& session, Json& answer) const = 0;
-  /// Whether it belongs into a log. What is not logged is how the world comes to its steps: of
-  /// those the log has the number.
+  /// Whether the request belongs in a log. Requests that only advance the world are not logged; the
+  /// log contains the number of steps instead.
   [[nodiscard]] virtual bool is_logged() const { return true; }
 
  protected:
   Request() = default;
 };
 
-/// All types, in the order of the documentation.
+/// All types of requests, in the order of the documentation.
 [[nodiscard]] std::span<const TypeEntry<Request>> request_types();
 
 /// The registry line of `Type`, which declares static type_name, type_meaning and field_table().

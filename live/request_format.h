@@ -1,5 +1,5 @@
 #pragma once
-// The formats of requests, for reading, for the schema and for the reference.
+// The formats of requests, for reader, schema and reference.
 
 #include <span>
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace sheave::live {
 
-/// Any request: its types, and what all of them have.
+/// Any request: its types, and their common keys.
 [[nodiscard]] const ObjectFormat& any_request_format();
-/// One per type, in the order of the registry, each with that variant alone and with its lists.
+/// One format per type, in the order of the registry, with that variant only and its lists.
 [[nodiscard]] std::span<const ObjectFormat> request_formats();
 
-/// The part of the reference that tells what comes out.
+/// The part of the reference about the output.
 [[nodiscard]] std::string answer_reference();
 
 }  // namespace sheave::live

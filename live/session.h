@@ -1,5 +1,5 @@
 #pragma once
-// A world that is held by lines of text.
+// A world that is controlled by lines of text.
 //
 //   auto simulation = sheave::create_simulation(scene);
 //   sheave::live::Session session(scene, std::move(*simulation));
@@ -16,33 +16,33 @@ namespace sheave::live {
 
 class Session {
  public:
-  /// `simulation` is one of `scene`, at its start or where a saved state has it; a snapshot of it
-  /// has the name "start".
+  /// `simulation` belongs to `scene`, at its start or in a saved state. A snapshot of it gets the
+  /// name "start".
   Session(const Scene& scene, Simulation simulation, Hooks hooks = {}, const Limits& limits = {});
   ~Session();
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
 
-  /// The answer to a request: one JSON object, without the end of a line. Whatever `line` is, there
-  /// is one; if it says "ok": false nothing has changed.
+  /// The answer to a request: one JSON object, without a line break. Every line gets an answer;
+  /// with "ok": false nothing has changed.
   [[nodiscard]] std::string answer(std::string_view line);
-  /// The answer to a line that is longer than the limit and was not kept.
+  /// The answer to a line that exceeds the limit and was discarded.
   [[nodiscard]] std::string answer_to_long_line() const;
 
-  /// Whether the world is to step by itself, between requests.
+  /// Whether the world should step by itself, between requests.
   [[nodiscard]] bool is_running() const;
-  /// The world's seconds per second of the clock that such a run asked for, if it did.
+  /// World time per clock time that the run has requested, if it has.
   [[nodiscard]] std::optional<double> pace() const;
-  /// One step of such a run. If the world goes no further, that is an event and the run is over;
-  /// false if it was interrupted.
+  /// One step of such a run. If the world cannot go on, an event reports it and the run ends. False
+  /// if the step was interrupted.
   bool advance();
-  /// Whether a request has asked for the end.
+  /// Whether a request has ended the session.
   [[nodiscard]] bool has_quit() const;
-  /// Writes what is not in the log yet into it: the steps of a run.
+  /// Writes the steps of a run that are not in the log yet.
   void finish_log();
 
   [[nodiscard]] const LiveWorld& world() const;
-  /// For a program that holds the world itself, too; what it edits it tells with refresh().
+  /// For programs that also use the world themselves; after an edit they call refresh().
   [[nodiscard]] SessionState& state();
 
  private:

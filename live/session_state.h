@@ -1,5 +1,5 @@
 #pragma once
-// What requests act on.
+// The state of a session, on which requests act.
 
 #include <functional>
 #include <map>
@@ -16,40 +16,40 @@
 
 namespace sheave::live {
 
-/// What a session asks of the program that it is in. All of them may be empty.
+/// Callbacks of a session into its program. All may be empty.
 struct Hooks {
-  /// Takes an event, a line without its end. One that is not needed may be left out where nobody
-  /// takes it in time.
+  /// Takes an event, a line without line break. An event that is not `needed` may be dropped if the
+  /// reader is too slow.
   std::function<void(const std::string& line, bool needed)> event{};
-  /// Takes a line of the log: a request without the end of its line.
+  /// Takes a line of the log: a request without line break.
   std::function<void(const std::string& line)> log{};
-  /// Called before each step of a request, with the time that the world will have [s], and whether
-  /// it may go on.
+  /// Called before each step of a request with the time that the world will have [s]; false
+  /// interrupts the request.
   std::function<bool(double time)> before_step{};
-  /// Ends a step that has begun, which then has not been.
+  /// Interrupts a step that has begun; its effect is undone.
   StopRequest stop{};
 };
 
-/// What somebody wants to be told while the world steps.
+/// A subscription to readings and events while the world steps.
 struct Subscription {
-  int every = 1;      ///< steps: at those that are multiples of it
+  int every = 1;      ///< interval in steps: at step numbers that are multiples of it
   Readings readings;  ///< may be empty
   bool events = false;
 };
 
-/// A state that is kept, with what it is a state of.
+/// A kept snapshot.
 struct KeptSnapshot {
   LiveSnapshot snapshot;
   std::int64_t revision = 0;  ///< SessionState::revision
-  std::size_t parts = 0;      ///< that the world had
+  std::size_t parts = 0;      ///< number of parts of the world
 };
 
-/// Why a world goes no further.
+/// Why a world cannot go on.
 enum class Ending {
   none,
   trigger,      ///< a trigger has stopped the run
-  divergence,   ///< the state would mean nothing
-  interrupted,  ///< Hooks::stop or before_step said so
+  divergence,   ///< the state would be invalid
+  interrupted,  ///< Hooks::stop or before_step ended it
 };
 inline constexpr std::array<std::string_view, 4> ending_names{"none", "trigger", "divergence",
                                                               "interrupted"};
@@ -57,23 +57,24 @@ inline constexpr std::array<std::string_view, 4> ending_names{"none", "trigger",
 struct SessionState {
   SessionState(const Scene& scene, Simulation simulation, Hooks called, const Limits& bounds);
 
-  /// Those of the world, named when they are first asked for: that takes time and memory.
+  /// The quantities of the world. Their index is built at the first call, since that takes time and
+  /// memory.
   [[nodiscard]] const QuantityIndex& quantities();
 
-  /// To be called when the world has been edited or is another one.
+  /// To be called after the world has been edited or replaced.
   void refresh();
-  /// The state as it is now, to be kept.
+  /// A snapshot of the present state.
   [[nodiscard]] KeptSnapshot keep() const;
-  /// Bodies with their shapes, joints, cables with their links.
+  /// Number of bodies with their shapes, joints, and cables with their links.
   [[nodiscard]] std::size_t part_count() const;
-  /// Steps once, and tells subscribers. `reason` is why it ended, if it did.
+  /// Does one step and informs subscribers. `reason`: why the run ended, if it did.
   [[nodiscard]] Ending step(std::string& reason);
   /// The name of the trigger that has stopped the run, if one has.
   [[nodiscard]] std::optional<std::string> stopped_by() const;
-  /// Writes steps that are not in the log yet into it.
+  /// Writes the steps that are not in the log yet.
   void log_steps();
 
-  /// What of the scene is told that is not in the world.
+  /// Information about the scene that the world does not contain.
   struct About {
     std::string name;
     double duration = 0.0;  ///< [s]
@@ -86,14 +87,14 @@ struct SessionState {
   const Hooks hooks;
   const Limits limits;
   std::map<std::string, KeptSnapshot> snapshots;
-  std::int64_t revision = 0;   ///< what the world is made of: one number for each edit
-  std::int64_t revisions = 1;  ///< that have been
+  std::int64_t revision = 0;   ///< number of the edit that made the present world
+  std::int64_t revisions = 1;  ///< number of revisions so far
   std::map<std::string, Subscription> subscriptions;
-  bool running = false;        ///< steps by itself
-  std::optional<double> pace;  ///< of a run, the world's seconds per second; none: the program's
+  bool running = false;        ///< the world steps by itself
+  std::optional<double> pace;  ///< world time per clock time of a run; none: the program's default
   bool has_quit = false;
-  std::int64_t unlogged_steps = 0;  ///< that were begun and not interrupted
-  std::int64_t logged_to = 0;  ///< the step that the world was at after the last that is in the log
+  std::int64_t unlogged_steps = 0;  ///< steps that were begun and not interrupted
+  std::int64_t logged_to = 0;       ///< step number of the world after the last logged step
 
  private:
   std::unique_ptr<const QuantityIndex> quantities_;
@@ -104,10 +105,10 @@ struct SessionState {
   void send(const Json& event, bool needed) const;
 };
 
-/// The text of an answer or an event: one line, valid UTF-8 whatever is in it.
+/// The text of an answer or an event: one line, always valid UTF-8.
 [[nodiscard]] std::string line_of(const Json& json);
 
-/// A new name of a snapshot or a subscription: the fault, or nothing.
+/// Checks a new name of a snapshot or a subscription.
 [[nodiscard]] Errors check_name(const std::string& name);
 
 }  // namespace sheave::live
