@@ -1,6 +1,5 @@
 #pragma once
-// How the bodies of a model look: their shapes as drawable ones, which cylinders are sheaves, and
-// colours.
+// Appearance of the bodies of a model: drawable shapes, cylinders that are sheaves, and colours.
 
 #include <array>
 #include <span>
@@ -13,7 +12,7 @@
 
 namespace sheave::render {
 
-/// The drawable form of a shape, in its own frame. A type that is not known is shown as its box.
+/// The drawable form of a shape, in its own frame. An unknown type is drawn as its bounding box.
 [[nodiscard]] Shape drawable(const sheave::Shape& shape);
 
 /// Colours of bodies that are neither fixed nor wheels. Cool and muted: the warm colours belong to
@@ -23,12 +22,12 @@ inline constexpr std::array<Color, 8> load_colors = {rgb(0x4f79a8), rgb(0xa9cbe3
                                                      rgb(0xb5d3a8), rgb(0xd8c27c), rgb(0x85763c),
                                                      rgb(0x54477c), rgb(0xa293bd)};
 
-/// The one of a body with this name, whatever other bodies there are.
+/// The colour for a body of this name, independent of the other bodies.
 [[nodiscard]] Color load_color(std::string_view name);
 
 /// Something fixed to a body.
 struct BodyPart {
-  BodyId body;  ///< the world: does not move
+  BodyId body;  ///< the world: the part does not move
   Shape shape;
   Vector3 position = Vector3::Zero();               ///< of the shape's origin [m], body frame
   Quaternion orientation = Quaternion::Identity();  ///< shape's frame to body frame
@@ -44,7 +43,7 @@ struct BodyBar {
   Color color;
 };
 
-/// What is drawn for the bodies of one world, whatever they do.
+/// The drawn parts of the bodies of one world, independent of its state.
 struct BodyView {
   std::vector<BodyPart> parts;
   std::vector<BodyBar> bars;
@@ -52,9 +51,9 @@ struct BodyView {
   std::vector<std::vector<double>> winding_room;
 };
 
-/// Decides how the bodies of a world look, from its state at time 0 and its cables then (world and
-/// reports must be of the same state). A cylinder that a cable rolls on becomes a sheave whose
-/// groove fits a cable of the given radius [m]; a wheel that no shape belongs to gets one.
+/// Decides the appearance of a world's bodies, from its state at time 0 and its cables then (world
+/// and reports must be of the same state). A cylinder on which a cable rolls becomes a sheave whose
+/// groove fits a cable of the given radius [m]; a wheel without a shape gets one.
 [[nodiscard]] BodyView make_body_view(const World& world, std::span<const CableReport> cables,
                                       double cable_radius);
 

@@ -23,13 +23,14 @@ struct CableStyle {
 /// Colour of a span with this tension [N]; slack_color if it carries none.
 [[nodiscard]] Color tension_color(double tension, const CableStyle& style);
 
-/// Whether a span hangs: longer than the distance between its ends, and without tension.
+/// Whether a span sags: its rest length exceeds the distance between its ends, and it has no
+/// tension.
 [[nodiscard]] bool is_slack(const SpanReport& span);
 
-/// The angle [rad], counted in the direction of the cable's winding, from where the cable meets the
-/// wheel to where it leaves it. The remainder of a turn comes from the two points, so that the
-/// drawn line meets the spans exactly; the number of whole turns from the length stored on the
-/// wheel. At the end of an open cable the two points coincide and the stored length counts alone. A
+/// The angle from the point where the cable meets the wheel to the point where it leaves it [rad],
+/// counted in the direction of the winding. The fraction of a turn follows from the two points, so
+/// that the drawn line meets the spans exactly; the number of whole turns follows from the stored
+/// length. At the end of an open cable the two points coincide and only the stored length counts. A
 /// little negative for a cable that is just leaving its wheel.
 [[nodiscard]] double wound_angle(const LinkReport& link, bool is_end);
 
@@ -38,7 +39,7 @@ struct CableStyle {
                                                            const CableStyle& style);
 
 /// The centre lines on links as drawn, one per link: round wheels, along outlines; empty for
-/// points. Both in order make up the whole cable; of a cut one nothing is left.
+/// points. Spans and links in order form the whole cable. All are empty for a cut cable.
 [[nodiscard]] std::vector<std::vector<Vector3>> link_lines(const CableReport& cable,
                                                            const CableStyle& style);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where a picture is taken from, and how to place a camera so that everything is in the frame.
+// Camera of a picture, and its placement so that everything is in the frame.
 
 #include <optional>
 #include <string>
@@ -66,8 +66,8 @@ class Projector {
   double focal_ = 0.0;  ///< [pixels]: half the height over the tangent of half the angle
 };
 
-/// Parts of the picture to keep free of the scene, as fractions of its width or height, each in [0,
-/// 0.45].
+/// Parts of the picture that the scene leaves free, as fractions of its width or height, each in
+/// [0, 0.45].
 struct Margins {
   double left = 0.06;
   double right = 0.06;
@@ -88,9 +88,9 @@ struct FrameOptions {
 [[nodiscard]] Camera frame_box(const Eigen::AlignedBox3d& box, const Vector3& direction,
                                const Vector3& up, const FrameOptions& options);
 
-/// The direction to look along by default. `plane_normal`: for scenes whose motion lies in a plane;
-/// the view is then nearly along it, turned a little to show depth. Otherwise a view from above and
-/// from the side. Up is against gravity; must be finite and not zero.
+/// The default viewing direction. `plane_normal`: for scenes whose motion lies in a plane; the view
+/// is then nearly along it, turned a little to show depth. Otherwise a view from above and from the
+/// side. Up is against gravity; it must be finite and not zero.
 [[nodiscard]] Vector3 default_view_direction(const Vector3& up,
                                              const std::optional<Vector3>& plane_normal);
 

@@ -1,6 +1,6 @@
 #pragma once
-// Two-dimensional drawing over a finished picture. Coordinates in pixels from the upper left corner;
-// whatever lies outside the picture is cut off.
+// Two-dimensional drawing over a finished picture. Coordinates in pixels from the upper left
+// corner; parts outside the picture are cut off.
 
 #include <string_view>
 
@@ -23,8 +23,8 @@ class Canvas {
   /// A straight anti-aliased line of the given width.
   virtual void line(double x0, double y0, double x1, double y1, double width, const Color& color,
                     double alpha) = 0;
-  /// Text with the pen starting at x on the baseline y, `pixels` from ascent to descent, over a
-  /// white halo of so many pixels.
+  /// Text with the pen starting at x on the baseline y. `pixels`: height from ascent to descent.
+  /// `halo`: width of a white halo in pixels.
   virtual void text(double x, double y, std::string_view text, double pixels, const Color& color,
                     double halo) = 0;
 };

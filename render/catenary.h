@@ -10,9 +10,9 @@ namespace sheave::render {
 /// A hanging cable, parametrised by the arc length s in [0, length()] from its first end.
 class Catenary {
  public:
-  /// From `start` to `end` [m] with the given length [m]; only the direction of `gravity` counts,
-  /// and without gravity down is -y. A length at or below the distance of the ends gives the
-  /// straight line, whose length() is then the distance.
+  /// From `start` to `end` [m] with the given length [m]. Only the direction of `gravity` counts;
+  /// without gravity down is -y. A length up to the distance of the ends gives the straight line,
+  /// whose length() is then the distance.
   Catenary(const Vector3& start, const Vector3& end, double length, const Vector3& gravity);
 
   /// Place at arc length s [m], clamped to [0, length()]. Exact at both ends.
@@ -20,8 +20,8 @@ class Catenary {
   [[nodiscard]] double length() const { return length_; }
   [[nodiscard]] bool is_straight() const { return straight_; }
 
-  /// `count` >= 2 places from start to end: half of them even in length, half even in direction, so
-  /// that neither long arms nor tight bends come out angular.
+  /// `count` >= 2 places from start to end, half of them equidistant in length and half in
+  /// direction, so that both long arms and tight bends are smooth.
   [[nodiscard]] std::vector<Vector3> points(int count) const;
 
  private:

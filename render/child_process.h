@@ -11,25 +11,25 @@
 
 namespace sheave::render {
 
-/// How a child is started and how long it is waited for.
+/// Options for starting a child and waiting for it.
 struct ChildOptions {
-  /// [s]; a child that for so long neither takes input nor ends nor uses any processor time hangs;
-  /// it is ended, and that is an error.
+  /// Time limit [s]: a child that during this time neither takes input nor ends nor uses any
+  /// processor time is ended, and that is an error.
   double stall_seconds = 60.0;
-  /// If there is one, it is asked while we wait for the child; true ends the child likewise.
+  /// Called while waiting for the child, if set; true ends the child, too.
   StopRequest abandon{};
-  /// Whether its standard output is kept for output(); otherwise that goes nowhere.
+  /// Whether its standard output is kept for output(); otherwise it is discarded.
   bool keeps_output = false;
-  /// Variables of our environment whose names begin so are not handed on.
+  /// Environment variables with these prefixes are not passed on.
   std::vector<std::string> hidden_variables{};
-  /// What a message adds if there is no such program.
+  /// Added to the message if the program does not exist.
   std::string if_missing{};
-  /// Whether programs that it has started may go on when it has ended, as a browser does. Otherwise
-  /// they end with it.
+  /// Whether programs that the child has started may continue after its end, as a browser does.
+  /// Otherwise they end with it.
   bool leaves_programs = false;
 };
 
-/// A running child. Destroying it ends the child and all that the child has started.
+/// A running child. The destructor ends the child and all programs that the child has started.
 class ChildProcess {
  public:
   /// Starts `arguments[0]`, looked up in PATH, with the rest as its arguments. Its standard error
@@ -43,15 +43,15 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Feeds bytes to standard input; waits while the child is busy. No signal if the child has
-  /// ended, but an error.
+  /// Writes bytes to standard input; waits while the child is busy. If the child has ended, this is
+  /// an error, not a signal.
   Errors write(std::span<const std::uint8_t> bytes);
-  /// Closes standard input, waits for the end and reports a status other than 0 with the last of
-  /// what the child said.
+  /// Closes standard input, waits for the end, and reports a status other than 0 with the last part
+  /// of the child's standard error.
   Errors finish();
-  /// Ends the child, and what it has started, at once.
+  /// Ends the child, and the programs that it has started, at once.
   void kill();
-  /// All that the child has written to its standard output, if that is kept.
+  /// Everything that the child has written to its standard output, if that is kept.
   [[nodiscard]] std::vector<std::uint8_t> output() const;
   /// The last few hundred bytes of the child's standard error.
   [[nodiscard]] std::string last_words() const;
@@ -60,12 +60,12 @@ class ChildProcess {
   ChildProcess(std::string name, ChildOptions options, int process, int input, int output,
                int messages);
   void close_input();
-  /// Ends the child's group, its leader with it. The leader must not have been waited for yet:
-  /// until then no other group can have its number.
+  /// Ends the child's process group, including its leader. The leader must not have been waited
+  /// for: until then no other group can get its number.
   void end_group() const;
-  /// The status of the child once it has ended, which it must have.
+  /// The status of the child, which must have ended.
   int reap();
-  /// Ends a child that is no longer waited for.
+  /// Ends a child for which there is no further waiting.
   Errors give_up(const std::string& why);
   [[nodiscard]] bool is_abandoned() const { return options_.abandon && options_.abandon(); }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Where a file that is written under another name first is to go, and that it stays there.
+// Destination of a file that is first written under another name, and its durability.
 
 #include <cerrno>
 #include <string>
@@ -15,10 +15,10 @@ namespace sheave::render {
   return path.substr(0, path.find_last_of('/') + 1);
 }
 
-/// `path` with symbolic links of its last part followed, so that a link stays one, even one whose
+/// `path` with symbolic links of its last part followed, so that a link stays a link, also if its
 /// target does not exist yet.
 [[nodiscard]] inline std::string followed(std::string path) {
-  constexpr int most_links = 40;  // as many as Linux follows
+  constexpr int most_links = 40;  // the limit of Linux
   constexpr std::size_t longest = 4096;
   for (int i = 0; i < most_links; ++i) {
     std::string target(longest, '\0');
@@ -30,26 +30,26 @@ namespace sheave::render {
   return path;
 }
 
-/// mkostemp makes files private; output should be as readable as the user's umask says.
+/// mkostemp makes files private; output files should have the permissions of the user's umask.
 [[nodiscard]] inline mode_t default_mode() {
   const mode_t mask = ::umask(0);
   ::umask(mask);
   return static_cast<mode_t>(0666U & ~mask);
 }
 
-/// Waits until a file's content is on the disk; false, with errno, if it did not get there. A
-/// rename may reach the disk before the content does, and then a power loss leaves an empty file.
+/// Waits until a file's content is on the disk; false, with errno, on failure. Without this, a
+/// rename may reach the disk before the content, and a power loss then leaves an empty file.
 [[nodiscard]] inline bool synchronise(int descriptor) {
   for (;;) {
     if (::fsync(descriptor) == 0) return true;
-    // Some file systems have nothing to wait for.
+    // Some file systems do not support it and need no waiting.
     if (errno == EINVAL || errno == ENOTSUP || errno == ENOSYS) return true;
     if (errno != EINTR) return false;
   }
 }
 
-/// The same for the names in the folder of `path`. Where that cannot be had, the file is the old or
-/// the new one after a power loss all the same.
+/// The same for the names in the folder of `path`. If that fails, a power loss still leaves the old
+/// or the new file.
 inline void synchronise_folder(const std::string& path) {
   const std::string folder = folder_part(path);
   const int descriptor =
@@ -59,8 +59,7 @@ inline void synchronise_folder(const std::string& path) {
   ::close(descriptor);
 }
 
-/// Waits until all files on the file system of the folder of `path` are on the disk, as far as that
-/// goes.
+/// Waits until all files on the file system of the folder of `path` are on the disk, if possible.
 inline void synchronise_files_beside(const std::string& path) {
   const std::string folder = folder_part(path);
   const int descriptor =

@@ -1,6 +1,7 @@
 #pragma once
-// What a picture shows, as a plain value: no GL, no simulation. Producers (view_builder.h) fill it,
-// renderer.h draws it. All positions are in the world frame [m] unless a comment says otherwise.
+// Content of a picture as a plain value, without GL and without a simulation. Producers
+// (view_builder.h) fill it, renderer.h draws it. All positions are in the world frame [m] unless a
+// comment says otherwise.
 
 #include <array>
 #include <cstdint>
@@ -97,8 +98,8 @@ struct Tube {
   bool closed = false;
 };
 
-/// Text beside a point of the world. The renderer moves labels apart where they would overlap and
-/// then draws a thin leader to the anchor.
+/// Text beside a point of the world. The renderer moves overlapping labels apart and then draws a
+/// thin leader to the anchor.
 struct Label {
   Vector3 anchor = Vector3::Zero();
   /// UTF-8; one line.
@@ -106,7 +107,8 @@ struct Label {
   /// World direction in which the text should stand off the anchor; zero leaves the choice to the
   /// layout.
   Vector3 direction = Vector3::Zero();
-  /// The anchor may be moved by up to plus or minus this [m], to find room: along a cable, say.
+  /// Range by which the anchor may be moved to find room, in both directions [m], e.g. along a
+  /// cable.
   Vector3 slide = Vector3::Zero();
   Color color = rgb(0x1b2430);
 };
@@ -117,7 +119,7 @@ struct Plane {
   /// Unit length; the plane is seen only from this side.
   Vector3 normal = Vector3::UnitY();
   Color color = rgb(0xf1f3f6);
-  /// Draws a soft grid with a line every so many metres; 0 draws none.
+  /// Distance of the lines of a soft grid [m]; 0: no grid.
   double grid_spacing = 0.0;
 };
 

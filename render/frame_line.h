@@ -1,5 +1,5 @@
 #pragma once
-// Frames of a film, drawn on several threads and given back in order.
+// Frames of a film, drawn on several threads and returned in order.
 //
 //   auto line = FrameLine::create(1280, 720, {.threads = 4});
 //   for (...) {
@@ -8,7 +8,7 @@
 //   }
 //   while (!line->empty()) use(line->take());
 //
-// The pictures are those of one Renderer, to the byte, whatever the number of threads.
+// The pictures equal those of one Renderer, to the byte, for any number of threads.
 
 #include <memory>
 #include <optional>
@@ -24,8 +24,8 @@ namespace sheave::render {
 
 struct FrameLineOptions {
   RendererOptions picture{};
-  int threads = 1;  ///< 1 to 1024; each has a renderer of its own
-  /// Encodes frames as PNG, too; nothing: does not.
+  int threads = 1;  ///< 1 to 1024; each has its own renderer
+  /// Also encodes frames as PNG; nothing: no encoding.
   std::optional<PngEffort> png{};
 };
 
@@ -33,24 +33,23 @@ class FrameLine {
  public:
   struct Frame {
     Image image;
-    std::vector<std::uint8_t> png;  ///< empty unless it was asked for
+    std::vector<std::uint8_t> png;  ///< empty unless requested
   };
 
-  /// Fails if a size or option is out of range or there is no thread or GL context to be had.
+  /// Fails if a size or option is out of range, or if no thread or GL context can be created.
   static Result<FrameLine> create(int width, int height, const FrameLineOptions& options);
-  /// Waits for frames that are being drawn, and drops them.
+  /// Waits for the frames being drawn and drops them.
   ~FrameLine();
   FrameLine(FrameLine&&) noexcept;
   FrameLine& operator=(FrameLine&&) noexcept;
 
-  /// Begins a frame. Must not be called if the line is full: then take() one first.
+  /// Begins a frame. The line must not be full; call take() first.
   void put(DrawList list, const Camera& camera);
-  /// Whether as many frames are under way as are kept: two for each thread, so that memory stays
-  /// bounded.
+  /// Whether the largest number of frames is under way: two per thread, so that memory is bounded.
   [[nodiscard]] bool full() const;
   [[nodiscard]] bool empty() const;
-  /// Waits for the oldest frame; what is wrong with it if it cannot be drawn. What its thread threw
-  /// (std::bad_alloc) is thrown here. Must not be called if the line is empty.
+  /// Waits for the oldest frame; an error if it cannot be drawn. Rethrows exceptions of its thread
+  /// (std::bad_alloc). The line must not be empty.
   [[nodiscard]] Result<Frame> take();
 
  private:

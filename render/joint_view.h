@@ -1,16 +1,16 @@
 #pragma once
-// How the joints of a model look.
+// Appearance of the joints of a model:
 //
-//   distance               a rod; a string (at-most), slack when it is; a coil
-//   spring (elastic rods); a telescope of two
-//                          tubes (at-least, none), which ends where it reaches
-//                          to
-//   ball, hinge            a ball, a pin that shows on both sides of what it
-//   goes through universal              a cross slider, cylindrical    a rail
-//   as far as the body can travel, or along the bodies if nothing says how far
-//   others                 nothing: what they join shows it
+// - distance: a rod; a string (at-most), which sags when slack; a coil spring (elastic rods); a
+//   telescope of two tubes (at-least, none), which ends at its longest reach.
+// - ball: a ball.
+// - hinge: a pin that is visible on both sides of the bodies that it joins.
+// - universal: a cross.
+// - slider, cylindrical: a rail as long as the body's travel, or along the bodies if the travel is
+//   unknown.
+// - others: nothing, because the bodies show them.
 //
-// A broken joint is not drawn any more.
+// A broken joint is not drawn.
 
 #include <limits>
 #include <span>
@@ -25,13 +25,13 @@
 
 namespace sheave::render {
 
-/// How far the body_b of a slider went along its axis in a run [m]; empty if lower > upper.
+/// Range of the body_b of a slider along its axis in a run [m]; empty if lower > upper.
 struct JointTravel {
   double lower = std::numeric_limits<double>::infinity();
   double upper = -std::numeric_limits<double>::infinity();
 };
 
-/// Extends travels, one for each joint, by where the joints of a world are now.
+/// Extends travels, one per joint, by the present positions of the joints.
 void extend_travels(const World& world, std::vector<JointTravel>& travels);
 
 /// A line between a point of one body and one of another.
@@ -48,12 +48,12 @@ struct JointLine {
   BodyId body_b;
   Vector3 start = Vector3::Zero();  ///< [m], frame of body_a
   Vector3 end = Vector3::Zero();    ///< [m], frame of body_b
-  Vector3 side = Vector3::UnitX();  ///< frame of body_a: where coils begin;
-                                    ///< across the line at first
-  double length = 0.0;              ///< when relaxed [m], > 0
+  /// Frame of body_a: direction in which coils begin; perpendicular to the line at first.
+  Vector3 side = Vector3::UnitX();
+  double length = 0.0;  ///< when relaxed [m], > 0
 };
 
-/// What is drawn for the joints of one world, whatever they do.
+/// The drawn parts of the joints of one world, independent of its state.
 struct JointView {
   /// Of one joint; parts and bars are fixed to one body.
   struct Piece {
@@ -66,18 +66,16 @@ struct JointView {
   double unit = 0.01;  ///< the radius of rods [m], > 0
 };
 
-/// Decides how the joints of a world look, from its model. Pins suit the bodies
-/// that they go through; `unit` [m], > 0, is the radius of rods and limits that
-/// of pins: suitable_cable_radius().
-/// `travels`: how far the joints went, by their index, for rails without stops; may be shorter.
+/// Decides the appearance of a world's joints, from its model. Pins fit the bodies that they join.
+/// `unit` [m], > 0, is the radius of rods and the limit of that of pins: suitable_cable_radius().
+/// `travels`: ranges of the joints, by index, for rails without stops; may be shorter.
 [[nodiscard]] JointView make_joint_view(const World& world, double unit,
                                         std::span<const JointTravel> travels = {});
 
-/// Appends what the joints look like now. `world` must be of the model that the
-/// view was made for.
+/// Appends the joints in their present poses. `world` must have the model of the view.
 void add_joints(const JointView& view, const World& world, DrawList& list);
 
-/// Extends the box by what joints reach to now: their anchors.
+/// Extends the box by the present anchors of the joints.
 void extend_by_joints(const World& world, Eigen::AlignedBox3d& box);
 
 }  // namespace sheave::render

@@ -1,6 +1,6 @@
 #pragma once
-// Finds a place for each label near its anchor, off the other labels, the cables and the edges of
-// the picture. Pure geometry in pixels; the same input gives the same places.
+// Places each label near its anchor, clear of other labels, the cables and the edges of the
+// picture. Pure geometry in pixels; the same input gives the same places.
 
 #include <array>
 #include <span>
@@ -23,7 +23,7 @@ struct LabelRequest {
   double y = 0.0;
   double direction_x = 0.0;  ///< preferred direction from the anchor (y down); both zero: any
   double direction_y = 0.0;
-  double slide_x = 0.0;  ///< the anchor may move by up to plus or minus this [pixels]
+  double slide_x = 0.0;  ///< the anchor may move by this in both directions [pixels]
   double slide_y = 0.0;
   double width = 0.0;  ///< of the text [pixels]
   double height = 0.0;
@@ -43,9 +43,9 @@ struct LabelSurroundings {
 
 struct LabelPlace {
   Rectangle text;
-  double anchor_x = 0.0;  ///< where the anchor has been moved to [pixels]
+  double anchor_x = 0.0;  ///< anchor after its move [pixels]
   double anchor_y = 0.0;
-  bool covers = false;  ///< a line or a body: only a leader tells what it belongs to
+  bool covers = false;  ///< the text covers a line or a body, so it needs a leader
 };
 
 /// The place for each request, in order.

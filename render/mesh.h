@@ -16,8 +16,9 @@ namespace sheave::render {
 struct MeshVertex {
   std::array<float, 3> position{};  ///< [m]
   std::array<float, 3> normal{};    ///< unit, for shading; differs between the sides of an edge
-  std::array<float, 3> outline{};   ///< unit, one per place in space: where the silhouette grows to
-  /// r, g, b: sRGB tint that multiplies the solid's colour; a: share of the accent colour.
+  /// unit, one per position: direction in which the silhouette is offset
+  std::array<float, 3> outline{};
+  /// r, g, b: sRGB tint that multiplies the solid's colour; a: fraction of the accent colour.
   std::array<std::uint8_t, 4> paint{255, 255, 255, 0};
 };
 
@@ -39,7 +40,7 @@ struct ProfilePoint {
   double normal_z = 0.0;
 };
 
-/// Collects triangles; orients each by its corners' normals, so that callers need not care.
+/// Collects triangles and orients each by its corners' normals.
 class MeshBuilder {
  public:
   void set_paint(const Paint& paint) { paint_ = paint; }

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers as people read them in a figure. Independent of the process's locale.
+// Numbers as text in a figure, independent of the process's locale.
 
 #include <string>
 #include <string_view>
@@ -7,24 +7,25 @@
 
 namespace sheave::render {
 
-/// `value` with so many digits after the point (0 to 15); never "-0.0". "nan" and "inf" as such.
+/// `value` with `decimals` digits after the point (0 to 15); never "-0.0". "nan" and "inf" for
+/// those.
 [[nodiscard]] std::string fixed_text(double value, int decimals);
 
-/// Unit prefix that keeps numbers up to a reference short.
+/// Unit prefix for short numbers up to a reference.
 struct UnitScale {
-  double factor = 1.0;      ///< divide by this
+  double factor = 1.0;      ///< divide numbers by this
   std::string_view prefix;  ///< "k", "M", "m", ...; empty from 0.1 to 10 000
 };
 [[nodiscard]] UnitScale unit_scale(double reference);
 
-/// "20.0 N": three significant digits of `reference` (a typical largest value), with its unit
-/// prefix, so that the numbers of one picture have the same form.
+/// "20.0 N": three significant digits relative to `reference` (a typical largest value), with its
+/// unit prefix, so that the numbers of one picture have the same form.
 [[nodiscard]] std::string quantity_text(double value, double reference, std::string_view unit);
 
 /// Round numbers in [low, high], about `count` of them; low < high, both finite.
 struct Ticks {
   std::vector<double> values;
-  int decimals = 0;  ///< needed to write them exactly
+  int decimals = 0;  ///< number of decimals needed to write them exactly
 };
 [[nodiscard]] Ticks round_ticks(double low, double high, int count);
 

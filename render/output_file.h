@@ -1,6 +1,6 @@
 #pragma once
-// Files that appear whole or not at all: written under a temporary name in the same folder, then
-// renamed.
+// Files that appear completely or not at all: written under a temporary name in the same folder,
+// then renamed.
 
 #include <cstdint>
 #include <span>
@@ -10,17 +10,17 @@
 
 namespace sheave::render {
 
-/// What a file that is in place outlives.
+/// The event that a committed file survives.
 enum class Durability {
-  process,     ///< the end of this process, however it comes
-  power_loss,  ///< a power loss too: it is the old or the new one. Waits for the disk
+  process,     ///< any end of this process
+  power_loss,  ///< also a power loss, which leaves the old or the new file; waits for the disk
 };
 
 /// A temporary file beside its destination, removed unless commit() succeeds.
 class OutputFile {
  public:
-  /// Creates the temporary; fails if the folder does not exist or cannot be written to, or if
-  /// `path` is anything but a file, a link (which stays one) or new.
+  /// Creates the temporary file. Fails if the folder does not exist or is not writable, or if
+  /// `path` is neither new nor a file or a link (which stays a link).
   static Result<OutputFile> create(const std::string& path);
   ~OutputFile();
   OutputFile(OutputFile&& other) noexcept;
@@ -33,9 +33,9 @@ class OutputFile {
 
   /// Appends bytes.
   Errors write(std::span<const std::uint8_t> bytes);
-  /// Closes the file descriptor, for when another program writes to temporary_path().
+  /// Closes the file descriptor, so that another program can write to temporary_path().
   Errors close();
-  /// Moves the file to its destination, replacing what was there.
+  /// Moves the file to its destination, replacing an existing file.
   Errors commit(Durability durability = Durability::power_loss);
   /// Removes the temporary; nothing appears at the destination.
   void discard();

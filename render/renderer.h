@@ -18,8 +18,8 @@ namespace sheave::render {
 struct RendererOptions {
   /// Samples per pixel on edges: 1, 2 or 4.
   int samples = 4;
-  /// Draws so many times larger in both directions and averages; 1 to 4. For stills: the cost grows
-  /// with the square.
+  /// Factor of the drawn size in both directions before averaging, 1 to 4. For stills; the cost
+  /// grows with its square.
   int supersample = 1;
   /// Side of the shadow map [texels], 64 to 8192; 0 draws no shadows.
   int shadow_side = 2048;
@@ -36,7 +36,7 @@ class Renderer {
   static constexpr int min_side = 16;    ///< [pixels]
   static constexpr int max_side = 8192;  ///< [pixels], also after supersampling
 
-  /// Fails if a size or option is out of range or no GL context can be made.
+  /// Fails if a size or option is out of range, or if no GL context can be created.
   static Result<Renderer> create(int width, int height, const RendererOptions& options = {});
   ~Renderer();
   Renderer(Renderer&&) noexcept;
@@ -45,7 +45,7 @@ class Renderer {
   [[nodiscard]] int width() const;
   [[nodiscard]] int height() const;
 
-  /// The picture, or what is wrong with the list or the camera (all faults at once).
+  /// The picture, or all faults of the list and the camera.
   [[nodiscard]] Result<Image> draw(const DrawList& list, const Camera& camera);
 
  private:
@@ -54,8 +54,8 @@ class Renderer {
   std::unique_ptr<Content> content_;
 };
 
-/// Faults that make a list undrawable: sizes that are not positive or not finite, meshes that are
-/// missing or refer to corners they do not have, an empty legend range. Empty if it can be drawn.
+/// Faults that make a list undrawable: sizes that are not positive or not finite, missing meshes,
+/// indices of missing corners, an empty legend range. Empty if it can be drawn.
 [[nodiscard]] Errors validate(const DrawList& list);
 
 }  // namespace sheave::render

@@ -1,6 +1,6 @@
 #pragma once
-// How a scene asks to be shown: what it says of camera, labels and colours, and the rest so that
-// everything is in the picture.
+// View of a scene: its settings of camera, labels and colours, completed so that everything is in
+// the picture.
 
 #include <span>
 
@@ -12,12 +12,12 @@
 
 namespace sheave::render {
 
-/// Title, labels, joints, radius of cables, scale of tensions and colours of bodies as the scene
-/// has them.
+/// Title, labels, joints, radius of cables, scale of tensions and colours of bodies, from the
+/// scene.
 [[nodiscard]] ViewOptions scene_view_options(const Scene& scene);
 
-/// A camera for a width x height picture [pixels] of `box` [m], the room that the whole run takes;
-/// `typical` is one frame of it, for the texts that need a place.
+/// A camera for a width x height picture [pixels] of `box` [m], the space of the whole run.
+/// `typical` is one of its frames, for the space of the texts.
 [[nodiscard]] Camera scene_camera(const Scene& scene, std::span<const CableReport> cables,
                                   const Eigen::AlignedBox3d& box, const DrawList& typical,
                                   int width, int height);

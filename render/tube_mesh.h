@@ -6,10 +6,9 @@
 
 namespace sheave::render {
 
-/// Appends the surface of a tube with `sides` >= 3 facets round it, its positions relative to
-/// `origin` [m] (so that single precision suffices far from the world's origin). Points that
-/// coincide are merged; a tube without extent adds nothing. Its vertices are painted in the points'
-/// colours.
+/// Appends the surface of a tube with `sides` >= 3 facets, its positions relative to `origin` [m]
+/// (so that single precision suffices far from the world's origin). Coincident points are merged; a
+/// tube without extent adds nothing. Vertices have the colours of their points.
 void append_tube(const Tube& tube, const Vector3& origin, int sides, Mesh& mesh);
 
 }  // namespace sheave::render

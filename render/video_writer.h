@@ -30,7 +30,7 @@ struct VideoOptions {
 /// file with the same version of ffmpeg.
 class VideoWriter {
  public:
-  /// Frames per second of a GIF at most: what browsers show.
+  /// Largest number of frames per second of a GIF in browsers.
   static constexpr double most_gif_rate = 50.0;
   /// `path` must end in .mp4, .mov, .mkv or .gif. Fails at once if the folder cannot be written to
   /// or ffmpeg is not installed.

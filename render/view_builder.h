@@ -23,25 +23,24 @@
 namespace sheave::render {
 
 struct ViewOptions {
-  /// Radius that cables are drawn with [m], > 0; default: suits the size of the scene.
+  /// Radius of drawn cables [m], > 0; default: suits the size of the scene.
   std::optional<double> cable_radius{};
-  /// Tension at the top of the colour map [N], > 0. Default: the largest tension of each frame by
-  /// itself (the weight of all bodies if no cable carries anything). For a video pass one value,
-  /// for example from ViewSurvey, or colours mean different forces in different frames.
+  /// Tension at the top of the colour map [N], > 0. Default: the largest tension of each frame (the
+  /// weight of all bodies if no cable has a tension). A video needs one value, e.g. from
+  /// ViewSurvey; otherwise colours mean different forces in different frames.
   std::optional<double> tension_max{};
-  /// Box round everything that the picture will show over the whole run [m], for the place of the
-  /// floor; default: what is there at the beginning.
+  /// Box round everything that the picture shows over the whole run [m], for the place of the
+  /// floor; default: the scene at the beginning.
   Eigen::AlignedBox3d run_bounds{};
-  /// How far sliders will go (ViewSurvey); default: their stops, or what their bodies suggest.
+  /// Travels of sliders (ViewSurvey); default: their stops, or an estimate from their bodies.
   std::vector<JointTravel> travels{};
   bool force_labels = false;  ///< the tension beside every span
-  /// Colours of bodies, by their index; missing ones are chosen by what the bodies are.
+  /// Colours of bodies, by index. Missing ones are chosen by the kind of body.
   std::vector<std::optional<Color>> body_colors{};
   bool joints = true;  ///< pins, rods and rails
-  bool legend = true;  ///< left out anyway if there are no cables
+  bool legend = true;  ///< drawn only if there are cables
   bool time = true;
-  /// A floor for shadows to fall on below a scene that has no ground of its own; never shown
-  /// without gravity.
+  /// A floor for shadows below a scene without its own ground; never drawn without gravity.
   bool floor = true;
   std::string title{};
   std::string caption{};
@@ -49,16 +48,16 @@ struct ViewOptions {
 
 class ViewBuilder {
  public:
-  /// Decides once how bodies, joints and cables look. `world` and `cables` must be of the same
-  /// state, usually that at time 0; later calls of build() must be for the same model.
+  /// Decides once the appearance of bodies, joints and cables. `world` and `cables` must be of the
+  /// same state, usually that at time 0; later calls of build() must use the same model.
   ViewBuilder(const World& world, std::span<const CableReport> cables, ViewOptions options = {});
 
-  /// What the world looks like now.
+  /// Draw list of the present state of the world.
   [[nodiscard]] DrawList build(const World& world, std::span<const CableReport> cables) const;
 
   [[nodiscard]] double cable_radius() const { return cable_radius_; }
-  // What was decided, for others that draw.
-  /// Of one cable of build()'s; `places` is that of CableReport::with_wraps_in_place().
+  // The decisions, for other code that draws.
+  /// Style of one cable of build(); `places` is that of CableReport::with_wraps_in_place().
   [[nodiscard]] CableStyle cable_style(std::size_t cable, const std::vector<int>& places,
                                        double tension_max) const;
   [[nodiscard]] const BodyView& bodies() const { return bodies_; }
@@ -82,15 +81,15 @@ class ViewBuilder {
 };
 
 /// Weight of all bodies [N]; 0 without gravity. Tensions below a millionth of it are rounding
-/// errors of the solver, not forces worth a colour.
+/// errors of the solver and get no colour.
 [[nodiscard]] double total_weight(const Model& model);
 
 /// Against gravity; +y without any.
 [[nodiscard]] Vector3 up_direction(const Model& model);
 
 /// The normal of the plane in which the scene moves: the common axis of its wheels, or of its
-/// planar bodies if it has no wheels, or of its hinges if it has neither. Nothing if they have none
-/// in common.
+/// planar bodies if it has no wheels, or of its hinges if it has neither. Nothing without a common
+/// axis.
 [[nodiscard]] std::optional<Vector3> motion_plane(const Model& model,
                                                   std::span<const CableReport> cables);
 

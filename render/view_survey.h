@@ -1,5 +1,5 @@
 #pragma once
-// What a whole run needs to be seen well: the room it takes and the forces that occur.
+// Space and range of tensions of a whole run, for its view.
 //
 //   ViewSurvey survey;
 //   for each step that will be a frame: survey.add(world, reports);
@@ -24,25 +24,24 @@ namespace sheave::render {
 
 class ViewSurvey {
  public:
-  /// Takes note of a state; cheap compared with a step of the simulation.
+  /// Adds a state; cheap compared with a step of the simulation.
   void add(const World& world, std::span<const CableReport> cables);
-  /// Only of its forces.
+  /// Adds only the tensions of a state.
   void add_tensions(const World& world, std::span<const CableReport> cables);
-  /// Only of the room that it takes.
+  /// Adds only the space of a state.
   void add_room(const World& world, std::span<const CableReport> cables);
 
   /// Box round all bodies and cables in all states added [m]; empty if there were none.
   [[nodiscard]] const Eigen::AlignedBox3d& bounds() const { return bounds_; }
 
-  /// A round number [N] that 98 % of all tensions other than zero do not exceed, so that a short
-  /// peak does not make all else look slack. The weight of all bodies, or 1, if there was none
-  /// worth showing.
+  /// A round number [N] that 98 % of all tensions above zero do not exceed, so that a short peak
+  /// does not make all others look slack. Without such a tension the weight of all bodies, or 1.
   [[nodiscard]] double tension_max() const;
-  /// How far sliders went in all states added.
+  /// Travels of sliders in all added states.
   [[nodiscard]] const std::vector<JointTravel>& travels() const { return travels_; }
 
  private:
-  /// Tensions counted by size, 16 classes to a factor of two; exact counts would need the whole
+  /// Tensions are counted in 16 classes per factor of two; exact quantiles would need the whole
   /// run.
   static constexpr int classes_per_octave = 16;
   static constexpr int lowest_exponent = -64;

@@ -1,6 +1,6 @@
 #pragma once
-// A place to draw without a screen. Everything that depends on how a GL context comes about is
-// behind this interface; the rest of render/gl uses only the function table.
+// A GL context without a screen. This interface hides how the context is created; the rest of
+// render/gl uses only the function table.
 
 #include <memory>
 

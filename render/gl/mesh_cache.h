@@ -24,8 +24,8 @@ class MeshCache {
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
 
  private:
-  /// Everything the mesh depends on: the kind of shape, its numbers, and for a mesh its identity
-  /// (the entry keeps the object alive, so that an address cannot come back as another mesh).
+  /// All inputs of the mesh: the kind of shape, its numbers, and for a mesh its identity. The entry
+  /// keeps the object alive, so that its address cannot be reused by another mesh.
   struct Key {
     std::size_t kind = 0;
     std::array<double, 5> numbers{};
