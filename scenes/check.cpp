@@ -27,7 +27,7 @@ std::string title(const CheckDef& check, double from, double to) {
 
 void CheckRecorder::Course::add(double time, double sample, double margin) {
   if (check.statistic == Statistic::at) {
-    // Of two samples equally near, the first counts.
+    // Of two equally near samples the first counts.
     const bool nearer =
         nearest_time < 0.0 || std::abs(time - from) < std::abs(nearest_time - from) - margin;
     if (!nearer) return;
@@ -37,7 +37,7 @@ void CheckRecorder::Course::add(double time, double sample, double margin) {
     finite = std::isfinite(sample);
     return;
   }
-  // Times are sums of steps: a sample at the very edge must not fall out by rounding.
+  // Times are sums of steps; a sample at the edge must not be lost by rounding.
   if (time < from - margin || time > to + margin) return;
   area += count == 0 ? (time - from) * sample : 0.5 * (time - last_time) * (last + sample);
   if (count == 0) {

@@ -44,7 +44,7 @@ bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
                     [](const T& x, const T& y) { return same_bits(x, y); });
 }
 
-/// Words for what each type of slot accepts.
+/// Descriptions of the values that each type of slot accepts.
 struct Description {
   const Field& field;
 
@@ -245,7 +245,7 @@ bool is_name(std::string_view text) {
 }
 
 FieldSlot slot_of(const Field& field, const void* object) {
-  // A slot gives write access because the loader needs it; readers go through here and only read.
+  // A slot gives write access, which the loader needs. Code that only reads uses this function.
   return field.slot(const_cast<void*>(object));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
 }
 

@@ -1,5 +1,5 @@
-// From text to a scene: syntax, overrides, structure by the field tables, then what the settings
-// mean together.
+// Loads a scene from text: syntax, overrides, structure by the field tables, then combinations of
+// settings.
 
 #include <filesystem>
 #include <fstream>
@@ -17,7 +17,7 @@ namespace {
 using json::no_node;
 using json::NodeId;
 
-/// Objects that a scene has even if it does not mention them, so that overrides may set a member.
+/// Objects that a scene has even if its text omits them, so that overrides may set a member.
 constexpr std::array<std::string_view, 1> implied_objects{"/step"};
 
 /// Reads the structure of one document.
@@ -63,8 +63,8 @@ class SceneReader {
   [[nodiscard]] bool has(std::string_view key) const {
     return document_.member(document_.root(), key) != no_node;
   }
-  /// The elements of a list of the scene; faults of the list itself are reported once, with its
-  /// first use.
+  /// The elements of a list of the scene. Faults of the list itself are reported once, at its first
+  /// use.
   std::span<const NodeId> list(std::string_view key) {
     const auto known = lists_.find(key);
     if (known != lists_.end()) return known->second;
@@ -106,7 +106,7 @@ class SceneReader {
     for (const NodeId node : list("cables")) scene.cables.push_back(parts_.read_cable(node));
   }
 
-  /// The preset first, because the settings that are given replace its own.
+  /// Reads the preset first, because given settings replace those of the preset.
   void read_step(Scene& scene) {
     const NodeId node = document_.member(document_.root(), "step");
     if (node == no_node) return;
@@ -141,9 +141,9 @@ void add_errors(const Errors& errors, const json::Document& document, json::Faul
   }
 }
 
-/// Takes out of the text what a drive has beside it and cannot have as the kind that an override
-/// makes it: its times, values and limits if it is none now. What overrides themselves have set
-/// stays, and is told if it does not fit.
+/// Removes from the text the settings of a drive that it cannot have any more when an override
+/// changes its kind: its times, values and limits if it becomes "none". Settings by overrides
+/// themselves stay, and are reported if they do not fit.
 void drop_companions(json::Document& document, const Override& changed,
                      const std::string& file_name) {
   const std::string_view pointer = changed.pointer;
@@ -222,7 +222,8 @@ SceneResult load_json(std::string_view text, const std::string& file_name,
   if (document->root() == no_node) return failure(faults, &*document, file_name);
   Scene scene = SceneReader(*document, faults).read();
   if (!faults.empty()) return failure(faults, &*document, file_name);
-  // The tree of a large scene is as large as the scene; only errors need it, and they can wait.
+  // The tree of a large scene is as large as the scene. Only errors need it, so it is parsed again
+  // for them.
   document.reset();
   const Errors errors = validate_scene(scene, overridden("/duration", overrides));
   if (errors.empty()) return {std::move(scene), {}, SceneStatus::ok};
@@ -277,10 +278,10 @@ SceneText read_scene_text(const std::string& path) {
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) return failed(SceneStatus::unreadable, "cannot be opened for reading");
-  // One byte more than allowed is enough to see that there are too many.
+  // One byte more than allowed shows that the file is too long.
   const std::size_t most = json::Limits{}.bytes + 1;
   SceneText result;
-  const std::uintmax_t size = std::filesystem::file_size(path, code);  // of no pipe
+  const std::uintmax_t size = std::filesystem::file_size(path, code);  // a pipe has no size
   if (!code) result.text.reserve(static_cast<std::size_t>(std::min<std::uintmax_t>(size, most)));
   std::vector<char> block(std::size_t{1} << 16U);
   while (file && result.text.size() < most) {

@@ -16,18 +16,17 @@ bool is_vouched_for(double value) {
          (size >= smallest_magnitude && size <= largest_magnitude);
 }
 
-/// Walks over a scene by the tables that it is read with.
+/// Walks over a scene by the tables with which it is read.
 class MagnitudeCheck {
  public:
   MagnitudeCheck(std::vector<MagnitudeWarning>& warnings, std::size_t most)
       : warnings_(warnings), most_(most) {}
 
-  /// `path` makes the pointer of the object, and is only called if there is something to tell.
+  /// `path` composes the pointer of the object; it is called only for a warning.
   template <class Path>
   void fields(std::span<const Field> table, const void* object, const Path& path) {
     for (const Field& field : table) {
-      // Slots are shared by reading and writing; nothing is written here.
-      // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
+      // Slots serve reading and writing; this code only reads.
       const FieldSlot slot = field.slot(const_cast<void*>(object));
       const auto tell = [&](double value, std::string_view item) {
         if (!is_vouched_for(value)) add(fmt::format("{}/{}{}", path(), field.name, item), value);
@@ -90,7 +89,7 @@ void check_body(const BodyDef& body, std::size_t index, MagnitudeCheck& check) {
     }
     if (body.density) volume += placed.shape->unit_density().mass;
   }
-  // Infinite is too large, too.
+  // An infinite mass is too large, too.
   const double mass = body.density.value_or(0.0) * volume;
   if (body.density && !(is_vouched_for(mass) && std::isfinite(mass))) {
     check.add(path() + "/density", *body.density);

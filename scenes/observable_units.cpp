@@ -1,4 +1,4 @@
-// Units of observables, from the tables that their names are made from.
+// Units of observables, from the tables of their names.
 
 #include <span>
 
@@ -8,9 +8,9 @@
 namespace sheave {
 namespace {
 
-/// Units of what is a length or an angle, one for each quantity of `coordinate_quantities`.
+/// Unit of a length or an angle, for each quantity of `coordinate_quantities`.
 std::string_view coordinate_unit(int quantity, bool angle) {
-  // "m, rad": the table has both, with that of angles behind.
+  // The table has both, "m, rad", with that of angles second.
   const std::string_view both = coordinate_quantities[static_cast<std::size_t>(quantity)].unit;
   const std::size_t comma = both.find(", ");
   return angle ? both.substr(comma + 2) : both.substr(0, comma);

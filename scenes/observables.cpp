@@ -20,7 +20,7 @@ constexpr int tension = 0;      // in span_quantities
 constexpr int broken = 8;       // in joint_quantities
 constexpr int drive_force = 2;  // in coordinate_quantities
 
-// Comparing a word with more names than this takes longer than a user waits for a hint.
+// Comparing a word with more names than this takes longer than a user waits for a suggestion.
 constexpr std::size_t most_quantities = 100'000;
 
 /// The names of one coordinate's quantities, in the order of coordinate_quantities.
@@ -47,8 +47,8 @@ std::string shared_quantity(const JointDef& joint, const BodyDef& body) {
 std::span<const QuantityGroup> quantity_groups() { return quantity_group_table; }
 std::span<const QuantityGroup> requested_quantity_groups() { return requested_group_table; }
 
-/// Evaluates observables of one moment. What several of them share is computed once, when first
-/// asked for; asking in the order of the set therefore visits each body once.
+/// Evaluates observables of one moment. Shared data are computed once, at their first use; in the
+/// order of the set each body is visited once.
 class ObservableSet::Sampler {
  public:
   explicit Sampler(const Simulation& simulation) : simulation_(simulation) {}
@@ -128,7 +128,7 @@ class ObservableSet::Sampler {
   static double of_joint(const JointReport& joint, int quantity) {
     if (quantity == broken) return joint.broken_at ? 1.0 : 0.0;
     const Vector3& vector = quantity < 4 ? joint.force : joint.torque;
-    const int part = quantity % 4;  // its size, then x, y, z
+    const int part = quantity % 4;  // magnitude, then x, y, z
     return part == 0 ? vector.norm() : vector[part - 1];
   }
   static double of_coordinate(const JointCoordinateReport& coordinate, int quantity) {
@@ -141,7 +141,7 @@ class ObservableSet::Sampler {
   static double size_or_part(const Vector3& vector, int quantity) {
     return quantity == 0 ? vector.norm() : vector[quantity - 1];
   }
-  /// Not a number as long as there is no substep that it could be of.
+  /// NaN before the first substep.
   double of_reaction(const Source& source) {
     if (!asked_reactions_) reactions_ = Reactions::of(simulation_);
     asked_reactions_ = true;
@@ -204,11 +204,11 @@ class ObservableSet::Sampler {
   }
 
   const Simulation& simulation_;
-  int body_ = -1;  // whose values are in body_values_
+  int body_ = -1;  // the body whose values are in body_values_
   std::array<double, 14> body_values_{};
   std::vector<CableReport> reports_;
   std::optional<JointReader> joints_;
-  int joint_ = -1;  // whose report is in joint_report_
+  int joint_ = -1;  // the joint whose report is in joint_report_
   JointReport joint_report_;
   std::optional<Energy> energy_;
   bool asked_reactions_ = false;

@@ -100,7 +100,7 @@ std::string pointer_in_text(const json::Document& document, const std::string& p
     const std::size_t at = path.find(ours);
     if (at == std::string::npos) continue;
     const std::size_t end = at + ours.size();
-    if (end < path.size() && path[end] != '/') continue;  // "/shape" is no part of "/shapes/1"
+    if (end < path.size() && path[end] != '/') continue;  // "/shape" is not a prefix of "/shapes/1"
     const std::string replaced = path.substr(0, at) + other + path.substr(end);
     const std::string shape = path.substr(0, at) + other;
     if (document.find(shape).exact) return replaced;

@@ -69,7 +69,7 @@ std::optional<Quaternion> read_rotation(const json::Document& document, FieldRea
 
 namespace {
 
-/// From a body's frame into the one that its base has.
+/// Transforms a body from the frame of its base to the frame of that base's own placement.
 void place(const json::Document& document, NodeId node, const BodyDef& base, BodyDef& body) {
   body.position = base.position + base.orientation * body.position;
   body.orientation = (base.orientation * body.orientation).normalized();
@@ -110,7 +110,7 @@ void PlacementResolver::place_bodies(std::span<const NodeId> nodes,
                                bodies[i].name));
       break;
     }
-    // The base first.
+    // The base is placed before the bodies relative to it.
     for (auto at = way.rbegin(); at != way.rend(); ++at) {
       if (const auto base = base_of(*at)) place(document_, nodes[*at], bodies[*base], bodies[*at]);
       marks[*at] = Mark::placed;

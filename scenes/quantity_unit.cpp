@@ -9,7 +9,7 @@
 namespace sheave {
 namespace {
 
-/// Names that a joint's coordinates have, and whether they are angles (JointDef::coordinates()).
+/// Names of joint coordinates, and whether they are angles (JointDef::coordinates()).
 struct CoordinateName {
   std::string_view name;
   bool angle;
@@ -24,7 +24,7 @@ constexpr std::array<CoordinateName, 7> coordinate_units{{
     {"swing", true},
 }};
 
-/// Adds the units of the quantities of that name, as there are of bodies and of joints.
+/// Adds the units of the quantities of that name, which bodies and joints may both have.
 void add_units(std::span<const QuantityGroup> groups, std::string_view last,
                std::vector<std::string_view>& units) {
   constexpr std::string_view between = ", ";
@@ -42,7 +42,7 @@ void add_units(std::span<const QuantityGroup> groups, std::string_view last,
   }
 }
 
-/// Of "<coordinate>", "<coordinate>_rate", "<coordinate>_drive_force" and alike.
+/// Units of "<coordinate>", "<coordinate>_rate", "<coordinate>_drive_force" and similar names.
 std::optional<std::string> of_coordinate(std::string_view last) {
   for (const auto& [name, angle] : coordinate_units) {
     if (!last.starts_with(name)) continue;

@@ -55,7 +55,7 @@ angle or a position is there when the controller may act again, or the trigger's
 |---|---|---|
 )";
 
-/// Rows of the table of quantities; those that mean the same share one.
+/// Rows of the table of quantities; quantities with the same meaning share a row.
 void append_quantities(std::span<const QuantityGroup> groups, std::string& text) {
   for (const QuantityGroup& group : groups) {
     const auto& quantities_of = group.quantities;
@@ -83,7 +83,7 @@ void append_codes(std::string& text) {
   }
 }
 
-/// Text inside a cell of a table.
+/// Text in a cell of a table.
 std::string cell(std::string_view text) {
   std::string result;
   for (const char c : text) {

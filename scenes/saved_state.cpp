@@ -12,7 +12,7 @@
 namespace sheave {
 namespace {
 
-/// FNV-1a; never 0, which says that nobody has told.
+/// FNV-1a; never 0, which stands for an unknown hash.
 std::uint64_t hash_of_text(std::string_view text) {
   std::uint64_t value = 0xcbf29ce484222325;
   for (const char c : text) {
@@ -21,7 +21,7 @@ std::uint64_t hash_of_text(std::string_view text) {
   return value == 0 ? 1 : value;
 }
 
-/// What the simulation is made of, as a scene, but for its step settings.
+/// The definition of the simulation as a scene, without its step settings.
 Scene scene_of(const Simulation& simulation) {
   Scene scene;
   scene.model = simulation.world.model();
@@ -33,7 +33,7 @@ Scene scene_of(const Simulation& simulation) {
   return scene;
 }
 
-/// A line for each thing that numbers of a state belong to.
+/// A line for each object to which numbers of a state belong.
 std::string layout_text(const Scene& scene) {
   std::string text;
   const auto add = [&](std::string_view kind, std::string_view name) {

@@ -24,7 +24,7 @@ std::vector<std::string_view> parts_of(std::string_view text, std::string_view s
   return parts;
 }
 
-/// Of one factor of a unit: "m", "m2", "N".
+/// Powers of one factor of a unit: "m", "m2", "N".
 std::optional<UnitPowers> factor_powers(std::string_view factor) {
   int power = 1;
   if (!factor.empty() && factor.back() >= '2' && factor.back() <= '9') {
@@ -41,7 +41,7 @@ std::optional<UnitPowers> factor_powers(std::string_view factor) {
 }
 
 /// The unit of a field whose table lists several, "rad/s, rad or N m": one for each choice of the
-/// drive beside it but the first, "none".
+/// related drive except the first, "none".
 std::string_view unit_of(const Field& field, const std::vector<const Field*>& fields,
                          const SettingJson& object) {
   const std::size_t comma = field.unit.find(", ");

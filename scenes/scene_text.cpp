@@ -10,7 +10,7 @@ namespace {
 
 std::string quoted(std::string_view word) { return fmt::format("\"{}\"", word); }
 
-/// Where a new member of an object goes, and what is to stand before it.
+/// Position of a new member of an object, and the text before it.
 struct Gap {
   std::uint32_t offset = 0;
   std::string_view separator;

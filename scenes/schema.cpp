@@ -85,7 +85,7 @@ Json field_schema(const Field& field, const TableFormat& table, bool is_entity_n
   return schema;
 }
 
-/// References have no spaces.
+/// References must not contain spaces.
 std::string definition_name(const ObjectFormat& format) { return anchor_of(format.name); }
 
 /// The schema of an object of `format`, of the given type if it has several.
@@ -106,7 +106,7 @@ Json object_schema(const ObjectFormat& format, const Variant* variant) {
   };
   const auto add_member = [&](const Member& member) {
     Json reference{{"$ref", fmt::format("#/definitions/{}", definition_name(*member.format))}};
-    // Draft-07 ignores what stands beside a $ref, so the description needs a level of its own.
+    // Draft-07 ignores keys next to a $ref, so the description needs a level of its own.
     properties[std::string(member.name)] =
         member.list ? list_schema(std::move(reference))
                     : Json{{"allOf", Json::array({std::move(reference)})}};

@@ -5,7 +5,7 @@
 namespace sheave {
 namespace {
 
-// Longer words are not names that somebody mistyped; comparing them would only take time.
+// Longer words are not mistyped names; comparing them only takes time.
 constexpr std::size_t max_length = 64;
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
@@ -23,7 +23,7 @@ void Suggestion::consider(std::string_view candidate) {
   const std::size_t shorter = std::min(text_.size(), candidate.size());
   if (longer - shorter >= best_distance_) return;  // the distance is at least this
   const std::size_t d = distance(candidate);
-  // Words that share no letter are never near, however short they are.
+  // Words without a common letter are never near, even if they are short.
   if (d >= best_distance_ || d >= longer) return;
   best_distance_ = d;
   best_ = candidate;

@@ -61,7 +61,7 @@ void check_camera(const CameraDef& camera, Errors& errors) {
       return;
     }
   }
-  // Without an explicit `up` a view along gravity is fine: then another direction is chosen.
+  // Without an explicit `up` a view along gravity is allowed; another up direction is then chosen.
   const bool looks = view.norm() > 0.0;
   if (looks && camera.up && parallel(view, *camera.up)) {
     fail("/up", "up must not be parallel to the direction of view");
@@ -83,7 +83,7 @@ void check_paint(const Scene& scene, Errors& errors) {
   }
 }
 
-/// Checks one check, except for the name of its quantity.
+/// Checks a check of the scene, except for the name of its quantity.
 void check_check(const CheckDef& check, const std::string& path, double duration, bool may_end_late,
                  Errors& errors) {
   check_fields(CheckDef::field_table(), &check, path, errors);
@@ -139,7 +139,7 @@ void check_names(const Scene& scene, Errors& errors) {
   }
 }
 
-/// Bodies and joints may have the same name as long as every quantity has one of its own.
+/// A body and a joint may have the same name if they have no quantity in common.
 void check_shared_names(const Model& model, Errors& errors) {
   std::unordered_map<std::string_view, const BodyDef*> bodies;
   for (const BodyDef& body : model.bodies) bodies.emplace(body.name, &body);

@@ -14,7 +14,7 @@ namespace {
 using json::Kind;
 using json::NodeId;
 
-// Comparing a word with more names than this takes longer than a user waits for a hint.
+// Comparing a word with more names than this takes longer than a user waits for a suggestion.
 constexpr std::size_t max_suggestions = 5000;
 
 /// Reads one value into the slot of its field; one overload per type of slot.
@@ -35,7 +35,7 @@ struct ValueReader {
     fail(node, FaultCode::wrong_type, "must be " + wanted, wanted);
   }
 
-  /// Reads a number inside the field's range; on a fault `target` stays as it was.
+  /// Reads a number within the field's range; after a fault `target` is unchanged.
   void number(NodeId at, double& target) const {
     const std::string unit = field.unit.empty() ? "" : fmt::format(" [{}]", field.unit);
     const std::string range = range_text(field.range);
@@ -131,7 +131,8 @@ struct ValueReader {
                   fmt::format("must be a unit quaternion [w, x, y, z]; its length is {:.9g}", norm),
                   fmt::format("a length of 1 within {}", quaternion_tolerance));
     }
-    // What is unit to rounding stays bit for bit, or writing and reading would not be exact.
+    // A quaternion that is unit to rounding keeps its bits; otherwise writing and reading would not
+    // be exact.
     if (std::abs(q.squaredNorm() - 1.0) > 4e-15) q.normalize();
     *slot = q;
   }

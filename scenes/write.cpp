@@ -1,4 +1,4 @@
-// From a scene to text, by the same tables the loader reads with.
+// Writes a scene as text, by the tables with which the loader reads it.
 
 #include "scenes/field_json.h"
 #include "scenes/format.h"
@@ -52,7 +52,7 @@ class SceneWriter {
                                                                   : scene_.model.bodies[index].name;
   }
 
-  /// The fields that are required or not what they are by default.
+  /// Adds the fields that are required or differ from their defaults.
   void add_fields(Json& object, const TableFormat& table, const void* values) const {
     add_fields(object, table, values, table.defaults.get());
   }
@@ -71,8 +71,8 @@ class SceneWriter {
     add_fields(object, format.tables[0], values);
     return object;
   }
-  /// An object of one of several types: `common` is of the format's table, `settings` of the
-  /// type's.
+  /// An object of one of several types. `common` has the type of the format's table, `settings` the
+  /// derived type.
   [[nodiscard]] Json typed(const ObjectFormat& format, std::string_view type, const void* common,
                            const void* settings) const {
     Json object = Json::object();

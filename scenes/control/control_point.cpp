@@ -49,7 +49,7 @@ constexpr std::array<QuantityGroup, 5> groups{{
     {"gravity.", gravity_controls},
 }};
 
-/// Which drives joint coordinates have follows from their field tables: "<prefix>drive".
+/// The drives of a joint's coordinates, found by their field names: "<prefix>drive".
 struct JointDrive {
   std::string prefix;
   int choice = 0;  // index among the kinds of drives
@@ -121,7 +121,7 @@ void visit_cables(const std::vector<CableDef>& cables, const Visit& visit) {
   }
 }
 
-/// The force that is set on a body now, which one component of is changed.
+/// The force that is set on a body now; the caller changes one of its components.
 PointForce force_now(const Simulation& simulation, int body) {
   const ForceControl* set = simulation.world.state().controls.forces.find(body);
   PointForce force;

@@ -10,14 +10,14 @@
 namespace sheave {
 namespace {
 
-// Places in the memory.
+// Indices in the memory.
 constexpr std::size_t stopped = 0;
 constexpr std::size_t refused = 1;
-// Of a trigger, from its first.
+// Offsets in the memory of a trigger.
 constexpr std::size_t acted = 0;
 constexpr std::size_t holds = 1;
 constexpr std::size_t trigger_size = 2;
-// Of a controller.
+// Offsets in the memory of a controller.
 constexpr std::size_t is_on = 0;
 constexpr std::size_t samples = 1;
 constexpr std::size_t sampled_at = 2;
@@ -45,19 +45,19 @@ Error at_path(const Errors& errors, const std::string& path) {
   return {path, errors.front().message};
 }
 
-/// When what is due at `due` is done: at the start of the substep nearest to it. Times are sums of
-/// steps.
+/// Whether an action due at `due` is done now: in the substep whose start is nearest to it. Times
+/// are sums of steps, so they have rounding errors.
 bool is_due(double time, double due, double substep) { return time > due - 1e-6 * substep; }
 
 bool is_flag(double number) { return number == 0.0 || number == 1.0; }
 
-/// A count that a double has exactly.
+/// Whether a number is a count that a double represents exactly.
 bool is_count(double number) {
   constexpr double most = 9007199254740992.0;  // 2^53
   return number >= 0.0 && number <= most && number == std::floor(number);
 }
 
-/// When something was done last, in a state at `now`.
+/// Whether `time` can be the time of the last action, in a state at `now`.
 bool is_past(double time, double now) { return time == never || (time >= 0.0 && time <= now); }
 
 double substep_of(const Simulation& simulation) {
@@ -220,7 +220,7 @@ std::string SceneSupervisor::memory_fault(const State& state) const {
     const std::span<const double> its(own + controller_size, controller.definition->memory_size());
     const bool finite =
         std::all_of(its.begin(), its.end(), [](double x) { return std::isfinite(x); });
-    const bool counts = own[samples] >= 0.0;  // beyond 2^53, too, of a sample time near 0
+    const bool counts = own[samples] >= 0.0;  // may exceed 2^53 for a sample time near 0
     if (is_flag(own[is_on]) && counts && is_past(own[sampled_at], state.time) && finite) continue;
     return fmt::format("what it remembers of controller \"{}\" is nothing that a run leaves",
                        controller.definition->name);
@@ -249,7 +249,8 @@ void SceneSupervisor::supervise(Simulation& simulation) const {
   const double time = simulation.world.state().time;
   const double substep = substep_of(simulation);
   std::vector<double> values;
-  // Reports of cables take time, and most substeps need none.
+  // Observables are sampled only on demand, because reports of cables take time and most substeps
+  // need none.
   const auto look = [&] {
     if (!values.empty()) return;
     values.resize(indices_.size());
@@ -343,17 +344,17 @@ void SceneSupervisor::act(const ControllerAtWork& controller, std::span<const do
   } else {
     input.setpoint = values[controller.setpoint_quantity];
   }
-  // The next multiple of the sample time that has not come yet.
+  // The next multiple of the sample time.
   own[samples] = std::floor(time / controller.sample_time + 1e-6) + 1.0;
   own[sampled_at] = time;
-  // What is no number leaves the control as it is.
+  // A value that is not finite leaves the control unchanged.
   if (!std::isfinite(input.measured) || !std::isfinite(input.setpoint)) {
     memory[refused] += 1.0;
     return;
   }
   const std::span<double> its(own + controller_size, definition.memory_size());
   const double output = definition.output(input, its);
-  // One whose sums have run out of numbers begins them anew.
+  // A controller whose sums have overflowed starts them again at 0.
   for (double& number : its) {
     if (std::isfinite(number)) continue;
     number = 0.0;

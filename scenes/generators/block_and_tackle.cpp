@@ -36,10 +36,10 @@
 namespace sheave {
 namespace {
 
-/// Sweeps of Gauss-Seidel that bring every check within its tolerance, with some to spare. What
-/// counts is the mass of the effort against that of a sheave, which swallows corrections if it is
-/// light. Measured needs with the default masses (10 s at 60 Hz in balance): 93 for 2 parts, 59 for
-/// 4, 47 for 6, 37 for 8, 18 for 16.
+/// Number of Gauss-Seidel sweeps that brings every check within its tolerance, with a margin. The
+/// ratio of the effort's mass to that of a sheave matters, because a light sheave absorbs
+/// corrections. Measured needs with the default masses (10 s at 60 Hz in balance): 93 for 2 parts,
+/// 59 for 4, 47 for 6, 37 for 8, 18 for 16.
 int sufficient_iterations(const BlockAndTackleOptions& options) {
   const double n = options.parts;
   const double ratio = options.effort_mass() / options.sheave_mass;
@@ -91,7 +91,7 @@ class BlockAndTackle {
         generators::tidy(Vector3(width + 0.5 * diameter_, 0.4 * diameter_, 0.6 * diameter_));
     beam.shapes.push_back({std::move(box)});
     beam_ = scene_.model.add(std::move(beam));
-    // The block spans the fixed end, if that is on it, and the lower sheaves.
+    // The block extends over the fixed end, if that is on it, and the lower sheaves.
     const double left = even() ? 0.0 : -0.25 * diameter_;
     const double right = diameter_ * (options_.parts - 1) + (even() ? 0.0 : 0.25 * diameter_);
     block_center_ = {0.5 * (left + right), lower_ - 1.1 * diameter_, 0.0};
@@ -154,7 +154,7 @@ class BlockAndTackle {
   double diameter_;
   double radius_;
   double acceleration_;  // of the load, downwards
-  double travel_;        // room for the load to move, to either side
+  double travel_;        // range of the load's motion, to either side
   double lower_;         // height of the lower sheaves
   Vector3 block_center_ = Vector3::Zero();
   double block_height_ = 0.0;

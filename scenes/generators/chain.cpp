@@ -1,14 +1,15 @@
 // A chain of rigid links with ball joints, and a ball at its end.
 //
-//   o==o==o==o==(   )    The first joint is fixed to the world, the last one on the ball's surface. Everything starts at
-//   |           ( M )    rest on a straight line, at an angle below the horizontal (drawn: 0), and swings.
+//   o==o==o==o==(   )    The first joint is fixed to the world, the last one lies on the ball's
+//   |           ( M )    surface. Everything starts at rest on a straight line, at an angle below
+//                        the horizontal (drawn: 0), and swings.
 //
-// Nothing takes energy out, so the total energy stays what it was: with E0 = 0 at the height of the
+// No part dissipates energy, so the total energy is conserved: with E0 = 0 at the height of the
 // first joint,
 //   E = T - g (sum of m_k y_k + M y) = E0.
-// It moves in a plane, as nothing pushes it out of it. A link swings across the taut chain with up
-// to 2 sqrt(T / m L): under T = 3 M g and a mass ratio of 672 that is 284 rad/s, 1.2 rad in 1/240
-// s. So 16 substeps are the default.
+// The chain moves in a plane, because no force points out of the plane. A link swings across the
+// taut chain with up to 2 sqrt(T / m L): under T = 3 M g and a mass ratio of 672 that is 284 rad/s,
+// 1.2 rad in 1/240 s. So 16 substeps are the default.
 
 #include <cmath>
 
@@ -24,7 +25,7 @@
 namespace sheave {
 namespace {
 
-/// Along the chain at the start.
+/// Direction of the chain at the start.
 Vector3 chain_direction(const ChainOptions& options) {
   return {std::cos(options.angle), -std::sin(options.angle), 0.0};
 }
@@ -112,8 +113,8 @@ Result<Scene> generate_chain(const ChainOptions& options) {
   ball.shapes.push_back({std::move(sphere)});
   join(model.add(std::move(ball)), options.links);
 
-  // On a short chain a large ball turns over and throws it slack; it then snaps taut faster than
-  // any step can follow.
+  // On a short chain a large ball turns over and makes the chain slack; the chain then snaps taut
+  // faster than any step can follow.
   if (length >= 2.0 * options.ball_radius) {
     const double swing = options.mass_ratio * options.link_mass * options.gravity * length;
     scene.checks.push_back(generators::check("energy.total", Statistic::range, 0.0, swing,

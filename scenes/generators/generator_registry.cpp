@@ -1,4 +1,4 @@
-// The kinds of generated scenes: one line each, and choosing among them by name.
+// The kinds of generated scenes, one line each, and the choice among them by name.
 
 #include <algorithm>
 
@@ -61,7 +61,7 @@ SceneResult generate_scene(std::string_view kind, const std::vector<GeneratorSet
     return failure("generate", {{"", fmt::format("there is no kind of scene \"{}\"{}; allowed: {}",
                                                  kind, suggestion.question(), allowed)}});
   }
-  // The options are read like an object of a scene file, with the same checks and messages.
+  // Options are read like an object of a scene file, with the same checks and messages.
   const json::Limits limits;
   json::Faults faults(limits.faults);
   json::Document document = json::Document::parse("{}", origin, limits, faults);

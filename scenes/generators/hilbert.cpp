@@ -1,25 +1,25 @@
 // A cable along a Hilbert curve in space (hilbert_curve.cpp): a motor's drum before its first
-// point, a wheel wherever it turns, a weight below its last point. Where it goes straight on there
-// is nothing to hold a cable, and no wheel.
+// point, a wheel at each turn, a weight below its last point. A straight point of the curve has no
+// wheel.
 //
 // A wheel of radius r at a turn P from direction e1 to e2 has its centre at P + r (e2 - e1), inside
-// the turn: both edges of the curve are then tangents. So every free span runs along the curve, and
-// it lies in the planes of both its wheels although these are mostly perpendicular to each other;
-// nothing kinks, and no wheel has to be indented as in the paper's figure 18. A wheel reaches 2 r
-// along both edges, so r < spacing / 4 keeps neighbours apart.
+// the turn, so both edges of the curve are tangents. Every free span therefore runs along the curve
+// and lies in the planes of both its wheels, although these planes are mostly perpendicular to each
+// other. The cable has no kinks, and no wheel has to be indented as in the paper's figure 18. A
+// wheel extends 2 r along both edges, so r < spacing / 4 keeps neighbours apart.
 //
-// The cable does not slip. Once it is taut all rims move at the speed v at which the motor winds it
-// up. With the wheels' J = m r^2 / 2 and the drag c of their bearings a wheel needs the difference
-// of tensions
-//   d(v, a) = m a / 2 + c v / r^2,    a = dv/dt;
-// behind the first k of n wheels the tension is T_k = M (g + a) + (n - k) d(v, a). All wheels start
+// The cable does not slip. Once it is taut, all rims move at the speed v at which the motor winds
+// it up. With the wheels' J = m r^2 / 2 and the drag c of their bearings a wheel needs the
+// difference of tensions
+//   d(v, a) = m a / 2 + c v / r^2,    a = dv/dt.
+// Behind the first k of n wheels the tension is T_k = M (g + a) + (n - k) d(v, a). All wheels start
 // with the motor.
 //
-// With a slack s in each span wheel k (1 ... n) stands still until k s have been wound up, is then
-// set in motion with one jerk (the cable is rigid and an impact inelastic, so no rim ever overtakes
-// the cable), and follows: its rim has moved w - k s when w has been wound up. The weight stands on
-// the floor until w = (n + 1) s. With k wheels running the first span carries k d(v, 0), so the
-// motor's load climbs in n steps.
+// With a slack s in each span, wheel k (1 ... n) stands still until k s have been wound up. It then
+// starts with one jerk (the cable is rigid and an impact inelastic, so no rim ever overtakes the
+// cable) and follows: its rim has moved w - k s when w has been wound up. The weight stands on the
+// floor until w = (n + 1) s. With k wheels running the first span carries k d(v, 0), so the motor's
+// load rises in n steps.
 
 #include <algorithm>
 #include <cmath>
@@ -77,7 +77,7 @@ class Hilbert {
   [[nodiscard]] bool loose() const { return options_.slack > 0.0; }
   [[nodiscard]] double drum_radius() const { return 2.0 * options_.radius; }
 
-  /// One spacing before the first point, outside of the cube, which begins there.
+  /// Adds the drum, one spacing before the first point, outside of the cube.
   void add_drum() {
     const Vector3 along = (points_[1] - points_[0]) / options_.spacing;
     const int across = along.x() == 0.0 ? 0 : 2;
@@ -122,7 +122,7 @@ class Hilbert {
         options_.duration > 0.0 ? options_.duration : 0.5 * std::ceil(2.0 * least - 1e-9);
   }
 
-  /// Below the last point, with room for the way up.
+  /// Adds the weight below the last point, with room for its way up.
   void add_weight() {
     const double edge = 0.6 * options_.spacing;
     const Vector3 top = points_.back() - Vector3::UnitY() * 1.05 * lifted();
@@ -145,7 +145,7 @@ class Hilbert {
     }
   }
 
-  /// From the side where drum and weight are, and a little from the left and from above.
+  /// View from the side of drum and weight, a little from the left and from above.
   [[nodiscard]] CameraDef view() const {
     Vector3 eye = points_.front() + points_.back();
     eye.y() = 0.0;
@@ -157,19 +157,19 @@ class Hilbert {
   }
 
   [[nodiscard]] static std::string wheel_name(int k) { return fmt::format("wheel {}", k); }
-  /// Cable that has to be wound up before the weight moves.
+  /// Length of cable to be wound up before the weight moves [m].
   [[nodiscard]] double all_slack() const { return options_.slack * (wheels_ + 1); }
-  /// How far the weight is lifted in all.
+  /// Total rise of the weight [m].
   [[nodiscard]] double lifted() const {
     return std::max(0.0, options_.wound(scene_.duration) - all_slack());
   }
-  /// What each running wheel takes of the tension: d(v, a).
+  /// Difference of the tensions at a running wheel: d(v, a).
   [[nodiscard]] double difference(double speed, double acceleration) const {
     return 0.5 * options_.wheel_mass * acceleration +
            options_.drag * speed / (options_.radius * options_.radius);
   }
 
-  /// The step nearest to a time, which is what a check looks at.
+  /// Time of the step nearest to a time, at which a check is evaluated.
   [[nodiscard]] double step_near(double time) const {
     return options_.dt * std::round(time / options_.dt);
   }
@@ -183,7 +183,7 @@ class Hilbert {
     check.because = std::move(because);
     scene_.checks.push_back(std::move(check));
   }
-  /// Rows are solved to 1e-10 of the scene's size, of which each wheel may add as much again.
+  /// Rows are solved to 1e-10 of the scene's size, and each wheel may add an error of that size.
   void check_angle(int wheel, double near, double slack, std::string because) {
     const double time = step_near(near);
     if (time > scene_.duration) return;
@@ -192,9 +192,9 @@ class Hilbert {
              std::max(0.0, options_.wound(time) - slack) / options_.radius,
              1e-10 * size * (wheels_ + 1) / options_.radius, std::move(because));
   }
-  /// The means over the substep that ends at the time, with k wheels running. Within it drag
-  /// changes a wheel's speed by up to c h / J of itself before the cable makes up for it, so the
-  /// wheels' part is known as well as that.
+  /// Mean tensions over the substep that ends at the time, with k wheels running. Within the
+  /// substep drag changes a wheel's speed by up to the fraction c h / J before the cable
+  /// compensates it, so the part of the wheels has that relative error.
   void check_tensions(double near, int running, bool lifting, const std::string& because) {
     const double time = step_near(near);
     if (time > scene_.duration) return;
@@ -248,8 +248,8 @@ class Hilbert {
       check_angle(k, options_.time_of((k - 0.5) * slack), k * slack, because);
       check_angle(k, options_.time_of((k + 0.5) * slack), k * slack, because);
       check_angle(k, scene_.duration, k * slack, "and stays with the cable");
-      // Not while the motor speeds up, where the wheels that run take some of the tension for that,
-      // too.
+      // Not while the motor accelerates, because the running wheels then take a part of the tension
+      // for their acceleration.
       const double between = options_.time_of((k + 0.5) * slack);
       if (between > HilbertOptions::start + options_.ramp && jerks_are_apart()) {
         check_tensions(between, k, false,
@@ -259,7 +259,7 @@ class Hilbert {
     check_tensions(scene_.duration, wheels_, true, "M g, at the motor with n c v / r^2 more");
   }
 
-  /// A jerk lasts a substep or two; between two of them there must be a step without.
+  /// A jerk lasts one or two substeps; there must be a step without a jerk between two of them.
   [[nodiscard]] bool jerks_are_apart() const {
     return options_.slack / options_.motor > 4.0 * options_.dt;
   }

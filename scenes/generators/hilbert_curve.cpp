@@ -1,14 +1,14 @@
-// A Hilbert curve in space, by its own definition: the curve of order n visits the eight octants of
-// a cube along a path of edges, and in each octant it is the curve of order n - 1, turned or
-// mirrored so that the pieces join.
+// A Hilbert curve in space, by its definition: the curve of order n visits the eight octants of a
+// cube along a path of edges. In each octant it is the curve of order n - 1, rotated or mirrored so
+// that the pieces join.
 //
 // There are many such curves. The paper lists 62 cable joints for its second and 498 for its third
-// order, of 64 and 512 points. With a wheel only where the curve turns, and the cable's two ends at
-// its first and last point, a curve that goes straight on at s points has 8^order - s - 1 joints,
-// so the table asks for s = 1 and s = 13. The commonest curves do not fit it (s = 2 and 20, or 6
-// and 50; a curve that reads the same from both ends has an even s), but of those with neighbouring
-// ends whose octants are only turned and mirrored, never run backwards, five do. This is one of the
-// five: its path through the octants is the usual one; only how they are turned differs.
+// order, with 64 and 512 points. With wheels only at turns, and the cable's ends at the first and
+// last point, a curve with s straight points has 8^order - s - 1 joints, so the table requires s =
+// 1 and s = 13. The most common curves do not fit (s = 2 and 20, or 6 and 50; a curve that is the
+// same from both ends has an even s). Among the curves with neighbouring ends whose octants are
+// only rotated and mirrored, never reversed, five fit. This is one of the five: its path through
+// the octants is the usual one; only their orientations differ.
 
 #include <array>
 
@@ -19,8 +19,8 @@ namespace {
 
 using Axes = std::array<Eigen::Vector3i, 3>;
 
-/// Where an octant is, and the directions in which its own curve takes the axes: axis[i] = 1, 2, 3
-/// for x, y, z of the whole cube, negative for the opposite direction.
+/// Position of an octant, and the directions of its own curve's axes: axis[i] = 1, 2, 3 for x, y, z
+/// of the whole cube, negative for the opposite direction.
 struct Octant {
   std::array<int, 3> side;  // -1 or 1 along x, y, z
   std::array<int, 3> axis;
@@ -64,7 +64,7 @@ std::vector<Vector3> hilbert_curve(int order) {
   append_curve(order, Eigen::Vector3i::Zero(),
                {Eigen::Vector3i::UnitX(), Eigen::Vector3i::UnitY(), Eigen::Vector3i::UnitZ()},
                points);
-  // Turned so that the last step, whose direction depends on the order, is downwards.
+  // Rotated so that the last step, whose direction depends on the order, points down.
   const Vector3 last = 0.5 * (points.back() - points[points.size() - 2]).cast<double>();
   const Vector3 up = -last;
   const Vector3 right(up.y(), up.z(), up.x());  // another axis

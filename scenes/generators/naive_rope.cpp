@@ -1,22 +1,27 @@
 // A rope over two wheels as jointed rigid segments, with a weight at each end (figure 14 of the
 // paper), or, to compare with, the same machine with one cable.
 //
-//        __________          Segments are tangents of the rope's centre line, which has the radius S = R + r on a wheel: k of them
-//      /            \        to a quarter of a turn have the length
-//     |  o        o  |         l = 2 S tan(pi / 4 k).
-//     |              |       The wheels are m segments apart. Both sides hang down equally far, so that the rope's N segments are
-//    [ ]            [ ]        2 n + 2 (k - 1) + m + 1 = N,
-//                            of which the first of each side hangs beside its wheel's centre. About 8 N / 100 segments are a
-//                            quarter of a turn and N / 3 the way between the wheels; m is odd if N is even and even if N is odd.
+//        __________          The segments are tangents of the rope's centre line, which has the
+//      /            \        radius S = R + r on a wheel: k segments to a quarter turn have the
+//     |  o        o  |       length
+//     |              |         l = 2 S tan(pi / 4 k).
+//    [ ]            [ ]
 //
-// Weights of M each: the machine is in balance and nothing moves, every span of the cable carries M
-// g. A joint of the rope carries M g and what rope hangs under it.
+// The wheels are m segments apart. Both sides hang down equally far, so the rope has
+//   N = 2 n + 2 (k - 1) + m + 1
+// segments; the first of the n segments of each side hangs beside the centre of its wheel. A
+// quarter turn takes about 8 N / 100 segments and the way between the wheels N / 3; m is odd if N
+// is even and even if N is odd.
 //
-// Why the naive rope is hard. A joint is as good as the errors that have reached it, and these pass
-// one joint per sweep: in a substep the weights fall by g h^2 whatever the rope holds back, so that
-// it gives like rubber. And a segment of mass m between joints that pull with T swings across them
-// with up to 2 sqrt(T / m l): what is solved along the gradients of the last round converges only
-// while h times that is about 1, which for 100 segments are some 16 substeps of 1/960 s.
+// Each weight has the mass M, so the machine is in balance and at rest, and every span of the cable
+// carries M g. A joint of the rope carries M g and the weight of the rope below the joint.
+//
+// Why the naive rope is hard. A joint is as accurate as the corrections that have reached it, and a
+// correction passes one joint per sweep. In a substep the weights fall by g h^2 however much the
+// rope holds back, so the rope stretches like rubber. And a segment of mass m between joints that
+// pull with T swings across the rope with up to 2 sqrt(T / m l). The solver works with the
+// gradients of the last round, so it converges only while h times that rate is about 1; for 100
+// segments that takes some 16 substeps of 1/960 s.
 
 #include <array>
 #include <cmath>
@@ -38,7 +43,7 @@ namespace {
 constexpr double load_edge = 0.25;   // of the weights, cubes [m]
 constexpr double floor_below = 1.5;  // the weights [m]
 constexpr double wheel_width = 0.2;  // [m]
-constexpr double first_steps = 0.1;  // until sweeps have found the tension [s]
+constexpr double first_steps = 0.1;  // time until sweeps have found the tension [s]
 
 class NaiveRope {
  public:
@@ -74,7 +79,7 @@ class NaiveRope {
   }
 
  private:
-  /// Where the rope ends.
+  /// Height of the rope's ends [m].
   [[nodiscard]] double bottom() const { return -(hanging_ - 0.5) * length_; }
   [[nodiscard]] double floor_height() const { return bottom() - load_edge - floor_below; }
 
@@ -127,7 +132,8 @@ class NaiveRope {
     add_check("cable.length_error", Statistic::range, 0.0, 1e-12, "cable is neither lost nor made");
   }
 
-  /// Center of a segment and direction of the rope there, counted from the left weight.
+  /// Centre of a segment and direction of the rope there; segments are counted from the left
+  /// weight.
   struct Place {
     Vector3 center;
     double angle;
@@ -199,8 +205,7 @@ class NaiveRope {
     add_rope_checks();
   }
 
-  /// A rope that holds keeps the weights where they are; at rest on the floor they are floor_below
-  /// deeper.
+  /// A rope that holds keeps the weights in place; at rest on the floor they are floor_below lower.
   void add_rope_checks() {
     const bool coarse = options_.substeps == 1 && options_.segments >= 100;
     const double rest = floor_height() + 0.5 * load_edge;

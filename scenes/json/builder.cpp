@@ -18,10 +18,10 @@ bool is_word(char c) {
          c == '-' || c == '.';
 }
 
-/// What nlohmann says is wrong, without its own account of where: of
-/// "[json.exception.parse_error.101] parse error at line 1, column 2: syntax error while parsing
-/// object - invalid literal; last read: '{x'; expected '}'" the part behind the colon, without the
-/// text that was last read, which our value shows better.
+/// The message of nlohmann without its own position. From "[json.exception.parse_error.101] parse
+/// error at line 1, column 2: syntax error while parsing object - invalid literal; last read: '{x';
+/// expected '}'" it takes the part behind the colon, without the text that was last read, which our
+/// value shows better.
 std::string complaint(std::string message) {
   const std::size_t column = message.find(", column ");
   const std::size_t start = message.find(": ", column == std::string::npos ? 0 : column);
@@ -32,7 +32,8 @@ std::string complaint(std::string message) {
     const bool behind = expected != std::string::npos && expected > last_read;
     message = message.substr(0, last_read) + (behind ? message.substr(expected) : "");
   }
-  // Between two members a comma is as welcome as the closing bracket, and more often forgotten.
+  // Between two members a comma is allowed as well as the closing bracket, and is more often
+  // missing.
   for (const std::string_view close : {"'}'", "']'"}) {
     const std::string ending = fmt::format("; expected {}", close);
     if (message.ends_with(ending)) {
@@ -47,7 +48,7 @@ std::string complaint(std::string message) {
 
 Builder::Builder(Document& document, std::uint32_t begin, const Limits& limits, Faults& faults)
     : document_(document), limits_(limits), faults_(faults), begin_(begin), cursor_(begin) {
-  // The parser skips the byte order mark that some editors put in front of UTF-8.
+  // The parser skips a byte order mark, which some editors write before UTF-8.
   if (document.text_.compare(begin, 3, "\xEF\xBB\xBF") == 0) cursor_ += 3;
 }
 
@@ -88,12 +89,13 @@ bool Builder::string(std::string& value) {
   return true;
 }
 
-bool Builder::binary(nlohmann::json::binary_t& /*value*/) { return false; }  // not in JSON texts
+// does not occur in JSON texts
+bool Builder::binary(nlohmann::json::binary_t& /*value*/) { return false; }
 
 bool Builder::key(std::string& value) {
   key_begin_ = next_token();
   cursor_ = token_end(key_begin_);
-  // A scene has few different keys, and may have millions of them.
+  // A scene has few different keys, but may have millions of them, so equal keys share one string.
   const auto next = static_cast<std::uint32_t>(document_.strings_.size());
   const auto [known, is_new] = known_keys_.try_emplace(value, next);
   key_ = known->second;
@@ -167,7 +169,7 @@ std::uint32_t Builder::next_token() const {
       at = std::min(text.find('\n', at), text.size());
     } else if (text.compare(at, 2, "/*") == 0) {
       const std::size_t end = text.find("*/", at + 2);
-      if (end == std::string::npos) break;  // the parser complains about the comment's beginning
+      if (end == std::string::npos) break;  // the parser reports the beginning of the comment
       at = end + 2;
     } else {
       break;

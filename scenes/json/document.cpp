@@ -15,8 +15,8 @@ namespace {
 
 bool continues_character(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
-/// Whether a value of an override is meant as a string although it has no quotes. Words that begin
-/// like a number, such as 1e3, are none.
+/// Whether a value of an override is a string without quotes. Words that begin like a number, such
+/// as 1e3, are not.
 bool is_bare_word(std::string_view text) {
   if (text.empty() || text == "true" || text == "false" || text == "null") return false;
   const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
@@ -87,8 +87,8 @@ NodeId Document::parse_source(std::string_view text, std::string name, const Lim
   for (std::size_t at = begin; at < text_.size(); ++at) {
     if (text_[at] == '\n') lines_.push_back(static_cast<std::uint32_t>(at + 1));
   }
-  // nlohmann takes a null character for the end of the text and would ignore what follows, and it
-  // does not look into comments.
+  // nlohmann takes a null character for the end of the text and would ignore the rest, and it does
+  // not check comments.
   if (TextFault fault = find_text_fault(text); !fault.message.empty()) {
     faults.add({begin + static_cast<std::uint32_t>(fault.offset),
                 "",
@@ -102,7 +102,7 @@ NodeId Document::parse_source(std::string_view text, std::string name, const Lim
   const bool complete =
       nlohmann::json::sax_parse(text_.data() + begin, text_.data() + text_.size(), &builder,
                                 nlohmann::json::input_format_t::json, true, true);
-  nodes_.shrink_to_fit();  // of a large scene they are what takes most
+  nodes_.shrink_to_fit();  // the largest part of a large scene
   children_.shrink_to_fit();
   return complete ? builder.root() : no_node;
 }
@@ -222,7 +222,7 @@ std::string Document::missing(std::string_view path, const Target& target) const
     return fmt::format("there is no {} in the scene: {} has {} elements, counted from 0", path,
                        place, count);
   }
-  constexpr std::size_t most = 8;  // what one reads
+  constexpr std::size_t most = 8;  // as many as a user reads
   std::vector<std::string_view> near = nearest(step, known, most);
   const bool some = near.empty();
   if (some) near.assign(known.begin(), known.begin() + std::min(known.size(), most));
@@ -270,7 +270,8 @@ Location Document::location(std::uint32_t offset) const {
   // The last line of the source before may be empty and then begins at the same offset.
   const auto first_line = std::upper_bound(lines_.begin(), lines_.end(), source->begin) - 1;
   const std::size_t end = std::min<std::size_t>(offset, text_.size());
-  // Texts that are one huge line are not read by eye: there the column counts bytes, at no cost.
+  // Texts of one huge line are not read by users; there the column counts bytes, which costs
+  // nothing.
   std::size_t characters = end - *line;
   if (characters < 0x10000) {
     const std::string_view before = std::string_view(text_).substr(*line, characters);

@@ -23,12 +23,12 @@ std::string scalar(const Value& value) {
   if (!value.is_number_float()) return value.dump();
   const double number = value.get<double>();
   if (!std::isfinite(number)) return "null";
-  // JSON's -0 is an integer, which has no sign at zero.
+  // In JSON, -0 is an integer, which has no negative zero.
   return number == 0.0 && std::signbit(number) ? "-0.0" : number_text(number);
 }
 
-/// Appends the value on one line; false if that takes more than `room` characters or would put
-/// several objects of a list on it.
+/// Appends the value on one line. False if the line would need more than `room` characters or
+/// contain several objects of a list.
 bool append_line(const Value& value, std::size_t room, std::string& line) {
   if (!value.is_structured()) {
     line += scalar(value);

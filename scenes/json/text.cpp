@@ -12,14 +12,14 @@ unsigned byte_at(std::string_view text, std::size_t at) {
   return static_cast<unsigned char>(text[at]);
 }
 
-/// The encoding of another width that a text is in; empty if it looks like none.
+/// Name of the UTF-16 or UTF-32 encoding of a text; empty if it looks like neither.
 std::string_view wide_encoding(std::string_view text) {
   struct Mark {
     std::string_view bytes;
     std::string_view name;
   };
-  // Byte order marks; then "{", "[" or blank as such texts have it without one. The longer ones
-  // first.
+  // Byte order marks; then "{", "[" or blank at the start of such a text without a mark. Longer
+  // marks come first.
   using namespace std::string_view_literals;
   static constexpr std::array<Mark, 4> marks{{{"\xff\xfe\0\0"sv, "UTF-32"},
                                               {"\0\0\xfe\xff"sv, "UTF-32"},
@@ -64,7 +64,7 @@ TextFault find_text_fault(std::string_view text) {
     return {0, fmt::format("the text is {}; it must be UTF-8", name)};
   }
   for (std::size_t at = 0; at < text.size();) {
-    // Nearly all of nearly all texts.
+    // This covers nearly all characters of most texts.
     if (text[at] != '\0' && byte_at(text, at) < 0x80) {
       ++at;
       continue;

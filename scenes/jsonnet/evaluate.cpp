@@ -26,7 +26,7 @@ namespace sheave::jsonnet {
 
 namespace {
 
-/// What the child tells, in messages of a kind, a length and so many bytes.
+/// Messages of the child: a kind, a length and the bytes.
 enum class Message : char { import_name = 'n', import_text = 't', json = 'j', fault = 'f' };
 
 void send(int pipe, Message kind, std::string_view text) {
@@ -61,7 +61,7 @@ void limit_resources(const Limits& limits) {
   rlimit core{0, 0};
   ::setrlimit(RLIMIT_CORE, &core);
 #if !defined(__SANITIZE_ADDRESS__)
-  // Beyond what this process, of which it is a copy, has already.
+  // In addition to the memory of this process, of which the child is a copy.
   std::ifstream statm("/proc/self/statm");
   std::uint64_t pages = 0;
   if (!(statm >> pages)) return;
@@ -74,11 +74,11 @@ void limit_resources(const Limits& limits) {
 
 [[noreturn]] void evaluate_in_child(int pipe, std::string_view text, const std::string& file_name,
                                     const JsonnetOptions& options, const Limits& limits) {
-  // Whatever the command does on signals, the child simply ends.
+  // The child does not inherit the command's signal handlers; it just ends.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGXCPU, SIGABRT, SIGSEGV}) {
     std::signal(signal, SIG_DFL);
   }
-  // What the evaluator's library says before it dies is no message for people.
+  // Messages of the evaluator's library before it aborts are not useful to users.
   if (::close(STDERR_FILENO) != 0) ::_exit(1);
   limit_resources(limits);
   const Evaluation evaluation =
@@ -94,7 +94,7 @@ SceneError error_at(std::string file, std::string message, FaultCode code = Faul
   return {std::move(file), 0, 0, "", std::move(message), {}, {}, code};
 }
 
-/// A place as Jsonnet writes it: "file:3:5-9" or "file:(3:5)-(4:2)".
+/// Reads a position in Jsonnet's form: "file:3:5-9" or "file:(3:5)-(4:2)".
 bool read_place(const std::string& text, std::size_t at, SceneError& error) {
   const std::size_t start = at < text.size() && text[at] == '(' ? at + 1 : at;
   char* end = nullptr;
@@ -109,7 +109,7 @@ bool read_place(const std::string& text, std::size_t at, SceneError& error) {
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-/// The first place in one of the files; in the library only if there is no other.
+/// Error with the first position in one of the files; in the library only if there is no other.
 SceneError error_of(const std::string& told, const std::string& file_name,
                     const std::vector<Source>& sources) {
   SceneError error = error_at(file_name, first_line(told), FaultCode::syntax);
@@ -134,7 +134,7 @@ SceneError error_of(const std::string& told, const std::string& file_name,
     error.message = error.message.substr(std::strlen(prefix));
     error.code = prefix[0] == 'R' ? FaultCode::meaning : FaultCode::syntax;
   }
-  // "file:1:5-6: what" says the place twice.
+  // "file:1:5-6: what" contains the position twice.
   if (error.message.starts_with(error.file + ":")) {
     const std::size_t colon = error.message.find(": ");
     if (colon != std::string::npos) error.message = error.message.substr(colon + 2);
@@ -142,7 +142,7 @@ SceneError error_of(const std::string& told, const std::string& file_name,
   return error;
 }
 
-/// Why a child that said nothing has ended.
+/// Why a child has ended without a message.
 std::string end_text(int status, const Limits& limits) {
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL)) {
     return fmt::format("the program takes more than {} s to evaluate", limits.seconds);

@@ -1,4 +1,4 @@
-// From places in the made JSON to places in the source.
+// Maps positions in the generated JSON to positions in the source.
 
 #include <algorithm>
 
@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The name of the innermost named thing on the way to `pointer`; empty if there is none.
+/// The name of the innermost named object on the path to `pointer`; empty if there is none.
 std::string innermost_name(const Json& root, const std::string& pointer) {
   std::string name;
   const Json* node = &root;
@@ -39,7 +39,7 @@ struct Place {
   std::size_t offset = 0;
 };
 
-/// Where the name stands as a text of its own, if at one place only.
+/// Position of the name as a separate string, if there is only one.
 Place only_place(const std::vector<Source>& sources, const std::string& name) {
   Place place;
   for (const Source& source : sources) {
@@ -73,7 +73,7 @@ void locate(std::vector<SceneError>& errors, const std::string& file_name, const
     error.line = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
     error.column = 1;
     for (std::size_t i = before.rfind('\n') + 1; i < before.size(); ++i) {
-      // Characters, not bytes.
+      // Counts characters, not bytes.
       if ((static_cast<unsigned char>(before[i]) & 0xc0U) != 0x80U) ++error.column;
     }
   }

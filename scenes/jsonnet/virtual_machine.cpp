@@ -14,7 +14,7 @@
 
 #include <jsonnet_library.h>
 
-// Its header does not say that its functions are C's.
+// The header does not declare its functions as C functions.
 extern "C" {
 #include <libjsonnet.h>
 }
@@ -33,10 +33,10 @@ struct VmEnd {
 };
 using Vm = std::unique_ptr<JsonnetVm, VmEnd>;
 
-/// What the import callback needs.
+/// Data of the import callback.
 struct Importer {
   JsonnetVm* vm = nullptr;
-  std::vector<fs::path> folders;  // real paths that files may come from; the program's first
+  std::vector<fs::path> folders;  // real paths of the folders for imports; the program's first
   std::size_t most_bytes = 0;
   const std::function<void(const Source&)>* imported = nullptr;
 };
@@ -109,7 +109,7 @@ std::vector<fs::path> allowed_folders(const std::string& file_name, const Jsonne
   return folders;
 }
 
-/// Numbers, lists, true and the like are values; anything else is a text.
+/// Numbers, lists, true and the like are values; any other text is a string.
 void set_parameter(JsonnetVm* vm, const SceneParameter& parameter) {
   if (nlohmann::json::accept(parameter.value)) {
     jsonnet_tla_code(vm, parameter.name.c_str(), parameter.value.c_str());
@@ -135,7 +135,7 @@ Evaluation run_program(std::string_view text, const std::string& file_name,
   jsonnet_import_callback(vm.get(), import_file, &importer);
   const std::string program(text);
   if (!options.parameters.empty()) {
-    // Jsonnet itself says nothing of parameters that nobody takes.
+    // Jsonnet does not report parameters that the program does not take.
     int error = 0;
     const Vm judge(jsonnet_make());
     jsonnet_max_stack(judge.get(), limits.stack);
