@@ -8,9 +8,9 @@
 namespace sheave {
 namespace {
 
-/// A row is closed within this share of the scene's size.
+/// Relative residual, to the scene's size, below which a row is closed.
 constexpr double closed_within = 1e-8;
-/// A force that is so near to its bound is at it.
+/// Relative distance from a bound below which a force is at it.
 constexpr double at_bound = 1e-8;
 
 /// Rows without compliance whose forces follow from balance.
@@ -22,7 +22,7 @@ class RigidBalance {
     weights_ = mass.diagonal().cwiseSqrt().cwiseInverse();
   }
 
-  /// Rows beyond their bounds are let go one by one.
+  /// Releases rows beyond their bounds one by one.
   void solve() {
     while (!rigid_.empty()) {
       solve_all();
@@ -55,7 +55,7 @@ class RigidBalance {
     }
   }
 
-  /// That whose force is farthest beyond its bound; the count of rows if there is none.
+  /// The row whose force is farthest beyond its bound; the number of rows if there is none.
   [[nodiscard]] std::size_t worst_row() const {
     std::size_t worst = rigid_.size();
     double most = 1e-9 * scaled_.cwiseAbs().maxCoeff();
@@ -64,10 +64,10 @@ class RigidBalance {
       const ForceUnknown& unknown = acting_.rows.unknowns[i];
       const double force = acting_.unknowns[static_cast<Eigen::Index>(i)];
       double beyond = unknown.lower == 0.0 ? -force : unknown.upper == 0.0 ? force : 0.0;
-      // The bound of what is pressed together is left open.
+      // The bound of a row with a variable pressing force is not checked.
       if (unknown.dry_friction() && unknown.pressed_by < 0) {
         const double bound = unknown.upper;
-        // One that is at its bound, and no more, counts as little as any.
+        // A force exactly at its bound counts as little as possible.
         if (std::abs(force) >= (1.0 - at_bound) * bound) {
           beyond = std::max(std::abs(force) - bound, 2.0 * most / norms_[r]);
         }
@@ -81,10 +81,10 @@ class RigidBalance {
 
   Acting& acting_;
   std::vector<Eigen::Index> rigid_;
-  VectorX sum_;      // of loads and of forces that are known
-  VectorX weights_;  // of degrees of freedom
+  VectorX sum_;      // of loads and known forces
+  VectorX weights_;  // per degree of freedom
   VectorX norms_;    // of the rows' weighted actions
-  VectorX scaled_;   // forces times these
+  VectorX scaled_;   // forces times the norms
 };
 
 }  // namespace

@@ -11,11 +11,11 @@
 namespace sheave {
 namespace {
 
-/// So short that what drives and feeds do meanwhile is nothing, and long enough for multipliers,
-/// force x h^2, to be numbers.
+/// [s] So short that drives and feeds move nothing, and long enough for multipliers, force x h^2,
+/// to be usable numbers.
 constexpr double no_time = 1e-9;
 
-/// Makes of the sums over the rows of an unknown its damping; `h` is the length of the substep.
+/// Computes the damping of an unknown from the sums over its rows. `h`: length of the substep.
 void tell_damping(double h, ForceUnknown& unknown) {
   if (unknown.damper) {
     unknown.damping = h / unknown.compliance;
@@ -52,8 +52,7 @@ void Configuration::begin() {
 }
 
 void Configuration::find_dampers() {
-  // A row that resists speed has a compliance in proportion to the length of the substep, and
-  // nothing else has.
+  // Only a row that resists velocity has a compliance proportional to the length of the substep.
   begin();
   substep_.h = 2.0 * no_time;
   linearise();
@@ -179,8 +178,8 @@ ConfigurationRows Configuration::rows() {
       unknown_at_[f][at(row.index)] = unknown_of[at(i)];
       unknown.value += row.value;
       unknown.compliance += row.weight * row.compliance;
-      // Each row has a damper of its own, so where it moves slowly, T (sum of k a) is the sum of
-      // the stretches and of k a^2 b T'.
+      // Each row has its own damper, so for slow motion T (sum of k a) is the sum of the stretches
+      // and of k a^2 b T'.
       unknown.damping += row.weight * row.compliance * row.compliance * row.damping;
       result.weighted = result.weighted || row.weight != 1.0;
     }
@@ -210,7 +209,7 @@ VectorX Configuration::forces_at(const VectorX& unknowns) {
   for (std::size_t f = 0; f + 1 < feature_rows_.size(); ++f) {
     for (int i = feature_rows_[f]; i < feature_rows_[f + 1]; ++i) {
       const Row& row = rows_[at(i)];
-      // Rows that were none at the pose of rows() have no force.
+      // Rows that did not exist in the pose of rows() have no force.
       const Eigen::Index unknown = unknown_at_[f][at(row.index)];
       if (unknown < 0 || unknowns[unknown] == 0.0) continue;
       const double force = row.weight * unknowns[unknown];

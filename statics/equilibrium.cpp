@@ -18,16 +18,16 @@
 namespace sheave {
 namespace {
 
-/// The farthest that one step moves anything, as a share of the scene's size, turns it and spins a
-/// rotor [rad]: beyond that gradients say little.
+/// Largest motion in one step: translation relative to the scene's size, rotation, and spin of a
+/// rotor [rad]. Beyond that the gradients are not valid.
 constexpr double longest_step = 0.1;
 constexpr double largest_turn = 0.2;
 constexpr double largest_spin = 3.0;
-/// Rounding may leave this much more than was asked for.
+/// Residual that is acceptable if rounding prevents a smaller one.
 constexpr double acceptable = 1e-8;
 constexpr int patience = 6;
 constexpr int most_revisions = 20;
-/// Times that cables leave wheels where forces balance, until the search is given up.
+/// Number of times that cables may leave wheels at balanced forces before the search is given up.
 constexpr int most_let_go = 100;
 
 struct Residual {
@@ -59,7 +59,7 @@ class EquilibriumSearch {
     }
     describe(result);
     tell_events(before, result);
-    // What the search has passed through is no event of the machine.
+    // Events during the search are not events of the machine.
     for (const auto& feature : simulation_.world.features()) feature->return_to(NoteMark::step);
     return result;
   }
@@ -95,7 +95,7 @@ class EquilibriumSearch {
     }
   }
 
-  /// Newton's method with the loads of now.
+  /// Newton's method with the present loads.
   bool settle(Equilibrium& result) {
     double best = std::numeric_limits<double>::infinity();
     int since_best = 0;
@@ -115,7 +115,7 @@ class EquilibriumSearch {
         since_best = 0;
       }
       const bool rests = step_ <= settings_.tolerance && residual_.worst() <= settings_.tolerance;
-      // Or rounding is all that is left.
+      // Only rounding is left.
       const bool rounded =
           since_best >= patience && residual_.worst() <= acceptable && step_ <= acceptable;
       if (!rests && !rounded) continue;
@@ -132,7 +132,7 @@ class EquilibriumSearch {
     return false;
   }
 
-  /// One step; false if it has no numbers.
+  /// One step; false if it is not finite.
   bool advance() {
     Configuration configuration(simulation_, state_, load_);
     ConfigurationRows rows = configuration.rows();
@@ -163,8 +163,8 @@ class EquilibriumSearch {
     return true;
   }
 
-  /// Where all forces balance cables leave what they only hold on to, ends that are used up are
-  /// attached, and what is overloaded breaks. Whether any has.
+  /// Where all forces balance, cables leave wheels that they only touch, used-up ends are attached,
+  /// and overloaded cables break. Returns whether any of these happened.
   bool let_go() {
     if (simulation_.cables == nullptr) return false;
     const std::size_t before = simulation_.cables->events().size();
@@ -176,7 +176,7 @@ class EquilibriumSearch {
     return true;
   }
 
-  /// A step that is not too long, with what shift that takes.
+  /// A step of limited length, with the shift that this needs.
   NewtonStep limited_step(Configuration& configuration, const ConfigurationRows& rows,
                           const ForceTurn& turn, const VectorX& before) {
     double shift = std::max(wanted_shift(configuration, rows, turn, before), shift_ / 8.0);
@@ -191,16 +191,16 @@ class EquilibriumSearch {
     }
     shift_ = shift;
     if (!step.finite) return step;
-    // What rows ask for no shift shortens.
+    // Motions that rows require are not shortened by the shift.
     const double over = excess(configuration, step.motion);
     if (over > 1.0) step.motion /= over;
     return step;
   }
 
-  /// What a step may move the ends of a span by that meets a wheel, so that it does not come round
-  /// to the wheel's other side: then nobody could tell by which way it has.
+  /// Largest motion of the ends of a span at a wheel in one step. A longer step could move the span
+  /// to the wheel's other side, and its path would be undetermined.
   struct SpanLimit {
-    std::array<int, 2> bodies{};   // at its ends
+    std::array<int, 2> bodies{};   // at its two ends
     std::array<double, 2> arms{};  // of the ends [m]
     double most = 0.0;             // [m]
   };
@@ -251,7 +251,7 @@ class EquilibriumSearch {
     return most;
   }
 
-  /// With which what falls freely moves by a hundred times the scene [1/s2]: the least that counts.
+  /// Shift with which free fall moves by 100 times the scene [1/s2]: the smallest that counts.
   [[nodiscard]] double least_shift(const ConfigurationRows& rows) const {
     constexpr double share = 0.01;
     double fastest = 0.0;
@@ -261,8 +261,8 @@ class EquilibriumSearch {
     return fastest > 0.0 ? share * fastest / size_ : share;
   }
 
-  /// So much that no motion that rows leave runs away: what gives energy, and what has a force and
-  /// no stiffness.
+  /// The shift with which no motion that rows allow diverges: motions that give energy, and motions
+  /// with a force but no stiffness.
   double wanted_shift(const Configuration& configuration, const ConfigurationRows& rows,
                       const ForceTurn& turn, const VectorX& before) const {
     std::vector<char> acts(rows.unknowns.size(), 0);
@@ -279,7 +279,7 @@ class EquilibriumSearch {
     const VectorX values = solver.eigenvalues();
     const VectorX push =
         solver.eigenvectors().transpose() * (tangent.motions.transpose() * rows.loads);
-    double pushed = 0.0;  // what loads could do at most
+    double pushed = 0.0;  // largest possible effect of the loads
     for (Eigen::Index i = 0; i < rows.loads.size(); ++i) {
       pushed = std::hypot(pushed, rows.loads[i] / std::sqrt(mass_(i, i)));
     }
@@ -294,7 +294,7 @@ class EquilibriumSearch {
     return shift;
   }
 
-  /// Shortens a step of Newton's own after which there would be more left than before.
+  /// Shortens a Newton step after which the residual would be larger than before.
   void line_search(Configuration& configuration, const ConfigurationRows& rows,
                    const VectorX& before, NewtonStep& step) {
     if (shift_ > 0.0 || (before.size() > 0 && before.isZero(0.0))) return;
@@ -311,7 +311,7 @@ class EquilibriumSearch {
         return;
       }
     }
-    // No way down along it: by a step of implicit Euler the next time.
+    // No descent along the step: the next step is one of implicit Euler.
     step.motion *= share;
     step.unknowns = before + share * (step.unknowns - before);
     shift_ = 8.0 * least_shift(rows);
@@ -322,7 +322,8 @@ class EquilibriumSearch {
     Residual residual;
     if (unknowns.size() != static_cast<Eigen::Index>(rows.unknowns.size())) return {1.0, 1.0};
     const VectorX sum = rows.loads + rows.actions.transpose() * unknowns;
-    // A force is large or small beside those on the same degree of freedom, or those of the scene.
+    // The scale of a force is that of the other forces on the same degree of freedom, or in the
+    // scene.
     VectorX parts = rows.loads.cwiseAbs();
     parts += rows.actions.cwiseAbs().transpose() * unknowns.cwiseAbs();
     double largest = 0.0;
@@ -368,7 +369,7 @@ class EquilibriumSearch {
            "nearer to where it rests, or with more load steps";
   }
 
-  /// What can be told of the place where the search has ended.
+  /// Describes the pose in which the search has ended.
   void describe(Equilibrium& result) {
     load_ = 1.0;
     Configuration configuration(simulation_, state_, load_);
@@ -387,7 +388,7 @@ class EquilibriumSearch {
         const double bound = unknown.pressed_by < 0
                                  ? unknown.upper
                                  : unknown.friction * std::abs(unknowns[unknown.pressed_by]);
-        // What slips resists no more than it does.
+        // A slipping row does not resist further motion.
         acts[g] = std::abs(force) < (1.0 - acceptable) * bound ? 1 : 0;
       }
     }

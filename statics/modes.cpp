@@ -38,7 +38,7 @@ void find_poles(Modes& modes) {
                    [](const auto& a, const auto& b) { return std::abs(a) < std::abs(b); });
 }
 
-/// Moves a displaced configuration to where its rigid rows are met.
+/// Moves a displaced configuration until its rigid rows are met.
 void meet_rows(Configuration& configuration, const std::vector<char>& acts, VectorX& displacement) {
   constexpr int rounds = 12;
   for (int round = 0; round < rounds; ++round) {
@@ -83,7 +83,7 @@ Modes find_modes(Simulation& simulation, const std::vector<ModeInput>& inputs) {
   const VectorX loads = tangent.motions.transpose() * acting.rows.loads;
   const VectorX left = tangent.motions.transpose() *
                        (acting.rows.loads + acting.rows.actions.transpose() * acting.unknowns);
-  // Beside all that acts, not beside what of it is along the motions.
+  // Relative to all forces, not only to their components along the motions.
   VectorX whole = acting.rows.loads.cwiseAbs() +
                   acting.rows.actions.cwiseAbs().transpose() * acting.unknowns.cwiseAbs();
   for (Eigen::Index i = 0; i < whole.size(); ++i) whole[i] /= std::sqrt(tangent.mass(i, i));
@@ -91,9 +91,9 @@ Modes find_modes(Simulation& simulation, const std::vector<ModeInput>& inputs) {
 
   const Eigen::Index k = tangent.motions.cols();
   Eigen::SelfAdjointEigenSolver<MatrixX> solver(k);
-  // Of a matrix without entries it takes the largest one.
+  // The solver would access the largest entry of an empty matrix.
   if (k > 0) solver.compute(tangent.reduced_stiffness());
-  // Coordinates are those of the modes themselves: M is 1 and K diagonal.
+  // The coordinates are those of the modes: M is 1 and K is diagonal.
   modes.motions = tangent.motions;
   if (k > 0) modes.motions = tangent.motions * solver.eigenvectors();
   for (Eigen::Index i = 0; i < k; ++i) {
@@ -157,7 +157,7 @@ std::string largest_motion(const Simulation& simulation, const Mode& mode) {
   const auto part = [&](int k) { return mode.shape[freedom.first - 1 + k]; };
   const auto parts = [&](int k) { return Vector3(part(k), part(k + 1), part(k + 2)); };
   Vector3 way = Vector3::Zero();
-  Vector3 turn = Vector3::Zero();  // about axes of the world; of a body in a plane only its size
+  Vector3 turn = Vector3::Zero();  // about axes of the world; for a planar body only its magnitude
   switch (freedom.kind) {
     case Freedom::line:
       way = part(0) * freedom.along;
@@ -176,7 +176,7 @@ std::string largest_motion(const Simulation& simulation, const Mode& mode) {
       return "turn";
   }
   constexpr std::array<const char*, 3> axes{"x", "y", "z"};
-  constexpr double stays = 1e-6;  // above what rounding leaves of a shape [m per rad]
+  constexpr double stays = 1e-6;  // above the rounding of a shape [m per rad]
   const bool moves = way.norm() > stays * turn.norm();
   if (!moves && freedom.kind == Freedom::plane) return "turn";
   Eigen::Index largest = 0;

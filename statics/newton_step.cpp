@@ -9,14 +9,14 @@
 namespace sheave {
 namespace {
 
-/// Rows whose bounds are moved at once, in this many tries; then one by one.
+/// Number of tries in which all wrong rows change sides at once; later tries change one row.
 constexpr int tries_at_once = 8;
 constexpr int most_tries = 200;
-/// Below this the matrix has not its full rank.
+/// Below this reciprocal condition the matrix does not have full rank.
 constexpr double least_condition = 1e-13;
 constexpr double rank_threshold = 1e-11;
 
-/// Which rows are solved for.
+/// State of a row in the linear problem.
 enum class Side : char { off, free, lower, upper };
 
 class StepProblem {
@@ -38,7 +38,7 @@ class StepProblem {
       solve_linear();
       if (!finite_ || !change_sides(i < tries_at_once)) break;
     }
-    // What rounding leaves beyond a bound no feature would take.
+    // Features do not accept forces that exceed a bound by rounding.
     for (std::size_t g = 0; finite_ && g < sides_.size(); ++g) {
       double& force = unknowns_[static_cast<Eigen::Index>(g)];
       if (sides_[g] != Side::off) force = std::clamp(force, bounds_[g][0], bounds_[g][1]);
@@ -68,7 +68,7 @@ class StepProblem {
   }
   [[nodiscard]] double rounding() const { return 1e-14 * size_; }
 
-  /// Bounds of friction from what presses.
+  /// Updates the bounds of friction from the pressing forces.
   void follow_pressure() {
     for (std::size_t g = 0; g < sides_.size(); ++g) {
       const ForceUnknown& unknown = rows_.unknowns[g];
@@ -77,7 +77,7 @@ class StepProblem {
       const double bound = unknown.friction * std::abs(unknowns_[unknown.pressed_by]);
       bounds_[g] = {-bound, bound};
     }
-    // Friction in several directions is bounded as a vector.
+    // Friction in several directions has a common bound on its vector.
     for (std::size_t g = 0; g < sides_.size(); ++g) {
       const int count = rows_.unknowns[g].shares;
       if (count < 2) continue;
@@ -128,7 +128,7 @@ class StepProblem {
     }
   }
 
-  /// With rows and columns of the largest entry 1: units drop out.
+  /// Solves with rows and columns scaled to a largest entry of 1, so that units have no influence.
   static VectorX solve_scaled(MatrixX& matrix, VectorX& right) {
     const Eigen::Index n = matrix.rows();
     if (n == 0) return right;
@@ -154,7 +154,7 @@ class StepProblem {
       solution = lu.solve(scaled);
       solution += lu.solve(scaled - matrix * solution);
     }
-    // Where a pivot is 0 the estimate of the condition is no number, or any.
+    // With a pivot of 0 the estimate of the condition is NaN or arbitrary.
     if (solution.size() == 0 || !solution.allFinite()) {
       Eigen::CompleteOrthogonalDecomposition<MatrixX> decomposition;
       decomposition.setThreshold(rank_threshold);
@@ -165,7 +165,8 @@ class StepProblem {
     return columns.cwiseProduct(solution);
   }
 
-  /// Whether other rows have to act. `all`: changes all that are wrong, else the worst.
+  /// Changes the sides of rows. `all`: all wrong rows, otherwise the worst. Returns whether any has
+  /// changed.
   bool change_sides(bool all) {
     double worst = 0.0;
     std::size_t found = sides_.size();
@@ -189,7 +190,7 @@ class StepProblem {
     return changed;
   }
 
-  /// The side that it should have, and by how much it is wrong, as a share.
+  /// The side that the row should have, and the relative error of its present side.
   [[nodiscard]] std::pair<Side, double> wrong_side(std::size_t g, double largest_force) const {
     const auto i = static_cast<Eigen::Index>(g);
     const double force = unknowns_[i];

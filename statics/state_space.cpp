@@ -11,13 +11,13 @@
 namespace sheave {
 namespace {
 
-/// Whether its row is rigid and holds something.
+/// Whether the row is rigid and active.
 bool holds_rigidly(const Acting& acting, std::size_t g) {
   const ForceUnknown& unknown = acting.rows.unknowns[g];
   return acting.acts[g] != 0 && !unknown.damper && unknown.compliance == 0.0;
 }
 
-/// M-orthogonal displacement that rigid rows make of a unit of what a drive moves.
+/// M-orthogonal displacement that rigid rows cause per unit of a drive's motion.
 VectorX driven_motion(const Tangent& tangent, const Acting& acting, const VectorX& by_drive) {
   VectorX wanted(tangent.constraints.rows());
   Eigen::Index r = 0;
@@ -33,7 +33,7 @@ VectorX driven_motion(const Tangent& tangent, const Acting& acting, const Vector
   return along * Eigen::CompleteOrthogonalDecomposition<MatrixX>(yield).solve(wanted);
 }
 
-/// What a drive moves, as a state d with d' = u.
+/// The motion of a drive, as a state d with d' = u.
 class DrivenState {
  public:
   DrivenState(const Tangent& tangent, const Acting& acting, VectorX by_drive)
@@ -50,7 +50,7 @@ class DrivenState {
     }
   }
 
-  /// Writes it as the state at `place`, and as the input at `column`.
+  /// Writes it as the state with index `place` and the input with index `column`.
   void write(Eigen::Index place, Eigen::Index column, Modes& modes) const {
     const Eigen::Index k = modes.motions.cols();
     modes.state_matrix.block(k, place, k, 1) = -modes.motions.transpose() * pull_;
@@ -63,16 +63,16 @@ class DrivenState {
  private:
   VectorX by_drive_;
   VectorX motion_;
-  VectorX pull_;  // forces that balance a unit of it
-  VectorX drag_;  // and a unit of its speed
+  VectorX pull_;  // forces that balance a unit of d
+  VectorX drag_;  // forces that balance a unit of its speed
 };
 
 struct DriveRow {
   std::size_t feature = 0;
-  int multiplier = -1;  // -1: nothing drives it
+  int multiplier = -1;  // -1: no drive
 };
 
-/// Where the drive of a joint's coordinate is to be found.
+/// The row of the drive of a joint's coordinate.
 DriveRow joint_drive_row(const World& world, int joint, int coordinate) {
   const auto& joints = world.model().joints;
   const std::string_view type = joints[at(joint)]->type();
@@ -87,7 +87,7 @@ DriveRow joint_drive_row(const World& world, int joint, int coordinate) {
   return {};
 }
 
-/// That row's unknown; -1: it has none.
+/// The unknown of that row; -1: none.
 Eigen::Index drive_unknown(const World& world, const ConfigurationRows& rows,
                            const ModeInput& input) {
   const DriveRow drive = joint_drive_row(world, input.joint, input.coordinate);
@@ -100,10 +100,10 @@ Eigen::Index drive_unknown(const World& world, const ConfigurationRows& rows,
   return -1;
 }
 
-/// How one input acts: by a force along the degrees of freedom, or by what it moves.
+/// Effect of an input: a force along the degrees of freedom, or a motion.
 struct InputEffect {
-  VectorX force;     ///< empty if it moves something
-  VectorX by_drive;  ///< change of each row's C per unit of that
+  VectorX force;     ///< empty if the input is a motion
+  VectorX by_drive;  ///< change of each row's C per unit of the motion
 };
 
 InputEffect effect_of(Configuration& configuration, const World& world, const Acting& acting,
@@ -123,7 +123,7 @@ InputEffect effect_of(Configuration& configuration, const World& world, const Ac
       effect.by_drive = configuration.by_drive(input.body);
       break;
     case Kind::joint_drive: {
-      // C = c - d, or a force that is given.
+      // C = c - d, or a given force.
       const Eigen::Index row = drive_unknown(world, acting.rows, input);
       effect.by_drive = VectorX::Zero(count);
       if (row < 0) break;
@@ -186,7 +186,7 @@ State perturbed_state(Simulation& simulation, const Modes& modes, const Eigen::V
   const VectorX rate = modes.motions * x.segment(k, k);
   const VectorX acceleration = modes.motions * (modes.state_matrix.middleRows(k, k) * x);
   VectorX unknowns = acting.unknowns;
-  // What rigid rows do follows from the motion that they leave.
+  // Forces of rigid rows follow from the motion that they allow.
   VectorX missing = tangent.mass * acceleration + tangent.damping * rate + tangent.stiffness * q;
   std::vector<Eigen::Index> rigid;
   for (std::size_t g = 0; g < acting.acts.size(); ++g) {

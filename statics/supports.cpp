@@ -37,14 +37,14 @@ std::vector<SupportReaction> support_reactions(Simulation& simulation,
   const BodySet& bodies = simulation.world.bodies();
   const State state = simulation.world.state();
   Configuration configuration(simulation, state, 1.0);
-  // Cables tell their forces themselves: their rows leave out what moves nothing.
+  // Forces of cables come from their reports, because their rows omit bodies that cannot move.
   const std::size_t features = simulation.world.features().size();
   const std::size_t cables = simulation.cables != nullptr ? features - 1 : features;
   std::vector<Vector3> sums = configuration.forces_on_bodies(forces, cables);
   for (const CableReport& report : simulation.cable_reports()) add_cable(bodies, report, sums);
   const Vector3 gravity =
       state.controls.has_gravity ? state.controls.gravity : simulation.world.model().gravity;
-  // What acts on a mounted rotor its bearing hands on to its carrier.
+  // The bearing transmits the forces on a mounted rotor to its carrier.
   for (int i = 0; i < bodies.count(); ++i) {
     const int carrier = bodies[i].mount;
     if (carrier < 0) continue;
@@ -67,7 +67,7 @@ std::vector<SupportReaction> support_reactions(Simulation& simulation,
     largest = std::max(largest, force.norm());
     reactions.push_back({world ? BodyId::world() : BodyId{i}, -force});
   }
-  // Weights that ropes carry leave rounding.
+  // Weights carried by ropes leave rounding errors.
   constexpr double rounding = 1e-9;
   std::erase_if(reactions, [&](const SupportReaction& reaction) {
     return reaction.force.norm() <= rounding * largest;

@@ -13,15 +13,15 @@ namespace {
 /// Singular values below this share of the largest are rounding; rows have norm 1.
 constexpr double rank_rounding = 1e-10;
 
-/// The first step of differences, as a share of the scene's size and in radians; and by which part
-/// it is shortened how often where that helps.
+/// The first step of differences, relative to the scene's size and in radians; then the factor and
+/// the largest number of reductions that improve it.
 constexpr double difference_step = 1e-4;
 constexpr double shorter = 0.125;
 constexpr int most_steps = 5;
-/// As good as differences need be, as a share of what they tell of one degree of freedom.
+/// Relative accuracy at which the reductions stop, per degree of freedom.
 constexpr double good_enough = 1e-9;
 
-/// How forces change with one degree of freedom.
+/// Change of the forces with one degree of freedom.
 struct TurnColumn {
   VectorX forces;
   double error = 0.0;  ///< a bound
@@ -56,7 +56,7 @@ ForceTurn turn_of_forces(Configuration& configuration, const VectorX& unknowns, 
       if (best.error <= good_enough * best.forces.cwiseAbs().maxCoeff()) break;
       step *= shorter;
       TurnColumn column = column_of(configuration, unknowns, k, step);
-      if (!(column.error < best.error)) break;  // it has come to where rounding counts
+      if (!(column.error < best.error)) break;  // rounding dominates from here on
       best = std::move(column);
     }
     turn.forces.col(k) = best.forces;
@@ -100,7 +100,7 @@ Tangent make_tangent(const Configuration& configuration, const ConfigurationRows
         rows.actions.row(i).transpose() * rows.gradients.row(i) / unknown.compliance;
     tangent.damping += unknown.damping * rows.actions.row(i).transpose() * rows.gradients.row(i);
   }
-  // In coordinates y = L^T q of M = L L^T every motion of norm 1 has the same energy.
+  // In coordinates y = L^T q with M = L L^T all motions of norm 1 have the same energy.
   const MatrixX root = Eigen::LLT<MatrixX>(tangent.mass).matrixL();
   tangent.constraints = MatrixX::Zero(static_cast<Eigen::Index>(rigid.size()), n);
   for (std::size_t r = 0; r < rigid.size(); ++r) {
