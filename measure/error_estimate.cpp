@@ -16,7 +16,7 @@ namespace {
 constexpr double trusted_level = 1e-3;
 constexpr int most_substeps = 100'000;
 
-/// The larger of the sizes of what the bodies and what the spans' ends fill [m].
+/// The larger of the sizes of the boxes round the bodies and round the spans' ends [m].
 double size_of(const Simulation& simulation) {
   Eigen::AlignedBox3d box;
   for (const CableReport& cable : simulation.cable_reports()) {
@@ -26,7 +26,7 @@ double size_of(const Simulation& simulation) {
   return box.isEmpty() ? bodies : std::max(bodies, box.diagonal().norm());
 }
 
-/// An order says nothing where more may have moved than the differences show.
+/// An order is meaningless if unseen motion may exceed the differences.
 StepDifference with_unseen(StepDifference difference, double unseen) {
   difference.unseen = unseen;
   if (difference.order && unseen > difference.error()) difference.order.reset();
@@ -108,8 +108,8 @@ void ErrorEstimator::observe(const Simulation& run, const StopRequest& stop) {
 }
 
 void ErrorEstimator::look_for_unseen() {
-  // A delay by dt, of which the finest run shows none that is less than its substep, moves what
-  // comes after it by dt times its speed.
+  // A delay dt moves everything after the event by dt times its speed. The finest run cannot show a
+  // delay below its substep.
   const double delay = 0.25 * step_.dt / step_.substeps;
   double sum = 0.0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {

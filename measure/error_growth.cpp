@@ -11,15 +11,14 @@ constexpr double rounding = 1e-12;
 constexpr double saturated = 0.03;
 constexpr std::size_t fewest_frames = 10;
 constexpr double least_growth = 100.0;
-/// Part of the variance that a law may leave unexplained. An impact is a leap and no growth: no law
-/// has it.
+/// Part of the variance that a law may leave unexplained. No law describes the jump of an impact.
 constexpr double unexplained = 0.1;
 
 /// A straight line through points by least squares.
 struct Line {
   double slope = 0.0;
   double residual = 0.0;  ///< sum of squares
-  double total = 0.0;     ///< the same of a line without slope
+  double total = 0.0;     ///< the same for a line without slope
 };
 
 double mean_of(const std::vector<double>& values) {

@@ -71,7 +71,7 @@ void EventWatch::look_at_cables(const Simulation& run) {
   taut_.resize(spans);
   for (std::size_t k = 0; k < spans; ++k) {
     const bool taut = own.reals[run.cables->tension_index(static_cast<int>(k))] > 0.0;
-    // Before the first substep nobody knows.
+    // Tensions are unknown before the first substep.
     if (substeps_ > 1 && taut != taut_[k]) ++changes_.slack;
     taut_[k] = taut;
   }

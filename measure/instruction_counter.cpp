@@ -21,7 +21,7 @@ InstructionCounter::InstructionCounter() {
   attributes.config = PERF_COUNT_HW_INSTRUCTIONS;
   attributes.exclude_kernel = 1;
   attributes.exclude_hv = 1;
-  // How long it was wanted and how long it ran: if they differ, the count is not whole.
+  // Time enabled and time running: if they differ, the count is incomplete.
   attributes.read_format = PERF_FORMAT_TOTAL_TIME_ENABLED | PERF_FORMAT_TOTAL_TIME_RUNNING;
   constexpr int this_thread = 0;
   constexpr int any_cpu = -1;

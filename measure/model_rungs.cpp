@@ -10,7 +10,7 @@
 namespace sheave::measure {
 namespace {
 
-/// Which of the cables are not so yet.
+/// Sets the update of all cables; returns the number of changed ones.
 int set_tangents(Scene& scene, TangentUpdate update) {
   int count = 0;
   for (CableDef& cable : scene.cables) {
@@ -32,7 +32,7 @@ int remove_ground(Scene& scene) {
   return count;
 }
 
-/// Damping of a rod or string acts only where it is elastic, so both go together.
+/// Damping of a rod or string acts only if it is elastic, so both are reset together.
 int make_joints_rigid(Scene& scene) {
   const int count = reset_joints(scene, {"compliance"});
   for (auto& joint : scene.model.joints) {

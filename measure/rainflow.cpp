@@ -10,8 +10,7 @@ LoadCycle cycle(double from, double to, double count) {
   return {std::abs(to - from), 0.5 * (from + to), count};
 }
 
-/// A range between two turning points that is no larger than those before and after it is a whole
-/// cycle.
+/// A range between two turning points that does not exceed its neighbours is a full cycle.
 void close_whole(std::vector<double>& points, std::vector<LoadCycle>& cycles) {
   while (points.size() >= 4) {
     const std::size_t n = points.size();
@@ -24,7 +23,7 @@ void close_whole(std::vector<double>& points, std::vector<LoadCycle>& cycles) {
   }
 }
 
-/// Adds a value to turning points: as a new one, or as the end of a way that goes on.
+/// Adds a value to turning points: as a new one, or as the end of a continued range.
 void turn_to(double value, std::vector<double>& points) {
   const std::size_t n = points.size();
   if (n > 0 && value == points.back()) return;
@@ -51,8 +50,8 @@ std::vector<LoadCycle> Rainflow::cycles() const {
   std::vector<LoadCycle> result = cycles_;
   std::vector<double> rest = points_;
   close_whole(rest, result);
-  // Of what is left ranges grow, then shrink. One with the first point of all is a half cycle once
-  // the next is no smaller, and so are all that are left.
+  // The remaining ranges grow, then shrink. A range from the very first point is a half cycle once
+  // the next range is not smaller, and so are all remaining ones.
   for (std::size_t i = 1; i < rest.size(); ++i) {
     result.push_back(cycle(rest[i - 1], rest[i], 0.5));
   }
@@ -64,8 +63,8 @@ std::vector<LoadCycle> Rainflow::closed_cycles() const {
   std::vector<double> rest = points_;
   close_whole(rest, result);
   if (rest.size() < 2) return result;
-  // From its largest value on and round to it again, no range is larger than the first one: every
-  // one that the next is no smaller than is whole.
+  // From the largest value round to itself, no range exceeds the first one, so every range that is
+  // not larger than the next is a full cycle.
   const auto largest = std::max_element(rest.begin(), rest.end());
   std::vector<double> ring;
   for (auto i = largest; i != rest.end(); ++i) turn_to(*i, ring);

@@ -29,7 +29,7 @@ Result<Reference> reference_run(Scene scene, const ReferenceOptions& options) {
                       step.substeps,
                       options.integrator};
   double last = options.clock.cpu();
-  double duration = last - start;  // of the last run
+  double duration = last - start;  // CPU time of the last run [s]
   bool first_difference = true;
   while (!reference.good && step.substeps <= options.most_substeps / 2) {
     // Half the step takes twice the time.
@@ -37,7 +37,7 @@ Result<Reference> reference_run(Scene scene, const ReferenceOptions& options) {
     first_difference = false;
     step.substeps *= 2;
     Result<Trajectory> finer = record(scene, options.observe, options.stop);
-    // What there was before still holds if the observer ends a finer run.
+    // Earlier runs remain valid if the observer ends a finer run.
     if (!finer && !reference.differences.empty()) break;
     if (!finer) return finer.errors();
     const RunError difference = error_of(reference.trajectory, *finer);

@@ -8,19 +8,20 @@
 namespace sheave::measure {
 namespace {
 
-/// The cable's way as places in order: links that it touches, and spans, each with where it ends.
+/// The cable's course as places in order: touched links and spans, with their positions along the
+/// cable.
 struct Place {
-  int number = 0;      ///< 2 x link, or that + 1 of the span behind it
+  int number = 0;      ///< 2 x link; + 1 for the span behind it
   double start = 0.0;  ///< [m]
   double end = 0.0;    ///< [m]
   double tension = 0.0;
   double diameter = 0.0;
-  Vector3 sense = Vector3::Zero();  ///< in which it bends
+  Vector3 sense = Vector3::Zero();  ///< axis of the bend
 };
 
-/// Beyond the edge of a place, as a share of its length, a section's middle is elsewhere.
+/// Fraction of a section's length by which its middle must pass an edge to count as elsewhere.
 constexpr double edge = 0.1;
-/// Cycles below this share of the largest tension are not told.
+/// Cycles below this fraction of the largest tension are left out.
 constexpr double least_cycle = 1e-3;
 
 std::vector<Place> places_of(const CableReport& report) {
@@ -68,8 +69,8 @@ void count_bend(std::vector<SectionBends>& bends, const Place& on, Vector3& sens
   found->mean_tension += (on.tension - found->mean_tension) / found->bends;
 }
 
-/// Where the middle of a section is that was at `before` (-1: nobody knows): still there as long as
-/// it is not clearly beyond an edge.
+/// The place of a section's middle that was at `before` (-1: unknown). It stays there until it is
+/// clearly beyond an edge.
 const Place& place_of(const std::vector<Place>& places, double middle, int before, double slop) {
   for (const Place& place : places) {
     if (place.number == before && middle >= place.start - slop && middle <= place.end + slop) {
@@ -119,7 +120,7 @@ void RopeHistory::follow(const CableReport& report, bool tensions_known, Cable& 
   for (Section& section : cable.sections) {
     const Place& place = place_of(places, section.middle, section.place, slop);
     const auto look = [&](const Place& passed) {
-      // What it was on it has left; what lies between it has passed over.
+      // The section has left its old place and has passed over the places between.
       const int low = std::min(section.place, place.number);
       const int high = std::max(section.place, place.number);
       const bool between = passed.number > low && passed.number < high;

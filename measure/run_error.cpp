@@ -11,7 +11,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double square_displacement(const TrackedBody& body, const TrackedBody& other, const BodyPose& pose,
                            const BodyPose& right) {
-  // Of one body in two models, one may count its turns and the other not.
+  // Of one body in two models, one may count full turns and the other not.
   const PoseDifference apart =
       pose_difference(pose, right, body.turns_by_angle && other.turns_by_angle);
   return apart.position.squaredNorm() + body.reach * body.reach * apart.turn.squaredNorm();
@@ -31,7 +31,7 @@ double position_error(const Trajectory& run, std::size_t frame, const Trajectory
 double tension_error(const Trajectory& run, const Trajectory& reference) {
   double difference = 0.0;
   double size = 0.0;
-  // Tensions mean nothing before the first step.
+  // Tensions are not defined before the first step.
   for (std::size_t f = 1; f < reference.frames.size(); ++f) {
     for (std::size_t k = 0; k < reference.frames[f].tensions.size(); ++k) {
       const double right = reference.frames[f].tensions[k];
@@ -53,7 +53,7 @@ double energy_error(const Trajectory& run, const Trajectory& reference) {
     difference = std::max(difference, std::abs(run.frames[f].energy - right.energy));
     size = std::max({size, std::abs(right.energy - start), right.kinetic_energy});
   }
-  // What never moves in truth has an energy to compare with only by rounding.
+  // If nothing moves in the reference, its energy differs only by rounding.
   return size > 1e-12 * std::abs(start) && size > 0.0 ? difference / size : 0.0;
 }
 

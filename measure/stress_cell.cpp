@@ -6,7 +6,7 @@
 namespace sheave::measure {
 namespace {
 
-/// In single quotes if a shell would take it for more than a word.
+/// Puts the text in single quotes unless a shell takes it as one word.
 std::string shell_word(const std::string& text) {
   constexpr std::string_view plain =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-./=_,:";
@@ -41,7 +41,8 @@ SceneResult StressCell::scene(SolverKind solver, IntegratorKind integrator) cons
   SceneResult generated = generate_scene(kind, settings);
   if (!generated) return generated;
   if (!overrides.empty()) return load_scene_text(write_scene(*generated), kind, all);
-  // Loading the text would give exactly this, but large scenes take longer to read than to run.
+  // Loading the text would give exactly this scene, but large scenes take longer to read than to
+  // run.
   generated.scene->model.step.solver = solver;
   generated.scene->model.step.integrator = integrator;
   return generated;

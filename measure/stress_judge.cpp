@@ -11,11 +11,12 @@ namespace sheave::measure {
 namespace {
 
 constexpr double length_error_limit = 1e-9;
-constexpr double energy_gain_limit = 0.1;  // of the largest kinetic energy
-/// Of positions relative to the scene's size, and of potential energy: some thousand roundings.
+constexpr double energy_gain_limit = 0.1;  // relative to the largest kinetic energy
+/// Relative rounding of positions to the scene's size, and of potential energy: some thousand
+/// roundings.
 constexpr double rounding = 1e-12;
-constexpr double slack_limit = 1e-6;      // of the tension that there should be
-constexpr double tolerance_share = 1e-3;  // what a tolerance of a generated check is of its size
+constexpr double slack_limit = 1e-6;      // relative to the required tension
+constexpr double tolerance_share = 1e-3;  // tolerance of a generated check relative to its size
 
 double moving_mass(const BodyProperties& body) {
   const bool moves = body.mobility != Mobility::fixed && body.mobility != Mobility::kinematic;
@@ -27,7 +28,7 @@ bool wants_pull(const CheckDef& check) {
          check.equals > check.allowed_error();
 }
 
-/// By how much more than its length a rigid cable is stretched, relative to it; 0 for elastic ones.
+/// Excess length of a rigid cable relative to its length; 0 for elastic cables.
 double stretch_of(const CableReport& cable) {
   if (!(cable.max_stretch > 0.0) || cable.cut) return 0.0;
   double excess = 0.0;
@@ -40,7 +41,7 @@ double stretch_of(const CableReport& cable) {
 }  // namespace
 
 bool is_conservative(const Scene& scene) {
-  // Controllers and triggers set drives and forces.
+  // Controllers and triggers may set drives and forces.
   if (!scene.controllers.empty() || !scene.triggers.empty()) return false;
   return certify::is_passive(scene.model, scene.cables);
 }

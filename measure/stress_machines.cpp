@@ -1,26 +1,27 @@
-// The standard stability maps. Each cell is a generated scene whose checks are closed forms; where
-// a map changes the machine in a way that the generator does not know, it sets the checks' values
-// too.
+// The standard stability maps. Each cell is a generated scene whose checks are closed forms. If a
+// map changes the machine in a way that the generator does not know, it also sets the values of the
+// checks.
 //
-// Atwood, wheel train, tackle: the generators' closed forms hold for all masses, sizes and
+// Atwood, wheel train, tackle: the closed forms of the generators hold for all masses, sizes and
 // gravities.
 //
-// Elastic. Two weights on a cable with compliance c per span over a massless wheel: both spans pull
-// with one tension T, and the cable is a spring of compliance 2c between the weights, w^2 = (1/m1 +
+// Elastic. Two weights on a cable with compliance c per span over a massless wheel: both spans have
+// the same tension T, and the cable is a spring of compliance 2c between the weights, w^2 = (1/m1 +
 // 1/m2) / (2c). From rest, just taut,
-//   T = T0 (1 - cos wt) with T0 = 2 m1 m2 g / (m1 + m2);   its mean over a duration D is T0 (1 - sin(wD) / (wD)),
+//   T = T0 (1 - cos wt) with T0 = 2 m1 m2 g / (m1 + m2);
+//   its mean over a duration D is T0 (1 - sin(wD) / (wD)),
 //   v2 = -g D + (1/m2) x the integral of T, and v1 = -g D + (1/m1) x the same.
-// A vibration that a step cannot resolve is damped by xpbd to T = T0, and the mean goes to T0 too
-// as wD grows. So the closed form holds at both ends. Errors of the tension are relative to T0: of
-// a cable so soft that it hardly pulls yet, the first order of xpbd leaves a larger share, which
-// nothing that moves can feel.
+// xpbd damps a vibration that a step cannot resolve to T = T0, and the mean also tends to T0 as wD
+// grows. The closed form therefore holds at both ends. Errors of the tension are relative to T0:
+// for a cable so soft that its tension is still small, the first order of xpbd leaves a larger
+// relative error, which has no effect on the motion.
 //
 // Capstan. The cable slips over a fixed wheel, half a turn of it, with friction f, q = e^(pi f):
 // nothing moves if m2 <= q m1; else a = (m2 - q m1) g / (m2 + q m1) and T1 = m1 (g + a), T2 = q T1
 // = m2 (g - a).
 //
-// Gravity 0 and upwards. Without gravity nothing moves and nothing pulls. Upwards both weights rise
-// freely; the cable is slack.
+// Gravity 0 and upwards. Without gravity nothing moves and all tensions are 0. With upward gravity
+// both weights rise freely and the cable is slack.
 
 #include <algorithm>
 #include <cmath>
@@ -54,14 +55,13 @@ class MapMaker {
   [[nodiscard]] int by() const { return range_.quick ? 6 : 1; }
   [[nodiscard]] bool quick() const { return range_.quick; }
 
-  /// Half a second, but at least 10 steps and at most 2000 (quick: 200): what fails does so early,
-  /// or grows.
+  /// 0.5 s, but at least 10 steps and at most 2000 (quick: 200): failures occur early or grow.
   [[nodiscard]] double duration(double dt) const {
     const double most = range_.quick ? 200.0 : 2000.0;
     return dt * std::clamp(std::round(0.5 / dt), 10.0, most);
   }
 
-  /// A cell with the step, a suitable duration and as many iterations as the paper has.
+  /// A cell with the step, a suitable duration and the paper's number of iterations.
   [[nodiscard]] StressCell cell(const char* kind, double dt) const {
     StressCell made;
     made.kind = kind;
@@ -78,7 +78,7 @@ class MapMaker {
 void set(StressCell& cell, const char* option, double value) {
   cell.settings.push_back({option, stress_number(value)});
 }
-/// Gives a check of the scene another value, with a tolerance of a thousandth of it or of `size`.
+/// Changes the value of a check of the scene; the tolerance is 1/1000 of the value or of `size`.
 void expect(StressCell& cell, int check, double value, double size) {
   const std::string pointer = "/checks/" + std::to_string(check);
   cell.replace(pointer + "/equals", stress_number(value));
@@ -95,7 +95,7 @@ StressMap atwood_map(const MapMaker& maker) {
         StressCell cell = maker.cell("wheel-train", dt);
         set(cell, "wheels", 1);
         set(cell, "last_mass", ratio);
-        // In balance nothing accelerates; errors are then relative to gravity.
+        // In balance all accelerations are 0; errors are then relative to gravity.
         if (ratio == 1.0) {
           expect(cell, first_rate, 0.0, g);
           expect(cell, last_rate, 0.0, g);
@@ -142,7 +142,7 @@ StressMap elastic_map(const MapMaker& maker) {
         if (c > 0.0) {
           const double angle =
               std::sqrt((1.0 / first_mass + 1.0 / last_mass) / (2.0 * c)) * duration;
-          // 1 - sin x / x loses its digits where x is small; there it is x^2 / 6.
+          // 1 - sin x / x loses its digits for small x; there it is x^2 / 6.
           mean *= angle < 1e-3 ? angle * angle / 6.0 : 1.0 - std::sin(angle) / angle;
         }
         expect(cell, first_rate, -g + mean / first_mass, g);
@@ -183,8 +183,8 @@ StressMap spin_map(const MapMaker& maker) {
       "spin", "Two weights over one wheel that turns so often in the last step.",
       {"turns per step", std::move(turns)}, maker.steps(), [&](double turns_per_step, double dt) {
         StressCell cell = maker.cell("wheel-train", dt);
-        // v dt = 2 pi r x turns at the end, with v = a x duration; a as of the machine with these
-        // masses.
+        // v dt = 2 pi r x turns at the end, with v = a x duration, where a is that of the machine
+        // with these masses.
         constexpr double radius = 0.5;
         WheelTrainOptions options;
         options.wheels = 1;
@@ -242,14 +242,15 @@ StressMap gravity_map(const MapMaker& maker) {
                          {"rise of the weights [m]", {0.0, 1e-9, 1e-6, 1e-3, 0.1, 1.0}},
                          maker.steps(), [&](double rise, double dt) {
                            StressCell cell = maker.cell("wheel-train", dt);
-                           // They start more than 1.5 m below the wheel, so the cable stays slack.
+                           // The weights start more than 1.5 m below the wheel, so the cable stays
+                           // slack.
                            const double upwards = 2.0 * rise / std::pow(maker.duration(dt), 2);
                            set(cell, "wheels", 1);
                            cell.replace("/gravity", "[0, " + stress_number(upwards) + ", 0]");
                            const double size = rise > 0.0 ? 0.0 : g;
                            expect(cell, first_rate, upwards, size);
                            expect(cell, last_rate, upwards, size);
-                           // What pulls would be of the size of the weights; 1 kg and 2 kg.
+                           // A tension would be of the size of the weights; 1 kg and 2 kg.
                            expect(cell, first_tension, 0.0, rise > 0.0 ? upwards : g);
                            expect(cell, last_tension, 0.0, rise > 0.0 ? upwards : g);
                            return cell;

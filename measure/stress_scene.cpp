@@ -1,14 +1,15 @@
-// Stability maps of any scene, which has no closed form for what these maps do to it.
+// Stability maps of any scene. No closed form says how a scene answers to these changes.
 //
-// gravity     gravity times a factor, also none and reversed: judged by what is wrong in any machine (diverged, energy gain,
-//             lost length), and by how much longer than allowed its rigid cables are.
-// mass,       all masses or all lengths times a factor, with everything that goes with them: such a run is similar to the
-// length      original (scenes/scaling.h), so its error is known.
-// random      every mass, force, stiffness and damping times a random factor of its own, up to so many decades either way;
-//             each row is another draw. Judged like gravity.
+// gravity     Gravity times a factor, also zero and reversed. The judge looks for faults that are
+//             faults in any machine (divergence, gain of energy, lost length), and for rigid cables
+//             that are longer than the tolerance allows.
+// mass,       All masses or all lengths times a factor, with every quantity that scales with them.
+// length      Such a run is similar to the original (scenes/scaling.h), so its error is known.
+// random      Every mass, force, stiffness and damping times a random factor of its own, up to a
+//             given number of decades either way. Each row is another draw, judged like gravity.
 //
-// The scene's own step is among those tried, for its whole duration if that is no more than 2000 steps. The other runs are short:
-// what fails does so early, or grows.
+// The scene's own step is one of the steps tried; it runs for its whole duration if that takes at
+// most 2000 steps. The other runs are short, because a failure shows early or grows.
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +24,12 @@
 namespace sheave::measure {
 namespace {
 
-/// How many cells, and how long they run.
+/// Number of cells, and the length of their runs.
 struct Extent {
   std::vector<double> gravities, steps, factors, decades;
   int draws = 0;
   double most_steps = 0.0;
-  double most_own_steps = 0.0;  // with the scene's own step; 0: that is none of `steps`
+  double most_own_steps = 0.0;  // with the scene's own step; 0: that step is not tried
 };
 
 const Extent quick_extent{
@@ -40,7 +41,7 @@ const Extent full_extent{{0.0, -1.0, 1e-3, 0.1, 1.0, 10.0, 100.0, 1e3, 1e6},
                          10,
                          200.0,
                          2000.0};
-/// Of scenes that take milliseconds per step.
+/// For scenes that take milliseconds per step.
 const Extent built_in_extent{{0.0, -1.0, 0.1, 1.0, 10.0, 100.0, 1e6},
                              {1e-3, 1.0 / 60.0, 1.0 / 30.0},
                              {1e-6, 1e-3, 1e3, 1e6},
@@ -100,7 +101,7 @@ class SceneMaps {
           std::mt19937_64 generator(static_cast<std::uint64_t>(seed));
           for (const ScalableSetting& setting : settings_) {
             if (setting.powers.mass == 0) continue;
-            // The standard's distributions differ from library to library.
+            // The distributions of the standard library differ between implementations.
             const double share = static_cast<double>(generator() >> 11U) / 0x1p53;
             cell.overrides.push_back(scaled(setting, std::pow(10.0, most * (2.0 * share - 1.0))));
           }
@@ -114,7 +115,7 @@ class SceneMaps {
  private:
   [[nodiscard]] bool is_own(double dt) const { return std::abs(dt - dt_) < 1e-9 * dt_; }
 
-  /// The scene's own step among them.
+  /// The step lengths, including the scene's own step.
   [[nodiscard]] StressAxis steps() const {
     std::vector<double> all = extent_.steps;
     const auto own = [&](double dt) { return is_own(dt); };
@@ -125,8 +126,8 @@ class SceneMaps {
     return {"step [s]", std::move(all)};
   }
 
-  /// The scene with this step, for 10 to 200 steps, without its checks; with its own step for as
-  /// long as it says itself, if that is not much longer.
+  /// The scene with this step, for 10 to 200 steps, without its checks; with its own step for its
+  /// own duration, if that is not much longer.
   [[nodiscard]] StressCell shortened(double dt) const {
     StressCell cell = origin_;
     const bool whole = is_own(dt) && extent_.most_own_steps > 0.0;
@@ -168,7 +169,7 @@ Result<std::vector<StressMap>> scene_stress_maps(const std::string& path,
     for (const SceneError& error : scene.errors) errors.push_back({"", to_string(error)});
     return errors;
   }
-  // Settings are changed in the scene that a program makes, not in the program.
+  // Settings are changed in the scene that a program generates, not in the program.
   const std::string text = jsonnet::is_program(path) ? write_scene(*scene) : std::move(read.text);
   StressCell origin;
   origin.path = path;
@@ -182,7 +183,7 @@ std::vector<StressMap> built_in_stress_maps(const StressRange& range) {
   for (const std::string_view name : stress_scene_names) {
     const std::string_view text = *stress_scene(name);
     const SceneResult scene = load_scene_text(text, std::string(name));
-    if (!scene) continue;  // a test says that they are valid
+    if (!scene) continue;  // a test ensures that they are valid
     StressCell origin;
     origin.built_in = name;
     const SceneMaps maps(std::move(origin), *scene, scalable_settings(text),

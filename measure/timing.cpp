@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int64_t warm_up_frames = 60;
 
-/// What one sample came to, per frame.
+/// Result of one sample, per frame.
 struct Sample {
   double seconds = 0.0;
   std::optional<double> instructions;

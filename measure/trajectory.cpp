@@ -9,7 +9,7 @@
 namespace sheave::measure {
 namespace {
 
-/// Largest distance of the body's surface from its origin, as far as turning about its axis goes.
+/// Largest distance of the body's surface from its origin that matters for rotation about its axis.
 double reach_of(const BodyDef& body) {
   double reach = 0.0;
   for (const PlacedShape& placed : body.shapes) {
@@ -42,7 +42,7 @@ Frame frame_from(const Simulation& simulation, const std::vector<TrackedBody>& b
   return frame;
 }
 
-/// Adds a frame and what it says about the cables' lengths.
+/// Adds a frame and its figures of the cables' lengths.
 void add_frame(const Scene& scene, const Simulation& simulation, Trajectory& trajectory) {
   const std::vector<CableReport> reports = simulation.cable_reports();
   std::size_t spans = 0;

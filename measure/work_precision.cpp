@@ -27,7 +27,7 @@ std::vector<std::size_t> pareto_front(std::span<const WorkPoint> points) {
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return std::tie(points[a].cost, points[a].bound) < std::tie(points[b].cost, points[b].bound);
   });
-  // From the cheapest on, each one that is better than all cheaper ones.
+  // From the cheapest on, each point that is better than all cheaper ones.
   std::vector<std::size_t> front;
   for (const std::size_t i : order) {
     if (front.empty() || points[i].bound < least_gain * points[front.back()].bound)

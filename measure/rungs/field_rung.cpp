@@ -31,7 +31,7 @@ void copy_field(const Field& field, const void* from, void* to) {
       target);
 }
 
-/// Copies the named fields, or all if `names` is null. Whether any had another value.
+/// Copies the named fields, or all if `names` is null. Returns whether any value has changed.
 bool copy_fields(std::span<const Field> table, const void* from, void* to,
                  const FieldNames* names = nullptr) {
   bool changed = false;
@@ -53,7 +53,7 @@ int reset_structs(std::vector<Def>& list, const FieldNames& names) {
   return count;
 }
 
-/// The definition again with the named fields of its type at their defaults; null if nothing
+/// A copy of the definition with the named fields of its type at their defaults; null if nothing
 /// changes.
 template <class Def>
 std::shared_ptr<const Def> reset_one(std::span<const TypeEntry<Def>> types, const Def& old,
@@ -64,7 +64,7 @@ std::shared_ptr<const Def> reset_one(std::span<const TypeEntry<Def>> types, cons
   std::shared_ptr<Def> copy = entry->make();
   const std::unique_ptr<Def> defaults = entry->make();
   copy_fields(Def::common_field_table(), &old, copy.get());
-  // settings() is the object that was made here, as its own type.
+  // settings() points to the object that was created here, as its derived type.
   void* const own = const_cast<void*>(copy->settings());
   copy_fields(entry->fields(), old.settings(), own);
   const bool changed = copy_fields(entry->fields(), defaults->settings(), own, &names);

@@ -22,7 +22,7 @@ bool turns_freely(const BodyDef& body) {
          body.angular_damping == 0.0 && !body.wrappable;
 }
 
-/// How many links touch a body, and whether a massless wheel could be under all of them.
+/// Number of links on a body, and whether all of them allow a massless wheel.
 struct Use {
   int links = 0;
   bool fit = true;

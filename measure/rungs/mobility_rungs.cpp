@@ -18,8 +18,8 @@ Vector3 axle_of(const BodyDef& rotor) {
   return rotor.orientation.normalized() * Vector3::UnitZ();
 }
 
-/// Moments of inertia about the body's axes of a mounted rotor as a body of its own; nothing if
-/// there is no such body.
+/// Moments of inertia, about the body's axes, of a mounted rotor as a separate body; nothing if no
+/// physical body has them.
 std::optional<Vector3> moments_of_mounted(const BodyDef& rotor) {
   if (rotor.shapes.empty() && !rotor.inertia) return std::nullopt;
   const MassProperties unit = combine(rotor.shapes, 1.0);
@@ -46,12 +46,12 @@ void set_drive(const BodyDef& rotor, JointCoordinate& angle) {
   angle.drive_values = rotor.drive_values;
   angle.drive_interpolation = rotor.drive_interpolation;
   if (rotor.drive != DriveKind::angle) return;
-  // A hinge's angle is 0 at time 0; of a rotor's only the change counts.
+  // A hinge's angle is 0 at time 0; for a rotor only the change of its angle counts.
   const double start = rotor.drive_table().at(0.0);
   for (double& value : angle.drive_values) value -= start;
 }
 
-/// Velocities of a mounted rotor, which its own definition does not have.
+/// Velocities of a mounted rotor, which its definition does not contain.
 void move_with(const BodyDef& carrier, const Vector3& axle, BodyDef& body) {
   Vector3 velocity = carrier.velocity;
   if (carrier.mobility == Mobility::kinematic) {
@@ -63,7 +63,7 @@ void move_with(const BodyDef& carrier, const Vector3& axle, BodyDef& body) {
   body.angular_velocity = turning + axle * axle.dot(body.angular_velocity - turning);
 }
 
-/// A name that no joint of the scene has yet.
+/// A name that no joint of the scene has.
 std::string new_joint_name(const Scene& scene, const std::string& wanted) {
   std::string name = wanted;
   const auto taken = [&] {
@@ -125,7 +125,7 @@ Vector3 cable_plane(const Scene& scene) {
 
 int hinge_rotors(Scene& scene) {
   int count = 0;
-  // Carriers are no rotors, so their velocities do not change on the way.
+  // Carriers are not rotors, so their velocities do not change in this loop.
   for (std::size_t i = 0; i < scene.model.bodies.size(); ++i)
     count += hinge_rotor(scene, i) ? 1 : 0;
   return count;
