@@ -1,4 +1,4 @@
-// JSON Schema and reference of what comes out, from the tables.
+// JSON Schema and reference of the output, from the tables.
 
 #include <algorithm>
 
@@ -70,7 +70,7 @@ Json value_schema(const AnswerValue& value) {
   return {};
 }
 
-/// An object that has at least what it must have of these keys.
+/// An object with at least the required ones of these keys.
 class ObjectSchema {
  public:
   explicit ObjectSchema(std::string_view meaning) : meaning_(meaning) {}
@@ -100,7 +100,7 @@ class ObjectSchema {
   Json required_ = Json::array();
 };
 
-/// The formats of objects in these keys, and in theirs, that are not there yet.
+/// Collects the formats of objects in these keys, recursively, that are not in the list yet.
 void collect(std::span<const AnswerKey> keys, std::vector<const AnswerFormat*>& formats) {
   for (const AnswerKey& key : keys) {
     const AnswerFormat* format = key.value.format;
@@ -125,7 +125,7 @@ std::vector<const AnswerFormat*> inner_formats() {
 Json answer_object(std::string_view meaning, std::span<const AnswerKey> keys, bool ok) {
   ObjectSchema schema(meaning);
   schema.add(answer_head_format().keys);
-  schema.put("ok", {{"const", ok}}, optional);  // it is required already
+  schema.put("ok", {{"const", ok}}, optional);  // already required
   schema.add(keys);
   return schema.schema();
 }

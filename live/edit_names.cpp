@@ -113,7 +113,7 @@ Errors EditNames::shared_names() const {
 }
 
 void EditNames::tell_part(const std::string& path, const std::string& pointer, bool exact) {
-  // One that has been removed may have had the same slot.
+  // A removed part may have had the same slot.
   parts_.insert_or_assign(path, Part{change_ + pointer, exact});
 }
 
@@ -122,7 +122,7 @@ void EditNames::tell_change(const std::string& path, const std::string& pointer,
 }
 
 std::string EditNames::pointer_of(const std::string& path) const {
-  // A part is told by two steps, "/bodies/3", the settings of the step by one.
+  // The path of a part has two steps, "/bodies/3", that of the step settings one.
   const std::size_t second = path.find('/', 1);
   const std::size_t third = second == std::string::npos ? second : path.find('/', second + 1);
   for (const std::size_t end : {third, second}) {

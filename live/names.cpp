@@ -11,7 +11,7 @@
 namespace sheave::live {
 namespace {
 
-// Comparing a word with more names than this takes longer than a user waits for a hint.
+// Comparing a word with more names than this takes longer than a user waits for a suggestion.
 constexpr std::size_t most_suggestions = 5000;
 constexpr std::size_t most_shown = 80;  // of a name
 

@@ -11,8 +11,8 @@
 namespace sheave::live {
 namespace {
 
-/// Appends a member without looking whether it is there: Json's own way takes time in proportion to
-/// their number.
+/// Appends a member without checking whether it exists: Json's own method takes time proportional
+/// to their number.
 void append(Json& object, std::string_view key, Json value) {
   using Members = std::vector<std::pair<const std::string, Json>>;
   static_cast<Members&>(object.get_ref<Json::object_t&>())
@@ -29,7 +29,7 @@ Json pose_json(const BodyPose& pose) {
           {"angular_velocity", vector_json(pose.angular_velocity)}};
 }
 
-/// Faults of names that are given twice.
+/// Reports names that occur twice.
 void check_twice(const std::vector<std::string>& names, const char* list, Errors& errors) {
   std::unordered_set<std::string_view> known;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -49,7 +49,7 @@ QuantityIndex::QuantityIndex(const Simulation& simulation) : set_(simulation) {
 Result<int> QuantityIndex::find(const std::string& name) const {
   const auto found = indices_.find(name);
   if (found != indices_.end()) return found->second;
-  constexpr std::size_t longest = 300;  // two names of 128 characters and what is between
+  constexpr std::size_t longest = 300;  // two names of 128 characters and the text between them
   if (name.size() > longest) return Error{"", "there is no quantity of this name"};
   return set_.index_of(name);
 }

@@ -27,7 +27,7 @@ std::vector<ObjectFormat> make_formats() {
 
 constexpr std::string_view scene_page = "../scenes/REFERENCE.md";  // from docs/
 
-/// A format and those in it that are not told on the page of scenes.
+/// Collects a format and its members' formats that are not on the page of scenes.
 void collect(const ObjectFormat& format, std::vector<const ObjectFormat*>& formats) {
   if (is_in_scenes(format) || std::find(formats.begin(), formats.end(), &format) != formats.end()) {
     return;

@@ -15,7 +15,7 @@ using json::Kind;
 using json::no_node;
 using json::NodeId;
 
-/// A number as it was given: integers without a point.
+/// A number in its given form: integers without a point.
 Json number_json(double value) {
   constexpr double exact = 9007199254740992.0;
   if (value == std::floor(value) && std::abs(value) <= exact) {
@@ -24,7 +24,7 @@ Json number_json(double value) {
   return value;
 }
 
-/// A request that has been read, or nothing and faults.
+/// The request that was read, or null with faults.
 struct Read {
   std::unique_ptr<Request> request;
   std::optional<double> id;
@@ -45,7 +45,7 @@ Read read_request(const Document& document, const Names& names, json::Faults& fa
     if (type.name != chosen->name) continue;
     read.request = type.make();
     const std::array<void*, 1> common{read.request.get()};
-    // The request is ours and not constant; settings() is only the way to its own type.
+    // The request was created here and is not constant; settings() only gives its derived type.
     void* settings = const_cast<void*>(read.request->settings());  // NOLINT(*-const-cast)
     const ObjectFormat& format = request_formats()[i];
     reader.read_object(root, format, common, format.variant(type.name), settings);
@@ -64,7 +64,7 @@ Json fault_json(const Document& document, const json::Fault& fault) {
   return json;
 }
 
-/// The fault of something that was read and cannot be done.
+/// The fault of a request that was read but cannot be carried out.
 Json fault_json(const Document& document, const Error& error) {
   const std::string pointer = pointer_in_text(document, error.path);
   const Document::Target target = document.find(pointer);
@@ -74,7 +74,7 @@ Json fault_json(const Document& document, const Error& error) {
                     {document.offset(node), pointer, error.message, value, {}, FaultCode::meaning});
 }
 
-/// The request as it goes into the log, when the world was at `step`.
+/// The request as logged, for a world at `step`.
 std::string logged_text(const Document& document, std::string_view line, std::int64_t step) {
   const NodeId root = document.root();
   const std::uint32_t begin = document.offset(root);

@@ -8,7 +8,7 @@
 namespace sheave::live {
 namespace {
 
-/// Drives of one kind, as `set` is.
+/// Sets drives of one kind.
 template <class Own>
 class SetBodyDrive : public Control {
  public:

@@ -12,7 +12,7 @@ class SetMotion final : public Control {
  public:
   std::string body;
   Vector3 position = Vector3::Zero();
-  Quaternion orientation{0.0, 0.0, 0.0, 0.0};  // of zeros: as it is
+  Quaternion orientation{0.0, 0.0, 0.0, 0.0};  // all zeros: unchanged
   std::optional<Vector3> velocity;
   std::optional<Vector3> angular_velocity;
   std::optional<double> over;

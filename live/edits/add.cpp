@@ -1,4 +1,4 @@
-// What comes, written as in scenes.
+// Changes that add parts, written as in scenes.
 
 #include <array>
 
@@ -8,11 +8,12 @@
 namespace sheave::live {
 namespace {
 
-/// References of an object of a registered type, with those that all its types share.
+/// Replaces the references of an object of a registered type, including those common to all its
+/// types.
 template <class Base>
 void put_ids_of(const Base& object, std::span<const TypeEntry<Base>> types, Edit& edit,
                 const EditNames& names) {
-  // The object is the edit's and not constant; its own type is told by settings() alone.
+  // The object belongs to the edit and is not constant; settings() only gives its derived type.
   names.put_ids(edit, Base::common_field_table(),
                 const_cast<Base*>(&object));  // NOLINT(*-const-cast)
   for (const TypeEntry<Base>& type : types) {

@@ -1,4 +1,4 @@
-// Ends of cables: made loose, tied to something, split and joined.
+// Changes of cable ends: detach, attach, split, open and join.
 
 #include <array>
 

@@ -1,4 +1,4 @@
-// How much cable there is, and what it runs over.
+// Changes of a cable's length and links.
 
 #include <array>
 

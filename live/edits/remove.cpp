@@ -1,4 +1,4 @@
-// What goes.
+// Changes that remove parts.
 
 #include <array>
 

@@ -1,4 +1,4 @@
-// Settings of what is there.
+// Changes of settings of existing parts.
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 namespace sheave::live {
 namespace {
 
-/// The fields of a table but for these.
+/// The fields of a table except these.
 std::vector<Field> without(std::span<const Field> table, std::span<const std::string_view> names) {
   std::vector<Field> fields;
   for (const Field& field : table) {
@@ -19,7 +19,7 @@ std::vector<Field> without(std::span<const Field> table, std::span<const std::st
   return fields;
 }
 
-/// All but its name, where it is, and how it can move.
+/// All fields except the name, the pose and the mobility.
 std::span<const Field> changeable_fields_of_body() {
   static constexpr std::array<std::string_view, 8> fixed{
       "name",     "mobility",    "axis",     "mount",
@@ -28,7 +28,7 @@ std::span<const Field> changeable_fields_of_body() {
   return fields;
 }
 
-/// All but the time that a step takes, which the world counts its time by.
+/// All fields except dt, in which the world counts its time.
 std::span<const Field> changeable_fields_of_step() {
   static constexpr std::array<std::string_view, 1> fixed{"dt"};
   static const std::vector<Field> fields = without(StepSettings::field_table(), fixed);
@@ -65,7 +65,7 @@ const ObjectFormat& step_settings_format() {
   return format;
 }
 
-/// Those of the fields that an object gives.
+/// The fields that an object contains.
 std::vector<Field> given(const json::Document& document, json::NodeId object,
                          std::span<const Field> fields) {
   std::vector<Field> found;

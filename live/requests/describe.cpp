@@ -1,4 +1,4 @@
-// What there is in the world, and what of it can be set.
+// Describes the objects in the world and the controls that can be set.
 
 #include <algorithm>
 #include <array>
@@ -157,7 +157,7 @@ Json cables_json(const Model& model, const std::vector<CableDef>& cables) {
   return list;
 }
 
-/// Cables of which nothing pulls, with their lengths.
+/// Loose cables, with their lengths.
 Json loose_json(const LiveWorld& world) {
   Json list = Json::array();
   for (const CableHandle cable : world.cables()) {
@@ -167,15 +167,15 @@ Json loose_json(const LiveWorld& world) {
   return list;
 }
 
-/// Finds out what can be set by setting it.
+/// Finds the controls that can be set by trying to set them.
 class Settable {
  public:
   explicit Settable(LiveWorld& world) : world_(world) {}
 
-  /// The controls as they stand in the request "set", without their values.
+  /// The controls in the form of the request "set", without their values.
   Json list() {
     list_ = Json::array();
-    // In the end all of it is as it was.
+    // The error restores all controls.
     static_cast<void>(world_.set_together([&] {
       bodies();
       joints();

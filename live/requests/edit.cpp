@@ -1,4 +1,4 @@
-// What the world is made of is changed, several things together.
+// Carries out several changes of an edit together.
 
 #include <algorithm>
 #include <array>
@@ -34,7 +34,7 @@ class EditRequest final : public Request {
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override;
 
  private:
-  /// Tells the edit all changes; the faults of single ones.
+  /// Applies all changes to the edit; returns the faults of single ones.
   [[nodiscard]] Errors apply(Edit& edit, EditNames& names) const;
 
   std::vector<std::unique_ptr<EditChange>> changes_;
@@ -49,7 +49,7 @@ void EditRequest::read_members(json::NodeId node, PartReader& parts, const Names
     for (const TypeEntry<EditChange>& type : change_types()) {
       if (type.name != variant->name) continue;
       std::unique_ptr<EditChange> made = type.make();
-      // The change is ours and not constant; settings() is only the way to its own type.
+      // The change was created here and is not constant; settings() only gives its derived type.
       void* settings = const_cast<void*>(made->settings());  // NOLINT(*-const-cast)
       reader.fields().read_object(element, *member.format, {}, variant, settings);
       made->read(element, reader);

@@ -1,4 +1,4 @@
-// The state, as one number to compare.
+// The hash of the state, for comparisons.
 
 #include <array>
 #include <vector>

@@ -1,4 +1,4 @@
-// What protocol is spoken, and of which scene.
+// Reports the version of the protocol and the scene.
 
 #include <array>
 #include <vector>

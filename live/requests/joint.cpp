@@ -1,4 +1,4 @@
-// Joints that are released or locked.
+// Releases and locks joints.
 
 #include <array>
 

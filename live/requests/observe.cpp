@@ -1,4 +1,4 @@
-// Quantities and poses, as they are now.
+// Present values of quantities and poses.
 
 #include <array>
 #include <vector>

@@ -1,4 +1,4 @@
-// A body that is put elsewhere.
+// Places a body.
 
 #include <array>
 #include <vector>
@@ -17,7 +17,7 @@ class Place final : public Request {
  public:
   std::string body;
   Vector3 position = Vector3::Zero();
-  Quaternion orientation{0.0, 0.0, 0.0, 0.0};  // of zeros: as it is
+  Quaternion orientation{0.0, 0.0, 0.0, 0.0};  // all zeros: unchanged
   Keep keep = Keep::length;
 
   static constexpr std::string_view type_name = "place";

@@ -1,4 +1,4 @@
-// The end of a session.
+// Ends a session.
 
 #include "live/request.h"
 #include "live/session_state.h"

@@ -1,4 +1,4 @@
-// A world that steps by itself.
+// Lets the world step by itself, and pauses it.
 
 #include <array>
 #include <vector>

@@ -1,4 +1,4 @@
-// Controls that are set or cleared, several together.
+// Sets or clears several controls together.
 
 #include <array>
 #include <memory>
@@ -13,7 +13,7 @@
 namespace sheave::live {
 namespace {
 
-/// Has a list of changes, all of which are made, or none.
+/// A request with a list of changes, all of which are made, or none.
 class Change : public Request {
  public:
   void read_members(json::NodeId node, PartReader& parts, const Names& names) override;
@@ -38,7 +38,7 @@ void Change::read_members(json::NodeId node, PartReader& parts, const Names& /*n
     for (const TypeEntry<Control>& type : controls()) {
       if (type.name != variant->name) continue;
       std::unique_ptr<Control> made = type.make();
-      // The control is ours and not constant; settings() is only the way to its own type.
+      // The control was created here and is not constant; settings() only gives its derived type.
       void* settings = const_cast<void*>(made->settings());  // NOLINT(*-const-cast)
       reader.read_object(element, *member.format, {}, variant, settings);
       changes_.push_back(std::move(made));

@@ -1,4 +1,4 @@
-// States that the session keeps, and goes back to.
+// Keeps, restores and forgets states.
 
 #include <array>
 #include <set>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view start = "start";
 
-/// About what a state takes.
+/// Approximate size of a state [bytes].
 std::size_t bytes_of(const State& state) {
   const Controls& controls = state.controls;
   std::size_t bytes = sizeof(State) + state.bodies.size() * sizeof(BodyState) +
@@ -31,12 +31,12 @@ std::size_t bytes_of(const State& state) {
   return bytes;
 }
 
-/// About what all snapshots take when `kept` is one of them in place of the one called `name`.
+/// Approximate size of all snapshots [bytes], with `kept` in place of the one called `name`.
 std::size_t bytes_with(const SessionState& session, const std::string& name,
                        const KeptSnapshot& kept) {
   constexpr std::size_t bytes_of_part = 1024;
   std::size_t bytes = bytes_of(kept.snapshot.state());
-  // What the world is made of now is there anyway; each other revision is kept once.
+  // The present revision exists anyway; each other revision is kept once.
   std::set<std::int64_t> revisions{kept.revision};
   for (const auto& [known, other] : session.snapshots) {
     if (known == name) continue;

@@ -1,4 +1,4 @@
-// Steps, so many or until a time.
+// Does a number of steps, or steps until a time.
 
 #include <array>
 #include <cmath>
@@ -61,7 +61,7 @@ class Step final : public Request {
 Result<std::int64_t> Step::steps_to_do(const SessionState& session) const {
   double steps = count;
   if (until) {
-    // Times of steps are rounded.
+    // Times of steps have rounding errors.
     constexpr double rounding = 1e-6;
     const double dt = session.world.simulation().world.model().step.dt;
     steps = std::ceil((*until - session.world.time()) / dt - rounding);

@@ -1,4 +1,4 @@
-// What somebody wants to be told while the world steps.
+// Subscriptions to readings and events while the world steps.
 
 #include <array>
 
