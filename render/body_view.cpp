@@ -61,7 +61,7 @@ MeshShape drawable_prism(const Prism& prism) {
   return mesh_of(std::move(vertices), std::move(triangles));
 }
 
-/// One wheel of a cable in the frame of its body.
+/// Place of one wheel of a cable in the frame of its body.
 struct WheelPlace {
   Vector3 center;
   Vector3 normal;
@@ -152,7 +152,7 @@ class Builder {
     if (body.mount) add_cheeks(id, *body.mount, thickness);
   }
 
-  /// Stands for a half-space: a thin slab under its plane, wider than the scene.
+  /// Replaces a half-space by a thin slab under its plane, wider than the scene.
   void lay_slab(const HalfSpace& plane, BodyPart& part) const {
     const double scale = world_.bodies().scale();
     const double depth = 0.01 * scale;
@@ -166,7 +166,8 @@ class Builder {
     return part.position + part.orientation * local;
   }
 
-  /// A cylinder that turns about another axle than its own; spokes would show the wrong one.
+  /// Whether a cylinder turns about an axle other than its own axis; spokes would show the wrong
+  /// axle.
   [[nodiscard]] static bool is_eccentric(const BodyDef& body, const PlacedShape& placed) {
     if (body.mobility != Mobility::rotor) return false;
     const Quaternion& turn = body.orientation;
@@ -174,7 +175,8 @@ class Builder {
     return axle.normalized().cross(placed.position).norm() > 1e-3 * placed.shape->wheel_radius();
   }
 
-  /// The sheave to draw for a cylinder; nothing if it is just a cylinder.
+  /// The sheave to draw for a cylinder; nothing if no cable runs round it and its body is no rotor,
+  /// or if it is eccentric.
   std::optional<SheaveShape> sheave_for(BodyId id, const BodyDef& body, const PlacedShape& placed,
                                         const Cylinder& cylinder) {
     SheaveShape sheave;
@@ -197,7 +199,8 @@ class Builder {
     }
     if (rooms.empty() && body.mobility != Mobility::rotor) return std::nullopt;
     if (is_eccentric(body, placed)) return std::nullopt;
-    // One cable has a round groove; several turns side by side have one as wide as the drum.
+    // The groove for one cable is round; the groove for several turns side by side is as wide as
+    // the drum.
     sheave.groove_width = 2.0 * offset;
     if (most_turns > 1.0)
       sheave.groove_width = std::max(sheave.groove_width, 0.8 * cylinder.length);
@@ -220,13 +223,14 @@ class Builder {
     };
     for (const double side : {-1.0, 1.0}) {
       const Vector3 out = axis * (side * (0.5 * thickness + cable_radius_));
-      // In the carrier's frame: the axle is fixed in it.
+      // The bar is given in the carrier's frame, because the axle is fixed to the carrier.
       view_.bars.push_back(
           {carrier, local(center + out), local(center + reach + out), cable_radius_, strap_color});
     }
   }
 
-  /// The point of a body's shapes (of boxes round them) nearest to a point, else its origin.
+  /// The point of a body's shapes (of the boxes round them) that is nearest to `point`; the body's
+  /// origin if it has no shapes.
   [[nodiscard]] Vector3 nearest_point(BodyId id, const Vector3& point) const {
     const BodyDef& body = world_.model().bodies[static_cast<std::size_t>(id.index)];
     Vector3 nearest = world_.position(id);
@@ -264,7 +268,8 @@ class Builder {
     }
   }
 
-  /// Cables may also run round capsules and balls, which are drawn as what they are.
+  /// Whether the link's wheel is a capsule or ball. Cables may run round those, too, and they are
+  /// drawn with their own shape.
   [[nodiscard]] bool is_round_body(const LinkReport& link) const {
     if (link.body.is_world()) return false;
     const auto& body = world_.model().bodies[static_cast<std::size_t>(link.body.index)];
@@ -284,7 +289,7 @@ class Builder {
 }  // namespace
 
 Color load_color(std::string_view name) {
-  // FNV-1a. Names that differ in a last digit get different colours.
+  // FNV-1a, so that names that differ in the last digit alone get different colours.
   std::uint32_t hash = 2166136261U;
   for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
   return load_colors[hash % load_colors.size()];

@@ -10,8 +10,9 @@ namespace sheave::render {
 namespace {
 
 constexpr double turn = 2.0 * pi;
-constexpr double step_angle = 0.1;   ///< of the polyline round a wheel [rad]
-constexpr double most_turns = 60.0;  ///< drawn; more would not be told apart
+constexpr double step_angle = 0.1;  ///< angle between points of the polyline round a wheel [rad]
+/// largest number of turns drawn; the eye cannot tell more turns apart
+constexpr double most_turns = 60.0;
 constexpr int catenary_points = 41;
 
 /// The cable on a wheel as drawn: a shallow helix if it makes more than one turn.
@@ -31,9 +32,9 @@ Winding winding_of(const CableReport& cable, std::size_t index, const CableStyle
   Winding w;
   const bool end = is_end(cable, index);
   w.angle = wound_angle(link, end);
-  // Whole turns are left out, so that the ends stay where they are.
+  // Whole turns are left out, so that the entry and the exit keep their places.
   if (w.angle > most_turns * turn) w.angle = std::remainder(w.angle, turn) + most_turns * turn;
-  // At the start of a cable only the exit exists; the entry is that many turns before it.
+  // The first link of a cable has an exit only; its entry lies `angle` before the exit.
   const bool from_exit = end && index == 0;
   Vector3 out = (from_exit ? link.exit : link.entry) - link.center;
   out -= link.normal * link.normal.dot(out);
@@ -44,7 +45,8 @@ Winding winding_of(const CableReport& cable, std::size_t index, const CableStyle
   w.second = link.normal.cross(w.first) * static_cast<double>(link.winding);
   const double more_than_one = w.angle / turn - 1.0;
   if (more_than_one > 0.0) {
-    // Grows from nothing, so that nothing jumps in the frame in which the second turn begins.
+    // The shift grows from zero, so that no point jumps in the frame in which the second turn
+    // begins.
     const double grown = std::min(1.0, 8.0 * more_than_one);
     const double room = index < style.winding_room.size() ? style.winding_room[index] : 0.0;
     const double wanted = 2.15 * style.radius * w.angle / turn * grown;
@@ -53,7 +55,7 @@ Winding winding_of(const CableReport& cable, std::size_t index, const CableStyle
   return w;
 }
 
-/// Half the shift towards one end of the winding: where the neighbouring span is drawn to.
+/// Half the shift towards one end of the winding. The neighbouring span is drawn to this place.
 Vector3 offset_at(const LinkReport& link, const Winding& w, bool at_exit) {
   return link.normal * (at_exit ? 0.5 * w.shift : -0.5 * w.shift);
 }
@@ -91,13 +93,13 @@ class Drawing {
                 span.end + offset_at(cable_.links[next], windings_[next], false), style_);
   }
 
-  /// Round a wheel or along an outline; empty where the tube is cut.
+  /// The line round a wheel or along an outline; empty where the tube is cut.
   [[nodiscard]] std::vector<Vector3> link_line(std::size_t i) const {
     const LinkReport& link = cable_.links[i];
     if (!link.path.empty()) return link.path;
     const Winding& w = windings_[i];
     std::vector<Vector3> line;
-    // Where there is no length to blend colours over, the tube is cut.
+    // An arc that is too short to blend colours over cuts the tube.
     if (!(link.radius > 0.0) || std::abs(w.angle) * link.radius < 2.0 * style_.radius) return line;
     const int steps = std::max(2, static_cast<int>(std::ceil(std::abs(w.angle) / step_angle)));
     for (int k = 0; k <= steps; ++k) {
@@ -117,7 +119,7 @@ class Drawing {
         for (const Vector3& p : span_line(i)) add(p, color);
       }
     }
-    // A belt ends where it began: at the entry of its first link, or at that link's point.
+    // A belt ends at its start: at the entry of its first link, or at that link's point.
     const bool joined = cable_.closed && !cut_at_start_ && tubes_.empty();
     cut();
     if (joined && !tubes_.empty()) tubes_.front().closed = true;
@@ -162,14 +164,15 @@ class Drawing {
   bool cut_at_start_ = false;
 };
 
-/// What a cut cable leaves hanging from its ends; a cut belt has none.
+/// The pieces that hang from the ends of a cut cable; a cut belt has none.
 std::vector<Tube> cut_pieces(const CableReport& cable, const CableStyle& style) {
   std::vector<Tube> tubes;
   if (cable.closed || !(style.gravity.norm() > 0.0)) return tubes;
   const Vector3 down = style.gravity.normalized();
   for (const bool first : {true, false}) {
     const LinkReport& end = first ? cable.links.front() : cable.links.back();
-    // Where a cable that runs down from the wheel, or up to it, touches it.
+    // The point at which a cable that runs straight down from the wheel, or up to it, touches the
+    // wheel.
     const double side = first ? -end.winding : end.winding;
     const Vector3 start = end.center + side * end.radius * end.normal.cross(down);
     double length = cable.pieces[first ? 0 : 1] - end.stored_length;
@@ -193,7 +196,7 @@ bool is_slack(const SpanReport& span) {
 }
 
 Color tension_color(double tension, const CableStyle& style) {
-  // Less than a millionth of the scale is what rounding leaves of zero.
+  // A tension below a millionth of the scale is a zero with rounding errors.
   if (!(tension > 1e-6 * style.tension_max)) return slack_color;
   return sample(style.map, tension / style.tension_max);
 }
@@ -204,7 +207,7 @@ double wound_angle(const LinkReport& link, bool is_end) {
   const Vector3 to = link.exit - link.center;
   const double direct =
       static_cast<double>(link.winding) * std::atan2(link.normal.dot(from.cross(to)), from.dot(to));
-  // `direct` is known up to whole turns; the stored length says how many.
+  // `direct` is known up to whole turns; the wrap angle of the report tells the number of turns.
   return direct + turn * std::round((link.wrap_angle - direct) / turn);
 }
 

@@ -20,12 +20,12 @@ bool finite(const Vector3& v) { return v.allFinite(); }
 CameraAxes axes_along(const Vector3& direction, const Vector3& up) {
   const Vector3 back = -direction.normalized();
   Vector3 right = up.cross(back);
-  // A view along up has no unique right; any is as good.
+  // A view along `up` has no unique right; any perpendicular serves.
   right = right.norm() > 1e-9 * up.norm() ? Vector3(right.normalized()) : any_perpendicular(back);
   return {right, back.cross(right), back};
 }
 
-/// The eye's coordinate and the distance that one picture axis asks for.
+/// Bounds that one axis of the picture sets for the eye's coordinate and distance.
 struct AxisFit {
   double low_limit =
       -infinity;  ///< max of c - r t (-c_z): the eye must be right of it plus r t e_z
@@ -52,15 +52,15 @@ std::array<Vector3, 8> corners_in(const CameraAxes& a, const Eigen::AlignedBox3d
   return corners;
 }
 
-/// Allowed interval of one axis in [-1, 1].
+/// The part of [-1, 1] of one axis that the margins leave.
 std::pair<double, double> allowed(double low_margin, double high_margin) {
   const double low = std::clamp(low_margin, 0.0, 0.45);
   const double high = std::clamp(high_margin, 0.0, 0.45);
   return {-1.0 + 2.0 * low, 1.0 - 2.0 * high};
 }
 
-/// In an orthographic picture only the heights count: the centre is where the allowed part's middle
-/// falls on the box's middle.
+/// Fits an orthographic picture. Distance has no effect here, only width and height: the middle of
+/// the allowed part of the picture falls on the middle of the box.
 Camera frame_orthographic(const std::array<Vector3, 8>& corners, const CameraAxes& a,
                           const FrameOptions& options) {
   Vector3 low = corners[0];
@@ -188,7 +188,7 @@ Vector3 default_view_direction(const Vector3& up, const std::optional<Vector3>& 
     from_above = 0.12;
   }
   front -= u * u.dot(front);
-  // A plane seen from above (gravity along its normal) is looked at from straight above.
+  // If gravity is normal to the plane of the motion, the camera looks straight down.
   if (front.norm() < 1e-6) return -u;
   front.normalize();
   const Vector3 side = u.cross(front);

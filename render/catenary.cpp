@@ -1,8 +1,8 @@
 // With s' = s - s0 measured from the lowest point and a the radius of curvature there, a catenary
 // is
-//   x = a asinh(s'/a),   z = sqrt(a^2 + s'^2),
-// which needs no cosh and so cannot overflow however slack the cable is. For ends that are w apart
-// horizontally and v vertically, length L:
+//   x = a asinh(s'/a),   z = sqrt(a^2 + s'^2).
+// This form needs no cosh, so it cannot overflow however slack the cable is. For ends that are w
+// apart horizontally and v vertically, and the length L:
 //   sinh(q)/q = sqrt(L^2 - v^2)/w  with q = w/(2a)   (one equation for the shape),
 //   s0 = (L - v coth q)/2                            (from z1^2 - z0^2 = s1'^2 - s0'^2).
 #include "render/catenary.h"
@@ -22,7 +22,7 @@ double log_sinhc(double q) {
   return q + std::log1p(-std::exp(-2.0 * q)) - std::log(2.0 * q);
 }
 
-/// Its derivative, coth(q) - 1/q.
+/// Derivative of log_sinhc(): coth(q) - 1/q.
 double log_sinhc_slope(double q) {
   if (q < 0.1) {
     const double t = q * q;
@@ -67,14 +67,14 @@ Catenary::Catenary(const Vector3& start, const Vector3& end, double length, cons
   width_ = level.norm();
   length_ = std::max(length, distance);
   across_ = width_ > 0.0 ? Vector3(level / width_) : any_perpendicular(up_);
-  // Below this the sag is lost in rounding.
+  // A smaller excess of length is lost in rounding.
   if (!(length_ > distance * (1.0 + 1e-14))) {
     length_ = distance;
     return;
   }
   straight_ = false;
   if (width_ <= 1e-12 * length_) {
-    // Hangs straight down and up again.
+    // The cable hangs straight down and up again.
     radius_ = 0.0;
     lowest_ = 0.5 * (length_ - rise_);
     return;
@@ -95,7 +95,7 @@ Vector3 Catenary::point(double s) const {
   const double to = s - lowest_;
   const double z_from = std::hypot(radius_, from);
   const double z_to = std::hypot(radius_, to);
-  // (z_to - z_from) written so that a nearly straight cable (huge a) loses no digits.
+  // (z_to - z_from) in a form that loses no digits if the cable is nearly straight (a huge a).
   const double height = (to - from) * (to + from) / (z_to + z_from);
   double x = width_ * share;
   if (radius_ > 0.0) x = radius_ * asinh_difference(to / radius_, from / radius_);
@@ -111,7 +111,8 @@ std::vector<Vector3> Catenary::points(int count) const {
   const double to = std::atan2(length_ - lowest_, radius_);
   const int turning = n - even;
   for (int k = 1; k <= turning; ++k) {
-    // With radius 0 all directions fall on the lowest point, which must be among the places.
+    // With radius 0 all directions fall on the lowest point; the lowest point must be among the
+    // places.
     const double angle = from + (to - from) * k / (turning + 1);
     places.push_back(std::clamp(lowest_ + radius_ * std::tan(angle), 0.0, length_));
   }

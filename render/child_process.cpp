@@ -20,7 +20,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-// POSIX leaves the declaration to the program.
+// POSIX leaves the declaration of `environ` to the program.
 // NOLINTNEXTLINE(readability-redundant-declaration,cppcoreguidelines-avoid-non-const-global-variables)
 extern char** environ;
 
@@ -31,7 +31,7 @@ void close_if_open(int& descriptor) {
   if (descriptor >= 0) ::close(std::exchange(descriptor, -1));
 }
 
-/// Spawn settings that must be destroyed whatever happens.
+/// Settings of a spawn; POSIX demands that they are destroyed on every path.
 class SpawnSettings {
  public:
   SpawnSettings(int input, int output, int messages) {
@@ -44,7 +44,7 @@ class SpawnSettings {
     }
     posix_spawn_file_actions_adddup2(&actions, messages, STDERR_FILENO);
     posix_spawnattr_init(&attributes);
-    // The caller may ignore or block signals; the child starts with the usual ones.
+    // The calling program may ignore or block signals; the child starts with the default settings.
     sigset_t all;
     sigfillset(&all);
     sigset_t none;
@@ -67,7 +67,8 @@ class SpawnSettings {
   posix_spawnattr_t attributes{};
 };
 
-/// Our environment but for the variables whose names begin with one of these, for exec.
+/// The environment of this process without the variables whose names begin with one of
+/// `beginnings`, for exec.
 std::vector<char*> environment_without(const std::vector<std::string>& beginnings) {
   std::vector<char*> variables;
   for (char** variable = environ; *variable != nullptr; ++variable) {
@@ -81,11 +82,13 @@ std::vector<char*> environment_without(const std::vector<std::string>& beginning
   return variables;
 }
 
-/// Processor time that a process of ours has used, in ticks of its own; -1 if that cannot be told.
+/// Processor time in user mode and in the kernel that a process has used, in clock ticks; -1 if the
+/// system does not tell.
 long used_time(int process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-  // The name, in brackets, may hold anything; state is the first word behind it, utime the 12th.
+  // The name, in brackets, may contain any character; the state is the first word after it, utime
+  // the 12th.
   std::istringstream words(text.substr(std::min(text.rfind(')'), text.size() - 1) + 1));
   std::string skipped;
   for (int i = 0; i < 11; ++i) words >> skipped;
@@ -94,11 +97,11 @@ long used_time(int process) {
   return words >> user >> system ? user + system : -1;
 }
 
-/// Whether a child gets on while we wait for it.
+/// Watches whether a child makes progress while this process waits for it.
 class Watch {
  public:
   Watch(int process, double seconds) : process_(process), seconds_(seconds) {}
-  /// To be called now and then; true once the child has done nothing for too long.
+  /// To be called repeatedly; true once the child has used no processor time for `seconds`.
   [[nodiscard]] bool hangs() {
     const long used = used_time(process_);
     if (used != used_) {
@@ -171,9 +174,10 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) {
     return Error{"", "cannot start '" + name + "': no socket: " + std::strerror(errno)};
   }
-  // From here on all that is open is closed again on every way out.
+  // From here on the destructor of `child` closes every open descriptor on every path.
   ChildProcess child(name, std::move(options), -1, ends[0], -1, -1);
-  // Files rather than pipes: nobody has to empty them while the child is fed.
+  // Files rather than pipes: a full pipe would block the child, and nobody empties pipes while the
+  // child is fed.
   child.messages_ = ::memfd_create("messages", MFD_CLOEXEC);
   if (child.options_.keeps_output) child.output_ = ::memfd_create("output", MFD_CLOEXEC);
   if (child.messages_ < 0 || (child.options_.keeps_output && child.output_ < 0)) {
@@ -183,7 +187,7 @@ Result<ChildProcess> ChildProcess::start(const std::vector<std::string>& argumen
   }
   std::vector<char*> pointers;
   for (const std::string& argument : arguments) {
-    // exec promises not to write.
+    // exec promises not to write to the arguments.
     pointers.push_back(const_cast<char*>(argument.c_str()));  // NOLINT(*-pro-type-const-cast)
   }
   pointers.push_back(nullptr);
@@ -234,7 +238,8 @@ Errors ChildProcess::finish() {
   int wait_ms = first_poll_ms;
   for (;;) {
     siginfo_t ended{};
-    // Leaves the child to be reaped, so that its number stays its own until its group has ended.
+    // WNOWAIT leaves the child to be reaped later, so that no other process gets its number before
+    // its group has ended.
     const int asked =
         ::waitid(P_PID, static_cast<id_t>(process_), &ended, WEXITED | WNOHANG | WNOWAIT);
     if (asked == 0 && ended.si_pid == process_) break;
@@ -244,7 +249,7 @@ Errors ChildProcess::finish() {
     }
     if (is_abandoned()) return give_up(abandoned);
     if (watch.hangs()) return give_up(hung);
-    // Short at first, for most end at once.
+    // The first waits are short, because most children end at once.
     ::poll(nullptr, 0, wait_ms);
     wait_ms = std::min(2 * wait_ms, longest_poll_ms);
   }

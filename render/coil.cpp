@@ -21,8 +21,8 @@ std::vector<Vector3> coil_points(const Vector3& start, const Vector3& end, const
   for (int i = 0; i <= count; ++i) {
     const double share = static_cast<double>(i) / count;
     const double angle = 2.0 * pi * shape.coils * share;
-    // The radius grows and fades over half a coil at the ends, so that the wire
-    // has no corner there.
+    // The radius grows and fades over half a coil at the ends, so that the wire has no corner
+    // there.
     const double from_end = std::min(share, 1.0 - share) * 2.0 * shape.coils;
     const double blend = std::min(from_end, 1.0);
     const double radius = shape.radius * blend * blend * (3.0 - 2.0 * blend);

@@ -1,4 +1,5 @@
-// Checks a draw list before it reaches GL, where a NaN would only show as something missing.
+// Checks a draw list before it reaches GL. In GL a NaN would only make a part of the picture
+// vanish.
 #include <cmath>
 #include <string>
 
@@ -10,7 +11,7 @@ namespace {
 bool positive(double x) { return std::isfinite(x) && x > 0.0; }
 bool not_negative(double x) { return std::isfinite(x) && x >= 0.0; }
 
-/// What is wrong with a shape; empty if nothing.
+/// The fault of a shape; empty if there is none.
 std::string fault(const BoxShape& s) {
   const bool good = positive(s.size.x()) && positive(s.size.y()) && positive(s.size.z());
   return good ? "" : "box size must be positive and finite";

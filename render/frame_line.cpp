@@ -12,7 +12,7 @@
 #include <utility>
 
 namespace sheave::render {
-/// A frame on its way.
+/// A frame that has been ordered and not yet delivered.
 struct FrameLine::Job {
   DrawList list;
   Camera camera;
@@ -44,12 +44,12 @@ struct FrameLine::Content {
   int width = 0;
   int height = 0;
   FrameLineOptions options;
-  std::size_t most = 0;  // frames under way
-  std::mutex mutex;      // of all below
+  std::size_t most = 0;  // largest number of frames under way
+  std::mutex mutex;      // protects all members below
   std::condition_variable changed;
-  std::deque<std::unique_ptr<Job>> jobs;  // the oldest first
-  std::size_t ready = 0;                  // threads that have a renderer, or have none for good
-  Errors faults;                          // why there is no renderer
+  std::deque<std::unique_ptr<Job>> jobs;  // oldest first
+  std::size_t ready = 0;  // number of threads that have a renderer or have failed to make one
+  Errors faults;          // reasons why a renderer could not be made
   bool ending = false;
   std::vector<std::thread> threads;
 
@@ -65,7 +65,7 @@ struct FrameLine::Content {
     for (std::thread& thread : threads) thread.join();
   }
 
-  /// The oldest frame that nobody draws yet, or null.
+  /// The oldest frame that no thread draws yet, or null.
   [[nodiscard]] Job* next() const {
     const auto found = std::find_if(jobs.begin(), jobs.end(),
                                     [](const std::unique_ptr<Job>& job) { return !job->begun; });
@@ -80,14 +80,15 @@ struct FrameLine::Content {
     }
   }
 
-  /// Until each thread that was started has one; why some has none.
+  /// Waits until each started thread has a renderer or has failed to make one; returns the faults.
   [[nodiscard]] Errors wait_for_renderers() {
     std::unique_lock lock(mutex);
     changed.wait(lock, [&] { return ready == threads.size(); });
     return faults;
   }
 
-  /// A GL context belongs to the thread that uses it, so it is made and destroyed in it.
+  /// Body of a thread. A GL context belongs to the thread that uses it, so the thread itself makes
+  /// and destroys its renderer.
   void work() {
     Result<Renderer> renderer = make_renderer();
     std::unique_lock lock(mutex);
@@ -132,7 +133,7 @@ Result<FrameLine> FrameLine::create(int width, int height, const FrameLineOption
     try {
       content->threads.emplace_back([&line = *content] { line.work(); });
     } catch (const std::system_error& error) {
-      // Fewer do, too.
+      // Fewer threads suffice.
       if (!content->threads.empty()) break;
       return Error{"", std::string("frame line: no thread can be started: ") + error.what()};
     }

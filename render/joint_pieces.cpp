@@ -1,4 +1,5 @@
-// Joints as they are now: add_joints() and extend_by_joints() of render/joint_view.h.
+// The joints of a world in their present positions: add_joints() and extend_by_joints() of
+// render/joint_view.h.
 
 #include <algorithm>
 #include <cmath>
@@ -38,8 +39,7 @@ void add_knob(const Vector3& at, double radius, DrawList& list) {
   list.solids.push_back(std::move(knob));
 }
 
-/// A spring that has its coils about the line; its sizes follow from its
-/// relaxed length.
+/// A spring with coils about the line; its sizes follow from its relaxed length.
 Tube spring_tube(const JointLine& line, const World& world, const Vector3& start,
                  const Vector3& end, double unit) {
   const double radius = std::clamp(0.09 * line.length, 1.5 * unit, 5.0 * unit);
@@ -111,7 +111,7 @@ void add_piece(const JointView::Piece& piece, const World& world, double unit, D
 
 void add_joints(const JointView& view, const World& world, DrawList& list) {
   if (view.pieces.empty()) return;
-  // Any joint may have been released.
+  // Any joint may have been released since the view was made.
   const JointReader reader(world);
   for (const JointView::Piece& piece : view.pieces) {
     if (reader.report(piece.joint).broken_at) continue;
@@ -133,7 +133,7 @@ void extend_travels(const World& world, std::vector<JointTravel>& travels) {
 }
 
 void extend_by_joints(const World& world, Eigen::AlignedBox3d& box) {
-  // How thick pins are does not matter here.
+  // The thickness of pins has no effect here.
   const JointView view = make_joint_view(world, 1e-9 * world.bodies().scale());
   for (const JointView::Piece& piece : view.pieces) {
     for (const BodyPart& part : piece.parts) box.extend(placed(world, part.body, part.position));

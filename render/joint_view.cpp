@@ -1,6 +1,6 @@
-// Sizes. A pin must be seen beside the bodies it joins and hide neither of
-// them: it has 0.6 of the half thickness of the thinner one, within limits that
-// the size of the scene sets, and stands out on both sides by its radius.
+// Sizes. A pin must be visible beside the bodies it joins and hide neither of them. Its radius is
+// 0.6 of the half thickness of the thinner body, within limits set by the size of the scene, and it
+// stands out on both sides by its radius.
 
 #include "render/joint_view.h"
 
@@ -23,7 +23,7 @@ namespace {
 constexpr Color steel = rgb(0xc9ced6);
 constexpr Color rail_color = rgb(0xa3adb9);
 
-/// A stretch of a line, by its parameter [m].
+/// A part of a line, by the line's parameter [m].
 struct Interval {
   double first = 0.0;
   double last = 0.0;
@@ -33,14 +33,14 @@ struct Interval {
   }
 };
 
-/// A point and a direction of the world at time 0, in the frame of a body.
+/// A point and a direction, given in the world at time 0, in the frame of a body.
 struct BodyLine {
   Vector3 point;
   Vector3 direction;
 };
 
-/// What of the line lies in the box with these half edges; nothing if it passes
-/// the box by.
+/// The part of the line inside the box with these half edges; nothing if the line passes the box
+/// by.
 std::optional<Interval> clip(const BodyLine& line, const Vector3& half) {
   Interval inside{-std::numeric_limits<double>::infinity(),
                   std::numeric_limits<double>::infinity()};
@@ -59,7 +59,7 @@ std::optional<Interval> clip(const BodyLine& line, const Vector3& half) {
   return inside;
 }
 
-/// The smallest half edge across the direction.
+/// The smallest half edge across `direction`.
 double half_thickness(const Vector3& half, const Vector3& direction) {
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
@@ -107,8 +107,7 @@ class JointViewBuilder {
   [[nodiscard]] bool is_fixed(BodyId body) const {
     return body.is_world() || bodies_.definition(bodies_.index(body)).mobility == Mobility::fixed;
   }
-  /// Calls `see` with every shape's half edges and the line in the shape's
-  /// frame.
+  /// Calls `see` for every shape with its half edges and the line in the shape's frame.
   template <class See>
   void for_shapes(BodyId body, const Vector3& point, const Vector3& direction, See see) const {
     if (body.is_world()) return;
@@ -120,7 +119,7 @@ class JointViewBuilder {
     }
   }
 
-  /// How far a pin along `axis` through `anchor` reaches, and its radius.
+  /// The extent of a pin along `axis` through `anchor`, and its radius.
   struct PinSize {
     Interval reach;
     double radius = 0.0;
@@ -132,8 +131,7 @@ class JointViewBuilder {
     for (const BodyId body : {joint.body_a, joint.body_b}) {
       for_shapes(body, anchor, axis, [&](const Vector3& half, const BodyLine& line) {
         const std::optional<Interval> inside = clip(line, half);
-        // What the line meets elsewhere has nothing to do with this
-        // joint.
+        // A shape far from the anchor has nothing to do with this joint.
         if (!inside || inside->first > 4.0 * largest || inside->last < -4.0 * largest) return;
         size.reach.join(*inside);
         size.radius = std::min(size.radius, 0.6 * half_thickness(half, line.direction));
@@ -161,8 +159,8 @@ class JointViewBuilder {
   }
 
   void add_ball(const BallJoint& joint) {
-    // A little larger than the thinner of the two, if that is slender: a link
-    // of a chain.
+    // The ball is a little larger than the thinner of the two bodies if that body is slender, like
+    // a link of a chain.
     const double largest = 3.0 * view_.unit;
     double radius = largest;
     for (const BodyId body : {joint.body_a, joint.body_b}) {
@@ -187,8 +185,8 @@ class JointViewBuilder {
     add_cylinder(joint.body_b, joint.anchor, axis_b, radius, 7.0 * radius);
   }
 
-  /// What the shapes of a body cover along the axis through the anchor, as
-  /// their boxes do.
+  /// The interval that the shapes of a body (the boxes round them) cover along the axis through the
+  /// anchor.
   [[nodiscard]] std::optional<Interval> extent(BodyId body, const Vector3& anchor,
                                                const Vector3& axis) const {
     std::optional<Interval> all;
@@ -201,8 +199,8 @@ class JointViewBuilder {
     return all;
   }
 
-  /// Between the stops; where there are none, as far as the body went and a little more. Nothing
-  /// if it did not move or that is not known. size: of the body [m].
+  /// The interval between the stops; without stops, the travel of the body and a margin. Nothing if
+  /// the body did not move or its travel is not known. size: size of the body [m].
   [[nodiscard]] std::optional<Interval> travel_range(const JointCoordinate& travel,
                                                      double size) const {
     const bool moved = travel_.upper - travel_.lower > 0.01 * size;
@@ -215,8 +213,8 @@ class JointViewBuilder {
   template <class Joint>
   void add_rail(const Joint& joint) {
     const Vector3 axis = joint.axis.normalized();
-    // The one that moves less carries the rail. body_b against body_a moves
-    // along the axis, body_a against body_b back.
+    // The body that moves less carries the rail. body_b moves along the axis relative to body_a;
+    // body_a moves the other way relative to body_b.
     const bool on_b = is_fixed(joint.body_b) && !is_fixed(joint.body_a);
     const BodyId carrier = on_b ? joint.body_b : joint.body_a;
     const BodyId rider = on_b ? joint.body_a : joint.body_b;
@@ -269,8 +267,8 @@ class JointViewBuilder {
   const BodySet& bodies_;
   JointView view_;
   JointView::Piece piece_;
-  JointTravel travel_;     // of its joint
-  BodyFrames defined_in_;  // of its joint
+  JointTravel travel_;     // travel of the joint of piece_
+  BodyFrames defined_in_;  // frames in which the joint of piece_ is defined
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Greedy with repair: each label takes its cheapest of a fixed set of places given the ones before
-// it; then each is reconsidered once against all others. Cost: 2 rounds x labels x places x (labels
-// + lines).
+// A greedy layout with one round of repair. Each label takes its cheapest place from a fixed set,
+// given the labels placed before it; then each label is placed once more, given all others. Cost: 2
+// rounds x labels x places x (labels + lines).
 #include "render/label_layout.h"
 
 #include <algorithm>
@@ -10,16 +10,16 @@
 namespace sheave::render {
 namespace {
 
-/// Turns off the preferred direction, in the order of preference [rad].
+/// Turns off the preferred direction, in order of preference [rad].
 constexpr std::array<double, 10> turns{0.0, 0.5, -0.5, 1.0, -1.0, 1.57, -1.57, 2.3, -2.3, 3.14};
-/// Distances in gaps; where labels find no room near their anchors, as between the parts of a
-/// tackle, far ones with a leader.
+/// Distances from the anchor, in gaps. The far ones, drawn with a leader, serve labels that find no
+/// room near their anchors, for example between the parts of a tackle.
 constexpr std::array<double, 8> distances{1.0, 2.2, 3.8, 6.0, 9.0, 13.0, 18.0, 24.0};
-/// Shares of the slide.
+/// Fractions of the slide.
 constexpr std::array<double, 7> slides{0.0, 0.35, -0.35, 0.7, -0.7, 1.0, -1.0};
 
-/// With more labels than this, the lines they cover are not looked at: the picture is full anyway,
-/// and the cost would be felt.
+/// With more labels than this the layout ignores the lines that labels cover: the picture is full
+/// anyway, and the work would take noticeable time.
 constexpr std::size_t many_labels = 60;
 
 double covered_length(const Rectangle& r, const ScreenSegment& s) {
@@ -49,7 +49,7 @@ LabelPlace place(const LabelRequest& label, double slide, double direction, doub
   const double y = label.y + slide * label.slide_y;
   const double c = std::cos(direction);
   const double s = std::sin(direction);
-  // Far enough that the text's nearest side, not its centre, keeps the distance.
+  // The distance holds for the nearest side of the text, not for its centre.
   const double reach = 0.5 * std::min(label.width / std::max(std::abs(c), 1e-9),
                                       label.height / std::max(std::abs(s), 1e-9));
   const Rectangle text{x + c * (reach + distance) - 0.5 * label.width,
@@ -91,7 +91,7 @@ class Layout {
     placed_[i] = true;
   }
 
-  /// Takes a place for label i if it is the best so far.
+  /// Takes the candidate for label i if it is the best one so far.
   void consider(const LabelPlace& candidate, double own, std::size_t i) {
     const double cost = own + conflicts(candidate, i);
     if (cost >= best_) return;
@@ -112,8 +112,8 @@ class Layout {
     const Rectangle& r = candidate.text;
     const double area = std::max(r.width * r.height, 1.0);
     const Rectangle padded{r.x - 3.0, r.y - 1.0, r.width + 6.0, r.height + 2.0};
-    // Text wants more air to its sides than above and below, or it reads as part of the lines
-    // beside it.
+    // Text needs more space at its sides than above and below; otherwise it reads as part of the
+    // lines beside it.
     const double air = std::max(3.0, 0.45 * around_.gap);
     const Rectangle airy{r.x - air, r.y - 1.0, r.width + 2.0 * air, r.height + 2.0};
     const Rectangle picture{2.0, 2.0, around_.width - 4.0, around_.height - 4.0};
@@ -137,7 +137,7 @@ class Layout {
   const LabelSurroundings& around_;
   std::vector<LabelPlace> places_;
   std::vector<bool> placed_;
-  double best_ = 0.0;  ///< cost of the place chosen so far for the label at hand
+  double best_ = 0.0;  ///< cost of the place chosen so far for the present label
 };
 
 }  // namespace

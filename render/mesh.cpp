@@ -18,7 +18,7 @@ std::array<float, 3> to_float(const Vector3& v) {
 
 Vector3 to_double(const std::array<float, 3>& v) { return {v[0], v[1], v[2]}; }
 
-/// For every vertex the number of its place in space: vertices at one place share a number.
+/// The number of each vertex's place in space: vertices at one place share a number.
 std::vector<std::uint32_t> weld(const std::vector<MeshVertex>& vertices) {
   std::map<Place, std::uint32_t> places;
   std::vector<std::uint32_t> numbers;
@@ -34,8 +34,8 @@ double angle_between(const Vector3& a, const Vector3& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// Weights each face by its angle at the corner, so that the way a face is cut into triangles does
-/// not matter.
+/// Weights each face by its angle at the corner, so that the division of a face into triangles has
+/// no effect.
 void compute_outline(Mesh& mesh, const std::vector<std::uint32_t>& places) {
   std::vector<Vector3> sums(mesh.vertices.size(), Vector3::Zero());
   for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
@@ -109,7 +109,7 @@ void MeshBuilder::add_polygon(std::span<const Vector3> corners, const Vector3& n
 }
 
 void MeshBuilder::add_revolution(std::span<const ProfilePoint> profile, int segments) {
-  // The last ring repeats the first exactly: edges on the seam must meet.
+  // The last ring repeats the first one exactly, because the edges along the seam must meet.
   std::vector<Vector3> around;
   for (int s = 0; s <= segments; ++s) {
     const double angle = 2.0 * pi * static_cast<double>(s % segments) / segments;

@@ -37,7 +37,7 @@ std::string quantity_text(double value, double reference, std::string_view unit)
 double round_down(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(value)));
   const double lead = value / power;
-  // The tolerance keeps a value such as 0.2 from falling to the step below by rounding.
+  // The tolerance keeps rounding errors from moving a value such as 0.2 to the step below.
   constexpr double slack = 1.0 - 1e-9;
   if (lead >= 10.0 * slack) return 10.0 * power;
   if (lead >= 5.0 * slack) return 5.0 * power;
@@ -49,7 +49,7 @@ Ticks round_ticks(double low, double high, int count) {
   Ticks ticks;
   const double wanted = (high - low) / std::max(count, 1);
   double step = round_down(wanted);
-  // Rounding down may be up to 2.5 times too fine; the next of 1, 2, 5 may be nearer.
+  // A step rounded down may be up to 2.5 times too fine; the next of 1, 2, 5 may be nearer.
   if (wanted / step > 1.5) step = round_down(step * 2.5);
   ticks.decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
   const double tolerance = 1e-6 * step;

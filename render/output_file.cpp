@@ -19,8 +19,8 @@ Error fault(const std::string& path, const char* action) {
   return {"", "'" + path + "': cannot " + action + ": " + std::strerror(errno)};
 }
 
-/// Folder and a hidden name with six places for mkostemp, before the extension so that programs
-/// which judge a file by its name see the right one.
+/// The folder and a hidden name with six places for mkostemp. The places stand before the
+/// extension, so that programs that judge a file by its name see the right extension.
 std::string temporary_pattern(const std::string& path, std::size_t& suffix_length) {
   const std::size_t slash = path.find_last_of('/');
   const std::size_t start = slash == std::string::npos ? 0 : slash + 1;
@@ -28,8 +28,8 @@ std::string temporary_pattern(const std::string& path, std::size_t& suffix_lengt
   const std::size_t dot = name.find_last_of('.');
   const std::string extension = dot == std::string::npos || dot == 0 ? "" : name.substr(dot);
   suffix_length = extension.size();
-  // Names have a limit (255 bytes nearly everywhere) that a long one must not exceed by the
-  // addition.
+  // File names have a limit (255 bytes on nearly every file system); the added characters must not
+  // push a long name over it.
   const std::string stem = name.substr(0, std::min<std::size_t>(name.size() - suffix_length, 100));
   return path.substr(0, start) + "." + stem + ".XXXXXX" + extension;
 }
@@ -73,7 +73,7 @@ Result<OutputFile> OutputFile::create(const std::string& path) {
   if (exists && !S_ISREG(status.st_mode)) {
     return Error{"", "'" + path + "' is a device or a pipe; only a file can be replaced"};
   }
-  // A rename would replace a file that its owner protected.
+  // The rename would replace a file that its owner has protected.
   if (exists && ::access(destination.c_str(), W_OK) != 0) return fault(path, "write to it");
   std::size_t suffix_length = 0;
   std::string name = temporary_pattern(destination, suffix_length);
@@ -97,13 +97,13 @@ Errors OutputFile::write(std::span<const std::uint8_t> bytes) {
 
 Errors OutputFile::close() {
   if (descriptor_ < 0) return {};
-  // Some file systems report a full disk only here.
+  // Some file systems report a full disk at close only.
   if (::close(std::exchange(descriptor_, -1)) != 0) return {fault(path_, "write")};
   return {};
 }
 
 Errors OutputFile::synchronise_temporary() {
-  // Another program may have written to it, or even replaced it.
+  // Another program may have written to the temporary file, or even replaced it.
   if (descriptor_ < 0) descriptor_ = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor_ < 0) return {fault(path_, "read what was written")};
   if (!synchronise(descriptor_)) return {fault(path_, "write")};

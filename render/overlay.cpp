@@ -15,11 +15,12 @@ namespace {
 constexpr Color ink = rgb(0x1b2430);
 constexpr Color soft_ink = rgb(0x4a5563);
 
-/// Sizes that follow the picture's height, so that a large picture looks like a small one enlarged.
+/// Sizes in proportion to the picture's height, so that a large picture looks like a small one
+/// enlarged.
 struct Style {
   double text;    ///< height of labels and ticks [pixels]
-  double title;   ///< height of the title
-  double margin;  ///< from the edges
+  double title;   ///< height of the title [pixels]
+  double margin;  ///< distance from the edges [pixels]
   double halo;
 
   explicit Style(int height)
@@ -29,7 +30,7 @@ struct Style {
         halo(std::max(1.0, 0.0032 * height)) {}
 };
 
-/// Where the parts of the legend go; needed for drawing and for keeping labels off it.
+/// The layout of the legend. Drawing uses it, and the label layout keeps labels off its area.
 struct LegendBox {
   std::string heading;
   Ticks ticks;  ///< in scaled units
@@ -53,7 +54,7 @@ LegendBox layout_legend(const Legend& legend, const Style& style, int width, int
     label_width = std::max(label_width,
                            font.measure(fixed_text(value, box.ticks.decimals), style.text).width);
   }
-  // On whole pixels, so that the rows of the bar do not blend.
+  // The bar lies on whole pixels, so that its rows do not blend.
   box.bar_width = std::round(0.95 * style.text);
   box.bar_height = std::round(0.36 * height);
   const double labels = 0.5 * style.text + label_width;
@@ -96,7 +97,7 @@ void draw_legend(Canvas& canvas, const Legend& legend, const LegendBox& box, con
               style.halo);
 }
 
-/// Draws a line of text if there is one and remembers the room it takes.
+/// Draws a line of text, unless it is empty, and adds its rectangle to `occupied`.
 void corner_text(Canvas& canvas, double x, double baseline, const std::string& text, double size,
                  const Color& color, double halo, std::vector<Rectangle>& occupied) {
   if (text.empty()) return;
@@ -117,7 +118,7 @@ std::vector<ScreenSegment> visible_lines(const DrawList& list, const Projector& 
   return lines;
 }
 
-/// Rectangles round the solids.
+/// Rectangles round the solids in the picture.
 std::vector<Rectangle> visible_bodies(const DrawList& list, const Projector& projector) {
   std::vector<Rectangle> bodies;
   for (const Solid& solid : list.solids) {
@@ -134,7 +135,7 @@ std::vector<Rectangle> visible_bodies(const DrawList& list, const Projector& pro
   return bodies;
 }
 
-/// Asks for a place for a label; nothing if its anchor is not in the picture.
+/// The request for a label's place; nothing if its anchor is not in the picture.
 std::optional<LabelRequest> request_place(const Label& label, const Projector& projector,
                                           const Style& style, const Canvas& canvas) {
   const auto anchor = projector.project(label.anchor);
@@ -146,7 +147,7 @@ std::optional<LabelRequest> request_place(const Label& label, const Projector& p
   request.width = Font::builtin().measure(label.text, style.text).width;
   request.height = 0.95 * style.text;
   if (label.direction.norm() > 0.0) {
-    // A short step, so that a direction towards the eye stays in front of it.
+    // The step is short, so that the tip of a direction towards the eye stays in front of the eye.
     const double step = 1e-3 * anchor->depth / label.direction.norm();
     if (const auto tip = projector.project(label.anchor + label.direction * step)) {
       request.direction_x = tip->x - anchor->x;
@@ -160,8 +161,8 @@ std::optional<LabelRequest> request_place(const Label& label, const Projector& p
   return request;
 }
 
-/// A thin line from the anchor to the nearest point of the text, unless the text is near and stands
-/// free.
+/// Draws a thin line from the anchor to the nearest point of the text, unless the text is near and
+/// covers nothing.
 void draw_leader(Canvas& canvas, const LabelPlace& place, const Style& style) {
   const Rectangle& r = place.text;
   const double x = std::clamp(place.anchor_x, r.x - 2.0, r.x + r.width + 2.0);

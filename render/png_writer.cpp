@@ -27,12 +27,13 @@ void on_data(png_structp png, png_bytep data, png_size_t size) {
   bytes.insert(bytes.end(), data, data + size);
 }
 
-/// libpng reports errors by longjmp, so nothing in this frame may need a destructor.
+/// libpng reports errors by longjmp, so no object in this frame may need a destructor.
 bool encode(png_structp png, png_infop info, const Image& image, PngEffort effort) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   const bool fast = effort == PngEffort::sequence;
   png_set_compression_level(png, fast ? 1 : 6);
-  // Without a filter, even rows of a background are runs as they are: faster, and smaller.
+  // Without a filter, even rows of a background are runs of equal bytes: they compress faster and
+  // smaller.
   png_set_filter(png, PNG_FILTER_TYPE_BASE, fast ? PNG_FILTER_NONE : PNG_ALL_FILTERS);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
                static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
@@ -72,7 +73,8 @@ Result<std::vector<std::uint8_t>> encode_png(const Image& image, PngEffort effor
 Errors write_png(const std::string& path, const Image& image, PngEffort effort) {
   const Result<std::vector<std::uint8_t>> bytes = encode_png(image, effort);
   if (!bytes) return bytes.errors();
-  // Waiting for the disk after each frame would take longer than drawing it.
+  // A sequence does not wait for the disk: the wait after each frame would take longer than drawing
+  // the frame.
   const bool kept = effort == PngEffort::still;
   return write_file(path, bytes.value(), kept ? Durability::power_loss : Durability::process);
 }

@@ -27,7 +27,7 @@ Errors check_settings(int width, int height, const RendererOptions& options) {
   Errors errors;
   check(errors, "supersample", options.supersample, 1, 4);
   const int factor = errors.empty() ? options.supersample : 1;
-  const int most = Renderer::max_side / factor;  // whole pixels
+  const int most = Renderer::max_side / factor;  // in whole pixels
   check(errors, "width", width, Renderer::min_side, most);
   check(errors, "height", height, Renderer::min_side, most);
   if (options.samples != 1 && options.samples != 2 && options.samples != 4) {
@@ -39,7 +39,7 @@ Errors check_settings(int width, int height, const RendererOptions& options) {
   return errors;
 }
 
-/// Light adds up in linear colour, not in encoded values.
+/// Decodes sRGB, because light adds up in linear colour and not in encoded values.
 class LinearTable {
  public:
   LinearTable() {
@@ -90,7 +90,8 @@ struct Renderer::Content {
   int width = 0;
   int height = 0;
   RendererOptions options;
-  std::unique_ptr<GlContext> context;  // outlives what was made with it
+  // declared first, so that it outlives the objects made with it
+  std::unique_ptr<GlContext> context;
   std::unique_ptr<FrameRenderer> frames;
 
   ~Content() {

@@ -6,7 +6,8 @@
 namespace sheave::render {
 namespace {
 
-/// Up in the picture: as the scene says, or against gravity unless one looks along it.
+/// The picture's up direction: the one the scene gives, else against gravity, unless the view is
+/// along gravity.
 Vector3 up_of(const Scene& scene, const CameraDef& camera, const Vector3& direction) {
   if (camera.up) return *camera.up;
   const Vector3 up = up_direction(scene.model);

@@ -1,6 +1,6 @@
-// A sheave: a rim with a groove for the cable, a hub, an axle pin, and spokes with openings
-// between. The flanges end a little below the centre line of the cable, so that most of it shows
-// from the side.
+// A sheave: a rim with a groove for the cable, a hub, an axle pin, and spokes with openings between
+// them. The flanges end a little below the centre line of the cable, so that most of the cable is
+// visible from the side.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,13 +11,13 @@
 namespace sheave::render {
 namespace {
 
-/// Measures of the parts [m].
+/// Sizes of the parts [m].
 struct Parts {
   double flange;        ///< outer radius
   double groove_depth;  ///< below the flange
   double groove_lip;    ///< half width at the flange
   double groove_floor;  ///< half width of the flat bottom
-  double rim_inner;     ///< radius of the openings' outer side
+  double rim_inner;     ///< outer radius of the openings
   double hub;
   double axle;
   double half_length;
@@ -43,7 +43,8 @@ void add_rim(MeshBuilder& builder, const Parts& p, int segments) {
   builder.add_cone(p.rim_inner, -z, p.flange, -z, segments);
   builder.add_cone(p.flange, -z, p.flange, -p.groove_lip, segments);
   if (p.groove_depth > 0.0) {
-    // Half an ellipse split by the flat floor; the normals of the ellipse make it look round.
+    // Half an ellipse, split by the flat floor; the normals of the ellipse make the groove look
+    // round.
     std::vector<ProfilePoint> profile;
     const double width = std::max(p.groove_lip - p.groove_floor, 1e-3 * p.half_length);
     constexpr int steps = 4;
@@ -118,7 +119,7 @@ void add_web(MeshBuilder& builder, const Parts& p, int segments) {
 void add_sheave(MeshBuilder& builder, const SheaveShape& sheave, int segments) {
   const Parts p = measure(sheave);
   add_rim(builder, p, segments);
-  // The inside of the rim is seen through the openings.
+  // The inner side of the rim is visible through the openings.
   builder.add_cone(p.rim_inner, p.half_length, p.rim_inner, -p.half_length, segments);
   add_hub(builder, p, std::max(8, segments / 2));
   if (sheave.spokes <= 0) {

@@ -28,13 +28,13 @@ void add(MeshBuilder& builder, const BoxShape& box, int /*segments*/) {
   }
 }
 
-/// The cross-section of a capsule; of a ball if length is zero.
+/// Adds a capsule; a ball if `length` is zero.
 void add_rounded(MeshBuilder& builder, double radius, double length, int segments) {
   const int steps = std::max(4, segments / 4);
   std::vector<ProfilePoint> profile;
   for (const double end : {-1.0, 1.0}) {
     for (int k = 0; k <= steps; ++k) {
-      if (end > 0.0 && k == 0 && !(length > 0.0)) continue;  // the equator is there already
+      if (end > 0.0 && k == 0 && !(length > 0.0)) continue;  // the first half has added the equator
       const double fraction = static_cast<double>(k) / steps;
       const double latitude = 0.5 * pi * (end < 0.0 ? fraction - 1.0 : fraction);
       const double c = std::abs(latitude) >= 0.5 * pi ? 0.0 : std::cos(latitude);

@@ -20,7 +20,8 @@ Paint to_paint(const Color& c) {
   return {byte(c.r), byte(c.g), byte(c.b), 0};
 }
 
-/// The points without those that stand on their predecessor: they have no direction.
+/// The points without those that coincide with their predecessor, because such points have no
+/// direction.
 std::vector<TubePoint> distinct_points(const Tube& tube) {
   std::vector<TubePoint> points;
   double scale = 0.0;
@@ -34,7 +35,7 @@ std::vector<TubePoint> distinct_points(const Tube& tube) {
   return points;
 }
 
-/// Direction of the line at each point: the bisector at corners.
+/// Direction of the line at each point; the bisector at corners.
 std::vector<Vector3> tangents_of(const std::vector<TubePoint>& points, bool closed) {
   std::vector<Vector3> tangents;
   const std::size_t n = points.size();
@@ -46,7 +47,7 @@ std::vector<Vector3> tangents_of(const std::vector<TubePoint>& points, bool clos
     if (closed && i == 0) before = (points[0].position - points[n - 2].position).normalized();
     if (closed && i + 1 == n) after = (points[1].position - points[0].position).normalized();
     const Vector3 sum = before + after;
-    // At a full reversal the bisector vanishes; the incoming direction serves.
+    // At a full reversal the bisector vanishes; the incoming direction replaces it.
     tangents.push_back(sum.norm() > 1e-6 ? Vector3(sum.normalized()) : before);
   }
   return tangents;
@@ -78,7 +79,7 @@ struct Sweep {
                                                    first + s, second + next, second + s});
     }
   }
-  /// A half ball as a few rings from (at the start) or to (at the end) a point.
+  /// Adds a half ball as a few rings from a point (at the start) or to a point (at the end).
   void cap(const Vector3& centre, const Vector3& u, const Vector3& v, double radius,
            const Vector3& outward, bool at_start, const Paint& paint) const {
     constexpr int steps = 3;

@@ -9,7 +9,7 @@
 namespace sheave::render {
 namespace {
 
-/// A file that is read here and there.
+/// A file with random access.
 class Bytes {
  public:
   explicit Bytes(const std::string& path) : file_(path, std::ios::binary) {
@@ -18,7 +18,7 @@ class Bytes {
   }
   /// -1 if the file cannot be read.
   [[nodiscard]] std::int64_t size() const { return size_; }
-  /// `count` bytes as a number, the highest first; nothing beyond the end. At most 8 bytes.
+  /// `count` bytes (at most 8) as a number, most significant byte first; nothing beyond the end.
   std::optional<std::uint64_t> number(std::int64_t at, int count) {
     if (at < 0 || at + count > size_) return {};
     std::array<char, 8> bytes{};
@@ -37,14 +37,14 @@ class Bytes {
   std::int64_t size_ = -1;
 };
 
-/// A piece of either format: what it is, and where its content begins and ends.
+/// A piece of either format: its kind, and the begin and end of its content.
 struct Piece {
   std::uint64_t kind = 0;
   std::int64_t begin = 0;
   std::int64_t end = 0;
 };
 
-/// The piece at `at`, which must end at `end` at the latest.
+/// Reads the piece at `at`; nothing if it does not end at `end` or before.
 using Reader = std::optional<Piece> (*)(Bytes& bytes, std::int64_t at, std::int64_t end);
 
 std::optional<Piece> bounded(std::uint64_t kind, std::int64_t begin, std::uint64_t size,
@@ -59,7 +59,8 @@ constexpr std::uint64_t four(std::string_view name) {
   return value;
 }
 
-/// A box of MP4: its size with this head, four letters, for large ones a size of 64 bits.
+/// A box of MP4: its size including this head, four letters, and a size of 64 bits if the box is
+/// large.
 std::optional<Piece> box_at(Bytes& bytes, std::int64_t at, std::int64_t end) {
   const auto size = bytes.number(at, 4);
   const auto kind = bytes.number(at + 4, 4);
@@ -71,7 +72,7 @@ std::optional<Piece> box_at(Bytes& bytes, std::int64_t at, std::int64_t end) {
   return bounded(*kind, at + 16, *large - 16, end);
 }
 
-/// An element of Matroska: number and size, each with its own length in its leading bits.
+/// An element of Matroska: a number and a size; the leading bits of each give its own length.
 std::optional<Piece> element_at(Bytes& bytes, std::int64_t at, std::int64_t end) {
   const auto first = bytes.number(at, 1);
   if (!first || *first < 0x10) return {};
@@ -83,12 +84,13 @@ std::optional<Piece> element_at(Bytes& bytes, std::int64_t at, std::int64_t end)
   const auto marked = bytes.number(at + id_length, size_length);
   if (!marked) return {};
   const std::uint64_t mask = (std::uint64_t{1} << (7U * static_cast<unsigned>(size_length))) - 1U;
-  // All ones: not known, which an encoder mends at its end.
+  // All ones mean an unknown size. An encoder replaces it when it ends properly.
   if ((*marked & mask) == mask) return {};
   return bounded(*id, at + id_length + size_length, *marked & mask, end);
 }
 
-/// Calls `use` for the pieces between `begin` and `end`; false if they do not fill that.
+/// Calls `use` for the pieces between `begin` and `end`; false if the pieces do not fill the
+/// interval.
 template <class Use>
 bool for_each(Bytes& bytes, Reader reader, std::int64_t begin, std::int64_t end, const Use& use) {
   while (begin < end) {
@@ -120,7 +122,7 @@ Result<std::int64_t> count_mp4(Bytes& bytes) {
   }
   const auto data = find(bytes, box_at, file, four("mdat"));
   if (!table || !data) return Error{"", "its index is damaged"};
-  // Version and flags; the size of all samples, 0 if each has its own; how many there are.
+  // Version and flags; the size of all samples, 0 if each has its own; the number of samples.
   const auto common = bytes.number(table->begin + 4, 4);
   const auto count = bytes.number(table->begin + 8, 4);
   if (!common || !count) return Error{"", "its index is damaged"};
@@ -156,7 +158,8 @@ Result<std::int64_t> count_matroska(Bytes& bytes) {
   return count;
 }
 
-/// The end of a chain of blocks, each headed by its length; the last one has none.
+/// The end of a chain of blocks. Each block begins with its length; the block of length 0 ends the
+/// chain.
 std::optional<std::int64_t> end_of_chain(Bytes& bytes, std::int64_t at) {
   for (;;) {
     const auto length = bytes.number(at, 1);
@@ -166,7 +169,7 @@ std::optional<std::int64_t> end_of_chain(Bytes& bytes, std::int64_t at) {
   }
 }
 
-/// Size of the colour table that flags tell of.
+/// Size of the colour table that the flags describe.
 std::int64_t table_size(std::uint64_t flags) {
   return (flags & 0x80U) == 0 ? 0 : std::int64_t{3} << ((flags & 7U) + 1U);
 }

@@ -15,11 +15,11 @@
 namespace sheave::render {
 namespace {
 
-/// File name extensions and what ffmpeg calls their containers.
+/// File name extensions and ffmpeg's names for their containers.
 struct Container {
   std::string_view extension;
   const char* name;
-  bool fast_start;  ///< has an index that can be moved to the front
+  bool fast_start;  ///< whether the container has an index that can be moved to the front
 };
 constexpr std::array<Container, 4> containers{{{".mp4", "mp4", true},
                                                {".mov", "mov", true},
@@ -71,8 +71,8 @@ std::vector<std::string> command_line(const Container& container, const std::str
        std::to_string(width) + "x" + std::to_string(height), "-framerate",
        fixed_text(options.frames_per_second, 6), "-i", "pipe:0"});
   if (container.name == std::string_view("gif")) {
-    // Each frame has the 256 colours that suit it: one palette for all would need all frames at
-    // once in memory. Ordered dithering stands still where the picture does.
+    // Each frame has its own palette of 256 colours: one palette for all frames would need all
+    // frames in memory at once. Ordered dithering stands still where the picture does.
     constexpr const char* palettes =
         "split[a][b];[a]palettegen=stats_mode=single[p];"
         "[b][p]paletteuse=new=1:dither=bayer:bayer_scale=4";
@@ -80,10 +80,11 @@ std::vector<std::string> command_line(const Container& container, const std::str
          "-1", "-loop", "0", "-f", "gif", "file:" + file});
     return line;
   }
-  // Without naming the matrix, players guess one by the size and colours shift.
+  // Unless the file names the matrix, players guess one from the picture size, and the colours
+  // shift.
   add({"-vf", "scale=out_color_matrix=bt709:out_range=tv", "-colorspace", "bt709",
        "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv"});
-  // A fixed number of threads, because x264's output depends on it.
+  // The number of threads is fixed, because the output of x264 depends on it.
   add({"-c:v", "libx264", "-preset", "veryfast", "-crf", std::to_string(options.quality),
        "-pix_fmt", "yuv420p", "-threads", "2", "-flags:v", "+bitexact", "-fflags", "+bitexact",
        "-map_metadata", "-1"});
@@ -92,7 +93,7 @@ std::vector<std::string> command_line(const Container& container, const std::str
   return line;
 }
 
-/// That a finished video has its frames.
+/// Checks that a finished video has all its frames.
 Errors check_frames(const std::string& file, std::int64_t frames) {
   const Result<std::int64_t> found = count_video_frames(file);
   if (found && *found == frames) return {};
@@ -112,7 +113,7 @@ struct VideoWriter::Content {
   ChildProcess encoder;
   std::vector<std::uint8_t> even;  ///< a frame extended to even sizes, kept for reuse
 
-  /// Bytes of the frame with both sides even, as 4:2:0 needs.
+  /// Bytes of the frame with both sides even, as 4:2:0 subsampling requires.
   std::span<const std::uint8_t> extended(const Image& frame) {
     if (width % 2 == 0 && height % 2 == 0) return frame.rgb;
     const auto row = static_cast<std::size_t>(width) * 3U;
@@ -136,7 +137,7 @@ Result<VideoWriter> VideoWriter::create(const std::string& path, int width, int 
   if (Errors errors = check(path, width, height, options); !errors.empty()) return errors;
   Result<OutputFile> file = OutputFile::create(path);
   if (!file) return file.errors();
-  // Only the name was wanted: the encoder opens the file itself.
+  // Only the name was needed, because the encoder opens the file itself.
   if (Errors errors = file->close(); !errors.empty()) return errors;
   Result<ChildProcess> encoder =
       ChildProcess::start(command_line(*container_of(path), file->temporary_path(),
@@ -145,7 +146,7 @@ Result<VideoWriter> VideoWriter::create(const std::string& path, int width, int 
                            .abandon = options.abandon,
                            .if_missing = "videos need ffmpeg (Debian: apt install ffmpeg)"});
   if (!encoder) return encoder.errors();
-  // An aggregate, which make_unique cannot initialise for every compiler.
+  // An aggregate, which make_unique cannot initialise with every compiler.
   // NOLINTNEXTLINE(modernize-make-unique)
   return VideoWriter(std::unique_ptr<Content>(
       new Content{width, height, 0, std::move(file).value(), std::move(encoder).value(), {}}));
@@ -174,7 +175,7 @@ Errors VideoWriter::finish() {
   const std::string name = "video '" + content->file.path() + "': ";
   if (content->frames == 0) return {Error{"", name + "it has no frames"}};
   Errors errors = content->encoder.finish();
-  // An encoder may end with success and still have written nothing, or half.
+  // An encoder may report success and still have written no file or half a file.
   if (errors.empty()) {
     errors = check_frames(content->file.temporary_path(), content->frames);
     const std::string said = content->encoder.last_words();

@@ -11,7 +11,7 @@
 namespace sheave::render {
 namespace {
 
-/// The world does not move; every other body has a pose.
+/// A point in the world. The world itself does not move; every other body has a pose.
 Vector3 place_in_world(const World& world, BodyId body, const Vector3& local) {
   return body.is_world() ? local : world.point(body, local);
 }
@@ -20,7 +20,7 @@ Quaternion turn_in_world(const World& world, BodyId body, const Quaternion& loca
   return body.is_world() ? local : Quaternion(world.orientation(body) * local);
 }
 
-/// A plane under the box, a little below so that nothing touches it by accident.
+/// A plane under the box, lower by a small gap, so that no body touches the plane by accident.
 Plane floor_under(const Eigen::AlignedBox3d& box, const Vector3& up) {
   double lowest = up.dot(Vector3(box.center()));
   for (int i = 0; i < 8; ++i) {
@@ -33,10 +33,10 @@ Plane floor_under(const Eigen::AlignedBox3d& box, const Vector3& up) {
   return plane;
 }
 
-/// Two lines of the same direction, whichever way they point.
+/// Whether two directions are parallel or opposite.
 bool parallel(const Vector3& a, const Vector3& b) { return a.cross(b).norm() < 1e-3; }
 
-/// The direction that all have in common; nothing if there is none.
+/// The direction that all have in common, up to sign; nothing if there is none.
 std::optional<Vector3> common_direction(const std::vector<Vector3>& directions) {
   if (directions.empty()) return std::nullopt;
   for (const Vector3& d : directions) {
@@ -104,7 +104,8 @@ ViewBuilder::ViewBuilder(const World& world, std::span<const CableReport> cables
     : options_(std::move(options)),
       gravity_(world.model().gravity),
       weight_(total_weight(world.model())) {
-  // Twice: the size of the scene decides the cables' radius, and that the shape of the wheels.
+  // The bodies are viewed twice: the size of the scene decides the radius of the cables, and that
+  // radius the shape of the wheels.
   bodies_ = make_body_view(world, cables, 1e-9 * world.bodies().scale());
   DrawList draft;
   add_bodies(world, draft);
@@ -234,7 +235,7 @@ void ViewBuilder::add_labels(const CableReport& cable, const CableStyle& style,
     Label label;
     label.text = quantity_text(span.tension, style.tension_max, "N");
     label.anchor = middle_of(lines[k]);
-    // Off to the right of an upright span, above a level one.
+    // The label stands to the right of an upright span and above a level one.
     label.direction = along.cross(normal);
     const Vector3 up =
         gravity_.norm() > 0.0 ? Vector3(-gravity_.normalized()) : Vector3(Vector3::UnitY());

@@ -1,5 +1,6 @@
-// One frame: depth from the light, then surfaces, silhouettes and edges, then planes and
-// background, which by then are hidden in most places and cost little.
+// The passes of one frame: depth from the light, then surfaces, silhouettes and edges, then planes
+// and the background. By then surfaces hide most of the planes and the background, so these cost
+// little.
 #include "render/gl/frame_renderer.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ Eigen::Vector3f linear(const Color& color) {
   return {decode(color.r), decode(color.g), decode(color.b)};
 }
 
-/// Facets round a curved surface that spans so many pixels in radius.
+/// Number of facets round a curved surface with a radius of so many pixels.
 int facets(double pixels) {
   constexpr std::array<std::pair<double, int>, 5> steps{
       {{6.0, 12}, {20.0, 24}, {60.0, 40}, {180.0, 64}, {500.0, 96}}};
@@ -44,7 +45,7 @@ Mesh square() {
 
 }  // namespace
 
-/// Something to draw with one call.
+/// An object that one call draws.
 struct FrameRenderer::Item {
   const GpuMesh* mesh = nullptr;
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
@@ -229,7 +230,7 @@ void FrameRenderer::draw_planes(const DrawList& list, const Frame& frame) {
     program.set("base_color", linear(plane.color));
     const bool grid = plane.grid_spacing > 0.0;
     const double spacing = grid ? plane.grid_spacing : radius;
-    // The grid is fixed to the plane's own point, not to where the camera looks.
+    // The grid is fixed to the plane's own point and not to the point the camera looks at.
     const Vector3 offset = centre - plane.point;
     const auto phase = [&](const Vector3& axis) {
       const double lines = axis.dot(offset) / spacing;
@@ -256,7 +257,7 @@ Image FrameRenderer::read_image() {
   Image image(settings_.width, settings_.height);
   const auto width = static_cast<std::size_t>(settings_.width);
   for (int y = 0; y < settings_.height; ++y) {
-    // GL counts rows from below.
+    // GL counts rows from the bottom.
     const std::uint8_t* from =
         pixels_.data() + static_cast<std::size_t>(settings_.height - 1 - y) * width * 4U;
     std::uint8_t* to = image.pixel(0, y);

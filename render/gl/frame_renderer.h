@@ -23,7 +23,7 @@ struct FrameSettings {
 
 class FrameRenderer {
  public:
-  /// The context must be current, and stay so for every call.
+  /// The context must be current during this call and every later one.
   static Result<std::unique_ptr<FrameRenderer>> make(const GladGLContext& gl,
                                                      const FrameSettings& settings);
   ~FrameRenderer();

@@ -8,7 +8,7 @@
 namespace sheave::render {
 namespace {
 
-/// A shader object, or the compiler's complaint.
+/// A compiled shader object, or the compiler's message.
 Result<GLuint> compile(const GladGLContext& gl, GLenum kind, std::string_view name,
                        std::string_view source) {
   const std::array<std::string_view, 3> parts{"#version 330 core\n", shaders::common, source};

@@ -1,6 +1,6 @@
 #pragma once
-// Owners of GL objects. Each keeps the function table of its context, which must outlive it and be
-// current whenever an owner is made, used or destroyed.
+// Owners of GL objects. Each keeps a reference to the function table of its context. The context
+// must outlive the owner and be current whenever an owner is made, used or destroyed.
 
 #include <array>
 #include <cstdint>
@@ -75,10 +75,10 @@ class GpuMesh {
   GLsizei line_count_ = 0;
 };
 
-/// A framebuffer with colour and depth; multisampled ones resolve into a plain one for reading.
+/// A framebuffer with colour and depth. A multisampled one resolves into a plain one for reading.
 class RenderTarget {
  public:
-  /// samples: 0 or 1 for none.
+  /// samples: number of samples per pixel; 0 or 1 means no multisampling.
   static Result<std::unique_ptr<RenderTarget>> make(const GladGLContext& gl, int width, int height,
                                                     int samples);
   RenderTarget(const GladGLContext& gl, int width, int height);
@@ -97,7 +97,8 @@ class RenderTarget {
   const GladGLContext& gl_;
   int width_;
   int height_;
-  std::vector<GLuint> framebuffers_;  ///< drawn into; then, if multisampled, resolved into
+  /// the framebuffer for drawing; then, if multisampled, the plain one for reading
+  std::vector<GLuint> framebuffers_;
   std::vector<GLuint> storages_;
 };
 

@@ -16,10 +16,10 @@ class MeshCache {
  public:
   explicit MeshCache(const GladGLContext& gl) : gl_(gl) {}
 
-  /// The mesh of a shape with so many facets round curved surfaces; valid until the next
+  /// The mesh of a shape with `segments` facets round curved surfaces; valid until the next
   /// end_frame().
   const GpuMesh& find(const Shape& shape, int segments);
-  /// Forgets meshes that the last frame did not use, once there are many.
+  /// Drops the meshes that the last frame did not use, once the cache is large.
   void end_frame();
   [[nodiscard]] std::size_t size() const { return entries_.size(); }
 

@@ -4,7 +4,7 @@
 
 #define GLAPI extern
 #include <glad/gl.h>
-// osmesa.h wants the types of GL/gl.h, which glad has declared already.
+// osmesa.h needs the types of GL/gl.h; glad has declared them already.
 #include <GL/osmesa.h>
 
 #include "render/gl/gl_context.h"
@@ -12,8 +12,8 @@
 namespace sheave::render {
 namespace {
 
-/// OSMesa insists on a window-like buffer of its own. Pictures are drawn into framebuffer objects,
-/// so the smallest one does.
+/// OSMesa insists on a buffer of its own, like a window. Pictures are drawn into framebuffer
+/// objects, so the smallest buffer suffices.
 constexpr int buffer_side = 16;
 
 class OsmesaContext final : public GlContext {

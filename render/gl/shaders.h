@@ -5,7 +5,7 @@
 
 namespace sheave::render::shaders {
 
-/// Stands before every source: functions shared by several shaders.
+/// Begins every source: functions shared by several shaders.
 extern const std::string_view common;
 
 extern const std::string_view shadow_vertex, shadow_fragment;    ///< depth seen from the light

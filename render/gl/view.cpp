@@ -6,8 +6,8 @@
 namespace sheave::render {
 namespace {
 
-/// Edges are lifted by so many pixels' worth of depth: enough for the slope of a surface across the
-/// width of a line, too little to show hidden edges through thin parts.
+/// Depth by which edges are lifted off surfaces, in pixels. It covers the slope of a surface across
+/// the width of a line and is too small to show hidden edges through thin parts.
 constexpr double nudge_pixels = 1.5;
 
 Eigen::Matrix4d look(const CameraAxes& a, const Vector3& eye) {
@@ -40,7 +40,7 @@ Eigen::Matrix4d orthographic(double width, double height, double near, double fa
 }
 
 /// Rounds a length up to one of a few sizes, so that the shadow map's texels keep their size while
-/// things move.
+/// bodies move.
 double steady_size(double length) {
   return std::exp2(std::ceil(std::log2(std::max(length, 1e-300)) * 8.0) / 8.0);
 }
@@ -67,7 +67,7 @@ View make_view(const Camera& camera, int width, int height, const Eigen::Aligned
     view.nudge = static_cast<float>(nudge_pixels * 2.0 * half_height / (distance * height));
     view.ground_radius = std::max(4.0 * view.radius, 6.0 * half_height * std::max(1.0, aspect));
     const double far = reach + view.radius + 1.5 * view.ground_radius;
-    // Near enough for the ground at the lower edge of the picture.
+    // The near plane is near enough to show the ground at the lower edge of the picture.
     const double near =
         std::max(0.02 * std::min(distance, std::max(reach - view.radius, 0.0)), 1e-4 * far);
     projection = perspective(p->vertical_fov, aspect, near, far);
@@ -89,7 +89,8 @@ View make_view(const Camera& camera, int width, int height, const Eigen::Aligned
 Light make_light(const Camera& camera, const Vector3& up, const View& view,
                  const Eigen::AlignedBox3d& contents, int shadow_side) {
   const CameraAxes a = axes(camera);
-  // Right and towards the reader, kept level, so that shadows fall to one side on the ground.
+  // The light comes from above, from the left and from behind the viewer. The latter two directions
+  // are level, so that shadows fall to one side on the ground.
   Vector3 level_right = a.right - up * up.dot(a.right);
   Vector3 level_back = a.back - up * up.dot(a.back);
   if (level_right.norm() < 1e-6) level_right = any_perpendicular(up);
@@ -105,7 +106,8 @@ Light make_light(const Camera& camera, const Vector3& up, const View& view,
   const CameraAxes frame{side, to_light.cross(side), to_light};
   Vector3 centre = Vector3::Zero();
   if (!contents.isEmpty()) centre = contents.center() - view.origin;
-  // Moves in whole texels of a grid fixed in the world, or the edges of shadows would crawl.
+  // The centre moves in whole texels of a grid fixed in the world; otherwise the edges of shadows
+  // would crawl.
   const auto snap = [&](const Vector3& axis) {
     const double offset = axis.dot(view.origin);
     return std::round((axis.dot(centre) + offset) / light.texel) * light.texel - offset;
