@@ -1,5 +1,5 @@
 #pragma once
-// Where bodies were when something was defined that came into a running world.
+// The poses of bodies at the time when something was defined in a running world.
 
 #include <memory>
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace sheave {
 
-/// The frame of a body, in the world.
+/// A body's frame in the world.
 struct BodyFrame {
   Vector3 position = Vector3::Zero();               ///< of its origin [m]
   Quaternion orientation = Quaternion::Identity();  ///< body frame to world frame
 };
 
-/// One per body that there was, by index. Null stands for time 0.
+/// One frame per body, by index. Null stands for the poses at time 0.
 using BodyFrames = std::shared_ptr<const std::vector<BodyFrame>>;
 
 }  // namespace sheave

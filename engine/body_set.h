@@ -1,5 +1,5 @@
 #pragma once
-// Bodies as the step needs them: everything that follows from the definitions once and for all.
+// Bodies compiled for the step: all constants that follow from the definitions.
 
 #include <optional>
 #include <span>
@@ -21,48 +21,51 @@ struct Model;
 struct BodyProperties {
   Mobility mobility = Mobility::fixed;
   int mount = -1;  ///< index of the body that carries a mounted rotor; -1 for all others
-  /// Of the body and the rotors mounted on it [kg]; 0 where it has no effect on the motion.
+  /// Mass of the body and of the rotors mounted on it [kg]; 0 where the mass does not affect the
+  /// motion.
   double mass = 0.0;
   Vector3 center_of_mass = Vector3::Zero();  ///< [m], body frame
-  /// About the centre of mass [kg m2], own frame, with the mounted rotors' mass and their inertia
-  /// across the axle, but without their inertia about it.
+  /// Inertia about the centre of mass [kg m2], own frame. The mass of mounted rotors and their
+  /// inertia across the axle are included, their inertia about the axle is not.
   Matrix3 inertia = Matrix3::Zero();
-  Matrix3 inverse_inertia = Matrix3::Zero();  ///< of `inertia`; zero where the body cannot turn
+  /// Inverse of `inertia`; zero where the body cannot turn
+  Matrix3 inverse_inertia = Matrix3::Zero();
   bool isotropic = false;  ///< free bodies: `inertia` is a multiple of the identity
-  /// Free bodies: two principal moments are equal (a capsule, a wheel), and this is the unit axis
-  /// of the third, own frame.
+  /// Free bodies with two equal principal moments (a capsule, a wheel): the unit axis of the third,
+  /// own frame.
   std::optional<Vector3> symmetry_axis;
   /// Unit vector: planar normal, slider direction or axle, in the world frame; of a mounted rotor
   /// in its carrier's own frame.
   Vector3 axis = Vector3::UnitZ();
-  /// How far it reaches from its centre, about; what its turns are compared with lengths by [m], > 0.
+  /// Distance from the centre to the farthest point, roughly [m], > 0; converts turns into lengths.
   double size = 1.0;
-  double axis_inertia = 0.0;  ///< about the axis [kg m2]; planar bodies and rotors, 0: massless
+  /// Moment of inertia about `axis` of planar bodies and rotors [kg m2]; 0: massless
+  double axis_inertia = 0.0;
   Vector3 mount_position = Vector3::Zero();  ///< centre of a mounted rotor, carrier's own frame [m]
   Quaternion start_orientation = Quaternion::Identity();  ///< at angle 0; relative to the carrier
-  DriveKind drive = DriveKind::none;                      ///< of rotors on fixed axles
-  /// Of mounted rotors, against the carrier; one to an angle has 0 at time 0. Rows drive them
-  /// (engine/dynamics/mounted_drive.h).
+  DriveKind drive = DriveKind::none;                      ///< drive of a rotor on a fixed axle
+  /// Drive of a mounted rotor, relative to the carrier; a drive to an angle has angle 0 at time 0.
+  /// Rows apply it (engine/dynamics/mounted_drive.h).
   DriveKind mounted_drive = DriveKind::none;
   TimeTable drive_table;
-  /// Either of them.
+  /// The kind of the drive, on a fixed axle or mounted.
   [[nodiscard]] DriveKind driven_by() const { return mount >= 0 ? mounted_drive : drive; }
-  /// Its rotation is prescribed, so constraints cannot turn it.
+  /// Whether a drive prescribes the rotation, so that constraints cannot turn the body.
   [[nodiscard]] bool prescribed() const {
     return drive == DriveKind::speed || drive == DriveKind::angle;
   }
-  /// A wheel that only its cable turns, without any resistance. (A driven one resists, whatever its
-  /// inertia.)
+  /// Whether this is a wheel that only its cable turns, without resistance. A driven wheel resists,
+  /// even without inertia.
   [[nodiscard]] bool massless() const {
     return mobility == Mobility::rotor && axis_inertia == 0.0 && !prescribed();
   }
-  std::vector<int> mounted_rotors;  ///< indices of the rotors this body carries
+  std::vector<int> mounted_rotors;  ///< indices of the rotors that this body carries
 };
 
 /// All bodies of a model, ready to step. Immutable.
 class BodySet {
  public:
-  /// Checks and compiles the bodies. Faults are reported for all bodies, not only the first.
+  /// Checks and compiles the bodies. Reports the errors of all bodies, not only the first.
   static Result<BodySet> create(const Model& model);
 
   [[nodiscard]] int count() const { return static_cast<int>(definitions_.size()); }
@@ -81,28 +84,29 @@ class BodySet {
   [[nodiscard]] const std::string& name(int index) const;
   [[nodiscard]] const Coordinates& coordinates() const { return coordinates_; }
   [[nodiscard]] const Vector3& gravity() const { return gravity_; }
-  /// Length [m] that "large" and "small" are measured by: about the greatest distance within
-  /// the scene at time 0; 1 m if all that is a single point.
+  /// Length scale of the scene [m]: about the greatest distance within the scene at time 0; 1 m if
+  /// the scene is a single point.
   [[nodiscard]] double scale() const { return scale_; }
 
   /// The state at time 0, without features.
   [[nodiscard]] State initial_state() const;
-  /// The same with bodies in these frames; those that have none there are where they are at time 0.
+  /// The state with bodies in these frames; a body without a frame has its pose at time 0.
   [[nodiscard]] State state_in(const BodyFrames& frames) const;
-  /// That of a body, or of the world.
+  /// The frame of a body or of the world; at time 0 if `frames` has none for the body.
   [[nodiscard]] BodyFrame frame(int index, const BodyFrames& frames) const;
   /// Pose at time 0 of the body frame's point `local` [m] of body `index`, or of the world.
   [[nodiscard]] Vector3 initial_point(int index, const Vector3& local) const;
   [[nodiscard]] Quaternion initial_orientation(int index) const;
-  /// Whether the body keeps every point of it in a plane with this normal (world frame at time 0).
+  /// Whether all points of the body keep to planes with this normal (world frame at time 0).
   [[nodiscard]] bool stays_in_plane(int index, const Vector3& normal) const;
 
-  /// Position [m] and velocity of a kinematic body's origin at `time`, and its rotation since 0.
+  /// Position [m] and velocity of a kinematic body's origin at `time`, and its rotation since time
+  /// 0.
   [[nodiscard]] BodyState kinematic_state(int index, double time) const;
 
  private:
   std::vector<BodyDef> definitions_;
-  std::vector<BodyProperties> properties_;  // one more than definitions_: the world
+  std::vector<BodyProperties> properties_;  // one more than definitions_; the world comes last
   Coordinates coordinates_;
   Vector3 gravity_ = Vector3::Zero();
   double scale_ = 1.0;

@@ -17,13 +17,13 @@ struct AffineSubstep;
 class BodySet;
 struct Substep;
 
-/// Where a feature's notes can return to: ConstraintBatch::mark_notes().
+/// The events to which a feature's notes can return: ConstraintBatch::mark_notes().
 enum class NoteMark { step, substep };
 
-/// A feature of a world that constrains bodies. Its settings are fixed; what it carries from
-/// substep to substep is a FeatureState; members beyond those are scratch that begin() fills anew
-/// in every substep, or notes: what it keeps for reports alone (events, warnings), and nothing that
-/// moves depends on.
+/// A feature of a world that constrains bodies. Its settings are fixed. Its state, which goes from
+/// substep to substep, is a FeatureState. All other members are either scratch, which begin() fills
+/// anew in every substep, or notes. Notes serve reports alone (events, warnings), and no motion
+/// depends on them.
 class ConstraintBatch {
  public:
   virtual ~ConstraintBatch() = default;
@@ -34,12 +34,12 @@ class ConstraintBatch {
   [[nodiscard]] virtual std::string_view name() const = 0;
   /// The feature's state at time 0.
   [[nodiscard]] virtual FeatureState initial_state() const = 0;
-  /// Whether `state`, of the right sizes, can be one of this feature: what begin() relies on.
+  /// Whether `state`, whose sizes are right, meets the assumptions of begin().
   [[nodiscard]] virtual bool accepts(const FeatureState& /*state*/) const { return true; }
-  /// Whether `controls`, of a state that accepts() has passed, can be those of this feature;
-  /// Controls::cables and links are its alone if it takes_cables().
+  /// Whether the feature can have `controls`, which belong to a state that accepts() has passed.
+  /// The feature with takes_cables() checks Controls::cables and links.
   [[nodiscard]] virtual bool accepts_controls(const Controls& /*controls*/) const { return true; }
-  /// Whether it is the one whose cables and links controls are for.
+  /// Whether the controls of cables and links are those of this feature.
   [[nodiscard]] virtual bool takes_cables() const { return false; }
   /// Whether states always have the sizes of initial_state(); otherwise accepts() checks them.
   [[nodiscard]] virtual bool has_fixed_size() const { return true; }
@@ -48,85 +48,85 @@ class ConstraintBatch {
 
   /// Called before bodies are predicted. `state` is the feature's own state at the start.
   virtual void begin(const Substep& substep, const FeatureState& state) = 0;
-  /// Whether limit_drives() ever does anything.
+  /// Whether limit_drives() can reduce a drive's share.
   [[nodiscard]] virtual bool limits_drives() const { return false; }
-  /// Called after begin(): lessens Substep::drive_shares where a drive would need what is not there
-  /// (a winch whose cable has run out). Other features do the same.
+  /// Called after begin(): reduces Substep::drive_shares of drives that cannot complete their
+  /// motion (a winch whose cable has run out). Several features may reduce the same share.
   virtual void limit_drives(Substep& /*substep*/) {}
   /// One Gauss-Seidel sweep: each row in order, re-evaluated at the current positions and solved.
   /// Returns the largest correction, as an error of a row [m or rad].
   virtual double sweep(Substep& substep) = 0;
-  /// Appends all rows at the current positions without moving anything; their multipliers are those
-  /// of multipliers().
+  /// Appends all rows at the current positions, and moves nothing. Row::index refers to
+  /// multipliers().
   virtual void linearise(Substep& substep, RowList& rows) = 0;
-  /// Whether linearise() always appends the same rows within a substep, unless revise() says that
-  /// something has changed. (The ground has none for what is far from it.)
+  /// Whether linearise() appends the same rows throughout a substep, unless revise() reports a
+  /// change. (The ground appends no rows for bodies far from it.)
   [[nodiscard]] virtual bool has_all_rows() const { return false; }
-  /// The longest length that a row's value is a difference of in this substep [m], slack or not, if
-  /// it can be longer than the bodies are apart (a cable to a point of the world): of that size is
-  /// what rounding leaves of the value.
+  /// The longest length from which a row's value is computed as a difference in this substep [m],
+  /// slack rows included. The rounding error of the value scales with this length, which may exceed
+  /// the distance of the bodies (a long cable to a point of the world).
   [[nodiscard]] virtual double longest() const { return 0.0; }
-  /// The accumulated multipliers, which a row refers to by its index; a solver changes them with
-  /// the positions.
+  /// The accumulated multipliers. A row refers to its multiplier by index; solvers change both.
   [[nodiscard]] virtual std::span<double> multipliers() = 0;
-  /// Called when a solver of all rows at once has found multipliers: chooses anew between the
-  /// states that rows do not tell (a cable sticks or slides). Returns whether anything has changed.
+  /// Called when a solver of all rows at once has found multipliers: selects anew among discrete
+  /// states that rows do not express (a cable sticks or slides). Returns whether any has changed.
   virtual bool revise(Substep& /*substep*/) { return false; }
-  /// Called when `rattle` has found the impulses of the velocities, with multipliers() those of the
-  /// forces of both halves of the substep: chooses anew between such states, until end_impulses().
-  /// Returns whether anything has changed; linearise() then tells the rows, as many as before.
+  /// Called when `rattle` has found the impulses of the velocities: selects discrete states as
+  /// revise() does, until end_impulses(). multipliers() then hold the forces of both halves of the
+  /// substep. Returns whether any state has changed; linearise() then appends as many rows as
+  /// before.
   virtual bool revise_impulses(const Substep& /*substep*/) { return false; }
-  /// Called when the impulses are found: chooses again what it had chosen before them.
+  /// Called when the impulses are final: restores the states selected before revise_impulses().
   virtual void end_impulses() {}
-  /// Whether its rows depend on each other too much for sweeps from row to row to get anywhere:
-  /// Gauss-Seidel then solves them all at once whenever it is their turn.
+  /// Whether the rows are coupled too strongly for sweeps from row to row to converge. Gauss-Seidel
+  /// then solves all rows of this feature at once in each sweep.
   [[nodiscard]] virtual bool is_stiff() const { return false; }
   /// Whether begin() has found an impact from which bodies will rebound. `rattle` leaves such a
   /// substep to `xpbd`.
   [[nodiscard]] virtual bool meets() const { return false; }
-  /// Whether correct_velocities() ever does anything.
+  /// Whether correct_velocities() can change a velocity.
   [[nodiscard]] virtual bool corrects_velocities() const { return false; }
-  /// Called when velocities follow from positions, for what positions do not tell of them (a
-  /// bounce).
+  /// Called when velocities have been derived from positions: applies velocity changes that
+  /// positions do not express (a rebound).
   virtual void correct_velocities(Substep& /*substep*/) {}
-  /// Why the substep that has just been done is void, as a sentence that names the bodies; empty if
-  /// it is not.
+  /// The reason why the substep just done is invalid, as a sentence that names the bodies; empty if
+  /// the substep is valid.
   [[nodiscard]] virtual std::string fault() const { return {}; }
   /// Called when positions are final: writes the feature's state at the end of the substep.
   virtual void finish(Substep& substep, FeatureState& next) = 0;
-  /// Why the motion cannot go on from the substep that finish() has ended, as a sentence; empty: it
-  /// can.
+  /// The reason why the motion cannot continue after finish(), as a sentence (a singular
+  /// configuration); empty if it can.
   [[nodiscard]] virtual std::string dead_end(const Substep& /*substep*/) const { return {}; }
-  /// Keeps where its notes are, for return_to(); one place per mark.
+  /// Marks the present extent of the notes for return_to(); one mark of each kind is kept.
   virtual void mark_notes(NoteMark /*mark*/) {}
-  /// Forgets what it has noted since, when the motion that this belongs to is discarded.
+  /// Drops the notes taken since the mark, because the motion they describe has been discarded.
   virtual void return_to(NoteMark /*mark*/) {}
 
-  // Machines in which nothing turns a row's gradient: engine/solvers/affine_motion.h.
+  // Machines whose gradients are constant: engine/solvers/affine_motion.h.
 
-  /// Appends all its rows that ever have a force in such substeps, if each is affine in what
-  /// `bodies` count, for good; otherwise none, and false.
+  /// Appends all rows that can have a force in affine substeps, if each row is affine in the
+  /// coordinates of `bodies` at all times; otherwise appends none and returns false.
   [[nodiscard]] virtual bool append_affine(const AffineBodies& /*bodies*/, AffineRows& /*rows*/) {
     return false;
   }
-  /// Instead of begin() and limit_drives(): the rows' values at the start of a substep, and which
-  /// of them have a force in `state`. False if in this substep they may not be affine.
+  /// Replaces begin() and limit_drives(): the values of the rows at the start of the substep, and
+  /// which rows have a force in `state`. False if the rows may not be affine in this substep.
   [[nodiscard]] virtual bool begin_affine(const AffineSubstep& /*substep*/,
                                           const FeatureState& /*state*/,
                                           std::span<double> /*values*/,
                                           std::span<char> /*active*/) {
     return false;
   }
-  /// Instead of finish(): the state at the end, into one that agrees with that at the start, `now`,
-  /// in all that such substeps leave alone. False if it has to be found in another way; nothing has
-  /// changed then but `next`.
+  /// Replaces finish(): writes the state at the end into `next`. On entry `next` agrees with `now`,
+  /// the state at the start, in all members that affine substeps leave unchanged. False if the
+  /// substep needs the stages; only `next` may then have changed.
   [[nodiscard]] virtual bool finish_affine(const AffineSubstep& /*substep*/,
                                            const FeatureState& /*now*/, FeatureState& /*next*/) {
     return false;
   }
 
-  /// Takes over from a state of a feature of another world what is the same in both: `own` is that
-  /// of initial_state(). Called when a running world is edited.
+  /// Takes over the parts of another world's feature state that are the same in both worlds. `own`
+  /// is on entry that of initial_state(). Called when a running world is edited.
   virtual void adopt(const ConstraintBatch& /*before*/, const FeatureState& /*from*/,
                      FeatureState& /*own*/) const {}
 

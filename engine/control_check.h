@@ -1,7 +1,7 @@
 #pragma once
-// What is wrong with controls; internal to the engine, but for make_ramp(). Faults are texts, empty
-// where there is none. Setters ask of what they are about to set what restore() asks of a state, so
-// a world never has what it could not go back to.
+// Checks of controls; internal to the engine, but for make_ramp(). Errors are texts, empty if there
+// is none. Setters check a control as restore() checks a state, so a world never has a state that
+// restore() would reject.
 
 #include <memory>
 #include <span>
@@ -16,50 +16,50 @@
 
 namespace sheave {
 
-/// Where a joint of a model is to be found.
+/// The location of a joint of a model.
 struct JointPlace {
   const JointFeature* feature = nullptr;
-  int index = 0;             ///< within it
-  int first_coordinate = 0;  ///< of its coordinates among those of all joints
+  int index = 0;             ///< index within the feature
+  int first_coordinate = 0;  ///< index of the joint's first coordinate among those of all joints
 };
 
-/// The places of all joints; tells features where their joints' coordinates are.
+/// The locations of all joints. Also tells features the indices of their joints' coordinates.
 [[nodiscard]] std::vector<JointPlace> number_joints(
     const Model& model, std::span<const std::unique_ptr<ConstraintBatch>> features);
 
-/// What the value of a drive is.
+/// The quantity that a drive's value prescribes.
 enum class DriveMeaning { speed, position, force };
 
-/// What a drive asks for now.
+/// The present target of a drive.
 struct DriveNow {
   DriveMeaning meaning = DriveMeaning::speed;
   double value = 0.0;
-  double rate = 0.0;      ///< of positions
+  double rate = 0.0;      ///< rate of a position
   double time = 0.0;      ///< [s]
-  double interval = 0.0;  ///< until the caller can set it anew [s]
+  double interval = 0.0;  ///< time until the caller can next set it [s]
 };
 
-/// Makes the ramp from there to `target`; false if there is none.
+/// Makes the ramp from `now` to `target`; false if there is none.
 [[nodiscard]] bool make_ramp(const DriveNow& now, const DriveTarget& target, Ramp& ramp);
-/// Why there is none, as the rest of a sentence that begins with what is driven.
+/// The reason why there is no ramp, as the rest of a sentence whose subject is the driven object.
 [[nodiscard]] std::string ramp_fault(const DriveNow& now, const DriveTarget& target);
 
 class ControlCheck {
  public:
-  /// All must outlive this.
+  /// All arguments must outlive this object.
   ControlCheck(const Model& model, const BodySet& bodies, std::span<const JointPlace> joints)
       : model_(model), bodies_(bodies), joints_(joints) {}
 
-  /// Of controls from elsewhere.
+  /// The fault of controls that come from a file or a program; empty if there is none.
   [[nodiscard]] std::string fault_of(
       const Controls& controls, std::span<const std::unique_ptr<ConstraintBatch>> features) const;
-  /// Whether there is such a body, and it is not the world.
+  /// Whether the body exists and is not the world.
   [[nodiscard]] bool is_body(BodyId body) const {
     return body.index >= 0 && body.index < bodies_.count();
   }
-  /// The fault of one that is not.
+  /// The fault of a body for which is_body() is false.
   [[nodiscard]] std::string fault_of(BodyId body) const;
-  // Whether the body can have such a control at all, and why not. It must be one of the model's.
+  // Whether this kind of control exists for the body, and why not. The body must exist.
   [[nodiscard]] bool has_drive(int body) const {
     return bodies_[body].driven_by() != DriveKind::none;
   }
@@ -74,23 +74,23 @@ class ControlCheck {
   [[nodiscard]] std::string drive_fault(int body) const;
   [[nodiscard]] std::string force_fault(int body) const;
   [[nodiscard]] std::string motion_fault(int body) const;
-  /// Whether a state can have such a force.
+  /// Whether all numbers of the force are finite.
   [[nodiscard]] static bool is_sound(const ForceControl& force);
-  /// Whether a state can have such a motion of a kinematic body.
+  /// Whether the motion's numbers are valid, and whether both ends are allowed by way_fault().
   [[nodiscard]] bool takes_motion(int body, const MotionControl& motion) const;
-  /// Whether a kinematic body cannot be in any pose and move anyhow.
+  /// Whether the definition of the kinematic body restricts its motion.
   [[nodiscard]] bool keeps_to_a_way(int body) const;
-  /// Whether it may be in this pose and move so.
+  /// The restriction that this pose or velocity violates; empty if there is none.
   [[nodiscard]] std::string way_fault(int body, const BodyState& state) const;
-  /// Whether there is such a joint.
+  /// The fault of a joint index; empty if the joint exists.
   [[nodiscard]] std::string fault_of_joint(int joint) const;
   [[nodiscard]] std::string joint_fault(int joint, int coordinate) const;
-  /// The drive of a coordinate; null if there is such a fault.
+  /// The drive of a coordinate; null if joint_fault() is not empty.
   [[nodiscard]] const JointEffect* find_drive(int joint, int coordinate) const;
   [[nodiscard]] bool takes_limit(const JointEffect& drive, double limit) const;
   [[nodiscard]] std::string limit_fault(int joint, int coordinate, double limit) const;
   [[nodiscard]] int coordinate_count() const;
-  /// What texts call them.
+  /// The names of objects in messages.
   [[nodiscard]] std::string joint_name(int joint) const;
   [[nodiscard]] std::string body_name(int body) const;
 

@@ -1,11 +1,11 @@
 #pragma once
-// Every number of every control, once: for hashes and files. Internal to the engine.
+// The list of all numbers of all controls, for hashes and files. Internal to the engine.
 
 #include "engine/controls.h"
 
 namespace sheave {
 
-// Each calls visit(member) in a fixed order, with the type that the member has. `Self` may be
+// Each function calls visit(member) in a fixed order, with the member's own type. `Self` may be
 // const.
 
 template <class Value, class Visit>
@@ -19,7 +19,7 @@ void visit_ramp(Value& ramp, const Visit& visit) {
   visit(ramp.rate_after);
 }
 
-/// What the entries of a table are made of.
+/// The members of a table's entries.
 template <class Control>
 struct ControlMembers;
 

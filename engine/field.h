@@ -55,7 +55,7 @@ struct ChoiceSlot {
   void (*set)(void* object, int index) = nullptr;
 };
 
-/// Where a field lives in an object; the alternative tells its type.
+/// The location of a field in an object; the alternative tells its type.
 using FieldSlot = std::variant<double*, int*, bool*, std::string*, Vector3*, Quaternion*, BodyId*,
                                std::optional<double>*, std::optional<Vector3>*,
                                std::optional<BodyId>*, std::vector<double>*, std::vector<Vector3>*,
@@ -79,8 +79,8 @@ template <class Class, class Member>
 Member member_of(Member Class::*);
 }  // namespace detail
 
-/// A table row for the member `Member` (not an enumeration) of `Class`, which may have it from a
-/// base.
+/// A table row for the member `Member` (not an enumeration) of `Class`. A base of `Class` may
+/// declare the member.
 template <auto Member, class Class = decltype(detail::class_of(Member))>
 [[nodiscard]] constexpr Field field(std::string_view name, std::string_view unit, Range range,
                                     Presence presence, std::string_view meaning) {
@@ -116,7 +116,7 @@ template <std::size_t First, std::size_t Second>
   return table;
 }
 
-/// What a registry knows of one type that derives from `Base` (a shape, a joint, a cable link).
+/// The registry's entry for one type that derives from `Base` (a shape, a joint, a cable link).
 template <class Base>
 struct TypeEntry {
   std::string_view name;     ///< value of "type" in a scene

@@ -1,10 +1,11 @@
 #pragma once
-// The pressure that bounds friction, found in rounds that each take it as given.
+// Fixed-point iteration for the pressure that bounds friction. Each round takes the pressure of the
+// round before as given.
 //
-// With the pressure p of the last round a round finds the pressure n(p). Where friction unloads what
-// presses (a tall body that is dragged tips), n falls with p, and taking n(p) for the next p goes to
-// and fro for ever once it falls by more than p rises. Then the root of n(p) - p lies between the
-// last two p, where a secant finds it.
+// With the given pressure p, a round finds the pressure n(p), and the iteration seeks n(p) = p.
+// Friction may unload the surface that it acts on (a tall body that is dragged tips), so that n
+// falls with p. Once n'(p) < -1, taking n(p) as the next p oscillates for ever. The root of n(p) -
+// p then lies between the last two p, and a secant finds it.
 
 #include <cmath>
 
@@ -12,8 +13,8 @@ namespace sheave {
 
 class FollowedPressure {
  public:
-  /// What to take for the next round, after one that was given `taken` and has found `found`, in
-  /// any unit.
+  /// The pressure to give to the next round, if the last round was given `taken` and found `found`,
+  /// in any unit.
   double next(double taken, double found) {
     constexpr double slow = 0.5;
     const double off = found - taken;
@@ -26,7 +27,7 @@ class FollowedPressure {
 
  private:
   double taken_ = 0.0;
-  double off_ = 0.0;  ///< 0: no round yet
+  double off_ = 0.0;  ///< found - taken of the round before; 0: no round yet
 };
 
 }  // namespace sheave

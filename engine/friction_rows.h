@@ -1,23 +1,25 @@
 #pragma once
-// Dry friction in several directions: two or three rows whose multipliers are one vector l.
+// Dry friction in several directions: two or three rows whose multipliers form one vector l.
 //
-// Its bound b is that of the norm, whatever the direction (Coulomb). With the slips s, the values of
-// the rows at the end of a substep, friction does what takes most energy (maximum dissipation):
+// The bound b limits the norm of l in every direction (Coulomb). The slips s are the values of the
+// rows at the end of a substep. Friction dissipates the most energy that the bound allows (maximum
+// dissipation):
 //
 //   s = 0 and |l| <= b,   or   l = -b s / |s|.
 //
-// Bounds of each row by itself would be a square, or a cube, that holds up to sqrt(3) of what it
-// may, and that turns the motion towards its own axes.
+// A bound on each row by itself would make the set of allowed l a square or a cube. Friction could
+// then hold up to sqrt(3) b, and sliding would be deflected towards the axes of the rows.
 //
-// A sweep solves that exactly: s = W l - z with the W that the rows have in common, and of all m >=
-// 0 that one where l = (W + m)^-1 z has the norm b. Solvers of all rows at once linearise the law
-// about a slip s' of the last round, along u = s' / |s'| and across it:
+// A Gauss-Seidel sweep solves the law exactly. With s = W l - z, where W is the effective inverse
+// mass of the rows, the sweep takes the m >= 0 for which l = (W + m)^-1 z has the norm b. Solvers
+// of all rows at once linearise the law about the slip s' of the last round, along u = s' / |s'|
+// and across it:
 //
-//   l . u = -b,   l . v = -b s . v / |s'|  for v across u:   a row at its bound, and rows that give
-//                                                            by |s'| / b per multiplier.
+//   l . u = -b,   l . v = -b s . v / |s'|  for v across u:   a row at its bound, and rows that
+//                                                            give by |s'| / b per multiplier.
 //
-// That is Newton's method (engine/solvers/row_friction.cpp). Where friction holds, or as much slips
-// as nothing, rows across u do not give: the law has no jump.
+// This linearisation is Newton's method (engine/solvers/row_friction.cpp). Where friction sticks,
+// or the slip is negligible, the rows across u do not give: the law is continuous there.
 
 #include <span>
 
@@ -25,13 +27,12 @@
 
 namespace sheave {
 
-/// The l of the declaration for s = W l - z: `yield` W [1/kg], symmetric and positive semidefinite,
-/// `wanted` z, `bound` b >= 0.
+/// The vector l of the head of this file for s = W l - z: `yield` is W [1/kg], symmetric and
+/// positive semidefinite, `wanted` is z, `bound` is b >= 0.
 [[nodiscard]] Vector3 hold_within(const Matrix3& yield, const Vector3& wanted, double bound);
 
-/// One step of Gauss-Seidel for the rows of one friction, 2 or 3: moves the bodies, and changes
-/// their multipliers, which come first in `multipliers`. Returns how far that has moved them along
-/// the rows [m or rad].
+/// One Gauss-Seidel step for the 2 or 3 rows of one friction. Moves the bodies and changes the
+/// first entries of `multipliers`. Returns the length of the correction along the rows [m or rad].
 double solve_friction(std::span<const Row> rows, std::span<double> multipliers,
                       std::span<MovingBody> bodies);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What every joint type must provide. Adding one: a file in engine/joints/ and a line in
+// The interface of all joint types. A new type needs a file in engine/joints/ and a line in
 // engine/joint_registry.cpp.
 
 #include <memory>
@@ -18,14 +18,14 @@ class ConstraintBatch;
 
 /// A free coordinate of a joint type.
 struct JointCoordinateInfo {
-  /// What the pose of the bodies tells of it.
+  /// How much of a coordinate follows from the pose of the bodies.
   enum class Measure {
     pose,     ///< its value
-    turns,    ///< its value up to whole turns, which are counted
-    changes,  ///< how fast it changes, and no value (a rotation about a direction that moves)
+    turns,    ///< its value modulo whole turns, which are counted
+    changes,  ///< only its rate (a rotation about a direction that moves)
   };
   std::string_view name;  ///< "angle", "travel", ...
-  bool angle = false;     ///< its units have rad for m
+  bool angle = false;     ///< units have rad in place of m
   Measure measure = angle ? Measure::turns : Measure::pose;
 };
 
@@ -37,23 +37,24 @@ class JointDef {
   std::string name;  ///< unique among the joints of the model
   BodyId body_a;     ///< default: the world
   BodyId body_b;     ///< required, differs from body_a
-  /// The joint breaks at the end of the substep in which its mean force or torque on body_b, about
-  /// its anchor, exceeds these; it then does nothing any more.
+  /// The joint breaks at the end of the substep in which the mean of its force, or of its torque
+  /// about the anchor, on body_b exceeds these limits. A broken joint constrains nothing.
   std::optional<double> breaking_force;   ///< [N], > 0
   std::optional<double> breaking_torque;  ///< [N m], > 0
-  /// Where bodies were when anchors and axes were told. LiveWorld::edit() sets it for a joint that
-  /// comes into a running world.
+  /// The poses of the bodies to which anchors and axes refer. LiveWorld::edit() sets them for a
+  /// joint that is added to a running world.
   BodyFrames defined_in;
 
-  /// What all joints have.
+  /// The settings that all joint types have.
   static std::span<const Field> common_field_table();
   [[nodiscard]] virtual std::string_view type() const = 0;  ///< key in the registry, e.g. "hinge"
-  [[nodiscard]] virtual const void* settings() const = 0;   ///< this, as its own type
-  /// The coordinates that reports tell, in their order.
+  [[nodiscard]] virtual const void* settings() const = 0;   ///< this object, as its derived type
+  /// The coordinates of the type, in the order in which reports list them.
   [[nodiscard]] virtual std::span<const JointCoordinateInfo> coordinates() const = 0;
-  /// The body that carries what it joins, beside these two; the world of types that have none.
+  /// A third body, which carries the two that are joined (the housing of a gear); the world for
+  /// types without one.
   [[nodiscard]] virtual BodyId carrier_body() const { return BodyId::world(); }
-  /// Faults beyond the ranges of the field tables; `path` is prepended to theirs.
+  /// Errors beyond the ranges of the field tables, with paths below `path`.
   [[nodiscard]] virtual Errors validate(const BodySet& bodies, const std::string& path) const;
   /// One batch for all `joints`, which are of this type.
   [[nodiscard]] virtual std::unique_ptr<ConstraintBatch> make_batch(

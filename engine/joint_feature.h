@@ -13,36 +13,36 @@ namespace sheave {
 struct JointEffect;
 struct JointHold;
 
-/// A feature that consists of joints.
+/// A feature that consists of joints of one type. `index` is a joint's index within the feature.
 class JointFeature : public ConstraintBatch {
  public:
-  /// Of all its joints, which it has in the order of the model.
+  /// The type of its joints. The joints are in the order of the model.
   [[nodiscard]] virtual std::string_view type() const = 0;
-  /// What its joint at `index` did, for a substep that begins `now` and with the feature's state
-  /// `own`.
+  /// The report of a joint, for a substep with start `now` and the feature's state `own` at the
+  /// end.
   [[nodiscard]] virtual JointReport report(int index, const Substep& now,
                                            const FeatureState& own) const = 0;
-  /// The force and the torque of that report alone, without allocation; of `now` it needs the poses
-  /// of the joint's bodies.
+  /// The force and the torque of report() alone, without allocation. Of `now`, the poses of the
+  /// joint's bodies must be valid.
   [[nodiscard]] virtual Wrench wrench_of(int index, const Substep& now,
                                          const FeatureState& own) const = 0;
-  /// Whether it has broken.
+  /// Whether the joint has broken or been released.
   [[nodiscard]] virtual bool is_broken(int index, const FeatureState& own) const = 0;
-  /// Makes it one that broke at `time`, if it has not broken before.
+  /// Releases the joint at `time`, unless it has broken before.
   virtual void release(int index, double time, FeatureState& own) const = 0;
-  /// What its joint at `index` must hold so that it holds its bodies where they are `now`; an error
-  /// if there are stops or drives that would not let it.
+  /// The hold with which the joint would keep the bodies at their poses in `now`; an error if stops
+  /// or drives of the joint would move them.
   [[nodiscard]] virtual Result<JointHold> hold_here(int index, const Substep& now,
                                                     const FeatureState& own) const = 0;
-  /// Makes it one that has not broken and holds that.
+  /// Locks the joint with this hold.
   virtual void lock(int index, const JointHold& hold, FeatureState& own) const = 0;
-  /// What it holds, or did before it was released.
+  /// The hold of the joint, or its last hold before it was released.
   [[nodiscard]] virtual JointHold hold(int index, const FeatureState& own) const = 0;
-  /// What drives a coordinate of its joint at `index`; null if nothing does.
+  /// The drive of a coordinate; null if there is none.
   [[nodiscard]] virtual const JointEffect* drive(int index, int coordinate) const = 0;
-  /// Where the force of that drive is among multipliers(); -1 if nothing drives it.
+  /// The index of the drive's force in multipliers(); -1 if there is no drive.
   [[nodiscard]] virtual int drive_row(int index, int coordinate) const = 0;
-  /// Tells where the coordinates of its joints begin among those of all joints of the model, for
+  /// Sets the index of each joint's first coordinate among those of all joints of the model, for
   /// Controls::joint_drives.
   virtual void number_coordinates(std::span<const int> first) = 0;
 };

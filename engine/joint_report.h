@@ -1,5 +1,5 @@
 #pragma once
-// What joints do: forces, angles, drives.
+// Reports of joints: forces, coordinates, drives.
 
 #include <memory>
 #include <optional>
@@ -16,41 +16,44 @@ class World;
 /// A free coordinate of a joint.
 struct JointCoordinateReport {
   std::string_view name;  ///< "angle", "travel", ...
-  bool angle = false;     ///< its units have rad for m
-  /// Since time 0 [m], angles with all turns; the swing of a ball joint: against the other axis
+  bool angle = false;     ///< units have rad in place of m
+  /// Change since time 0 [m], with whole turns for angles. The swing of a ball joint is the angle
+  /// to the other body's axis.
   double value = 0.0;
   double rate = 0.0;  ///< [m/s]
   double friction_force =
-      0.0;                   ///< of its dry friction in the last substep, along the coordinate [N]
-  double drive_force = 0.0;  ///< of its drive in the last substep, along the coordinate [N]
+      0.0;  ///< mean dry friction force in the last substep, along the coordinate [N]
+  double drive_force = 0.0;  ///< mean drive force in the last substep, along the coordinate [N]
   double drive_target =
-      0.0;  ///< what that asks for now: a position [m], a speed [m/s], a force [N]
-  /// By how much it is off what a drive without compliance asks for: of one to a position the value
-  /// [m], of one to a speed the rate [m/s]. Drives that have reached their limit, and those to a
-  /// force, ask for nothing.
+      0.0;  ///< present target of the drive: a position [m], a speed [m/s] or a force [N]
+  /// Deviation from the target of a drive without compliance: of the value [m] for a drive to a
+  /// position, of the rate [m/s] for a drive to a speed. 0 for a drive at its limit and for a drive
+  /// of a force.
   double drive_error = 0.0;
 };
 
 struct JointReport {
   std::string name;
   std::string_view type;  ///< key in the registry, e.g. "hinge"
-  /// What the joint did to body_b in the last substep, in the world frame: the mean force, and its
-  /// torque about body_b's anchor. Drives, springs, stops and friction are part of it. The opposite
+  /// Mean action of the joint on body_b in the last substep, in the world frame: the force, and its
+  /// torque about body_b's anchor. Drives, springs, stops and friction are included. The opposite
   /// acts on body_a.
   Vector3 force = Vector3::Zero();   ///< [N]
   Vector3 torque = Vector3::Zero();  ///< [N m]
-  /// Of that, what dry friction in several directions did (ball and plane joints).
+  /// The part of force and torque that is dry friction in several directions (ball and plane
+  /// joints).
   Vector3 friction_force = Vector3::Zero();        ///< [N]
   Vector3 friction_torque = Vector3::Zero();       ///< [N m]
   std::vector<JointCoordinateReport> coordinates;  ///< JointDef::coordinates()
-  std::optional<double> broken_at;                 ///< when it broke [s]
-  /// The largest errors of what holds rigidly: how far anchors are apart that coincide, axes from
-  /// where they ought to be, stops overrun, gears out of mesh. 0 of a broken joint.
+  std::optional<double> broken_at;                 ///< time at which the joint broke [s]
+  /// The largest residuals of the rigid constraints: distance of anchors that coincide, deviation
+  /// of axes, overrun of stops, gears out of mesh. 0 for a broken joint.
   double error = 0.0;        ///< of lengths [m]
   double angle_error = 0.0;  ///< of angles [rad]
 };
 
-/// Reads single joints of one state of a world, which must outlive it and not step meanwhile.
+/// Reads single joints of one state of a world. The world must outlive the reader and not step
+/// meanwhile.
 class JointReader {
  public:
   explicit JointReader(const World& world);
@@ -58,7 +61,7 @@ class JointReader {
   JointReader(JointReader&&) noexcept;
   JointReader& operator=(JointReader&&) noexcept;
 
-  /// Of the joint at this index of Model::joints.
+  /// The report of the joint with this index in Model::joints.
   [[nodiscard]] JointReport report(int joint) const;
 
  private:

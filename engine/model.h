@@ -1,5 +1,5 @@
 #pragma once
-// A model is all that a user defines and a step never changes.
+// A model is everything that a user defines and that no step changes.
 
 #include <memory>
 #include <optional>
@@ -19,8 +19,8 @@ struct Model {
   StepSettings step;
   std::vector<BodyDef> bodies;  ///< BodyId indexes this list
   std::vector<std::shared_ptr<const JointDef>> joints;
-  std::vector<ColliderDef> colliders;  ///< bodies that touch each other; empty: nothing does
-  std::optional<GroundDef> ground;     ///< absent: nothing to fall on, and no stage for it
+  std::vector<ColliderDef> colliders;  ///< bodies that touch each other; empty: no contacts
+  std::optional<GroundDef> ground;     ///< absent: no ground, and no stage for it
 
   /// Appends a body and returns its id.
   BodyId add(BodyDef body) {

@@ -1,26 +1,26 @@
 #pragma once
-// A value on its way to a target.
+// A value that moves to a target in a given time.
 
 #include <cmath>
 #include <type_traits>
 
 namespace sheave {
 
-/// From one value to another as a cubic with given rates at both ends, and from there on at a
-/// steady rate. With equal rates of (end - start) / (to - from) it is a straight line. `Value` is a
-/// number or a vector.
+/// A cubic from one value to another with given rates at both ends, continued at a steady rate. The
+/// cubic is a straight line if both rates equal (end - start) / (to - from). `Value` is a number or
+/// a vector.
 template <class Value>
 struct RampOf {
-  double from = 0.0;             ///< when it begins [s]; before that it has its first value
-  double to = 0.0;               ///< when it is there [s], >= from; equal: at once
+  double from = 0.0;             ///< time of the start [s]; the value is `start` before
+  double to = 0.0;               ///< time of arrival [s], >= from; equal: at once
   Value start = nothing();       ///< at `from`
   Value start_rate = nothing();  ///< [per s]
   Value end = nothing();         ///< at `to`
-  Value end_rate = nothing();    ///< as it arrives [per s]
-  Value rate_after = nothing();  ///< from then on [per s]
+  Value end_rate = nothing();    ///< rate on arrival [per s]
+  Value rate_after = nothing();  ///< rate after `to` [per s]
 
-  /// Whether a world can go along it: its numbers are finite, and what it does within its time has
-  /// finite rates. What makes a ramp asks this, and what takes a state with one.
+  /// Whether the numbers are finite and the ramp's rates, too. Functions that make a ramp and
+  /// functions that accept a state with one both ask.
   [[nodiscard]] bool is_sound() const {
     const double span = to - from;
     const bool in_time =
@@ -28,8 +28,8 @@ struct RampOf {
     return in_time && span >= 0.0 && finite(Value(end - start)) && finite(start_rate) &&
            finite(end_rate) && finite(rate_after) && finite(start) && finite(end);
   }
-  /// Whether it is beyond its end at `time`. Times of steps are rounded; at the end it still
-  /// arrives.
+  /// Whether `time` is after the ramp's end. A time that equals the end but for rounding, as times
+  /// of steps do, counts as the end.
   [[nodiscard]] bool past(double time) const {
     constexpr double rounding = 1e-9;
     return time - to > rounding * (to - from) || !(to > from);
@@ -38,7 +38,7 @@ struct RampOf {
     if (past(time)) return Value(end + rate_after * (time - to));
     return within((time - from) / (to - from));
   }
-  /// Its derivative [per s]; at `to` that with which it arrives.
+  /// The derivative [per s]; at `to` the rate on arrival.
   [[nodiscard]] Value rate(double time) const {
     if (past(time)) return rate_after;
     const double span = to - from;
@@ -71,7 +71,7 @@ struct RampOf {
       return Value::Zero();
     }
   }
-  /// Its value when it has done the share `s` of its time.
+  /// The value after the share `s` of the ramp's time.
   [[nodiscard]] Value within(double s) const {
     const double span = to - from;
     if (!(s > 0.0)) s = 0.0;
@@ -90,7 +90,7 @@ struct RampOf {
   }
 };
 
-/// Of a number.
+/// The ramp of a number.
 using Ramp = RampOf<double>;
 
 }  // namespace sheave

@@ -1,5 +1,5 @@
 #pragma once
-// Errors are values: nothing in the library prints or exits, and no fault of an input is thrown.
+// Errors are values: the library neither prints nor exits, and it never throws for invalid input.
 
 #include <string>
 #include <utility>
@@ -8,27 +8,28 @@
 
 namespace sheave {
 
-/// One fault in what the caller asked for.
+/// One error in the caller's input.
 struct Error {
-  /// JSON pointer of the offending setting inside a scene, e.g. "/bodies/3/mass"; empty if the
-  /// fault belongs to no single setting. Programs that build models in C++ read it as a path
-  /// through the definition structs, which have the same names.
+  /// JSON pointer to the offending setting inside a scene, e.g. "/bodies/3/mass"; empty if the
+  /// error belongs to no single setting. Programs that build models in C++ read the pointer as a
+  /// path through the definition structs, whose members have the same names.
   std::string path;
-  /// Names the thing and says what is wrong and what is allowed, as one sentence.
+  /// One sentence that names the object, the fault and the allowed values.
   std::string message;
 };
 
-/// All faults found, in the order in which the checks ran. Empty means none.
+/// All errors found, in the order of the checks. Empty: the input is valid.
 using Errors = std::vector<Error>;
 
 namespace detail {
-/// Throws a std::logic_error with the faults' messages: the value of a failure was read.
+/// Throws a std::logic_error with the messages of `faults`: the program read the value of a
+/// failure.
 [[noreturn]] void reject_value(const Errors& faults);
 }  // namespace detail
 
-/// A value, or the faults that prevented it (at least one).
+/// A value, or the errors that prevented it (at least one).
 ///
-/// Two idioms, neither of which can fail unseen:
+/// Two idioms, neither of which lets an error pass unseen:
 ///
 ///   auto crane = load("crane.json");
 ///   if (!crane) return report(crane.errors());       // then *crane and crane-> are safe
@@ -38,13 +39,12 @@ namespace detail {
 ///   const auto rope = crane->cable("rope").value(faults);
 ///   if (!faults.empty()) return report(faults);
 ///
-/// Whoever reads the value of a failure without asking gets a std::logic_error that carries the
-/// messages of its faults. That is a mistake in the program, and the only thing here that throws.
+/// Reading the value of a failure without either idiom throws a std::logic_error with the messages.
+/// This exception marks a mistake in the program, and nothing else in the library throws.
 template <class T>
 class Result {
  public:
-  // Implicit, so that functions return a value or an error as it is.
-  // NOLINTBEGIN(google-explicit-constructor)
+  // The constructors are implicit, so that a function can return a value or an error directly.
   Result(T value) : content_(std::move(value)) {}
   Result(Error error) : content_(Errors{std::move(error)}) {}
   Result(Errors errors) : content_(std::move(errors)) {}
@@ -53,15 +53,15 @@ class Result {
   [[nodiscard]] bool ok() const { return std::holds_alternative<T>(content_); }
   explicit operator bool() const { return ok(); }
 
-  /// The value; a failure adds its faults to `faults` and gives T{}. A handle that is made so
-  /// names nothing, and every call that is given one answers with a fault.
+  /// The value; a failure appends its errors to `faults` and returns T{}. A handle T{} names
+  /// nothing, and every call with such a handle returns an error.
   [[nodiscard]] T value(Errors& faults) const& {
     if (ok()) return *std::get_if<T>(&content_);
     faults.insert(faults.end(), errors().begin(), errors().end());
     return T{};
   }
 
-  /// The value, for those who have asked ok().
+  /// The value; call ok() first.
   [[nodiscard]] T& value() & { return ok() ? *std::get_if<T>(&content_) : reject(); }
   [[nodiscard]] const T& value() const& { return ok() ? *std::get_if<T>(&content_) : reject(); }
   [[nodiscard]] T&& value() && { return std::move(value()); }
@@ -70,7 +70,7 @@ class Result {
   T& operator*() & { return value(); }
   const T& operator*() const& { return value(); }
 
-  /// The faults; none if ok().
+  /// The errors; empty if ok().
   [[nodiscard]] const Errors& errors() const {
     static const Errors none;
     const Errors* const faults = std::get_if<Errors>(&content_);

@@ -1,9 +1,9 @@
 #pragma once
-// The rows that features append for a solver of all of them at once.
+// The rows that features append for a solver of all rows at once.
 //
-// Many rows are the same from round to round and from substep to substep but for their value. Such
-// a row names the row that it is a copy of and which edition of it, so that neither it nor anything
-// that follows from it is made anew where it already is.
+// From round to round and substep to substep, many rows change in their value alone. Such a row
+// names the row of which it is a copy, and its edition. Neither the row nor data derived from it is
+// then computed again.
 
 #include <vector>
 
@@ -21,7 +21,7 @@ class RowList {
   [[nodiscard]] auto begin() const { return rows_.begin(); }
   [[nodiscard]] auto end() const { return rows_.begin() + static_cast<std::ptrdiff_t>(count_); }
 
-  /// Begins anew; what was there is kept for append_copy().
+  /// Removes all rows, but keeps their contents for append_copy().
   void clear() { count_ = 0; }
   /// An empty row.
   Row& emplace_back() {
@@ -30,8 +30,8 @@ class RowList {
     row.clear();
     return row;
   }
-  /// A copy of `source`, whose `edition` must change whenever it does; value and `active` are the
-  /// caller's to set.
+  /// A copy of `source`. The edition of `source` must change whenever `source` does. The caller
+  /// sets the value and `active`.
   Row& append_copy(const Row& source) {
     if (count_ == rows_.size()) rows_.emplace_back();
     Row& row = rows_[count_++];

@@ -1,5 +1,5 @@
 #pragma once
-// What every shape must tell: mass properties, extent, and where it can touch a flat ground.
+// The interface of all shapes: mass properties, extent, and points of contact with flat ground.
 
 #include <limits>
 #include <memory>
@@ -16,12 +16,12 @@ namespace sheave {
 
 /// Mass distribution of a solid.
 struct MassProperties {
-  double mass = 0.0;                         ///< [kg]; of a shape at density 1, so its volume [m3]
+  double mass = 0.0;                         ///< [kg]; the volume [m3] for a shape at density 1
   Vector3 center_of_mass = Vector3::Zero();  ///< [m], in the frame of the shape or body
   Matrix3 inertia = Matrix3::Zero();         ///< [kg m2], about the centre of mass, same axes
 };
 
-/// A solid form in its own frame. Adding one: a file in engine/shapes/ and a line in
+/// A solid form in its own frame. A new shape needs a file in engine/shapes/ and a line in
 /// engine/shape_registry.cpp.
 class Shape {
  public:
@@ -30,15 +30,17 @@ class Shape {
   [[nodiscard]] virtual std::string_view type() const = 0;
   /// This object as the type that its field table describes.
   [[nodiscard]] virtual const void* settings() const = 0;
-  /// Faults beyond the ranges of the field table; `path` is prepended to theirs.
+  /// Errors beyond the ranges of the field table, with paths below `path`.
   [[nodiscard]] virtual Errors validate(const std::string& path) const;
   /// Exact mass properties at density 1 kg/m3.
   [[nodiscard]] virtual MassProperties unit_density() const = 0;
-  /// Radius [m] of a wheel about the shape's z axis on which a cable can roll; NaN if it is none.
+  /// Radius [m] of a wheel about the shape's z axis on which a cable can roll; NaN for other
+  /// shapes.
   [[nodiscard]] virtual double wheel_radius() const {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  /// Whether it ends somewhere. What does not has no mass, no extent, and no cable lies on it.
+  /// Whether the shape is finite. An unbounded shape has no mass and no extent, and carries no
+  /// cable.
   [[nodiscard]] virtual bool bounded() const { return true; }
   /// Appends the points [m] that decide contact with a plane whose inward (downward) unit normal in
   /// the shape's frame is `down`: all corners, or the lowest points of a curved surface.
@@ -46,10 +48,10 @@ class Shape {
   /// Appends points [m] in the plane whose convex hull is the hull of the shape's section with it;
   /// curved sections as polygons (engine/shapes/section.h). Nothing if the plane misses the shape.
   virtual void append_section(const SectionPlane& plane, std::vector<Vector3>& points) const = 0;
-  /// The form as contacts between bodies see it.
+  /// The form for contacts between bodies.
   [[nodiscard]] virtual ConvexSolid solid() const = 0;
-  /// Half edges [m] of a box about the shape's origin that contains it; for framing a picture and
-  /// for the length scale of a scene.
+  /// Half edges [m] of a box about the shape's origin that contains the shape; for framing a
+  /// picture and for the length scale of a scene.
   [[nodiscard]] virtual Vector3 half_extent() const = 0;
 
  protected:

@@ -8,27 +8,28 @@
 
 namespace sheave {
 
-/// Lets features stall drives that cannot go on; nothing where none of them does.
+/// Lets features reduce the shares of drives that cannot complete their motion.
 void limit_drives(Substep& substep, std::span<const std::unique_ptr<ConstraintBatch>> features);
 /// Places kinematic bodies where their functions of time put them at the end of the substep.
 void move_kinematic_bodies(Substep& substep);
-/// Moves all other bodies as gravity, their constant forces and their inertia would, with the
-/// velocities that Substep::load_share of these forces gives them.
+/// Moves all other bodies by gravity, constant forces and inertia, without constraints. The loads
+/// contribute Substep::load_share of their impulse.
 void predict(Substep& substep);
-/// Velocities from what the substep did; poses of bodies that are not mounted.
+/// Derives velocities from the motion in the substep; writes the poses of bodies that are not
+/// mounted.
 void derive_velocities(Substep& substep);
 /// Poses and velocities of mounted rotors, from their carriers and their own spin.
 void place_mounted_rotors(Substep& substep);
-/// The velocities of mounted rotors anew, from those of their carriers and the part of their own
-/// about the axle.
+/// Updates the velocities of mounted rotors from those of their carriers; the part about the axle
+/// is kept.
 void follow_carriers(Substep& substep);
 
-// Of `rattle` alone; nothing in a substep that has been left to `xpbd`.
+// The following stages belong to `rattle` and do nothing in a substep that is left to `xpbd`.
 
-/// The angular velocities of bodies whose inertia turns with them, after the constraints have
-/// chosen the pose.
+/// Corrects the angular velocities of bodies whose world-frame inertia turns, once the constraints
+/// have determined the pose.
 void correct_gyroscopic_velocities(Substep& substep);
-/// The second half of the loads' impulse, at the end of the substep.
+/// Adds the second half of the loads' impulse, at the end of the substep.
 void add_second_half_of_loads(Substep& substep);
 
 }  // namespace sheave

@@ -1,5 +1,5 @@
 #pragma once
-// All that a step changes, as one value: copy it to take a snapshot, assign it to go back.
+// All data that a step changes, as one value: copy it for a snapshot, assign it to go back.
 
 #include <cstdint>
 #include <string>
@@ -17,13 +17,13 @@ struct BodyState {
   Quaternion orientation = Quaternion::Identity();  ///< body frame to world frame
   Vector3 velocity = Vector3::Zero();               ///< of the centre of mass [m/s]
   Vector3 angular_velocity = Vector3::Zero();       ///< [rad/s]
-  /// Planar bodies and rotors: angle turned about the axis since time 0 [rad], unwrapped; of a
-  /// mounted rotor relative to its carrier. 0 for others.
+  /// Planar bodies and rotors: angle turned about the axis since time 0 [rad], with whole turns;
+  /// for a mounted rotor relative to its carrier. 0 for other bodies.
   double angle = 0.0;
 };
 
-/// What one feature (a batch of joints, the cables) carries from substep to substep. The feature
-/// documents the layout.
+/// The data that one feature (a batch of joints, the cables) carries from substep to substep. The
+/// feature documents the layout.
 struct FeatureState {
   std::vector<double> reals;
   std::vector<std::int64_t> integers;
@@ -35,36 +35,36 @@ struct State {
   double time = 0.0;                   ///< [s]
   std::vector<BodyState> bodies;       ///< one per body of the model
   std::vector<FeatureState> features;  ///< one per feature of the world, in its order
-  Controls controls;                   ///< what has been set; a step reads and never changes it
-  /// What a program that sets controls remembers from step to step (World::memory()); nothing that
-  /// moves depends on it.
+  Controls controls;                   ///< set by programs; a step reads but never changes them
+  /// Memory of the program that sets controls (World::memory()). No motion depends on it.
   std::vector<double> memory;
 };
 
-/// Order-dependent 64-bit hash of every bit of the state (FNV-1a over 8-byte words). Of the
-/// controls what is set counts, and not what has been set and cleared.
+/// Order-dependent 64-bit hash of every bit of the state (FNV-1a over 8-byte words). A control that
+/// has been set and cleared does not contribute.
 [[nodiscard]] std::uint64_t hash(const State& state);
 
-/// Of which machine a state is; 0: nobody has said so.
+/// The machine to which a state belongs; 0: unknown.
 struct StateOrigin {
-  std::uint64_t scene = 0;   ///< hash of all that the machine is made of
-  std::uint64_t layout = 0;  ///< hash of what the numbers of the state belong to
+  std::uint64_t scene = 0;   ///< hash of the machine's definition
+  std::uint64_t layout = 0;  ///< hash of the meaning of the state's numbers
 };
 
 /// A state from a file.
 struct SavedState {
   State state;
   StateOrigin origin;
-  bool checked = false;  ///< the file has a checksum, and it is right; of old ones nobody knows
+  /// Whether the file has a checksum and it is right; false for files of old versions
+  bool checked = false;
 };
 
-/// The state as bytes, for a file: a tag, its numbers, and a checksum of all of them, in which every
-/// change of one 8-byte word shows. Restores bit for bit, on machines of any byte order.
+/// The state as bytes, for a file: a tag, the numbers, and a checksum, which detects every change
+/// of one 8-byte word. A state is restored bit for bit, on machines of any byte order.
 [[nodiscard]] std::string to_bytes(const State& state, const StateOrigin& origin = {});
-/// The inverse of to_bytes; an error names what is wrong with `bytes`. Of the versions before,
-/// SHSTATE2 had no checksum, and SHSTATE1 no controls, either: states in which nothing is set.
+/// The inverse of to_bytes(); an error names the fault of `bytes`. Two older formats are read:
+/// SHSTATE2, which has no checksum, and SHSTATE1, which has neither checksum nor controls.
 [[nodiscard]] Result<SavedState> saved_state_from_bytes(const std::string& bytes);
-/// The same, for who does not ask where it is from.
+/// The state alone, without its origin.
 [[nodiscard]] Result<State> state_from_bytes(const std::string& bytes);
 
 }  // namespace sheave

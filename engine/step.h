@@ -17,8 +17,8 @@ struct Stage {
   std::function<void(Substep&)> run;
 };
 
-/// The stages of a substep of this model with these features, in order. A feature that is not
-/// there has no stage. `features` must outlive the stages.
+/// The stages of a substep of this model with these features, in order. Features that are absent
+/// have no stage. `features` must outlive the stages.
 [[nodiscard]] std::vector<Stage> substep_stages(
     const Model& model, std::span<const std::unique_ptr<ConstraintBatch>> features);
 

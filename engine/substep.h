@@ -1,5 +1,5 @@
 #pragma once
-// What the stages of one substep share: an explicit context, no globals.
+// The data that the stages of one substep share: an explicit context, no globals.
 
 #include <cstdint>
 #include <span>
@@ -13,76 +13,78 @@
 
 namespace sheave {
 
-/// What solvers do in a substep in which they do not converge.
+/// The action of solvers in a substep in which they do not converge.
 enum class Resort {
-  none,              ///< they give up
-  other_integrator,  ///< `xpbd` does it, for `rattle`, and must converge
-  anything,          ///< they make do with what they find
+  none,              ///< give up
+  other_integrator,  ///< `xpbd` does the substep in place of `rattle`, and must converge
+  anything,          ///< keep the best result found
 };
 
-/// How much of its prescribed motion a drive does in a substep; less than all where it would need
-/// what is not there.
+/// The share of a drive's prescribed motion that is done in a substep; below 1 where the drive
+/// cannot complete the motion.
 struct DriveShare {
-  double way = 1.0;    ///< of the way, 0 ... 1
-  double speed = 1.0;  ///< of the speed at the end, 0 ... 1
+  double way = 1.0;    ///< share of the displacement, 0 ... 1
+  double speed = 1.0;  ///< share of the speed at the end, 0 ... 1
 };
 
-/// The working data of one substep. Stages read the state at its start and write into `moving`;
-/// the state itself changes only when the substep is complete, so a substep that fails leaves the
-/// last good state behind.
+/// The working data of one substep. Stages read the state at the start and write into `moving`. The
+/// state itself changes only when the substep is complete, so a substep that fails leaves the last
+/// good state behind.
 struct Substep {
   const BodySet& bodies;
   const State& start;  ///< state at the start of the substep
   double h;            ///< length of the substep, or of the part of it that is being done [s]
   int iterations;
-  Vector3 gravity;  ///< of the model, or what has been set instead [m/s2]
-  double time =
-      0.0;  ///< of the positions in `moving`: the start's, from the prediction on the end's [s]
+  Vector3 gravity;  ///< of the model, or the control that replaces it [m/s2]
+  /// Time of the positions in `moving` [s]: that of the start, and from the prediction on that of
+  /// the end.
+  double time = 0.0;
   std::vector<MovingBody> moving;    ///< bodies.count() + 1; the world comes last and never moves
-  std::vector<BodyState> predicted;  ///< velocities, and poses, without constraints
-  std::vector<Vector3> predicted_turn;   ///< [rad], without constraints
-  std::vector<DriveShare> drive_shares;  ///< per body; empty where no feature limits drives
+  std::vector<BodyState> predicted;  ///< velocities and poses without constraints
+  std::vector<Vector3> predicted_turn;   ///< rotation vectors without constraints [rad]
+  std::vector<DriveShare> drive_shares;  ///< per body; empty if no feature limits drives
   State next;                            ///< the state at the end, written by the last stages
   StepStatistics statistics;
-  /// Per feature: of each force in its state [N or N m] the part that acted in the second half of
-  /// the substep, along the gradients of its end (`rattle`). Empty where nothing did. A feature may
-  /// bring it into another layout when it finishes.
+  /// Per feature: the part of each force in its state [N or N m] that acted in the second half of
+  /// the substep, along the gradients of the end (`rattle`). Empty if no force acted then. A
+  /// feature may change the layout in finish().
   std::vector<std::vector<double>> late_forces;
-  /// Share of the loads' impulse that predict() gives to the velocities: all of it, or the first
+  /// Share of the loads' impulse that predict() gives to the velocities: 1, or 0.5 for the first
   /// half.
   double load_share = 1.0;
-  /// Set by a solver that gives up: what it found is no solution, and the stages end here.
+  /// Set by a solver that gives up: its result is no solution, and no further stage runs.
   bool failed = false;
   Resort resort = Resort::anything;
-  /// No time passes while bodies are moved: it is asked where they would rest. Dampers have no part
-  /// in that, and no pose on the way is one of the machine: cables leave no wheel, break and run out
-  /// in none of them.
+  /// Whether a rest position is sought: bodies move while no time passes. Dampers do not act. The
+  /// intermediate poses are no motion of the machine, so cables neither leave wheels nor break nor
+  /// run out.
   bool at_rest = false;
-  /// Solvers ask one feature after another, and what others will answer to it is not known yet: it
-  /// must not decide what it cannot take back.
+  /// Whether solvers are still asking the features one after another. The answers of other features
+  /// are not known yet, so a feature must not make irreversible decisions.
   bool tentative = false;
   WorkLimit work;
 
-  /// A substep of `bodies` from `state_at_start`; both must outlive it. Bodies are placed at the
-  /// start, with their inverse mass and inertia there; nothing is predicted yet.
+  /// A substep of `body_set` from `state_at_start`; both must outlive the object. Bodies are at
+  /// their poses of the start, with the inverse masses and inertias of these poses. Nothing is
+  /// predicted yet.
   Substep(const BodySet& body_set, const State& state_at_start, double length, int sweeps);
-  /// Prepares for the next substep, which starts from the current content of `start`.
+  /// Prepares for the next substep, which begins with the present content of `start`.
   void restart();
-  /// The compliance of a row whose force shall be -damping dC/dt, if its value is the change of C
-  /// since the start of the substep: what acts, by the integrator's rule
-  /// (engine/solvers/row_system.h), is minus value over compliance, or half.
+  /// The compliance of a row that is to act with the force -damping dC/dt, if the row's value is
+  /// the change of C since the start of the substep. By the integrator's rule
+  /// (engine/solvers/row_system.h), the force is minus value over compliance, or half of it.
   [[nodiscard]] double damper_compliance(double damping) const {
     return (load_share == 1.0 ? h : 0.5 * h) / damping;
   }
-  /// The speed at the end of the substep [rad/s] that its drive prescribes to a body, if nothing is
-  /// short; prescribed() bodies only. Of a drive to an angle `xpbd` has the mean over the substep,
-  /// as of all velocities.
+  /// The speed at the end of the substep [rad/s] that the drive prescribes to a body, if the
+  /// drive's share is 1; only for prescribed() bodies. With `xpbd`, a drive to an angle has the
+  /// mean speed over the substep, as all velocities of `xpbd` are means.
   [[nodiscard]] double driven_speed(int body) const;
-  /// Takes the inverse masses and inertias at the current orientations, with the drag during
-  /// load_share x h.
+  /// Computes the inverse masses and inertias at the present orientations, including the drag
+  /// during load_share x h.
   void update_inertias();
 
-  // Where bodies are now, in the course of the substep. A rotor mounted on a carrier follows it.
+  // Present poses in the course of the substep. A rotor mounted on a carrier follows the carrier.
 
   /// Rotation from own frame to world frame.
   [[nodiscard]] Quaternion orientation(int body) const;
@@ -91,12 +93,12 @@ struct Substep {
   /// World position of the point `local` [m] of the body's own frame.
   [[nodiscard]] Vector3 point(int body, const Vector3& local) const {
     const MovingBody& own = moving[static_cast<std::size_t>(body)];
-    // Of a mounted rotor the pose follows from its carrier's.
+    // The pose of a mounted rotor follows from its carrier's.
     if (own.tracks_orientation) return own.position + rotated(own.orientation, local);
     return position(body) + rotated(orientation(body), local);
   }
 
-  // Gradients of what acts on a body, mounted or not (design, section 2).
+  // Gradients of forces and torques on a body, mounted or not.
 
   /// Adds to `row` the effect of a unit force along `direction` at the world point `at`.
   void add_force(Row& row, int body, const Vector3& at, const Vector3& direction) const;

@@ -1,16 +1,16 @@
 #pragma once
-// Substeps one after the other; one that does not converge is done again in smaller parts.
+// Runs substeps one after the other, and repeats a substep that does not converge in smaller parts.
 //
-// A solver gives up (Substep::failed) where its rounds do not come near a solution: what they leave
-// would become velocity, and energy, in the next substep. In half the time bodies swing half as
-// far, so the same rounds converge quadratically better. The halves are done in turn, each of them
-// as a whole first. Nothing carries over from one substep to the next, so a run depends on its
+// A solver gives up (Substep::failed) if its rounds do not approach a solution: the residual would
+// become velocity, and so energy, in the next substep. In half the time bodies move half as far, so
+// the same number of rounds converges quadratically better. The driver does both halves in turn,
+// each first as a whole. No hidden data goes from one substep to the next, so a run depends on its
 // state alone.
 //
-// Where a part does not converge, however short it is, time is not what is wrong (drives that
-// contradict each other), and where parts have taken so many rounds there is no end to them: the
-// substep starts again and is done as a whole, by the other integrator if that converges, or else
-// with what the solvers make of it, and is counted.
+// If even the shortest part does not converge, its length is not the cause (drives that contradict
+// each other). If the parts use up their rounds, cutting has no end. In both cases the substep
+// starts again and is done as a whole: by the other integrator if that converges, else with the
+// solvers' best result, which is counted in the statistics.
 
 #include <cstdint>
 #include <optional>
@@ -25,85 +25,85 @@ namespace sheave {
 
 class SubstepDriver {
  public:
-  /// The most equal parts that a substep is done in. Depth costs little, for only what does not
-  /// converge is cut, and velocities of so short a part are still rounded by no more than 1e-9 of a
-  /// scene size per second.
+  /// The largest number of equal parts of a substep. Only parts that do not converge are cut, so
+  /// depth costs little. In so short a part, rounding changes velocities by at most 1e-9 of the
+  /// scene's size per second.
   static constexpr std::int64_t most_parts = 262144;
-  /// Rounds in which a part converges, or else is cut: Newton's method needs far fewer where it
-  /// works.
+  /// Most rounds of a part before it is cut. Newton's method needs far fewer where it converges.
   static constexpr int rounds_of_part = 16;
-  /// When so many rounds have been spent on a substep and its parts it is given up. The hardest of
-  /// tests/physics/light_cart_test.cpp takes less than 300.
+  /// Most rounds of a substep and its parts; beyond them the driver gives the parts up. The hardest
+  /// case of tests/physics/light_cart_test.cpp takes less than 300.
   static constexpr std::int64_t most_rounds = 512;
-  /// Likewise factorisations, of which a round takes one for each set of rows that it tries,
-  /// besides one per iteration that the settings allow, and those for each of the two last attempts
-  /// at the whole.
+  /// Most factorisations of a substep and its parts, besides one per iteration that the settings
+  /// allow. A round takes one factorisation per active set that it tries. Each of the last two
+  /// attempts at the whole substep may take `last_factorisations`.
   static constexpr std::int64_t most_factorisations = 4096;
   static constexpr std::int64_t last_factorisations = 2048;
-  /// Of so many rows; of more rows, of which each factorisation takes as much longer, so many times
-  /// fewer, down to a share. What can be found mostly is within ten.
+  /// The limits hold for so many rows. For n times as many rows a factorisation takes n times
+  /// longer, and the limits are n times smaller, down to 1/fewest_share. Most solutions are found
+  /// within ten.
   static constexpr std::int64_t rows_of_factorisation = 64;
   static constexpr std::int64_t fewest_share = 16;
-  /// So many of the smallest parts may be left to another integrator before larger ones are, too:
-  /// it is no matter of time then.
+  /// Most smallest parts that are left to the other integrator. After these, larger parts are left
+  /// to it, too: shorter parts do not help then.
   static constexpr int patience = 4;
 
-  /// `features` and `stages` are those of the model that `substep` is of, and `state` is what it
-  /// starts from. All must outlive the driver.
+  /// `features` and `stages` are those of the model of `substep`, and `state` is the state at its
+  /// start. All arguments must outlive the driver.
   SubstepDriver(const Model& model, std::span<const std::unique_ptr<ConstraintBatch>> features,
                 std::span<const Stage> stages, Substep& substep, State& state);
 
-  /// Advances the state by the substeps of the step from `index` to before `end` that need none of
-  /// the stages (engine/solvers/affine_motion.h), and returns their number. If these are not all,
-  /// `start`, unless it is null, becomes the state before them; it must be the same one each time,
-  /// and nobody else may change it unless by the whole state.
+  /// Advances the state by the substeps of the step, from `index` to before `end`, that need no
+  /// stages (engine/solvers/affine_motion.h), and returns their number. If other substeps follow
+  /// and `start` is not null, `start` becomes the state before them. `start` must be the same
+  /// object in all calls, and other code may only replace it as a whole.
   int run_affine(int index, int end, State* start);
-  /// AffineMotion::leap(); there is no before() then until the next substep.
+  /// AffineMotion::leap(). before() is null until the next substep.
   std::int64_t leap(std::int64_t count);
-  /// Advances the state by substep `index` of the step. If it diverges the state is the last good
-  /// one.
+  /// Advances the state by substep `index` of the step. After a divergence the state is the last
+  /// good one.
   std::optional<Divergence> run(int index);
-  /// The state at the start of the last substep, or of its last part; null if there is none.
+  /// The state at the start of the last substep, or of its last part; null if there was none.
   [[nodiscard]] const State* before() const { return has_stepped_ ? &before_ : nullptr; }
-  /// To be called when the state has been changed by somebody else.
+  /// Must be called after other code has changed the state.
   void forget();
-  /// Exchanges what the state and the one before it are kept in, numbers and all, so that bodies
-  /// and the numbers of the last feature are at these addresses, if they are among the two.
+  /// Exchanges the memory of the state and of the state before, with their contents, so that bodies
+  /// and the numbers of the last feature are at these addresses. Does nothing for an address that
+  /// belongs to neither.
   void put_in_place(const BodyState* bodies, const double* reals);
-  /// To be called when the state's controls have been changed.
+  /// Must be called after the state's controls have been changed.
   void note_controls() { controls_changed_ = start_lacks_controls_ = true; }
 
  private:
-  /// One of `count` equal parts of the step; counts are the number of substeps times a power of
-  /// two, so that the ends of parts, which come from these counters and not from a running sum,
-  /// agree to the last bit.
+  /// One of `count` equal parts of the step. Counts are the number of substeps times a power of
+  /// two. The ends of parts are computed from these counters, not as a running sum, and agree to
+  /// the last bit.
   struct Part {
     std::int64_t index = 0;
     std::int64_t count = 1;
     [[nodiscard]] Part first_half() const { return {2 * index, 2 * count}; }
     [[nodiscard]] Part second_half() const { return {2 * index + 1, 2 * count}; }
   };
-  /// All stages; false if a solver gave up, the result is no state, or the caller wants no more of
-  /// it, and then nothing has changed.
+  /// Runs all stages. False, with the state unchanged, if a solver gave up, the result is no valid
+  /// state, or the caller has stopped the step.
   bool attempt(Part part, Resort resort);
-  /// A substep that does not converge as a whole.
+  /// Does a substep that does not converge as a whole, in parts.
   void cut(Part whole);
-  /// What is left where parts do not converge, either.
+  /// Does the substep as a whole after its parts have not converged.
   void make_do(Part whole);
   void go_back(const StepStatistics& before);
   void allow_work(std::int64_t factorisations);
-  /// About how many rows the state that a substep begins with has.
+  /// The approximate number of rows in the state at the start of a substep.
   [[nodiscard]] std::int64_t row_count() const;
   [[nodiscard]] bool out_of_work() const;
-  /// A part half by half; false where it does not converge, and then what has been done of it is
-  /// void.
+  /// Does a part in halves; false if they do not converge, and the motion done so far is then void.
   bool advance_in_halves(Part part);
   bool advance_half(Part part);
   void keep();
   void keep_start(State& start);
-  /// Whether there is nothing more to be tried.
+  /// Whether the step ends here.
   [[nodiscard]] bool over() const { return divergence_ || substep_.work.stopped(); }
-  /// Whether another integrator can stand in.
+  /// Whether another integrator can do the substep.
   [[nodiscard]] bool others() const;
 
   const StepSettings& settings_;
@@ -112,16 +112,17 @@ class SubstepDriver {
   Substep& substep_;
   State& state_;
   State before_;
-  std::unique_ptr<AffineMotion> affine_;  ///< null: there are no such substeps
-  bool next_is_old_ = false;              ///< substep_.next is not what a stage builds on
-  State start_;                           ///< of a substep that is cut
+  std::unique_ptr<AffineMotion> affine_;  ///< null if no substep can be affine
+  bool next_is_old_ = false;              ///< substep_.next is not one on which stages can build
+  State start_;                           ///< state at the start of a substep that is cut
   bool has_stepped_ = false;
-  bool controls_changed_ = false;     ///< since before_ has had them
-  bool start_lacks_controls_ = true;  ///< nor has the `start` of run_affine()
+  bool controls_changed_ = false;  ///< whether controls have changed since before_ was copied
+  /// Whether they have changed since the `start` of run_affine() was
+  bool start_lacks_controls_ = true;
   std::optional<Divergence> divergence_;
-  int left_to_others_ = 0;          ///< parts of this substep that another integrator has done
-  std::int64_t parts_ = 0;          ///< of this substep that are done
-  std::int64_t rounds_before_ = 0;  ///< of the step before this substep
+  int left_to_others_ = 0;          ///< parts of this substep that the other integrator has done
+  std::int64_t parts_ = 0;          ///< parts of this substep that are done
+  std::int64_t rounds_before_ = 0;  ///< rounds of the step before this substep
 };
 
 }  // namespace sheave

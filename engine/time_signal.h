@@ -1,5 +1,5 @@
 #pragma once
-// What a drive follows: a table of points and a sine on top of it.
+// The target of a joint's drive as a function of time: a table of points plus a sine.
 
 #include "engine/time_table.h"
 
@@ -13,7 +13,7 @@ struct TimeSignal {
   double phase = 0.0;      ///< [rad]
 
   [[nodiscard]] double at(double time) const;
-  /// Its derivative [per s]; at a corner of the table that of the piece which ends there.
+  /// The derivative [per s]; at a corner of the table the one of the piece that ends there.
   [[nodiscard]] double rate(double time) const;
   /// Integral from `from` to `to` [s], from <= to; exact.
   [[nodiscard]] double integral(double from, double to) const;

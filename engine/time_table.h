@@ -7,19 +7,19 @@
 
 namespace sheave {
 
-/// What a table is between its points.
+/// The function between the points of a table.
 enum class Interpolation {
   linear,
-  /// A cubic spline, twice continuously differentiable. Its ends are those of cubic polynomials
-  /// through the four nearest points ("not a knot"), so that values are right to the fourth order
-  /// of the spacing and second derivatives to the second, up to the ends: of a motion that was
-  /// sampled. Its rate jumps where the table ends on the move.
+  /// A cubic spline, twice continuously differentiable. At the ends, its pieces are those of cubic
+  /// polynomials through the four nearest points ("not a knot"). Values are therefore right to the
+  /// fourth order of the spacing and second derivatives to the second, up to the ends: for a motion
+  /// that was sampled. The rate jumps at the ends of the table, unless the table ends at rest.
   cubic,
-  /// The same with rate 0 at both ends: of a motion from rest to rest.
+  /// A cubic spline with rate 0 at both ends: for a motion from rest to rest.
   clamped,
-  /// Cubic pieces with a continuous rate that never leave the range of the two points around them:
-  /// values that rise stay rising, and a peak of the points is a peak of the function. Fritsch and
-  /// Butland's rates (SIAM J. Sci. Stat. Comput. 5, 1984). Second derivatives jump at points.
+  /// Cubic pieces with a continuous rate that stay within the range of the two points around them:
+  /// rising values give a rising function, and its peaks are at points. Fritsch and Butland's rates
+  /// (SIAM J. Sci. Stat. Comput. 5, 1984). Second derivatives jump at points.
   monotone,
 };
 inline constexpr std::array<std::string_view, 4> interpolation_names{"linear", "cubic", "clamped",
@@ -29,27 +29,27 @@ inline constexpr std::string_view interpolation_meaning =
     "them and may start backwards; clamped: one from rest to rest; monotone: smooth, and never "
     "beyond the two values around it";
 
-/// Through (times[i], values[i]), constant before the first and after the last point. Times
-/// increase strictly. Without times it is the constant values[0]; without values it is 0.
+/// A function through (times[i], values[i]), constant before the first and after the last point.
+/// Times increase strictly. Without times the function is the constant values[0]; without values it
+/// is 0.
 struct TimeTable {
   std::vector<double> times;  ///< [s]
   std::vector<double> values;
-  /// A piece from one point to the next is a cubic: its second derivatives at both of its ends
-  /// [per s2].
+  /// The second derivatives [per s2] of one piece, a cubic between two points, at its ends.
   struct Bend {
     double first = 0.0;
     double last = 0.0;
   };
-  /// Per piece, one less than points; empty: the table is piecewise linear. of() finds them.
+  /// Per piece, one less than points; empty: the table is piecewise linear. of() computes them.
   std::vector<Bend> bends{};
 
-  /// A table with these points, as many values as times or a single one without.
+  /// A table with these points: as many values as times, or a single value without times.
   [[nodiscard]] static TimeTable of(std::vector<double> times, std::vector<double> values,
                                     Interpolation interpolation);
 
   [[nodiscard]] bool empty() const { return values.empty(); }
   [[nodiscard]] double at(double time) const;
-  /// Slope [per s]; at a corner that of the piece which ends there.
+  /// The derivative [per s]; at a corner the one of the piece that ends there.
   [[nodiscard]] double rate(double time) const;
   /// Integral from `from` to `to` [s], from <= to; exact.
   [[nodiscard]] double integral(double from, double to) const;

@@ -50,7 +50,7 @@ constexpr double pi = 3.14159265358979323846;
   return v[2] == 0.0 && v[0] == 0.0 && v[1] == 0.0;
 }
 
-/// Whether no component is infinite or NaN, of which a product with 0 makes NaN.
+/// Whether all components are finite; 0 times infinity or NaN is NaN.
 [[nodiscard]] inline bool is_finite(const Vector3& v) {
   return 0.0 * v[0] + 0.0 * v[1] + 0.0 * v[2] == 0.0;
 }
@@ -88,7 +88,7 @@ constexpr double pi = 3.14159265358979323846;
   double half_sinc = 0.0;  // sin(half angle) / half angle
   if (half_squared < 0.01) {
     const double t = half_squared;
-    // Times constants, because a division takes as long as ten products.
+    // Products with constants: a division takes as long as ten products.
     half_cosine =
         1.0 - t * (1.0 / 2.0) *
                   (1.0 - t * (1.0 / 12.0) *

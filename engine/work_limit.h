@@ -1,45 +1,45 @@
 #pragma once
-// What a substep may cost, and whether the caller of World::step() still wants it.
+// The work that a substep may take, and the caller's request to stop the step.
 
 #include <cstdint>
 #include <functional>
 
 namespace sheave {
 
-/// Asked in the course of World::step() whether the step is to end early: true ends it. It must not
-/// throw, nor touch the world that steps. It may look at a clock, a flag that a signal sets, a
-/// button.
+/// Returns true to end the step that is running. World::step() calls it repeatedly. The function
+/// must neither throw nor touch the world that steps. It may read a clock, a flag that a signal
+/// sets, or a button.
 using StopRequest = std::function<bool()>;
 
-/// Solvers ask it before every piece of work whose repetitions the size of the scene does not
-/// bound.
+/// Solvers call it before each piece of work whose number of repetitions is not bounded by the size
+/// of the scene.
 class WorkLimit {
  public:
-  /// Null: nobody asks for an early end. `stop` must outlive the step.
+  /// Null: the step cannot be stopped. `stop` must outlive the step.
   void begin_step(const StopRequest* stop) {
     stop_ = stop;
     stopped_ = false;
   }
-  /// From now on so many factorisations are allowed.
+  /// Allows so many factorisations from now on.
   void allow(std::int64_t factorisations) {
     left_ = factorisations;
     exhausted_ = false;
   }
-  /// To be called before each factorisation; false if there must not be another one.
+  /// Must be called before each factorisation; false forbids it.
   [[nodiscard]] bool take_factorisation() {
     if (stops()) return false;
     exhausted_ = left_ == 0;
     if (!exhausted_) --left_;
     return !exhausted_;
   }
-  /// Asks the caller, until the first yes.
+  /// Whether the step is to stop. Calls the caller's request until it has returned true.
   [[nodiscard]] bool stops() {
     if (stop_ != nullptr && !stopped_) stopped_ = (*stop_)();
     return stopped_;
   }
-  /// Whether the caller has asked for an early end, as far as is known.
+  /// Whether the request has returned true.
   [[nodiscard]] bool stopped() const { return stopped_; }
-  /// Whether a factorisation has been refused that would have been one too many.
+  /// Whether a factorisation has been refused because of allow().
   [[nodiscard]] bool exhausted() const { return exhausted_; }
 
  private:

@@ -6,8 +6,8 @@
 //   if (!world) report(world.errors());
 //   while (world->state().time < 2.0 && world->step().ok()) show(world->state());
 //
-// A step takes as long as its scene is hard. A program that cannot wait sets it a limit; what it
-// says ends the step, which then has not been:
+// The time that a step takes depends on the scene. A program with a deadline passes a stop request.
+// A step that the request ends leaves the world as it was before the step:
 //
 //   const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(5);
 //   const auto report = world->step([&] { return std::chrono::steady_clock::now() > deadline; });
@@ -34,162 +34,168 @@ class BodySet;
 class ConstraintBatch;
 struct Stage;
 
-/// What one step did.
+/// The outcome of one step.
 struct StepReport {
   StepStatistics statistics;
   std::optional<Divergence> divergence;  ///< if set, the state is the last good one
-  /// The stop request has ended the step: the state is, bit for bit, that before it, and the
-  /// statistics are of work in vain.
+  /// Whether the stop request ended the step. The state is then, bit for bit, the one before the
+  /// step, and the statistics count work that was discarded.
   bool stopped = false;
   /// Whether the step is complete.
   [[nodiscard]] bool ok() const { return !divergence.has_value() && !stopped; }
 };
 
-/// How the state of a world came about: its last substep. Views of the world, valid until it steps
-/// or is restored.
+/// The last substep, which led to the state of a world. Its members are views of the world, valid
+/// until the world steps or is restored.
 struct LastSubstep {
-  const State& start;  ///< state at its beginning; World::state() is the one at its end
-  double h = 0.0;      ///< its length [s]
-  /// What it was done by. `rattle` leaves some substeps to `xpbd`.
+  const State& start;  ///< state at the start of the substep; World::state() is the one at its end
+  double h = 0.0;      ///< length of the substep [s]
+  /// The integrator that did the substep. `rattle` leaves some substeps to `xpbd`.
   IntegratorKind integrator = IntegratorKind::xpbd;
-  /// Per feature: of the forces in its state [N or N m] the parts that acted in the second half,
-  /// along the gradients of the end; the rest of each acted in the first, along those of the start.
-  /// Joints, ground and cables have one number per multiplier, contacts four per point: along the
-  /// normal, and the friction as a vector. Empty with `xpbd`, where all forces act along the
-  /// gradients of the end.
+  /// Per feature: the part of each force in its state [N or N m] that acted in the second half of
+  /// the substep, along the gradients of the end. The rest of each force acted in the first half,
+  /// along the gradients of the start. Joints, ground and cables have one number per multiplier.
+  /// Contacts have four numbers per point: the normal force, and the friction as a vector. Empty
+  /// with `xpbd`, where all forces act along the gradients of the end.
   std::span<const std::vector<double>> late_forces;
 };
 
 /// Energy of all bodies and features [J].
 struct Energy {
   double kinetic = 0.0;
-  /// Of gravity, as it is now, and of the model's constant forces; zero at the world's origin. What
-  /// forces do that have been set is StepStatistics::external_work.
+  /// Potential energy of the present gravity and of the model's constant forces; zero at the
+  /// world's origin. The work of forces that a program has set is in StepStatistics::external_work.
   double potential = 0.0;
   double elastic = 0.0;
   [[nodiscard]] double total() const { return kinetic + potential + elastic; }
 };
 
-/// A model, its features and their state. Movable, not copyable; copy its State.
+/// A model, its features and their state. Movable, not copyable; to copy a run, copy its State.
 class World {
  public:
-  /// Builds the features that the model itself asks for (joints, ground).
+  /// Builds the features that the model itself defines (joints, contacts, ground).
   static Result<World> create(Model model);
-  /// The same, and appends `features`.
+  /// Builds the model's features and appends `features`.
   static Result<World> create(Model model, std::vector<std::unique_ptr<ConstraintBatch>> features);
-  /// The same for bodies that are already compiled (features of other libraries need them first).
+  /// As above, for bodies that are already compiled. Features of other libraries are built from the
+  /// compiled bodies, before the world exists.
   static Result<World> create(Model model, std::shared_ptr<const BodySet> bodies,
                               std::vector<std::unique_ptr<ConstraintBatch>> features);
-  /// What is wrong with a model by itself, without building a world: what create(model) would
-  /// report.
+  /// The errors that create(model) would report, found without building a world.
   static Errors check(const Model& model);
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  /// Advances by dt. After a divergence the state stays at the last good substep.
+  /// Advances the world by dt. After a divergence the state stays at the last good substep.
   ///
-  /// `stop`, if there is one, is asked at the start of each substep, or part of one, and before
-  /// each factorisation or sweep over the constraints (once for substeps that need neither,
-  /// engine/solvers/affine_motion.h): mostly some ten times per step, more often where a step is
-  /// hard. Once it says true the step ends, as soon as nothing but that one piece of work is done,
-  /// and the world is as if the step had not been begun, but for last_substep(), of which there is
-  /// nothing. Another step() then comes to the same end as one that was never stopped.
+  /// The step asks `stop`, if given, before each substep or part of a substep, and before each
+  /// factorisation or sweep over the constraints. Substeps that need neither a factorisation nor a
+  /// sweep (engine/solvers/affine_motion.h) ask once. A step asks about ten times, and more often
+  /// where the solver needs more rounds. Once `stop` returns true, the step ends as soon as the
+  /// piece of work in progress is done. The world is then as it was before the step, except that
+  /// last_substep() is empty. The next step() gives the same result as if no step had been stopped.
   [[nodiscard]] StepReport step(const StopRequest& stop = {});
-  /// The same with `before_substep`, which is called before each substep of the settings, not
-  /// before the parts of one that is cut. It may set controls.
+  /// As above, and calls `before_substep` before each substep that the settings ask for. The parts
+  /// of a substep that is cut make no further calls. The callback may set controls.
   [[nodiscard]] StepReport step(const StopRequest& stop,
                                 const std::function<void()>& before_substep);
 
-  /// Makes at most `count` of the steps that step() would make, bit for bit, as long as they are of
-  /// the kind that costs next to nothing (engine/solvers/affine_motion.h), one substep each, and no
-  /// loads have been set; returns how many, mostly all or none. What a step tells besides the state
-  /// is not there for these: statistics, last_substep(), events. For callers that look at the state
-  /// only after many steps: leap, then step().
+  /// Makes at most `count` steps, with the same bits as step(), and returns the number of steps
+  /// made: mostly all of them or none. A leap goes on only while each step is a single affine
+  /// substep (engine/solvers/affine_motion.h), which costs next to nothing, and no forces are set.
+  /// A leap writes the state only: statistics, last_substep() and events are not available for its
+  /// steps. Callers that look at the state only after many steps leap first, then call step().
   std::int64_t leap(std::int64_t count);
 
-  // Controls: set between steps or before substeps, in force from the next substep on until they
-  // are set anew or cleared, and part of the state (engine/controls.h). Where a request cannot be
-  // met nothing changes, and the error says what is allowed. None allocates when it repeats one
-  // that is set.
+  // Controls. A control is set between steps or before substeps. The control acts from the next
+  // substep on, until it is set anew or cleared, and is part of the state (engine/controls.h). If a
+  // request cannot be met, nothing changes and the error says which values are allowed. Repeating a
+  // control that is set does not allocate.
 
-  /// Instead of the model's [m/s2].
+  /// Replaces the model's gravity [m/s2].
   [[nodiscard]] Errors set_gravity(const Vector3& gravity);
   void clear_gravity();
-  /// On a body that forces can move: not on static, kinematic and driven ones.
+  /// Sets a force on a body that forces can move: not a static, kinematic or driven one.
   [[nodiscard]] Errors set_force(BodyId body, const PointForce& force);
   [[nodiscard]] Errors clear_force(BodyId body);
-  /// Of a rotor with a drive, in place of its table. An angle is the one that the body has turned
-  /// since time 0 (BodyState::angle).
+  /// Sets the target of a rotor's drive, in place of the drive's table. A target angle counts from
+  /// the body's angle at time 0 (BodyState::angle).
   [[nodiscard]] Errors set_drive(BodyId body, const DriveTarget& target);
-  /// From now on the table drives it again.
+  /// Gives the drive back to its table.
   [[nodiscard]] Errors clear_drive(BodyId body);
-  /// Of a kinematic body, in place of the motion that its definition gives it. One that has such a
-  /// motion keeps to its directions, one with an axis to the plane across it, since cables and
-  /// joints may have been built for that.
+  /// Sets the motion of a kinematic body, in place of the motion in its definition. A body whose
+  /// definition has a motion keeps to the directions of that motion. A body whose definition has an
+  /// axis keeps to the plane normal to the axis. Cables and joints may have been built for these
+  /// restrictions.
   [[nodiscard]] Errors set_motion(BodyId body, const MotionTarget& target);
-  /// Leads it back to where its definition has it after `over` seconds, > 0; default: the next
-  /// step.
+  /// Leads a kinematic body back to the motion in its definition within `over` seconds, > 0;
+  /// default: the next step.
   [[nodiscard]] Errors clear_motion(BodyId body, std::optional<double> over = {});
-  /// Of the drive along a coordinate of a joint, by their indices in Model::joints and
-  /// JointDef::coordinates(), in place of its table and sine.
+  /// Sets the target of a joint's drive, in place of the drive's table and sine. `joint` is an
+  /// index into Model::joints, `coordinate` one into JointDef::coordinates().
   [[nodiscard]] Errors set_joint_drive(int joint, int coordinate, const DriveTarget& target);
-  /// The largest force or torque that it has [N or N m], >= 0; not of drives of a force.
+  /// Sets the largest force or torque of a joint's drive [N or N m], >= 0. Drives that prescribe a
+  /// force have no limit.
   [[nodiscard]] Errors set_joint_drive_limit(int joint, int coordinate, double limit);
-  /// Target and limit are those of the definition again. (A drive to a position then asks for where
-  /// its table is, at once.)
+  /// Restores the target and the limit of the definition. A drive to a position jumps to the
+  /// present value of its table.
   [[nodiscard]] Errors clear_joint_drive(int joint, int coordinate);
-  /// How long what is set now has until the caller can set it anew [s]: a step, or before a substep
-  /// that.
+  /// The time until the caller can next set a control [s]: a step, or a substep while
+  /// `before_substep` is being called.
   [[nodiscard]] double control_interval() const;
-  /// The joint holds nothing any more, as if it had broken now.
+  /// Releases a joint, as if it had broken now: from now on the joint constrains nothing.
   [[nodiscard]] Errors release_joint(int joint);
-  /// A joint that was released or has broken holds again what its type holds, from where its bodies
-  /// are now: no position jumps and its coordinates go on (engine/joints/joint_hold.h). What speed
-  /// the bodies have against it ends as in an inelastic impact, which keeps momentum. An error if a
-  /// rigid stop or a drive to a position without a limit would move them by a blow. One that holds
-  /// goes on to do so. (To hold a coordinate of such a joint is what a brake does: a drive to the
-  /// speed 0 with a limit.)
+  /// Locks a joint that was released or has broken. The joint holds the degrees of freedom of its
+  /// type, starting from the present pose of its bodies: no position jumps, and the coordinates of
+  /// the joint continue (engine/joints/joint_hold.h). Relative velocity along the locked directions
+  /// vanishes as in an inelastic impact, which conserves momentum. An error if a rigid stop, or a
+  /// drive to a position without a limit, would move the bodies suddenly. Locking a joint that is
+  /// not released changes nothing. (A brake on a coordinate is a drive to the speed 0 with a
+  /// limit.)
   [[nodiscard]] Errors lock_joint(int joint);
-  /// State::memory, to be read and written by whoever sets controls. States with another size do
-  /// not belong to this world.
+  /// State::memory, which the program that sets controls reads and writes. A state whose memory has
+  /// another size does not belong to this world.
   [[nodiscard]] std::vector<double>& memory();
-  /// Why a state cannot have the memory that it has; empty if it can. restore() asks; as long as
-  /// nobody has said so, any numbers will do.
+  /// Returns why a state's memory is invalid, or an empty text. restore() calls the function that
+  /// check_memory_by() has set; without one, any numbers are accepted.
   using MemoryFault = std::function<std::string(const State&)>;
   void check_memory_by(MemoryFault fault);
-  /// Unchecked: for functions that check what they set for a feature (Simulation::set_...()).
+  /// The controls, without checks; for checked setters of features (Simulation::set_...()).
   [[nodiscard]] Controls& controls_of_features();
 
   [[nodiscard]] const Model& model() const;
   [[nodiscard]] const BodySet& bodies() const;
-  /// The same, for another world of the same bodies.
+  /// The compiled bodies, to be shared with another world.
   [[nodiscard]] std::shared_ptr<const BodySet> shared_bodies() const;
   [[nodiscard]] const State& state() const;
-  [[nodiscard]] const std::vector<Stage>& stages() const;  ///< of one substep
+  [[nodiscard]] const std::vector<Stage>& stages() const;  ///< the stages of one substep
   [[nodiscard]] std::span<const std::unique_ptr<ConstraintBatch>> features() const;
   /// State of the feature at this index of features().
   [[nodiscard]] const FeatureState& feature_state(std::size_t index) const;
 
-  /// Where colliders touch or are about to; empty without colliders, and before the first step.
+  /// The points where colliders touch or are about to touch; empty without colliders, and before
+  /// the first step.
   [[nodiscard]] std::vector<ContactReport> contacts() const;
 
-  /// From now on the bodies of state(), and the numbers of its last feature if their count is fixed
-  /// (cables), are at the same addresses between all steps, for those who look at them there. A
-  /// world that is not told so exchanges them with those of the substep before.
+  /// From now on the bodies of state() keep their addresses between steps, for readers that hold
+  /// pointers to them. So do the numbers of the last feature (cables) if their count is fixed.
+  /// Without this call a step exchanges the memory of the state with the memory of the state
+  /// before.
   void keep_in_place();
 
-  /// Goes back (or ahead) to a state of this world; an error, and nothing has changed, if its shape
-  /// does not fit, or its controls or its memory, or if a number is not finite.
+  /// Makes `state`, one of this world, the present state. An error, without any change, if the
+  /// sizes of the state do not fit, if its controls or its memory are invalid, or if a number is
+  /// not finite.
   [[nodiscard]] Errors restore(const State& state);
 
-  /// Nothing at time 0, after restore() and after a step that was stopped, until the next step.
+  /// Empty at time 0, after restore() and after a stopped step, until the next step.
   [[nodiscard]] std::optional<LastSubstep> last_substep() const;
 
   [[nodiscard]] Energy energy() const { return energy_of(state()); }
-  /// The same in another state of this world.
+  /// The energy of another state of this world.
   [[nodiscard]] Energy energy_of(const State& state) const;
-  /// Pose of the body frame's origin [m] (not of the centre of mass).
+  /// Position of the body frame's origin [m]; the centre of mass may be elsewhere.
   [[nodiscard]] Vector3 position(BodyId body) const;
   [[nodiscard]] Quaternion orientation(BodyId body) const;
   /// Velocity of the body frame's origin [m/s].

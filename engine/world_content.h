@@ -1,5 +1,5 @@
 #pragma once
-// What a world is made of; internal to the engine.
+// The members of a world; internal to the engine.
 
 #include "engine/control_check.h"
 #include "engine/substep_driver.h"
@@ -15,13 +15,13 @@ struct World::Content {
   Substep substep;
   std::vector<Stage> stages;
   SubstepDriver driver;
-  State step_start;                  // of a step that may be stopped
-  std::size_t contacts = 0;          // which feature; means something if the model has colliders
+  State step_start;          // start of a step that may be stopped
+  std::size_t contacts = 0;  // index of the contacts among the features, if the model has colliders
   std::vector<JointPlace> joints;    // in the order of the model
-  std::size_t coordinate_count = 0;  // of all joints
-  double control_interval = 0.0;     // how long what is set now has [s]
+  std::size_t coordinate_count = 0;  // coordinates of all joints
+  double control_interval = 0.0;     // World::control_interval() [s]
   World::MemoryFault memory_fault;   // may be empty
-  bool stays_in_place = false;       // World::keep_in_place(), and where that is:
+  bool stays_in_place = false;       // World::keep_in_place(), with these addresses:
   const BodyState* bodies_place = nullptr;
   const double* reals_place = nullptr;
 
