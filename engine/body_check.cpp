@@ -12,7 +12,7 @@ namespace sheave {
 namespace {
 
 std::string vector_text(const Vector3& v) {
-  // A difference of numbers may leave minus zero, or a rest of rounding.
+  // Projections may leave minus zero or a rounding error in place of 0.
   const double negligible = 1e-12 * v.norm();
   std::string text;
   for (const double value : {v.x(), v.y(), v.z()}) {
@@ -34,7 +34,7 @@ class BodyCheck {
     const std::size_t before = errors_.size();
     check_fields(BodyDef::field_table(), &body_, path_, errors_);
     for (std::size_t i = 0; i < body_.shapes.size(); ++i) check_shape(i);
-    if (errors_.size() > before) return;  // what follows computes with these numbers
+    if (errors_.size() > before) return;  // the following checks compute with these numbers
     check_reach();
     check_axis();
     check_mount();
@@ -55,7 +55,7 @@ class BodyCheck {
     return std::string(mobility_names[static_cast<std::size_t>(body_.mobility)]);
   }
 
-  /// Beyond it squares of distances are not finite, and nothing could tell how far off a state is.
+  /// Beyond this distance [m] the squares of distances overflow, and residuals cannot be computed.
   static constexpr double farthest = 1e150;
 
   void check_reach() {
@@ -128,7 +128,8 @@ class BodyCheck {
     }
   }
 
-  /// What a body may do at the start, and what of that is nearest to what is asked of it.
+  /// A velocity that the mobility allows: the rule as a text, and the allowed velocity nearest to
+  /// the given one.
   struct Allowed {
     std::string rule;
     Vector3 nearest;
@@ -186,7 +187,7 @@ class BodyCheck {
     }
   }
 
-  /// Of a kinematic body with an axis.
+  /// Checks the motion of a kinematic body with an axis.
   void check_plane(const Vector3& axis) {
     const auto leaves = [&](const Vector3& v) { return std::abs(v.dot(axis)) > 1e-9 * v.norm(); };
     const std::string plane = "it stays in the plane across its axis " + vector_text(axis);
@@ -303,8 +304,8 @@ class BodyCheck {
          "other two");
   }
 
-  /// A rotor's centre of mass lies on its axle, and a mounted one is symmetric about it; otherwise
-  /// the spin would not be a degree of freedom of its own.
+  /// A rotor's centre of mass lies on its axle, and a mounted rotor is symmetric about it;
+  /// otherwise the spin would not be a separate degree of freedom.
   void check_rotor_balance() {
     const Vector3 axle =
         body_.axis ? Vector3(body_.orientation.normalized().conjugate() * body_.axis->normalized())

@@ -1,5 +1,5 @@
-// Lumping a mounted rotor into its carrier: the rotor's mass acts at its centre on the axle, and
-// its inertia across the axle turns with the carrier; its inertia about the axle does not, because
+// Lumping a mounted rotor into its carrier. The rotor's mass acts at its centre on the axle, and
+// its inertia across the axle turns with the carrier. The inertia about the axle does not, because
 // the rotor's spin is a coordinate of its own. With rotor mass m at offset c from the carrier's
 // centre of mass and inertia I_r (symmetric about the axle a, J = a.I_r a):
 //   mass += m,   inertia += m (c.c E - c c^T) + I_r - J a a^T.
@@ -52,13 +52,13 @@ BodyProperties compile_body(const BodyDef& body) {
   result.mass = own.mass;
   result.inertia = own.inertia;
   result.axis = world_axis(body);
-  // The axle of a rotor passes through the origin of its frame; check_body has made sure that the
-  // centre of mass lies on the axle, and where along it is of no consequence.
+  // The axle of a rotor passes through the origin of its frame. check_bodies() has verified that
+  // the centre of mass lies on the axle; its position along the axle does not matter.
   if (body.mobility != Mobility::rotor) result.center_of_mass = own.center_of_mass;
   return result;
 }
 
-/// Makes rotor `i` part of its carrier.
+/// Adds the mass and inertia of rotor `i` to its carrier.
 void lump_mounted_rotor(std::vector<BodyProperties>& bodies, const std::vector<BodyDef>& defs,
                         int i) {
   BodyProperties& rotor = bodies[at(i)];
@@ -78,7 +78,8 @@ void lump_mounted_rotor(std::vector<BodyProperties>& bodies, const std::vector<B
   rotor.axis_inertia = def.spin_inertia.value_or(spin_inertia);
   rotor.axis = carrier_inverse * rotor.axis;
   rotor.start_orientation = carrier_inverse * def.orientation.normalized();
-  rotor.mount_position = carrier_inverse * (def.position - carrier_def.position);  // body frame yet
+  // In the body frame until BodySet::create() subtracts the centre of mass
+  rotor.mount_position = carrier_inverse * (def.position - carrier_def.position);
   carrier.mounted_rotors.push_back(i);
   if (carrier.mobility == Mobility::fixed || carrier.mobility == Mobility::kinematic) return;
   const Matrix3 rotation = rotor.start_orientation.toRotationMatrix();
@@ -93,7 +94,7 @@ void lump_mounted_rotor(std::vector<BodyProperties>& bodies, const std::vector<B
   carrier.center_of_mass = center;
 }
 
-/// The axis of the moment that differs from two equal ones. (None for a multiple of the identity.)
+/// The principal axis whose moment differs from two equal ones; none if all three are equal.
 std::optional<Vector3> find_symmetry_axis(const Matrix3& inertia) {
   const Eigen::SelfAdjointEigenSolver<Matrix3> principal(inertia);
   const Vector3& moments = principal.eigenvalues();  // increasing
@@ -104,7 +105,7 @@ std::optional<Vector3> find_symmetry_axis(const Matrix3& inertia) {
   return Vector3(principal.eigenvectors().col(lower ? 2 : 0)).normalized();
 }
 
-/// What can be computed only when all mounted rotors are lumped in.
+/// Computes the constants that depend on mounted rotors; call it after all are lumped in.
 void finish_body(BodyProperties& body, const BodyDef& def) {
   const Vector3 own_axis = def.orientation.normalized().conjugate() * body.axis;
   if (body.mobility == Mobility::free) {
@@ -129,7 +130,7 @@ struct Ball {
   double radius = 0.0;
 };
 
-/// From the point to the far side of the ball that is farthest away; which one that is.
+/// The distance from a point to the far side of the ball that is farthest away, and that ball.
 std::pair<double, const Ball*> farthest(const Vector3& from, const std::vector<Ball>& balls) {
   std::pair<double, const Ball*> most{0.0, nullptr};
   for (const Ball& ball : balls) {
@@ -139,9 +140,9 @@ std::pair<double, const Ball*> farthest(const Vector3& from, const std::vector<B
   return most;
 }
 
-/// About the greatest distance within the scene: from the part farthest from the middle to the one
-/// farthest from that. The same in whatever direction the scene is turned, or solvers would end
-/// their rounds elsewhere there, and whatever else comes to be between these two.
+/// About the greatest distance within the scene: from the part farthest from the middle to the part
+/// farthest from that one. The value does not change when the scene is turned. A bounding box would
+/// change with the orientation, and with it the solvers' tolerances and results.
 double scene_scale(const std::vector<BodyDef>& bodies) {
   std::vector<Ball> balls;
   Vector3 middle = Vector3::Zero();
@@ -161,7 +162,8 @@ double scene_scale(const std::vector<BodyDef>& bodies) {
   return scale > 0.0 ? scale : 1.0;
 }
 
-/// How far a body's shapes reach; without any, its radius of gyration; without a mass, `scale`.
+/// Distance from the body's origin to its farthest point; without shapes the radius of gyration;
+/// without a mass, `scale`.
 double size_of_body(const BodyProperties& body, const BodyDef& def, double scale) {
   double size = 0.0;
   for (const PlacedShape& placed : def.shapes) {
@@ -224,7 +226,7 @@ State BodySet::initial_state() const {
     state.bodies.push_back(body);
   }
   for (int i = 0; i < count(); ++i) {
-    // A mounted rotor moves with its carrier; only its spin about the axle is its own.
+    // A mounted rotor moves with its carrier; only the spin about the axle is its own.
     const int mount = (*this)[i].mount;
     if (mount < 0) continue;
     const BodyState& carrier = state.bodies[at(mount)];
@@ -287,7 +289,7 @@ bool BodySet::stays_in_plane(int index, const Vector3& normal) const {
     case Mobility::kinematic: {
       const BodyDef& def = definition(index);
       if (def.axis) return parallel(def.axis->normalized());
-      // One that is to be moved can go anywhere.
+      // World::set_motion() may move it in any direction.
       if (!moves_by_itself(def)) return false;
       return def.velocity.dot(normal) == 0.0 && def.oscillation.dot(normal) == 0.0 &&
              def.angular_velocity.cross(normal).norm() == 0.0;

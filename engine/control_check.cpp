@@ -149,7 +149,7 @@ std::string ControlCheck::way_fault(int body, const BodyState& state) const {
   const Quaternion& start = bodies_[body].start_orientation;
   Quaternion change = state.orientation * start.conjugate();
   const Vector3 moved = state.position - def.position;
-  // Rounding of what a caller computes.
+  // Allows for rounding in the caller's computation.
   const double slop = 1e-9 * bodies_.scale();
   const double turn_slop = 1e-9;
   const auto along = [](const Vector3& v, const Vector3& axis) {
@@ -170,7 +170,7 @@ std::string ControlCheck::way_fault(int body, const BodyState& state) const {
   const bool slides = !is_zero(def.velocity) || !is_zero(def.oscillation);
   const bool turns = !is_zero(def.angular_velocity);
   if (!slides && !turns) return {};
-  // The directions of its own motion.
+  // Length of the part of v across the directions of the motion that the definition has.
   const auto off = [&](Vector3 v) {
     Vector3 first = def.velocity;
     Vector3 second = def.oscillation;

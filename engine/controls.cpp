@@ -1,7 +1,7 @@
 // Rotation. From `from` to `to` the orientation is exp(r) q0 with the rotation vector r(t), a
-// cubic; its angular velocity is J(r) r', with the left Jacobian of the exponential
+// cubic. The angular velocity is J(r) r', with the left Jacobian of the exponential
 //   J(r) v = v + (1 - cos a) / a^2 r x v + (a - sin a) / a^3 r x (r x v),   a = |r|.
-// Where r keeps its direction that is r', and Simpson's rule gives the turn exactly.
+// If r keeps its direction, the angular velocity is r', and Simpson's rule gives the turn exactly.
 
 #include "engine/controls.h"
 
@@ -14,7 +14,7 @@ namespace {
 Vector3 angular_velocity(const Vector3& turn, const Vector3& rate) {
   const double square = dot(turn, turn);
   const double angle = std::sqrt(square);
-  // At small angles the series, whose next terms are a^4 / 720 and a^4 / 5040.
+  // Series for small angles; the next terms are a^4 / 720 and a^4 / 5040.
   const bool small = angle < 1e-3;
   const double first = small ? 0.5 - square / 24.0 : (1.0 - portable::cos(angle)) / square;
   const double second =

@@ -11,15 +11,14 @@
 namespace sheave {
 namespace {
 
-/// Beyond this many scene sizes from the origin, or per substep, a state means nothing any more:
-/// with 16 digits, positions there have lost the scene's own length scale.
+/// Limit of distance, and of displacement per substep, in scene sizes. Beyond it, positions with 16
+/// digits no longer resolve the scene's own length scale.
 constexpr double runaway_sizes = 1e9;
 
-/// What is wrong with one body's new state; null if nothing is.
+/// Name of the first quantity of a body's new state that is invalid; null if all are valid.
 const char* fault_of(const BodyState& body, double size, double h) {
   const double farthest = runaway_sizes * size;
-  // Nearly always nothing is, and squares tell that with few comparisons, none of which a NaN
-  // passes.
+  // Fast path for valid states: comparisons of squares, all of which a NaN fails.
   const double far_squared = farthest * farthest;
   const double turn = dot(body.angular_velocity, body.angular_velocity);
   if (dot(body.position, body.position) <= far_squared &&
@@ -30,7 +29,7 @@ const char* fault_of(const BodyState& body, double size, double h) {
           4.0) {
     return nullptr;
   }
-  // allFinite() first: a maximum may or may not see a NaN.
+  // allFinite() first, because a maximum may ignore a NaN.
   const auto beyond = [](const Vector3& v, double limit) {
     return !v.allFinite() || v.cwiseAbs().maxCoeff() > limit;
   };
@@ -55,7 +54,7 @@ std::optional<Divergence> find_divergence(
   if (!std::isfinite(time)) {
     return Divergence{BodyId::world(), time, "the time is not finite: no step can be as long"};
   }
-  // Texts only where there is something to tell: this runs in every substep.
+  // Texts are made on failure only, because this function runs in every substep.
   const auto when = [&] { return " at time " + number_text(time) + " s"; };
   for (int i = 0; i < bodies.count(); ++i) {
     const char* what = fault_of(substep.next.bodies[at(i)], bodies.scale(), substep.h);
@@ -86,7 +85,8 @@ std::optional<Divergence> find_divergence(
 std::string infinite_number(const State& state, const BodySet& bodies,
                             std::span<const std::unique_ptr<ConstraintBatch>> features) {
   if (!std::isfinite(state.time)) return "its time is not finite";
-  constexpr std::int64_t most_steps = std::int64_t{1} << 53;  // times that a double still counts
+  // The largest count of steps that a double holds exactly
+  constexpr std::int64_t most_steps = std::int64_t{1} << 53;
   if (state.steps < 0 || state.steps > most_steps) return "no run comes to its number of steps";
   for (int i = 0; i < bodies.count(); ++i) {
     const BodyState& body = state.bodies[at(i)];

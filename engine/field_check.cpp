@@ -3,21 +3,20 @@
 namespace sheave {
 namespace {
 
-/// Checks the numbers of one field. Paths are made only where there is something to tell: a scene
-/// may have a million bodies.
+/// Checks the numbers of one field. Paths are made on failure only, because a scene may have a
+/// million bodies.
 class NumberCheck {
  public:
   NumberCheck(const Field& field, const std::string& path, Errors& errors)
       : field_(field), path_(path), errors_(errors) {}
 
-  // Pointers to const would lose to the template below, which takes what holds no number.
-  // NOLINTBEGIN(readability-non-const-parameter)
+  // Pointers to const would select the template below, which is for fields without numbers.
   void operator()(double* value) const { check(*value); }
   void operator()(int* value) const { check(*value); }
   void operator()(Vector3* value) const { check_components(*value); }
   void operator()(Quaternion* value) const {
     const double norm = value->norm();
-    if (std::abs(norm - 1.0) <= 1e-6) return;  // what six printed decimals leave
+    if (std::abs(norm - 1.0) <= 1e-6) return;  // rounding error of six printed decimals
     errors_.push_back({place(none, none), std::string(field_.name) +
                                               " must be a unit quaternion [w, x, y, z]; "
                                               "its length is " +
@@ -42,7 +41,7 @@ class NumberCheck {
  private:
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  /// The field, an item of it, a component of that.
+  /// Path of the field, of an item in it, or of a component of that item.
   [[nodiscard]] std::string place(std::size_t item, std::size_t component) const {
     std::string result = path_ + "/" + std::string(field_.name);
     for (const std::size_t index : {item, component}) {
@@ -84,8 +83,7 @@ std::string describe(const Range& range) {
 void check_fields(std::span<const Field> fields, const void* object, const std::string& path,
                   Errors& errors) {
   for (const Field& field : fields) {
-    // Slots are shared by reading and writing; nothing is written here.
-    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-const-cast)
+    // Reading and writing share the slots; this function writes nothing.
     std::visit(NumberCheck(field, path, errors), field.slot(const_cast<void*>(object)));
   }
 }

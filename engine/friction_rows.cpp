@@ -10,7 +10,7 @@
 namespace sheave {
 namespace {
 
-/// W of the rows; of two of them the rest is a unit matrix.
+/// W of the rows; for two rows the remaining entries are those of a unit matrix.
 Matrix3 yield_of(std::span<const Row> rows, std::span<const RowResponse> responses) {
   Matrix3 yield = Matrix3::Identity();
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -29,7 +29,7 @@ Matrix3 yield_of(std::span<const Row> rows, std::span<const RowResponse> respons
 }  // namespace
 
 Vector3 hold_within(const Matrix3& yield, const Vector3& wanted, double bound) {
-  // What nothing can move yields a little, or its multiplier would not be known.
+  // A minimal yield of immovable directions, without which their multipliers would be undetermined.
   constexpr double least = 1e-14;
   constexpr int most_steps = 60;
   const double size = yield.trace();
@@ -42,8 +42,8 @@ Vector3 hold_within(const Matrix3& yield, const Vector3& wanted, double bound) {
     const double norm = force.norm();
     if (i == 0 && norm <= bound) return force;
     if (std::abs(norm - bound) <= 1e-15 * bound) break;
-    // Newton's method for 1 / |l| = 1 / b, which is concave in m, so that from the left no step is
-    // too far.
+    // Newton's method for 1 / |l| = 1 / b. The left side is concave in m, so steps from the left
+    // never overshoot.
     give += norm * norm / force.dot(inverse * force) * (norm - bound) / bound;
   }
   return force * (bound / force.norm());
@@ -55,7 +55,7 @@ double solve_friction(std::span<const Row> rows, std::span<double> multipliers,
   Vector3 before = Vector3::Zero();
   Vector3 slip = Vector3::Zero();
   for (std::size_t k = 0; k < rows.size(); ++k) {
-    // Of what does not translate it tells nothing.
+    // respond() leaves the linear part of bodies that do not translate unset.
     responses[k].linear.fill(Vector3::Zero());
     respond(rows[k], bodies, responses[k]);
     before[static_cast<int>(k)] = multipliers[k];

@@ -1,4 +1,4 @@
-// The joint types: one line each.
+// The joint types, one line each.
 
 #include <array>
 

@@ -7,7 +7,7 @@
 namespace sheave {
 
 struct JointReader::Content {
-  /// Where a joint is to be found.
+  /// The location of a joint among the features.
   struct Place {
     std::size_t feature = 0;
     int index = 0;
@@ -21,7 +21,7 @@ struct JointReader::Content {
 };
 
 JointReader::JointReader(const World& world) : content_(std::make_unique<Content>(world)) {
-  // Features have joints by type; there are no more features of them than types.
+  // A feature holds all joints of one type, in the order of the model.
   struct Course {
     std::string_view type;
     Content::Place next;

@@ -14,7 +14,7 @@ namespace {
 
 template <class... Format>
 std::string written(double value, Format... format) {
-  std::array<char, 352> text{};  // the longest finite double in fixed notation
+  std::array<char, 352> text{};  // room for the longest finite double in fixed notation
   const auto [end, code] = std::to_chars(text.data(), text.data() + text.size(), value, format...);
   return code == std::errc() ? std::string(text.data(), end) : std::string("?");
 }
@@ -30,7 +30,7 @@ std::string fixed(double value, int decimals) {
 
 #else
 
-// The library of emscripten writes no numbers but through streams.
+// Emscripten's library writes numbers through streams only.
 
 std::string streamed(double value, int digits, std::ios_base::fmtflags notation) {
   std::ostringstream stream;

@@ -1,4 +1,4 @@
-// The shape types: one line each.
+// The shape types, one line each.
 
 #include <array>
 

@@ -13,17 +13,17 @@ constexpr std::uint64_t format_tag = 0x33'45'54'41'54'53'48'53;            // "S
 constexpr std::uint64_t tag_without_checksum = 0x32'45'54'41'54'53'48'53;  // "SHSTATE2"
 constexpr std::uint64_t tag_without_controls = 0x31'45'54'41'54'53'48'53;  // "SHSTATE1"
 
-/// Follows the tag. Where versions without a checksum have a number of steps it is -1, so a file whose
-/// tag has been changed to theirs is none of them.
+/// Follows the tag. Versions without a checksum have the number of steps here, which is never -1. A
+/// file of this version whose tag has been changed to an older one is therefore detected.
 constexpr std::uint64_t no_older_version = ~std::uint64_t{0};
 
-/// FNV-1a, word by word. Each word is taken up by a one-to-one function of what was before, so two
-/// lists that differ in one word never have the same hash.
+/// FNV-1a, word by word. For a given previous value, each word enters by a one-to-one function. Two
+/// lists that differ in a single word therefore never have the same hash.
 class WordHash {
  public:
   void add(std::uint64_t word) {
-    // FNV-1a multiplies after every byte; a whole word at a time needs the high bits folded back,
-    // or they would never reach the low ones.
+    // FNV-1a multiplies after every byte. With a multiplication per word, the high bits would never
+    // reach the low ones, so they are folded back.
     value_ = (value_ ^ word) * 0x100000001b3;
     value_ ^= value_ >> 32;
   }
@@ -43,7 +43,7 @@ std::uint64_t little_endian(std::uint64_t word) {
   return turned;
 }
 
-/// Calls visit(word) for every word of a member of a control.
+/// Calls visit(word) for each word of a member of a control.
 template <class Visit>
 struct MemberWords {
   const Visit& visit;
@@ -63,7 +63,8 @@ void for_each_word_of(const Control& control, const Visit& visit) {
   ControlMembers<Control>::visit(control, MemberWords<Visit>{visit});
 }
 
-/// What is set: tables that have had entries, which are cleared, are as those that have not.
+/// Calls visit(word) for the controls that are set. A table whose entries have been cleared gives
+/// the same words as an empty one.
 template <class Visit>
 void for_each_word_set(const Controls& controls, const Visit& visit) {
   if (controls.empty()) return;
@@ -100,8 +101,8 @@ void for_each_word(const Controls& controls, const Visit& visit) {
   });
 }
 
-/// Calls visit(word) for every number of a state but its controls in a fixed order; shared by hash
-/// and to_bytes, so that neither can forget a member.
+/// Calls visit(word) for every number of a state except its controls, in a fixed order. hash() and
+/// to_bytes() share the function, so neither can omit a member.
 template <class Visit>
 void for_each_word(const State& state, const Visit& visit) {
   const auto real = [&](double x) { visit(bits_of(x)); };
@@ -129,7 +130,7 @@ void for_each_word(const State& state, const Visit& visit) {
   }
 }
 
-/// Reads words back; every read past the end or absurd count sets `failed`.
+/// Reads words back; a read past the end or an impossible count sets `failed_`.
 class Reader {
  public:
   explicit Reader(const std::string& bytes) : bytes_(bytes) {}
@@ -145,7 +146,8 @@ class Reader {
   }
   double real() { return double_of(word()); }
   std::int64_t integer() { return static_cast<std::int64_t>(word()); }
-  /// A list's length; each element takes at least `words` words, so a longer list is a fault.
+  /// The length of a list whose elements take at least `words` words each; a length beyond the end
+  /// of the bytes is an error.
   std::size_t count(std::size_t words) {
     const std::uint64_t n = word();
     const std::size_t left = (bytes_.size() - position_) / (sizeof(std::uint64_t) * words);
@@ -162,7 +164,7 @@ class Reader {
     if (b > 1) failed_ = true;
     return b == 1;
   }
-  // Members of controls.
+  // The members of controls.
   void read(bool& b) { b = flag(); }
   void read(double& x) { x = real(); }
   void read(ForceFrame& frame) { frame = flag() ? ForceFrame::body : ForceFrame::world; }
@@ -224,8 +226,9 @@ std::string to_bytes(const State& state, const StateOrigin& origin) {
 
 namespace {
 
-/// Whether the last word is the checksum of all before it, and of how many these are: taken up, a
-/// checksum of words alone leaves 0, and a 0 behind it would be right again.
+/// Whether the last word is the checksum of the preceding words and of their number. Without the
+/// number, adding the checksum itself to the hash would leave 0, and an appended 0 would be
+/// accepted.
 bool has_right_sum(const std::string& bytes) {
   constexpr std::size_t word_size = sizeof(std::uint64_t);
   const std::size_t words = bytes.size() / word_size;

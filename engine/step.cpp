@@ -1,12 +1,13 @@
-// The time step: the order of its stages is decided here and nowhere else.
+// The time step: the order of its stages is decided in this file alone.
 //
 // Cost of a substep: bodies x (predict + derive) + rows x (begin + finish), and for the rows in
 // between
 //   gauss-seidel:  iterations x rows x (evaluate + solve)
-//   direct:        rounds x (rows x evaluate + assemble and factor), linear in the rows of a chain, mostly 2 rounds
+//   direct:        rounds x (rows x evaluate + assemble and factor), mostly 2 rounds; the
+//                  factorisation of a chain is linear in its rows
 // `rattle` evaluates the rows once more, solves once more (for velocities), and goes over the
-// bodies once more. Machines in which nothing turns a row's gradient skip all stages where they
-// can: engine/solvers/affine_motion.h.
+// bodies once more. Machines whose row gradients are constant skip all stages where they can:
+// engine/solvers/affine_motion.h.
 
 #include "engine/step.h"
 
@@ -44,7 +45,7 @@ std::vector<Stage> substep_stages(const Model& model,
   const bool mounted = has_mounted_rotors(model);
   const bool stiff = std::any_of(features.begin(), features.end(),
                                  [](const auto& feature) { return feature->is_stiff(); });
-  // `rattle` sweeps over one system of all rows, which is of no use where some are stiff.
+  // `rattle` sweeps over one system of all rows, which does not converge if some are stiff.
   const SolverKind at_once = stiff ? SolverKind::direct : model.step.solver;
   const auto solver = rattle ? std::make_shared<RattleSolver>(at_once) : nullptr;
 

@@ -1,7 +1,7 @@
 // Mounted rotors. A rotor on an axle with the unit direction a (fixed in its carrier B) through the
-// point c of B has one degree of freedom of its own, the absolute spin s about a; everything else
-// of its motion is B's: w = w_B - a (a.w_B) + a s. A unit force n at the point p of the rotor has
-// the power n.(v_B + w_B x (c - x_B) + w x (p - c)), and collecting the factors of v_B, w_B and s:
+// point c of B has one degree of freedom of its own, the absolute spin s about a. The rest of its
+// motion is B's: w = w_B - a (a.w_B) + a s. A unit force n at the point p of the rotor has the
+// power n.(v_B + w_B x (c - x_B) + w x (p - c)), and collecting the factors of v_B, w_B and s:
 //   on B:      linear n,  angular (p - x_B) x n - a (a . ((p - c) x n))
 //   on rotor:  angular a (a . ((p - c) x n))
 // A unit torque t on the rotor likewise splits into t - a (a.t) on B and a (a.t) on the rotor.
@@ -17,14 +17,14 @@
 namespace sheave {
 namespace {
 
-/// The share of an impulse during `time` [s] that drag with this rate [1/s] leaves at the end: that
-/// of a constant force.
+/// The share of a constant force's impulse during `time` [s] that is left at the end under drag
+/// with this rate [1/s].
 double left_by_drag(double rate, double time) {
   const double x = rate * time;
   return x > 0.0 ? -portable::expm1(-x) / x : 1.0;
 }
 
-/// Inverse mass and inverse inertia in the world frame of a body with this orientation, without
+/// Sets inverse mass and inverse inertia in the world frame at the body's orientation, without
 /// drag.
 void set_undamped(const BodyProperties& properties, MovingBody& body) {
   const Vector3& axis = properties.axis;
@@ -53,7 +53,7 @@ void set_undamped(const BodyProperties& properties, MovingBody& body) {
       body.linear_yield = 1.0 / properties.mass;
       break;
     case Mobility::rotor:
-      // A massless wheel is turned by its cable when the substep is complete, not by forces.
+      // The cable turns a massless wheel after the substep is complete; forces do not.
       body.axis = axis;
       if (properties.axis_inertia > 0.0 && !properties.prescribed()) {
         body.inverse_inertia = along / properties.axis_inertia;
@@ -63,9 +63,10 @@ void set_undamped(const BodyProperties& properties, MovingBody& body) {
   }
 }
 
-/// The same with drag during `time`. What constraints do is subject to it as loads are
-/// (engine/integrators/loads.h), or they would not balance at rest. (Free bodies with different
-/// moments of inertia have their drag before both.)
+/// Sets inverse mass and inverse inertia with drag during `time`. Drag reduces the effect of
+/// constraints as it reduces that of loads (engine/integrators/loads.h); otherwise both would not
+/// balance at rest. (The drag of free bodies with different moments of inertia is applied before
+/// loads and constraints.)
 void set_inverse_masses(const BodySet& bodies, int i, double time, MovingBody& body) {
   const BodyProperties& properties = bodies[i];
   set_undamped(properties, body);
@@ -86,7 +87,7 @@ void set_inverse_masses(const BodySet& bodies, int i, double time, MovingBody& b
   }
 }
 
-/// Those of a rotor on a carrier, about its axle as it stands there.
+/// Sets the inverse inertia of a rotor on a carrier, about the present direction of its axle.
 void set_mounted_inverse_inertia(const BodyProperties& rotor, const Vector3& axle,
                                  MovingBody& body) {
   body.axis = axle;
@@ -95,7 +96,7 @@ void set_mounted_inverse_inertia(const BodyProperties& rotor, const Vector3& axl
   body.angular_yield = 1.0 / rotor.axis_inertia;
 }
 
-/// Those that differ from substep to substep.
+/// Updates the inverse masses that change from substep to substep.
 void renew_inverse_masses(const BodySet& bodies, int i, double time, MovingBody& body) {
   const BodyProperties& properties = bodies[i];
   if (properties.mount >= 0) return;

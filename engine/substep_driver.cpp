@@ -48,7 +48,7 @@ void SubstepDriver::keep_start(State& start) {
   start.bodies = state_.bodies;
   if (!features_.empty()) start.features = state_.features;
   start.memory = state_.memory;
-  // What steps do not change need not be copied each time.
+  // Steps do not change controls, so they are copied after a change only.
   if (start_lacks_controls_) start.controls = state_.controls;
   start_lacks_controls_ = false;
 }
@@ -79,7 +79,8 @@ void SubstepDriver::allow_work(std::int64_t factorisations) {
 std::int64_t SubstepDriver::row_count() const {
   std::int64_t rows = 0;
   for (std::size_t i = 0; i < features_.size(); ++i) {
-    // Of what comes and goes (contacts) the state has some numbers per row.
+    // The state of a feature with a varying number of rows (contacts) has about four numbers per
+    // row.
     constexpr std::size_t numbers_per_row = 4;
     rows += features_[i]->has_fixed_size()
                 ? features_[i]->row_count()
@@ -110,13 +111,13 @@ void SubstepDriver::cut(Part whole) {
 }
 
 void SubstepDriver::go_back(const StepStatistics& before) {
-  // What a short part leaves of its constraints would be a large velocity.
+  // The residual of a short part, divided by its length, would be a large velocity.
   state_.bodies = start_.bodies;
   state_.features = start_.features;
   state_.time = start_.time;
   substep_.next = state_;
   for (const auto& feature : features_) feature->return_to(NoteMark::substep);
-  // Of what is discarded only the work counts.
+  // Of the statistics of a discarded motion, only the work counts.
   const StepStatistics done = std::exchange(substep_.statistics, before);
   StepStatistics& statistics = substep_.statistics;
   statistics.row_solves = done.row_solves;
@@ -167,7 +168,7 @@ bool SubstepDriver::attempt(Part part, Resort resort) {
   if (done) divergence_ = find_divergence(substep_, features_);
   if (done && !divergence_) return true;
   substep_.statistics.integrator_fallbacks = fallbacks;
-  substep_.next = state_;  // stages build on what `next` held at the start
+  substep_.next = state_;  // stages build on the contents that `next` had at the start
   return false;
 }
 
@@ -207,13 +208,13 @@ void SubstepDriver::keep() {
   if (state_.controls.forces.any()) {
     substep_.statistics.external_work += work_of_set_forces(substep_);
   }
-  // Same shape on all sides, so this copies without allocating, and what was is kept without a
-  // copy.
+  // All states have the same sizes, so the copies do not allocate. The state before is kept by an
+  // exchange, without a copy.
   state_.bodies.swap(before_.bodies);
   if (!features_.empty()) state_.features.swap(before_.features);
   before_.time = state_.time;
   before_.steps = state_.steps;
-  // What steps through without being changed need not be copied each time.
+  // Steps do not change controls, so they are copied after a change only.
   if (controls_changed_) before_.controls = state_.controls;
   controls_changed_ = false;
   has_stepped_ = true;

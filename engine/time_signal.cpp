@@ -17,7 +17,7 @@ double TimeSignal::rate(double time) const {
 }
 
 double TimeSignal::integral(double from, double to) const {
-  // cos(a) - cos(b) as a product, which keeps its digits when a and b are close.
+  // cos(a) - cos(b) as a product, which does not lose digits when a and b are close.
   const double turns = 2.0 * pi * frequency;
   const double half = 0.5 * turns * (to - from);
   const double sinc = half == 0.0 ? 1.0 : portable::sin(half) / half;

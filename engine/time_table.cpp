@@ -1,15 +1,16 @@
-// Splines by their second derivatives M: with h the length of a piece and s its slope from point to
-// point, continuous first derivatives ask for
+// Splines by their second derivatives M. With h the length of a piece and s its slope from point to
+// point, continuity of the first derivatives requires
 //   h0 M0 + 2 (h0 + h1) M1 + h1 M2 = 6 (s1 - s0)
-// at each inner point, and the ends for
+// at each inner point. The conditions at the ends are
 //   clamped       2 h0 M0 + h0 M1 = 6 s0,            likewise at the other end
 //   not a knot    (M1 - M0) / h0 = (M2 - M1) / h1:   the first two pieces are one polynomial
-// Both leave a tridiagonal system with a dominant diagonal, which needs no pivots.
+// In both cases the system is tridiagonal with a dominant diagonal and needs no pivoting.
 //
-// A monotone table has rates r at its points instead. They are 0 where the slopes on both sides
-// differ in sign, else a weighted harmonic mean of these, which never exceeds three times the
-// smaller one: sufficient for a cubic piece without a turning point (Fritsch and Carlson 1980). A
-// piece with the slope s, the length h and the rates r0 and r1 has the second derivatives
+// A monotone table is given by the rates r at its points. A rate is 0 where the slopes on both
+// sides differ in sign, else a weighted harmonic mean of the slopes. The mean never exceeds three
+// times the smaller slope, which is sufficient for a cubic piece without a turning point (Fritsch
+// and Carlson 1980). A piece with the slope s, the length h and the rates r0 and r1 has the second
+// derivatives
 //   M0 = (6 s - 4 r0 - 2 r1) / h,   M1 = (2 r0 + 4 r1 - 6 s) / h.
 
 #include "engine/time_table.h"
@@ -22,7 +23,7 @@ namespace {
 
 using Bend = TimeTable::Bend;
 
-/// lower[i] x[i - 1] + diagonal[i] x[i] + upper[i] x[i + 1] = right[i].
+/// The system lower[i] x[i - 1] + diagonal[i] x[i] + upper[i] x[i + 1] = right[i].
 struct Tridiagonal {
   explicit Tridiagonal(std::size_t n) : lower(n), diagonal(n), upper(n), right(n) {}
   std::vector<double> lower, diagonal, upper, right;
@@ -70,7 +71,7 @@ class Spline {
       const double bend = 2.0 * (slopes_[1] - slopes_[0]) / (lengths_[0] + lengths_[1]);
       return pieces({bend, bend, bend});
     }
-    // The ends' unknowns follow from their neighbours': M0 = ((h0 + h1) M1 - h0 M2) / h1.
+    // Eliminate the unknowns at the ends: M0 = ((h0 + h1) M1 - h0 M2) / h1.
     Tridiagonal system = inner();
     const double h0 = lengths_[0] / lengths_[1];
     system.diagonal[1] += system.lower[1] * (1.0 + h0);
@@ -100,7 +101,7 @@ class Spline {
   }
 
  private:
-  /// Second derivatives that do not jump at points, as those of pieces.
+  /// The pieces of a spline whose second derivatives are continuous.
   [[nodiscard]] static std::vector<Bend> pieces(const std::vector<double>& bends) {
     std::vector<Bend> both;
     for (std::size_t i = 1; i < bends.size(); ++i) both.push_back({bends[i - 1], bends[i]});
@@ -116,8 +117,8 @@ class Spline {
     return (near + far) / (near / before + far / after);
   }
 
-  /// That of the parabola through the three points at an end, kept between 0 and 3 slopes. `end`
-  /// and `next`: the end's piece and its neighbour.
+  /// The rate at an end: the one of the parabola through the last three points, limited to between
+  /// 0 and 3 slopes. `end` is the piece at the end, `next` its neighbour.
   [[nodiscard]] double end_rate(std::size_t end, std::size_t next) const {
     const double slope = slopes_[end];
     if (slopes_.size() == 1) return slope;
@@ -147,7 +148,7 @@ class Spline {
 TimeTable TimeTable::of(std::vector<double> times, std::vector<double> values,
                         Interpolation interpolation) {
   TimeTable table{std::move(times), std::move(values)};
-  // Points that do not go together are told by whoever checks them.
+  // check_fields() and the types' own checks report points that do not match.
   const bool pairs = table.times.size() == table.values.size() && table.times.size() > 1;
   if (interpolation == Interpolation::linear || !pairs) return table;
   const Spline spline(table.times, table.values);
@@ -188,7 +189,7 @@ double TimeTable::rate(double time) const {
 }
 
 double TimeTable::integral(double from, double to) const {
-  // Between corners trapezia are exact for what is linear, and Simpson's rule for what is cubic.
+  // Between corners the trapezoidal rule is exact for lines, and Simpson's rule for cubics.
   const auto piece = [&](double left, double right) {
     const double ends = at(left) + at(right);
     if (bends.empty()) return 0.5 * ends * (right - left);

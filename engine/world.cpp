@@ -70,7 +70,7 @@ Errors check_model(const Model& model, const BodySet& bodies) {
   return errors;
 }
 
-/// The batches a model itself asks for, joints in the order of the registry.
+/// The features that a model itself defines; joints in the order of the registry.
 std::vector<std::unique_ptr<ConstraintBatch>> model_features(const Model& model,
                                                              const BodySet& bodies) {
   std::vector<std::unique_ptr<ConstraintBatch>> features;
@@ -83,7 +83,7 @@ std::vector<std::unique_ptr<ConstraintBatch>> model_features(const Model& model,
   }
   if (has_mounted_drives(bodies)) features.push_back(make_mounted_drives(bodies));
   if (model.ground) features.push_back(make_ground_batch(*model.ground, bodies));
-  // Last, so that World::contacts() knows its place.
+  // The contacts come last, so that create() knows their index for World::contacts().
   if (!model.colliders.empty())
     features.push_back(make_contact_batch(model, bodies, features.size()));
   return features;
@@ -123,7 +123,7 @@ Result<World> World::create(Model model, std::shared_ptr<const BodySet> bodies,
 Errors World::check(const Model& model) {
   if (model.joints.empty() && model.colliders.empty()) {
     Errors errors = check_bodies(model);
-    // Nothing in it refers to a body.
+    // A model without joints and colliders refers to no body here.
     return errors.empty() ? check_model(model, BodySet()) : errors;
   }
   const Result<BodySet> bodies = BodySet::create(model);

@@ -1,4 +1,4 @@
-// The setters of World: each checks, then writes one entry of the state's controls.
+// The setters of World: each checks its arguments, then writes one entry of the state's controls.
 
 #include <cmath>
 
@@ -23,13 +23,13 @@ DriveMeaning meaning_of(JointEffect::Kind kind) {
   return kind == JointEffect::Kind::position ? DriveMeaning::position : DriveMeaning::force;
 }
 
-/// A turn about an axis that stays, with what the rates of its rotation vector need.
+/// A turn about a fixed axis, with the factor for rates of its rotation vector.
 struct Turn {
   Vector3 vector = Vector3::Zero();  ///< [rad]
-  double share = 1.0 / 12.0;         ///< (1 - x cot x) / (2 x)^2, with x half its angle
+  double share = 1.0 / 12.0;         ///< (1 - x cot x) / (2 x)^2, with x half the angle
 };
 
-/// The shorter one from one orientation to another.
+/// The shorter turn from one orientation to another.
 Turn turn_to(const Quaternion& from, const Quaternion& to) {
   Quaternion change = to * from.conjugate();
   if (change.w() < 0.0) change.coeffs() = -change.coeffs();
@@ -39,22 +39,22 @@ Turn turn_to(const Quaternion& from, const Quaternion& to) {
   const double half = portable::atan2(sine, change.w());
   turn.vector = change.vec() * (2.0 * half / sine);
   const double square = 4.0 * half * half;
-  // Below this, what follows in the series is less than rounding.
+  // Below this angle the next term of the series is less than rounding.
   turn.share =
       square < 1e-6 ? 1.0 / 12.0 + square / 720.0 : (1.0 - half * change.w() / sine) / square;
   return turn;
 }
 
-/// The rate of its vector w that belongs to an angular velocity a [rad/s]:
-/// a - w x a / 2 + share w x (w x a).
+/// The rate of the rotation vector w at the end of a turn, for an angular velocity a [rad/s]: a - w
+/// x a / 2 + share w x (w x a).
 Vector3 rate_at_end(const Turn& turn, const Vector3& angular_velocity) {
   if (is_zero(turn.vector)) return angular_velocity;
   const Vector3 across = cross(turn.vector, angular_velocity);
   return angular_velocity - 0.5 * across + turn.share * cross(turn.vector, across);
 }
 
-/// A motion from `from` to `end` [m], turned by `turned_by`, within `over` seconds from
-/// `time` on, but for its rates.
+/// Sets all but the rates of a motion from `from` to the position `end` [m], turned by `turned_by`,
+/// within `over` seconds from `time` on.
 void set_way(const BodyState& from, const Vector3& end, const Turn& turned_by, double time,
              double over, MotionControl& motion) {
   motion.moves = true;
@@ -70,7 +70,8 @@ void set_way(const BodyState& from, const Vector3& end, const Turn& turned_by, d
   turn.end = turned_by.vector;
 }
 
-/// It begins as `from` moves and arrives with these velocities.
+/// Sets the rates of a motion that starts with the velocities of `from` and arrives with the given
+/// ones.
 void set_smooth_rates(const BodyState& from, const Turn& turned_by, const Vector3& velocity,
                       const Vector3& angular_velocity, MotionControl& motion) {
   RampOf<Vector3>& way = motion.position;
@@ -82,7 +83,7 @@ void set_smooth_rates(const BodyState& from, const Turn& turned_by, const Vector
   turn.rate_after = angular_velocity;
 }
 
-/// It goes straight at these rates, and stops.
+/// Sets the rates of a uniform motion that stops at the end.
 void set_straight_rates(const Vector3& velocity, const Vector3& angular_velocity,
                         MotionControl& motion) {
   motion.position.start_rate = motion.position.end_rate = velocity;
@@ -109,7 +110,7 @@ bool is_sound(const MotionTarget& target, double over) {
          (!target.angular_velocity || target.velocity) && over > 0.0 && std::isfinite(over);
 }
 
-/// Why it is not.
+/// The reason why is_sound() is false.
 std::string fault_of(const MotionTarget& target, double over) {
   if (!is_finite(target.position) || !absent_or_finite(target.velocity) ||
       !absent_or_finite(target.angular_velocity)) {
@@ -124,7 +125,7 @@ std::string fault_of(const MotionTarget& target, double over) {
   return "a motion takes a finite time above 0, not " + number_text(over) + " s";
 }
 
-/// Where such a motion ends.
+/// The state at the end of the motion.
 BodyState end_of(const MotionTarget& target, const BodyState& from) {
   BodyState end;
   end.position = target.position;
@@ -135,9 +136,8 @@ BodyState end_of(const MotionTarget& target, const BodyState& from) {
   return end;
 }
 
-// Programs set hundreds of controls in every step. So whether something can be set is found out
-// without a text, and the texts that tell why not are made in functions of their own, which ask all
-// of it again.
+// Programs set hundreds of controls in every step. The checks of the fast path therefore make no
+// texts. On failure, functions of their own repeat the checks and make the texts.
 
 Errors refuse_body(BodyId body, const char* key, std::string fault) {
   return {{"/bodies/" + std::to_string(body.index) + "/" + key, std::move(fault)}};
@@ -291,8 +291,8 @@ Errors World::set_drive(BodyId body, const DriveTarget& target) {
   const BodyDrive drive(own, c.state.controls, body.index);
   DriveNow now{meaning_of(own.driven_by()), 0.0, 0.0, c.state.time, c.control_interval};
   if (now.meaning == DriveMeaning::position) {
-    // An angle starts from where the body is, which counts from time 0; where it is asked to be may
-    // count from anywhere.
+    // The ramp of an angle starts from the body's present angle, which counts from time 0. The
+    // table's angles may count from any value.
     now.value = c.state.bodies[at(body.index)].angle;
     now.rate = drive.rate(now.time);
   } else {
