@@ -12,12 +12,12 @@ struct Anchor {
   int body = 0;
   Vector3 point = Vector3::Zero();            ///< [m]
   Quaternion frame = Quaternion::Identity();  ///< joint frame to own frame
-  /// Whether the other anchor is on the body that carries this one, or the other way round, or both
-  /// are on rotors of one body.
+  /// Whether one anchor's body carries the body of the other anchor, or both bodies are rotors on
+  /// one carrier.
   bool shares_carrier = false;
 
-  /// The anchor of `joint` at the world point `world_point` [m] with the joint frame `world_frame`,
-  /// both told where bodies are when it is defined.
+  /// The anchor at the world point `world_point` [m] with the joint frame `world_frame`, both given
+  /// for the poses of the bodies when `joint` is defined.
   [[nodiscard]] static Anchor at_start(const BodySet& bodies, const JointDef& joint, BodyId body,
                                        const Vector3& world_point,
                                        const Quaternion& world_frame = Quaternion::Identity()) {
@@ -40,7 +40,7 @@ struct Anchor {
   return Quaternion(Quaternion::FromTwoVectors(Vector3::UnitZ(), axis.normalized()));
 }
 
-/// The two anchors of a joint: the same point and frame when it is defined.
+/// The two anchors of a joint, which coincide in point and frame when the joint is defined.
 struct AnchorPair {
   Anchor a;
   Anchor b;
@@ -56,8 +56,7 @@ struct AnchorPair {
     pair.a.shares_carrier = pair.b.shares_carrier = carrier(pair.a.body) == carrier(pair.b.body);
     return pair;
   }
-  /// Makes A's anchor, as defined, that of a joint that was locked again
-  /// (engine/joints/joint_hold.h).
+  /// Moves A's anchor from its definition to that of a locked joint (engine/joints/joint_hold.h).
   void apply(const JointHold& hold);
   [[nodiscard]] int anchor_body() const { return b.body; }
   [[nodiscard]] Vector3 anchor(const Substep& substep) const { return b.position(substep); }

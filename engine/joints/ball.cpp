@@ -1,7 +1,7 @@
-// Locks: the anchors coincide. Coordinates: the twist (angle_about in lock_rows.h); the swing s of
-// B's axis b from A's a, s = atan2(|a x b|, a . b), which a rotation d of B changes by d . n, n = a
-// x b / |a x b|; and, for friction and damping, the rotations about the three axes of
-// A's frame.
+// Locks: the anchors coincide. Coordinates: the twist (angle_about in lock_rows.h), and the swing s
+// of B's axis b from A's axis a, s = atan2(|a x b|, a . b), which a rotation d of B changes by d .
+// n, n = a x b / |a x b|. The rotations about the three axes of A's frame serve friction and
+// damping.
 
 #include "engine/joints/ball.h"
 
@@ -47,7 +47,7 @@ struct BallKernel : AnchorPair {
     const Vector3 across = own.cross(other);
     const double sine = across.norm();
     terms.set_value(portable::atan2(sine, own.dot(other)));
-    // Parallel axes swing apart in any direction.
+    // Any direction across parallel axes increases the swing.
     const Vector3 normal = sine > 0.0 ? Vector3(across / sine) : any_perpendicular(own);
     terms.add_torque(a.body, -normal);
     terms.add_torque(b.body, normal);
@@ -83,7 +83,7 @@ std::span<const Field> BallJoint::field_table() {
 }
 
 std::span<const JointCoordinateInfo> BallJoint::coordinates() const {
-  // Without an axis nobody knows what swing and twist are; the turns are for friction alone.
+  // Swing and twist are undefined without an axis; the turns are for friction alone.
   return std::span(BallKernel::coordinates).first(axis ? BallKernel::first_turn : 0);
 }
 

@@ -5,19 +5,18 @@
 
 namespace sheave {
 
-/// Keeps two points of two bodies together. The relative rotation can be limited in two parts: the
+/// Keeps two points of two bodies together. Two parts of the relative rotation can be limited: the
 /// swing of the axis, and the twist about it.
 class BallJoint final : public JointDef {
  public:
   Vector3 anchor = Vector3::Zero();  ///< common point, world frame at time 0 [m]
-  /// Direction, world frame at time 0, that swing and twist refer to; any length but 0.
+  /// Reference direction of swing and twist, world frame at time 0; any length but 0.
   std::optional<Vector3> axis;
-  double compliance = 0.0;  ///< of each direction [m/N], >= 0
+  double compliance = 0.0;  ///< of the anchors' distance, in each direction [m/N], >= 0
   std::optional<double>
-      swing_limit;  ///< the axes of the bodies make at most this angle [rad], > 0, < pi
+      swing_limit;  ///< largest angle between the axes of the bodies [rad], > 0, < pi
   double swing_limit_compliance = 0.0;  ///< [rad/(N m)], >= 0
-  JointCoordinate
-      twist;  ///< of body_b about the axis of body_a [rad]; from a swing of pi on undefined
+  JointCoordinate twist;  ///< of body_b about the axis of body_a [rad]; undefined at a swing of pi
   double damping = 0.0;   ///< torque per relative angular velocity, any axis [N m s/rad], >= 0
   double friction = 0.0;  ///< dry friction against any relative rotation [N m], >= 0
 

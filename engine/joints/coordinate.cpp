@@ -84,7 +84,7 @@ class CoordinateCheck {
     if (coordinate_.drive_compliance > 0.0 && !position) {
       fail("drive_compliance", "only a drive to a position can give");
     }
-    if (errors_.size() > faults) return;  // a table without a value per time has no value at 0
+    if (errors_.size() > faults) return;  // an inconsistent table has no value at 0
     const double start = coordinate_.signal().at(0.0);
     if (position && !coordinate_.drive_limit && coordinate_.drive_compliance == 0.0 &&
         !(std::abs(start) <= 1e-9)) {

@@ -1,5 +1,6 @@
 #pragma once
-// What acts along a free coordinate of a joint: the angle of a hinge, the travel of a slider.
+// Springs, stops, friction and drives along a free coordinate of a joint: the angle of a hinge, the
+// travel of a slider.
 //
 // A joint type has a member of type JointCoordinate per free coordinate and adds
 // coordinate_fields() to its table.
@@ -15,7 +16,7 @@
 
 namespace sheave {
 
-/// What the drive of a coordinate prescribes.
+/// The quantity that the drive of a coordinate prescribes.
 enum class CoordinateDrive { none, position, speed, force };
 inline constexpr std::array<std::string_view, 4> translation_drive_names{"none", "position",
                                                                          "speed", "force"};
@@ -23,36 +24,37 @@ inline constexpr std::array<std::string_view, 4> rotation_drive_names{"none", "a
                                                                       "torque"};
 enum class CoordinateKind { translation, rotation };
 
-/// Settings; "force" is a torque and "m" is rad if the coordinate is an angle. All of them may act
-/// together.
+/// Settings of one coordinate. "Force" is a torque and "m" is rad if the coordinate is an angle.
+/// All settings may act together.
 struct JointCoordinate {
-  std::optional<double> lower;    ///< the coordinate stays at or above this [m]
-  std::optional<double> upper;    ///< ... and at or below this [m]
+  std::optional<double> lower;    ///< stop: the coordinate stays at or above this value [m]
+  std::optional<double> upper;    ///< stop: the coordinate stays at or below this value [m]
   double limit_compliance = 0.0;  ///< of both stops [m/N], >= 0
-  double stiffness = 0.0;         ///< of a spring that pulls the coordinate to `rest` [N/m], >= 0
-  double rest = 0.0;              ///< [m]
+  double stiffness = 0.0;         ///< of a spring towards `rest` [N/m], >= 0
+  double rest = 0.0;              ///< coordinate at which the spring is relaxed [m]
   double damping = 0.0;           ///< force per speed against the motion [N s/m], >= 0
-  double friction = 0.0;          ///< dry friction: it takes more than this force to move [N], >= 0
+  /// Dry friction, the largest force at which the coordinate sticks [N], >= 0
+  double friction = 0.0;
   CoordinateDrive drive = CoordinateDrive::none;
   std::vector<double> drive_times;   ///< [s], increasing; as many as values, or none
   std::vector<double> drive_values;  ///< [m, m/s or N]
-  Interpolation drive_interpolation = Interpolation::linear;  ///< between these
-  double drive_amplitude = 0.0;       ///< of a sine that is added to the values
-  double drive_frequency = 0.0;       ///< of it [Hz], >= 0
-  double drive_phase = 0.0;           ///< of it [rad]
-  std::optional<double> drive_limit;  ///< the largest force the drive has [N], >= 0
-  double drive_compliance = 0.0;      ///< position drives: gives by this much per force [m/N], >= 0
+  Interpolation drive_interpolation = Interpolation::linear;  ///< between the values
+  double drive_amplitude = 0.0;       ///< amplitude of a sine added to the values [m, m/s or N]
+  double drive_frequency = 0.0;       ///< frequency of the sine [Hz], >= 0
+  double drive_phase = 0.0;           ///< phase of the sine at time 0 [rad]
+  std::optional<double> drive_limit;  ///< largest force of the drive [N], >= 0
+  double drive_compliance = 0.0;      ///< position drives: deflection per force [m/N], >= 0
 
   [[nodiscard]] TimeSignal signal() const {
     return {TimeTable::of(drive_times, drive_values, drive_interpolation), drive_amplitude,
             drive_frequency, drive_phase};
   }
-  /// Whether anything acts.
+  /// Whether any force can act along the coordinate.
   [[nodiscard]] bool acts() const;
 };
 
-/// Appends what is wrong beyond the ranges of the fields. `path` is that of the joint, `prefix`
-/// that of the fields' names, `joint` its name.
+/// Appends the errors beyond the ranges of the fields. `path` is that of the joint, `prefix` begins
+/// the fields' names, `joint` is the joint's name.
 void check_coordinate(const JointCoordinate& coordinate, const std::string& joint,
                       const std::string& path, const std::string& prefix, Errors& errors);
 
@@ -97,14 +99,14 @@ struct CoordinateSlots {
 
 }  // namespace detail
 
-/// The fields of the coordinate `Coordinate` of the joint type `Class`, whose names begin with
-/// `prefix`, which must be the same in every call for that coordinate. `what` tells it in the
-/// documentation, e.g. "the angle".
+/// The fields of the coordinate `Coordinate` of the joint type `Class`. Their names begin with
+/// `prefix`, which must be the same in all calls for one coordinate. `what` names the coordinate in
+/// the documentation, e.g. "the angle".
 template <class Class, JointCoordinate Class::*Coordinate>
 [[nodiscard]] std::vector<Field> coordinate_fields(CoordinateKind kind, const std::string& prefix,
                                                    const std::string& what) {
   using C = JointCoordinate;
-  // Fields refer to their texts.
+  // Fields hold views of their texts, so the texts must live as long as the program.
   static const std::array<std::string, 16> name = detail::coordinate_names(prefix);
   static const std::array<std::string, 3> meaning{
       "stops " + what + " from below (default: no stop)",

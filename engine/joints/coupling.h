@@ -1,6 +1,6 @@
 #pragma once
-// What gears and racks have in common: they couple two motions against a carrier, with or without
-// play.
+// The common parts of gears and racks: both couple two motions relative to a carrier, with or
+// without backlash.
 
 #include "engine/joint.h"
 #include "engine/joints/joint_batch.h"
@@ -8,7 +8,8 @@
 
 namespace sheave {
 
-/// Appends what couples the coordinates 0 and 1 so that the second is `ratio` times the first.
+/// Appends the effects that keep coordinate 1 equal to `ratio` times coordinate 0, within the
+/// backlash.
 inline void append_coupling(double ratio, double compliance, double backlash,
                             std::vector<JointEffect>& effects) {
   using Kind = JointEffect::Kind;
@@ -30,7 +31,7 @@ inline void append_coupling(double ratio, double compliance, double backlash,
   }
 }
 
-/// Appends what is wrong with the bodies of a coupling.
+/// Appends the errors of a coupling's bodies and ratio.
 inline void check_coupling(const JointDef& joint, BodyId carrier, double ratio,
                            const char* ratio_key, const BodySet& bodies, const std::string& path,
                            Errors& errors) {

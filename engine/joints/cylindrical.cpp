@@ -1,6 +1,6 @@
-// Locks: B's anchor stays on the axis, two directions of A across it; A's axis is perpendicular to
-// two directions of B across B's axis (lock_rows.h). Coordinates: travel along the axis of A, angle
-// about it.
+// Locks: B's anchor stays on the axis, in two directions of A across it; A's axis is perpendicular
+// to two directions of B across B's axis (lock_rows.h). Coordinates: travel along the axis of A,
+// angle about it.
 
 #include "engine/joints/cylindrical.h"
 
@@ -11,7 +11,7 @@
 namespace sheave {
 namespace {
 
-struct CylindricalKernel : AnchorPair {  // z of the frame is the axis
+struct CylindricalKernel : AnchorPair {  // the frame's z axis is the joint's axis
   static constexpr int lock_count = 4;
   static constexpr std::array<JointCoordinateInfo, 2> coordinates{
       {{"travel", false}, {"angle", true}}};

@@ -1,7 +1,7 @@
 // Lock: C = |p_a - p_b| - L, gradient n at p_a and -n at p_b with n = (p_a - p_b) / |p_a - p_b|. A
-// force l / h^2 along the gradient pushes the points apart, so a string (C <= 0) has l in (-inf, 0]
-// and a bumper (C >= 0) has l in [0, inf). Coordinate: the extension |p_a - p_b| - |p_a - p_b| at
-// time 0.
+// force l / h^2 along the gradient pushes the points apart. A string (C <= 0) therefore has l in
+// (-inf, 0], and a bumper (C >= 0) has l in [0, inf). Coordinate: the extension, |p_a - p_b| minus
+// its value at time 0.
 
 #include "engine/joints/distance.h"
 
@@ -52,7 +52,7 @@ struct DistanceKernel : AnchorPair {
   }
 };
 
-/// The fields of the extension without those that the joint has itself.
+/// The fields of the extension without those that the joint itself has.
 std::vector<Field> extension_fields() {
   std::vector<Field> fields = coordinate_fields<DistanceJoint, &DistanceJoint::extension>(
       CoordinateKind::translation, "", "the growth of the distance since time 0");

@@ -7,13 +7,14 @@
 
 namespace sheave {
 
-/// Which distances a distance joint permits.
+/// The distances that a distance joint permits.
 enum class DistanceLimit { exactly, at_most, at_least, none };
 inline constexpr std::array<std::string_view, 4> distance_limit_names{"exactly", "at-most",
                                                                       "at-least", "none"};
 
 /// Keeps two points of two bodies at a distance: a massless rod, a string or a bumper. With the
-/// limit `none` it is what acts along the line between them: a dashpot, an actuator.
+/// limit `none` the joint is only the carrier of forces along the line between the points: a
+/// dashpot, an actuator.
 class DistanceJoint final : public JointDef {
  public:
   Vector3 anchor_a = Vector3::Zero();  ///< on body a, world frame at time 0 [m]
@@ -21,8 +22,9 @@ class DistanceJoint final : public JointDef {
   std::optional<double> length;        ///< [m], > 0; default: the distance at time 0
   DistanceLimit limit = DistanceLimit::exactly;
   double compliance = 0.0;  ///< [m/N], >= 0
-  double damping = 0.0;     ///< [N s/m], >= 0; not for rigid ones
-  /// Of the distance, 0 at time 0 [m]. Its spring and damping are `compliance` and `damping` above.
+  double damping = 0.0;     ///< [N s/m], >= 0; only with compliance or with the limit `none`
+  /// Change of the distance since time 0 [m]. Its spring and damping are `compliance` and `damping`
+  /// above.
   JointCoordinate extension;
 
   static constexpr std::string_view type_name = "distance";

@@ -8,10 +8,10 @@
 namespace sheave {
 namespace {
 
-/// What six printed decimals leave of a right angle.
+/// Rounding error of a right angle printed with six decimals.
 constexpr double printed = 1e-5;
 
-/// About which axes a body can turn: none, one or all.
+/// The axes about which a body can turn: none, one or all.
 struct Turns {
   bool any = false;
   bool one = false;
@@ -25,7 +25,7 @@ Turns turns_of(const BodySet& bodies, int body, const BodyFrames& frames) {
     case Mobility::fixed:
     case Mobility::slider:
       break;
-    // One that moves as it is told may be told to turn.
+    // World::set_motion() may turn a kinematic body about any axis.
     case Mobility::kinematic:
     case Mobility::free:
       turns.any = true;
@@ -38,14 +38,14 @@ Turns turns_of(const BodySet& bodies, int body, const BodyFrames& frames) {
       if (properties.mount < 0) break;
       turns.axis = bodies.frame(properties.mount, frames).orientation * properties.axis;
       const Turns carrier = turns_of(bodies, properties.mount, frames);
-      // What turns about two axes may be led about any.
+      // A body with two axes of rotation can be led about any axis.
       turns.any = carrier.any || (carrier.one && carrier.axis.cross(turns.axis).norm() > printed);
       break;
   }
   return turns;
 }
 
-/// Whether the bodies turn against each other about the axis and about no other.
+/// Whether the bodies can turn relative to each other about the axis and about no other.
 bool spans(const Turns& a, const Turns& b, const Vector3& axis) {
   if (a.any || b.any) return true;
   const auto along = [&](const Turns& t) { return t.one && t.axis.cross(axis).norm() <= printed; };
@@ -59,7 +59,7 @@ bool leans(const Turns& turns, const Vector3& axis) {
   return turns.any || (turns.one && std::abs(turns.axis.dot(axis)) > printed);
 }
 
-/// Whether bodies that turn about an axis each may come to turn about any.
+/// Whether two bodies that each turn about one axis can together turn about any.
 bool meet(const Turns& a, const Turns& b) {
   return a.one && b.one && a.axis.cross(b.axis).norm() > printed;
 }
@@ -80,12 +80,12 @@ void check_reach(const JointCoordinate& angle, const JointDef& joint, const Vect
   const bool prescribes =
       angle.drive == CoordinateDrive::speed || angle.drive == CoordinateDrive::position;
   if (!prescribes || angle.drive_limit || angle.drive_compliance > 0.0) return;
-  // One that keeps the angle where it is asks for no motion.
+  // A drive with constant target 0 prescribes no motion.
   const bool moves = angle.drive_amplitude != 0.0 ||
                      std::any_of(angle.drive_values.begin(), angle.drive_values.end(),
                                  [](double value) { return value != 0.0; });
   if (!moves) return;
-  if (!(axis.norm() > 1e-12)) return;  // an error of its own
+  if (!(axis.norm() > 1e-12)) return;  // check_direction() reports that error
   const Vector3 direction = axis.normalized();
   const int index_a = bodies.index(joint.body_a);
   const int index_b = bodies.index(joint.body_b);

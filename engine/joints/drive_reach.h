@@ -1,5 +1,5 @@
 #pragma once
-// Drives that ask bodies for motions which their mobilities do not have.
+// Detects drives that prescribe motions which the mobilities of the bodies exclude.
 
 #include <string>
 
@@ -8,14 +8,15 @@
 
 namespace sheave {
 
-/// How a joint lets its bodies turn against each other.
+/// The relative rotations that a joint permits.
 enum class Turning {
-  about_one_axis,  ///< and not otherwise: a hinge
-  freely,          ///< a ball joint, or locks that give
+  about_one_axis,  ///< one axis only: a hinge
+  freely,          ///< all: a ball joint, or locks with compliance
 };
 
-/// Appends an error if a drive without limit prescribes the angle about `axis` (world frame where
-/// the joint was told), and neither body can turn about it. `path` is that of the drive's field.
+/// Appends an error if a drive without a limit prescribes the angle about `axis`, and neither body
+/// can turn about it. `axis` is in the world frame at the definition of the joint. `path` is that
+/// of the drive's field.
 void check_reach(const JointCoordinate& angle, const JointDef& joint, const Vector3& axis,
                  Turning turning, const BodySet& bodies, const std::string& path, Errors& errors);
 

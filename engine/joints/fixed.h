@@ -7,9 +7,10 @@ namespace sheave {
 /// Welds two bodies together at a point.
 class FixedJoint final : public JointDef {
  public:
-  Vector3 anchor = Vector3::Zero();  ///< where the bodies are joined, world frame at time 0 [m]
-  double compliance = 0.0;           ///< of each direction of translation [m/N], >= 0
-  double angular_compliance = 0.0;   ///< of each rotation [rad/(N m)], >= 0
+  /// Point at which the bodies are joined, world frame at time 0 [m]
+  Vector3 anchor = Vector3::Zero();
+  double compliance = 0.0;          ///< of each direction of translation [m/N], >= 0
+  double angular_compliance = 0.0;  ///< of each rotation [rad/(N m)], >= 0
 
   static constexpr std::string_view type_name = "fixed";
   static constexpr std::string_view type_meaning = "welds two bodies together";

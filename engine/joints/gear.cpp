@@ -1,5 +1,6 @@
-// One row: C = angle of B - ratio x angle of A, both against the carrier and with all their turns,
-// so that it cannot slip; with backlash two one-sided rows at half of it to each side.
+// One row: C = angle of B - ratio x angle of A. Both angles are relative to the carrier and include
+// whole turns, so the teeth cannot skip. With backlash: two unilateral rows, half the backlash to
+// each side.
 
 #include "engine/joints/gear.h"
 
@@ -12,10 +13,10 @@ struct GearKernel {
   static constexpr int lock_count = 0;
   static constexpr std::array<JointCoordinateInfo, 2> coordinates{
       {{"angle_a", true}, {"angle_b", true}}};
-  AnchorPair a;  // of the carrier, and of body_a
+  AnchorPair a;  // anchors on the carrier and on body_a
   AnchorPair b;
 
-  double mesh = 0.0;  // by how much the teeth mesh elsewhere than as defined
+  double mesh = 0.0;  // shift of the mesh relative to the definition [rad]
 
   [[nodiscard]] bool elastic() const { return false; }
   [[nodiscard]] int anchor_body() const { return b.anchor_body(); }
@@ -23,7 +24,7 @@ struct GearKernel {
   void lock(int /*index*/, JointTerms& /*terms*/) const {}
   void apply(const JointHold& hold) { mesh = hold.offset; }
   [[nodiscard]] JointHold hold_here(const GearKernel& /*defined*/, const Substep& /*now*/) const {
-    return {};  // all that it holds is the coupling
+    return {};  // the only constraint is the coupling
   }
   void coordinate(int index, JointTerms& terms) const {
     const AnchorPair& side = index == 0 ? a : b;

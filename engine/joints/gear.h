@@ -9,11 +9,12 @@ class GearJoint final : public JointDef {
  public:
   Vector3 axis_a =
       Vector3::UnitZ();  ///< of body_a's rotation, world frame at time 0; any length but 0
-  Vector3 axis_b = Vector3::UnitZ();  ///< of body_b's rotation
+  /// Of body_b's rotation, world frame at time 0; any length but 0
+  Vector3 axis_b = Vector3::UnitZ();
   double ratio = -1.0;  ///< turns of body_b per turn of body_a, not 0; < 0: opposite senses
-  /// The body that carries both axles or guides; what turns or slides, turns and slides against it.
+  /// The body that carries both axles. Both angles are relative to the carrier.
   BodyId carrier;
-  double compliance = 0.0;  ///< of the angle of body_b [rad/(N m)], >= 0
+  double compliance = 0.0;  ///< compliance of the angle of body_b [rad/(N m)], >= 0
   double backlash = 0.0;    ///< play of body_b, half to each side at time 0 [rad], >= 0
 
   static constexpr std::string_view type_name = "gear";

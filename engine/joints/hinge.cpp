@@ -1,7 +1,6 @@
 // Locks: the anchors coincide; A's axis is perpendicular to two directions of B that are
-// perpendicular to B's axis (lock_rows.h). Coordinate: the angle about the axis. Between bodies
-// that keep the plane perpendicular to the axis, two directions of this plane are all there is to
-// lock.
+// perpendicular to B's axis (lock_rows.h). Coordinate: the angle about the axis. If both bodies
+// keep the plane perpendicular to the axis, two directions of this plane are the only locks.
 
 #include "engine/joints/hinge.h"
 
@@ -13,7 +12,7 @@
 namespace sheave {
 namespace {
 
-struct HingeKernel : AnchorPair {  // z of the frame is the axis
+struct HingeKernel : AnchorPair {  // the frame's z axis is the joint's axis
   static constexpr int lock_count = 5;
   static constexpr std::array<JointCoordinateInfo, 1> coordinates{{{"angle", true}}};
   double compliance = 0.0;
@@ -21,13 +20,14 @@ struct HingeKernel : AnchorPair {  // z of the frame is the axis
   /// Unit vectors of the plane that both bodies keep; 0 if there is none.
   std::array<Vector3, 2> in_plane{Vector3::Zero(), Vector3::Zero()};
 
-  /// Where no body turns about another axis, numbers tell the angle (`counts_angles`): that of the
-  /// frames with all bodies as they start, and the bodies' angles times their senses.
+  /// If no body can turn about another axis (`counts_angles`), the angle is a sum of numbers: the
+  /// angle between the frames at the bodies' start orientations, and the bodies' angles times their
+  /// senses.
   struct Turns {
     Vector3 axis = Vector3::Zero();  ///< unit vector, world frame
-    std::array<double, 2> senses{};  ///< of A and B; 0 of what never turns
+    std::array<double, 2> senses{};  ///< of A and B; 0 for a body that never turns
     std::array<Quaternion, 2> starts{Quaternion::Identity(), Quaternion::Identity()};
-    double apart = 0.0;  ///< [rad]
+    double apart = 0.0;  ///< angle between the frames at the start [rad]
   };
   bool counts_angles = false;
   Turns turns{};
@@ -46,7 +46,7 @@ struct HingeKernel : AnchorPair {  // z of the frame is the axis
       terms.set_compliance(angular_compliance);
     }
   }
-  /// The two locks of bodies that keep the plane, at once.
+  /// Both locks of bodies that keep the plane, from one evaluation of the anchors.
   void lock_pair(const Substep& substep, Row& first, Row& second) const {
     const Vector3 at_a = a.position(substep);
     const Vector3 at_b = b.position(substep);

@@ -12,7 +12,7 @@ class HingeJoint final : public JointDef {
   Vector3 axis = Vector3::UnitZ();   ///< direction, world frame at time 0; any length but 0
   double compliance = 0.0;           ///< of each locked translation [m/N], >= 0
   double angular_compliance = 0.0;   ///< of each locked rotation [rad/(N m)], >= 0
-  JointCoordinate angle;             ///< of body_b against body_a about the axis [rad], 0 at time 0
+  JointCoordinate angle;  ///< of body_b relative to body_a about the axis [rad], 0 at time 0
 
   static constexpr std::string_view type_name = "hinge";
   static constexpr std::string_view type_meaning =

@@ -2,14 +2,16 @@
 // The loop that all joint types share. A joint type supplies a kernel, one object per joint:
 //
 //   struct Kernel {
-//     static constexpr int lock_count;                              // rows that keep bodies from moving
-//     static constexpr std::array<JointCoordinateInfo, n> coordinates;  // free coordinates; those that reports tell come first
-//     int anchor_body() const;  Vector3 anchor(const Substep&) const;   // where body_b is held, for reports
-//     bool elastic() const;                                         // whether a lock has compliance
-//     void lock(int index, JointTerms&) const;                      // C, gradient, compliance, bounds
-//     void coordinate(int index, JointTerms&) const;                // value, gradient; an angle up to whole turns
-//     JointHold hold_here(const Kernel& defined, const Substep&) const;  // what makes all locks 0 and leaves coordinates as
-//     void apply(const JointHold&);                                      // they are; and the defined kernel with it
+//     static constexpr int lock_count;                 // rows of the rigid constraints
+//     static constexpr std::array<JointCoordinateInfo, n> coordinates;  // those in reports first
+//     int anchor_body() const;                         // index of body_b, for reports
+//     Vector3 anchor(const Substep&) const;            // anchor on body_b, for reports
+//     bool elastic() const;                            // whether a lock has compliance
+//     void lock(int index, JointTerms&) const;         // sets C, gradient, compliance, bounds
+//     void coordinate(int index, JointTerms&) const;   // sets value, gradient; no whole turns
+//     // The hold for which all locks are 0 and the coordinates do not change, and its use.
+//     JointHold hold_here(const Kernel& defined, const Substep&) const;
+//     void apply(const JointHold&);
 //   };
 
 #include <algorithm>
@@ -30,15 +32,15 @@
 
 namespace sheave {
 
-/// A joint with what acts along its coordinates.
+/// A joint and the effects along its coordinates.
 template <class Kernel>
 struct JointParts {
   Kernel kernel;
   std::vector<JointEffect> effects;
-  bool counts_coordinates = true;       ///< whether the state has their values; effects need them
-  int lock_count = Kernel::lock_count;  ///< fewer where mobilities keep bodies from moving, too
-  bool locks_are_idle = false;          ///< mobilities do all that they do, and they need no rows
-  bool exact = false;  ///< rows are Row::told, and no part of a gradient is but rounding
+  bool counts_coordinates = true;  ///< whether the state holds the coordinates; effects need them
+  int lock_count = Kernel::lock_count;  ///< fewer if mobilities provide part of the constraint
+  bool locks_are_idle = false;  ///< whether mobilities provide all locks, which then need no rows
+  bool exact = false;  ///< rows are Row::told, and no part of a gradient is a rounding error
 };
 
 /// All joints of one type. Their state: engine/joints/joint_state.h.
@@ -269,15 +271,15 @@ class JointBatch final : public JointFeature {
     int first_effect = 0;
     int effect_count = 0;
     int first_coordinate = -1;  // < 0: none are counted
-    int reported = 0;           // how many coordinates reports tell; more than the pose is counted
+    int reported = 0;           // number of coordinates in reports; more may be counted
     bool restricted = false;    // whether a body has a restricted mobility
     bool has_rotor = false;     // whether a body is a rotor on another one
     int lock_count = 0;
-    int first_acting = 0;  // of its rows
-    bool exact = false;    // as JointParts
-    double size = 1.0;     // of the larger of its bodies
+    int first_acting = 0;  // index of the first row that is needed
+    bool exact = false;    // JointParts::exact
+    double size = 1.0;     // size of the larger body [m]
   };
-  /// A coordinate as it is now, which all that acts along it asks for.
+  /// The present value and gradient of a coordinate, shared by all effects along it.
   struct Measured {
     int coordinate = -1;
     double value = 0.0;
@@ -293,7 +295,7 @@ class JointBatch final : public JointFeature {
     return {index, joint.first_row, joint.lock_count + joint.effect_count, joint.first_coordinate,
             coordinate_count};
   }
-  /// Of a body that rows can move, otherwise 0.
+  /// Size of a body that rows can move [m], else 0.
   static double size_of(const BodySet& bodies, BodyId body) {
     if (body.is_world()) return 0.0;
     const BodyProperties& properties = bodies[bodies.index(body)];
@@ -307,7 +309,7 @@ class JointBatch final : public JointFeature {
     return mobility == Mobility::planar || mobility == Mobility::slider ||
            mobility == Mobility::rotor;
   }
-  /// Which of its effects drives a coordinate; -1: none.
+  /// The index of the effect that drives a coordinate; -1: none.
   [[nodiscard]] int drive_effect(const Joint& joint, int coordinate) const {
     for (int i = 0; i < joint.effect_count; ++i) {
       const JointEffect& effect = effects_[at(joint.first_effect + i)];
@@ -322,25 +324,25 @@ class JointBatch final : public JointFeature {
     return layout_.coordinates_of(state);
   }
 
-  /// As defined, or as it has been locked again.
+  /// The kernel as defined, or with the hold of a joint that has been locked.
   [[nodiscard]] Kernel kernel_of(const FeatureState& state, std::size_t joint) const {
     Kernel kernel = defined_[joint];
     if (layout_.has_holds(state)) kernel.apply(layout_.hold(state, joint));
     return kernel;
   }
-  /// With the kernel of that state; `joints_` have those of the last begin().
+  /// The joint with its kernel in `state`; `joints_` have the kernels of the last begin().
   [[nodiscard]] Joint joint_of(const FeatureState& state, std::size_t joint) const {
     Joint result = joints_[joint];
     if (held_ || layout_.has_holds(state)) result.kernel = kernel_of(state, joint);
     return result;
   }
-  /// How far a coupling is out of mesh, or its play [m or rad].
+  /// The residual of a coupling, beyond its backlash [m or rad].
   double coupling_excess(const Substep& now, const Joint& joint, const FeatureState& own) const;
-  /// What would not let the joint be locked; empty if nothing.
+  /// The reason why the joint cannot be locked; empty if it can.
   std::string fault_of_hold(const Substep& now, const Joint& joint, const FeatureState& own) const;
 
-  /// Value of a coordinate, and its gradient into `row`; `starts` are the values at the start of
-  /// the substep.
+  /// Returns the value of a coordinate and writes its gradient into `row`; `starts` are the values
+  /// at the start of the substep.
   double measure(const Substep& substep, const Joint& joint, int k, std::span<const double> starts,
                  Row& row) const {
     if constexpr (coordinate_count == 0) {
@@ -353,12 +355,13 @@ class JointBatch final : public JointFeature {
       const double expected =
           starts[at(joint.first_coordinate + k)] + substep_change(row, substep.moving);
       if (info.measure == JointCoordinateInfo::Measure::changes) return expected;
-      // Whole turns: those next to what the motion of the substep makes of the start.
+      // The number of whole turns is the one nearest to the value that the motion of the substep
+      // predicts.
       return row.value + 2.0 * pi * std::round((expected - row.value) / (2.0 * pi));
     }
   }
 
-  /// The same into an empty row; `known` is asked first, and keeps it.
+  /// As above, into an empty row. `known` is a cache of the last coordinate measured.
   double measure(const Substep& substep, const Joint& joint, int k, std::span<const double> starts,
                  Row& row, Measured* known) const {
     if (known == nullptr) return measure(substep, joint, k, starts, row);
@@ -386,7 +389,8 @@ class JointBatch final : public JointFeature {
     if (acting.second >= 0) value = add_second(substep, joint, acting, starts, value, row);
     set_effect(acting, substep, value, starts[at(joint.first_coordinate + acting.coordinate)], row);
   }
-  /// Makes `row`, of the first coordinate, that of the sum of two; returns the sum.
+  /// Turns `row`, which belongs to the first coordinate, into that of the sum of two; returns the
+  /// sum.
   double add_second(const Substep& substep, const Joint& joint, const JointEffect& acting,
                     std::span<const double> starts, double first, Row& row) const {
     for (RowTerm& term : std::span(row.terms).first(at(row.term_count))) {
@@ -409,7 +413,7 @@ class JointBatch final : public JointFeature {
     if (joint.restricted) drop_rounding(row, substep.moving);
   }
 
-  /// Appends the first two locks, which ask for the same; returns how many that are.
+  /// Appends the first two locks, whose points are the same; returns their number.
   int append_pair(const Substep& substep, const Joint& joint, RowList& rows) const {
     rows.emplace_back();
     Row& second = rows.emplace_back();
@@ -422,7 +426,7 @@ class JointBatch final : public JointFeature {
   }
   [[nodiscard]] bool is_of_angles(const Joint& joint, const Row& row) const {
     const int i = row.index - joint.first_row;
-    if (i < joint.lock_count) return !row.curved;  // without a force
+    if (i < joint.lock_count) return !row.curved;  // a row without a force
     const JointEffect& acting = effect(joint, i);
     if constexpr (coordinate_count == 0) {
       return false;
@@ -435,10 +439,10 @@ class JointBatch final : public JointFeature {
     if (joint.restricted) drop_rounding(row, substep.moving);
     row.active = acted_[at(row.index)] != 0;
     if (is_of_angles(joint, row)) row.lever = joint.size;
-    // What is pressed together finds its bound from round to round.
+    // The bound of a friction row changes from round to round, so the row is not told.
     row.told = joint.exact && row.friction == 0.0;
   }
-  /// Of friction in several directions: its `count` rows from `first` on.
+  /// Sweeps friction in several directions: its `count` rows from `first` on.
   double sweep_friction(Substep& substep, const Joint& joint, int first, int count) {
     std::array<Row, 3> rows;
     for (int k = 0; k < count; ++k) evaluate(substep, joint, first + k, rows[at(k)]);
@@ -447,7 +451,7 @@ class JointBatch final : public JointFeature {
                           substep.moving);
   }
 
-  /// What the joint does to body_b with the forces in `state`, or its shared friction alone.
+  /// The action of the joint on body_b with the forces in `state`, or of its shared friction alone.
   [[nodiscard]] Wrench reaction(const Substep& substep, const Joint& joint,
                                 const FeatureState& state, bool friction_alone = false) const;
 
@@ -462,21 +466,20 @@ class JointBatch final : public JointFeature {
   std::string_view type_;
   std::vector<Joint> joints_;  // their kernels are scratch of a substep
   JointStateLayout layout_;
-  std::vector<Kernel> defined_;  // the kernels without what locked joints hold
+  std::vector<Kernel> defined_;  // kernels without the holds of locked joints
   std::vector<JointEffect> effects_;
   std::vector<std::string> names_;
-  std::vector<const JointDef*>
-      definitions_;  // which a joint is known by, in all worlds that have it
+  std::vector<const JointDef*> definitions_;  // identify a joint in all worlds that have it
   std::vector<BreakingLimits> limits_;
   bool breakable_ = false;
   bool elastic_ = false;
   // Scratch of a substep.
   std::vector<double> multipliers_;
   std::vector<char> acted_;     // whether the row had a force in the last substep
-  std::vector<double> starts_;  // of the coordinates
+  std::vector<double> starts_;  // coordinates at the start of the substep
   std::vector<char> intact_;
   Measured measured_;
-  bool held_ = false;  // whether a joint has been locked again
+  bool held_ = false;  // whether a joint has been locked after its release
 };
 
 }  // namespace sheave

@@ -1,6 +1,6 @@
 #pragma once
-// What a joint does to its bodies, and what is told of it: a part of engine/joints/joint_batch.h,
-// which includes it.
+// Reactions, breaking and reports of joints; a part of engine/joints/joint_batch.h, which includes
+// it.
 
 #include <algorithm>
 #include <cmath>
@@ -113,7 +113,7 @@ void JointBatch<Kernel>::append_coordinates(const Substep& now, const Joint& joi
 template <class Kernel>
 void JointBatch<Kernel>::find_errors(const Substep& now, const Joint& joint,
                                      const FeatureState& own, JointReport& report) const {
-  // Anchors coincide in any direction, so their errors add up as vectors do.
+  // The distances between anchors in the directions of the locks add up as vectors do.
   double squares = 0.0;
   Row row;
   for (int i = 0; i < joint.lock_count + joint.effect_count; ++i) {

@@ -75,7 +75,7 @@ double drive_error(const JointEffect& drive, const DriveDemand& demand, double t
 
 std::string hold_fault(const JointEffect& effect, const JointCoordinateInfo& info, const Row& row,
                        double scale) {
-  // What a run leaves of stops that it rests at.
+  // Residual of a stop at which a run has come to rest.
   constexpr double slop = 1e-6;
   const bool rigid =
       row.compliance == 0.0 && (row.lower == -Row::unbounded || row.upper == Row::unbounded);

@@ -1,15 +1,19 @@
 #pragma once
-// What a joint that was released and has been locked again holds.
+// The hold of a joint that was released and has been locked.
 //
-// It holds what its type holds, from where its bodies are then: nothing jumps, and its coordinates
-// read what they read before. What is defined is changed by as little as that needs:
+// A locked joint constrains the degrees of freedom of its type, starting from the poses of its
+// bodies at that time. Neither positions nor coordinates jump. The hold changes the definition of the joint as little as possible:
 //
-//   with a common anchor   A's anchor is where B's is now (in what the joint leaves free it keeps its distance), and A's axes are
-//                          those of B, turned back by the angles that are left free
-//   distance               the length is what the distance is now; of a string or a bumper only if it would pull or push
-//   gear, rack             the teeth mesh where they are now; with backlash only if they are out of play
+//   with a common anchor   A's anchor moves to the present place of B's anchor; along the free
+//                          directions the distance of the anchors is kept. A's axes become those
+//                          of B, turned back by the free angles
+//   distance               the length becomes the present distance; for a string or a bumper only
+//                          if the joint would pull or push
+//   gear, rack             the teeth mesh at the present angles; with backlash only if the play is
+//                          exceeded
 //
-// B keeps its anchor. All of it counts from the definition, so that locking twice does not add up.
+// B's anchor is unchanged. A hold is relative to the definition, so locking twice does not
+// accumulate.
 
 #include <cmath>
 #include <span>
@@ -19,13 +23,13 @@
 
 namespace sheave {
 
-/// By how much that differs from the definition.
+/// The difference between a locked joint and its definition.
 struct JointHold {
-  static constexpr std::size_t size = 8;  ///< numbers in a state
+  static constexpr std::size_t size = 8;  ///< count of numbers in a state
 
-  Vector3 shift = Vector3::Zero();           ///< of A's anchor, body_a's own frame [m]
-  Quaternion turn = Quaternion::Identity();  ///< of A's axes, body_a's own frame
-  double offset = 0.0;                       ///< of a length or a coupling [m or rad]
+  Vector3 shift = Vector3::Zero();           ///< displacement of A's anchor, body_a's own frame [m]
+  Quaternion turn = Quaternion::Identity();  ///< rotation of A's axes, body_a's own frame
+  double offset = 0.0;                       ///< change of a length or a coupling [m or rad]
 
   [[nodiscard]] static JointHold read(std::span<const double> reals) {
     JointHold hold;
@@ -42,18 +46,18 @@ struct JointHold {
     reals[6] = turn.z();
     reals[7] = offset;
   }
-  /// Whether it can be one: for states from elsewhere.
+  /// Whether the numbers are valid; for states from files and programs.
   [[nodiscard]] bool is_sound() const {
     constexpr double slop = 1e-6;
     return shift.allFinite() && std::isfinite(offset) && std::abs(turn.norm() - 1.0) < slop;
   }
 
-  /// A's anchor of `defined` with it.
+  /// A's anchor, displaced from `defined` by this hold.
   [[nodiscard]] Anchor applied(const Anchor& defined) const {
     return {defined.body, defined.point + shift, turn * defined.frame};
   }
-  /// What brings A's anchor from `defined` to the world point `point` [m] and the world frame
-  /// `frame`.
+  /// The hold that moves A's anchor from `defined` to the world point `point` [m] and the world
+  /// frame `frame`.
   [[nodiscard]] static JointHold of(const Anchor& defined, const Substep& now, const Vector3& point,
                                     const Quaternion& frame) {
     const Quaternion to_own = now.orientation(defined.body).conjugate();
@@ -66,7 +70,7 @@ struct JointHold {
 
 inline void AnchorPair::apply(const JointHold& hold) { a = hold.applied(a); }
 
-/// What a coordinate reads, an angle up to whole turns.
+/// The value of a coordinate; an angle modulo whole turns.
 template <class Kernel>
 [[nodiscard]] double coordinate_of(const Kernel& kernel, int index, const Substep& now) {
   Row row;

@@ -1,5 +1,5 @@
 #pragma once
-// The layout of what joints of one type carry from substep to substep.
+// The layout of the state of all joints of one type.
 
 #include <algorithm>
 #include <span>
@@ -9,10 +9,12 @@
 
 namespace sheave {
 
-/// Reals: generalised force per row [N or N m] of the last substep along the row's gradient, locks
-/// and effects joint by joint; then the coordinates [m or rad] of the joints that count them,
-/// angles with all turns; then when each joint broke [s], -1 for one that has not; then, as soon as
-/// one of them has been locked again, what each holds (JointHold).
+/// The reals are, in this order:
+///   per row        mean force of the last substep along the row's gradient [N or N m], locks and
+///                  effects joint by joint
+///   coordinates    of the joints that count them [m or rad], with whole turns
+///   per joint      time at which the joint broke [s]; -1 if it has not broken
+///   per joint      JointHold; only after a joint has been locked
 struct JointStateLayout {
   std::size_t rows = 0;
   std::size_t coordinates = 0;
@@ -36,7 +38,7 @@ struct JointStateLayout {
   [[nodiscard]] std::span<const double> coordinates_of(const FeatureState& state) const {
     return std::span(state.reals).subspan(rows, coordinates);
   }
-  /// [s]; < 0 if it has not.
+  /// Time at which a joint broke [s]; < 0 if it has not broken.
   [[nodiscard]] double broken_at(const FeatureState& state, std::size_t joint) const {
     return state.reals[rows + coordinates + joint];
   }
@@ -58,7 +60,7 @@ struct JointStateLayout {
     hold.write(place_of(state, joint));
   }
 
-  /// Where a joint's numbers are.
+  /// The places of a joint's numbers.
   struct Part {
     std::size_t joint = 0;
     int first_row = 0;
@@ -66,7 +68,7 @@ struct JointStateLayout {
     int first_coordinate = -1;  ///< < 0: none are counted
     int coordinate_count = 0;
   };
-  /// Takes over a joint of a state with another layout.
+  /// Copies the numbers of a joint from a state with another layout.
   void adopt(FeatureState& own, const Part& now, const JointStateLayout& other,
              const FeatureState& from, const Part& then) const {
     if (now.row_count == then.row_count) {

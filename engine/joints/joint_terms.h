@@ -8,15 +8,15 @@
 
 namespace sheave {
 
-/// Makes those parts of the gradient 0 that are but rounding to the body's mobility: a row across
-/// the axis of a slider has 1e-17 along it, which would be enough for the row to hold the body.
+/// Sets the parts of the gradient to 0 that are rounding errors along a direction in which the body
+/// can move. For example, a row across the axis of a slider has 1e-17 along the axis. The row would
+/// act along the axis with that lever, and a large force would hold the slider.
 inline void drop_rounding(Row& row, std::span<const MovingBody> bodies) {
   const auto keep = [](const Matrix3& inverse, Vector3& gradient) {
     constexpr double rounding = 1e-12;
     const double trace = inverse(0, 0) + inverse(1, 1) + inverse(2, 2);
     const double full = trace * trace * dot(gradient, gradient);
-    // What nothing can move may yet move by itself: velocities of driven bodies count in those of
-    // rows.
+    // Prescribed bodies have no inverse mass, but their velocities enter the rates of the rows.
     if (!(full > 0.0)) return;
     const Vector3 moved = times(inverse, gradient);
     if (dot(moved, moved) <= rounding * rounding * full) gradient.setZero();
@@ -28,14 +28,14 @@ inline void drop_rounding(Row& row, std::span<const MovingBody> bodies) {
   }
 }
 
-/// Takes what a unit multiplier of a joint's row does to the bodies: as the gradient of the row,
-/// and, if asked, as the wrench on one of them.
+/// Collects the action of a unit multiplier of a joint's row: into the gradient of the row, or into
+/// the wrench on one body.
 class JointTerms {
  public:
-  /// `has_rotor`: whether one of the bodies is a rotor on another body.
+  /// `has_rotor`: whether one of the joint's bodies is a rotor mounted on another body.
   JointTerms(const Substep& substep, Row& row, bool has_rotor = false)
       : substep_(substep), row_(row), has_rotor_(has_rotor) {}
-  /// Adds what acts on `body`, times `scale`, to `wrench` instead of the row.
+  /// Adds the action on `body`, times `scale`, to `wrench`; the row's gradient is not changed.
   JointTerms(const Substep& substep, Row& row, int body, double scale, Wrench& wrench)
       : substep_(substep), row_(row), watched_(body), scale_(scale), wrench_(&wrench) {}
 
@@ -48,10 +48,10 @@ class JointTerms {
     row_.upper = upper;
   }
 
-  /// A force along `direction` at the world point `at`.
+  /// Adds a force along `direction` at the world point `at`.
   void add_force(int body, const Vector3& at, const Vector3& direction) {
     if (wrench_ == nullptr) {
-      // The world never moves and would only take up room in the row.
+      // The world never moves, and a row has room for few bodies.
       if (body >= substep_.bodies.count()) return;
       const int terms = row_.term_count;
       substep_.add_force(row_, body, at, direction);
@@ -75,7 +75,8 @@ class JointTerms {
   }
 
  private:
-  /// Whether what was added to a row of so many terms is shared between a rotor and its carrier.
+  /// Whether the gradient just added to a row with `terms` bodies is split between a rotor and its
+  /// carrier.
   [[nodiscard]] bool shares_carrier(int body, int terms) const {
     return substep_.bodies[body].mount >= 0 || row_.term_count == terms;
   }
@@ -84,9 +85,9 @@ class JointTerms {
     const double own = (at - substep_.position(body)).norm();
     return mount < 0 ? own : std::max(own, (at - substep_.position(mount)).norm());
   }
-  /// Makes torques 0 that are but rounding of `whole`: about the axle of a rotor that is pushed
-  /// across it, and on a carrier that a joint with its own rotor pushes to and fro. There 1e-17
-  /// would be all that the row can move, and would hold it with a force beyond all measure.
+  /// Sets torques to 0 that are rounding errors relative to `whole`. Such torques arise about the
+  /// axle of a rotor that is pushed across it, and on a carrier on which a joint with its own rotor
+  /// pushes to and fro. If 1e-17 were the only lever of the row, an enormous force would result.
   void drop_cancelled(int body, double whole) {
     constexpr double rounding = 1e-12;
     const int mount = substep_.bodies[body].mount;

@@ -1,9 +1,9 @@
 #pragma once
-// Rows that joint types have in common: what they keep from moving.
+// Locks that several joint types share.
 //
 // n . (p_b - p_a) with a direction n fixed in A changes by n . d(p_b - p_a) + (d_a x n) . (p_b -
-// p_a). The second part is what the lever between the two points adds to the torque of -n on A: a
-// force n acts at p_b on both.
+// p_a). The second part is the contribution of the lever between the two points to the torque of -n
+// on A: the force n acts at p_b on both bodies.
 
 #include "engine/joints/anchor.h"
 #include "engine/joints/joint_terms.h"
@@ -21,7 +21,7 @@ inline void lock_point_along(const Anchor& a, const Anchor& b, const Vector3& di
   terms.add_force(b.body, at_b, -direction);
 }
 
-/// How far B's anchor has moved along the axis `index` of A's frame: C = n . (p_b - p_a).
+/// The displacement of B's anchor along the axis `index` of A's frame: C = n . (p_b - p_a).
 inline void offset_along(const Anchor& a, const Anchor& b, int index, JointTerms& terms) {
   const Vector3 at_b = b.position(terms.substep());
   const Vector3 direction = rotated(a.orientation(terms.substep()), Vector3::Unit(index));
@@ -30,9 +30,10 @@ inline void offset_along(const Anchor& a, const Anchor& b, int index, JointTerms
   terms.add_force(b.body, at_b, direction);
 }
 
-/// The anchors coincide along the world axis `index` (0, 1, 2), or that of B's frame where both
-/// bodies are led by one carrier: along world axes turning the carrier would close what a rotor has
-/// left open, by as much as is open, and rounding of little would turn it by much.
+/// The anchors coincide along the world axis `index` (0, 1, 2), or along that of B's frame if one
+/// carrier leads both bodies. In that case a rotor cannot close every gap between the anchors.
+/// Along world axes the gradient has a part of the size of the gap by which turning the carrier
+/// would close it, so a rounding error in the gap would turn the carrier far.
 inline void lock_point(const Anchor& a, const Anchor& b, int index, JointTerms& terms) {
   if (a.shares_carrier) return offset_along(b, a, index, terms);
   lock_point_along(a, b, Vector3::Unit(index), terms);
@@ -52,9 +53,9 @@ inline void lock_perpendicular(const Anchor& a, int axis, const Anchor& b, int a
 
 /// No relative rotation. The quaternion E = q_a q_b^-1 of the relative rotation of the frames, with
 /// w >= 0, is the identity: C = 2 E_k (the rotation vector for small errors). A world rotation d of
-/// A changes E to (1, d/2) E, one of B to E (1, -d/2), so with E = (w, v)
+/// A changes E to (1, d/2) E, a rotation d of B to E (1, -d/2), so with E = (w, v)
 ///   dC_k = (w e_k + v x e_k) . d_a - (w e_k - v x e_k) . d_b.
-/// Where one carrier leads both bodies the axes are those of A's frame, as in lock_point(): with
+/// If one carrier leads both bodies, the axes are those of A's frame, as in lock_point(): with
 /// q_a^-1 q_b = (w, v) and C = -2 v_k, dC_k = q_a (w e_k + v x e_k) . (d_a - d_b).
 inline void lock_rotation(const Anchor& a, const Anchor& b, int index, JointTerms& terms) {
   if (a.shares_carrier) {
@@ -78,10 +79,10 @@ inline void lock_rotation(const Anchor& a, const Anchor& b, int index, JointTerm
 }
 
 /// The angle by which B has turned about the z axis of A's frame. With the rotation (w, v) from A's
-/// to B's frame, seen in A's frame, it is 2 atan2(v_z, w), up to whole turns. A rotation d of B
-/// changes the quaternion by dw = -d . v / 2, dv = (w d + d x v) / 2, so the angle by d . (w^2 z +
-/// w v x z + v_z v) / (w^2 + v_z^2). Exact for any tilt but half a turn across the axis, where
-/// there is no such angle.
+/// to B's frame, expressed in A's frame, the angle is 2 atan2(v_z, w), modulo whole turns. A
+/// rotation d of B changes the quaternion by dw = -d . v / 2, dv = (w d + d x v) / 2, and therefore
+/// the angle by d . (w^2 z + w v x z + v_z v) / (w^2 + v_z^2). Exact for any tilt but half a turn
+/// across the axis, at which the angle is undefined (singular configuration).
 inline void angle_about(const Anchor& a, const Anchor& b, JointTerms& terms) {
   const Quaternion frame = a.orientation(terms.substep());
   const Quaternion relative = frame.conjugate() * b.orientation(terms.substep());

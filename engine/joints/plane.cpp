@@ -1,6 +1,6 @@
 // Locks: B's anchor stays in the plane of A; the normal of A is perpendicular to two directions of
-// B across its own (lock_rows.h). Coordinates: the angle about the normal; and, for friction and
-// damping, the sliding of B's anchor along two directions in the plane, fixed to A.
+// B across B's own normal (lock_rows.h). Coordinates: the angle about the normal. The sliding of
+// B's anchor along two directions in the plane, fixed to A, serves friction and damping.
 
 #include "engine/joints/plane.h"
 
@@ -11,7 +11,7 @@
 namespace sheave {
 namespace {
 
-struct PlaneKernel : AnchorPair {  // z of the frame is the normal
+struct PlaneKernel : AnchorPair {  // the frame's z axis is the normal
   static constexpr int lock_count = 3;
   static constexpr std::array<JointCoordinateInfo, 3> coordinates{
       {{"angle", true},

@@ -15,7 +15,7 @@ class PlaneJoint final : public JointDef {
   double angular_compliance = 0.0;  ///< of the tilt [rad/(N m)], >= 0
   double damping = 0.0;             ///< force per sliding velocity of the anchor [N s/m], >= 0
   double friction = 0.0;            ///< dry friction against sliding of the anchor [N], >= 0
-  JointCoordinate angle;  ///< of body_b against body_a about the normal [rad], 0 at time 0
+  JointCoordinate angle;  ///< of body_b relative to body_a about the normal [rad], 0 at time 0
 
   static constexpr std::string_view type_name = "plane";
   static constexpr std::string_view type_meaning =

@@ -1,5 +1,5 @@
-// One row: C = travel of B - radius x angle of A, both against the carrier, the angle with all its
-// turns; with backlash two one-sided rows at half of it to each side.
+// One row: C = travel of B - radius x angle of A. Both are relative to the carrier, and the angle
+// includes whole turns. With backlash: two unilateral rows, half the backlash to each side.
 
 #include "engine/joints/rack.h"
 
@@ -12,10 +12,10 @@ struct RackKernel {
   static constexpr int lock_count = 0;
   static constexpr std::array<JointCoordinateInfo, 2> coordinates{
       {{"angle", true}, {"travel", false}}};
-  AnchorPair pinion;  // of the carrier, and of body_a
-  AnchorPair rack;    // of the carrier, and of body_b
+  AnchorPair pinion;  // anchors on the carrier and on body_a
+  AnchorPair rack;    // anchors on the carrier and on body_b
 
-  double mesh = 0.0;  // by how much the teeth mesh elsewhere than as defined
+  double mesh = 0.0;  // shift of the mesh relative to the definition [m]
 
   [[nodiscard]] bool elastic() const { return false; }
   [[nodiscard]] int anchor_body() const { return rack.anchor_body(); }
@@ -23,7 +23,7 @@ struct RackKernel {
   void lock(int /*index*/, JointTerms& /*terms*/) const {}
   void apply(const JointHold& hold) { mesh = hold.offset; }
   [[nodiscard]] JointHold hold_here(const RackKernel& /*defined*/, const Substep& /*now*/) const {
-    return {};  // all that it holds is the coupling
+    return {};  // the only constraint is the coupling
   }
   void coordinate(int index, JointTerms& terms) const {
     if (index == 0) {

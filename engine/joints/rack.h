@@ -9,12 +9,14 @@ class RackJoint final : public JointDef {
  public:
   Vector3 axis =
       Vector3::UnitZ();  ///< of body_a's rotation, world frame at time 0; any length but 0
-  Vector3 direction = Vector3::UnitX();  ///< of body_b's translation, likewise
-  Vector3 anchor = Vector3::Zero();  ///< where the force acts on body_b, world frame at time 0 [m]
-  double radius = 0.1;               ///< travel per rad [m/rad], not 0; a screw has pitch / 2 pi
-  /// The body that carries both axles or guides; what turns or slides, turns and slides against it.
+  /// Of body_b's translation, world frame at time 0; any length but 0
+  Vector3 direction = Vector3::UnitX();
+  /// Point of body_b at which the force acts, world frame at time 0 [m]
+  Vector3 anchor = Vector3::Zero();
+  double radius = 0.1;  ///< travel per rad [m/rad], not 0; a screw has pitch / 2 pi
+  /// The body that carries axle and guide. Angle and travel are relative to the carrier.
   BodyId carrier;
-  double compliance = 0.0;  ///< of the travel [m/N], >= 0
+  double compliance = 0.0;  ///< compliance of the travel [m/N], >= 0
   double backlash = 0.0;    ///< play of body_b, half to each side at time 0 [m], >= 0
 
   static constexpr std::string_view type_name = "rack";

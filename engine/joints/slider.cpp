@@ -1,5 +1,5 @@
-// Locks: B's anchor stays on the axis, two directions of A across it; no relative rotation
-// (lock_rows.h). Coordinate: how far B's anchor has moved along the axis of A.
+// Locks: B's anchor stays on the axis, in two directions of A across it; no relative rotation
+// (lock_rows.h). Coordinate: the displacement of B's anchor along the axis of A.
 
 #include "engine/joints/slider.h"
 
@@ -9,7 +9,7 @@
 namespace sheave {
 namespace {
 
-struct SliderKernel : AnchorPair {  // z of the frame is the axis
+struct SliderKernel : AnchorPair {  // the frame's z axis is the joint's axis
   static constexpr int lock_count = 5;
   static constexpr std::array<JointCoordinateInfo, 1> coordinates{{{"travel", false}}};
   double compliance = 0.0;
@@ -33,7 +33,7 @@ struct SliderKernel : AnchorPair {  // z of the frame is the axis
   }
 };
 
-/// Whether a body slides along the axis by its mobility, or never moves.
+/// Whether the mobility of a body restricts it to the axis, or the body never moves.
 bool slides_only(const BodyProperties& body, const Vector3& axis) {
   constexpr double rounding = 1e-12;
   if (body.mobility == Mobility::fixed) return true;

@@ -8,11 +8,12 @@ namespace sheave {
 /// Leaves two bodies one relative translation along an axis.
 class SliderJoint final : public JointDef {
  public:
-  Vector3 anchor = Vector3::Zero();  ///< where the bodies are joined, world frame at time 0 [m]
-  Vector3 axis = Vector3::UnitZ();   ///< direction, world frame at time 0; any length but 0
-  double compliance = 0.0;           ///< of each locked translation [m/N], >= 0
-  double angular_compliance = 0.0;   ///< of each locked rotation [rad/(N m)], >= 0
-  JointCoordinate travel;            ///< of body_b against body_a along the axis [m], 0 at time 0
+  /// Point at which the bodies are joined, world frame at time 0 [m]
+  Vector3 anchor = Vector3::Zero();
+  Vector3 axis = Vector3::UnitZ();  ///< direction, world frame at time 0; any length but 0
+  double compliance = 0.0;          ///< of each locked translation [m/N], >= 0
+  double angular_compliance = 0.0;  ///< of each locked rotation [rad/(N m)], >= 0
+  JointCoordinate travel;  ///< of body_b relative to body_a along the axis [m], 0 at time 0
 
   static constexpr std::string_view type_name = "slider";
   static constexpr std::string_view type_meaning =

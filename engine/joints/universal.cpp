@@ -1,8 +1,9 @@
 // Locks: the anchors coincide; the axis u of A is perpendicular to the axis v of B (lock_rows.h).
-// Coordinates: the turn of v about u against A's v0, atan2(v . (u x v0), v . v0), which a rotation
-// d of B against A changes, where u and v are perpendicular or not, by
-//   d . ((v . v0) v x w0 - (v . w0) v x v0) / ((v . v0)^2 + (v . w0)^2),   w0 = u x v0;
-// and minus the turn of u about v against B's u0, by the same formula with the bodies exchanged.
+// Coordinate angle_a is the turn of v about u from A's v0, atan2(v . (u x v0), v . v0). A rotation
+// d of B relative to A changes it, whether or not u and v are perpendicular, by
+//   d . ((v . v0) v x w0 - (v . w0) v x v0) / ((v . v0)^2 + (v . w0)^2),   w0 = u x v0.
+// Coordinate angle_b is minus the turn of u about v from B's u0, by the same formula with the
+// bodies exchanged.
 
 #include "engine/joints/universal.h"
 
@@ -15,7 +16,7 @@ namespace sheave {
 namespace {
 
 /// Adds the angle by which the axis `pointer` of body `other` has turned about the axis `about` of
-/// `own` since time 0, times `sense`. The three axes of both frames were the same then.
+/// `own` since time 0, times `sense`. At time 0 the axes of both frames are equal.
 void turn_of_axis(const Anchor& own, int about, const Anchor& other, int pointer, double sense,
                   JointTerms& terms) {
   const Quaternion frame = own.orientation(terms.substep());
@@ -33,7 +34,7 @@ void turn_of_axis(const Anchor& own, int about, const Anchor& other, int pointer
   terms.add_torque(other.body, gradient);
 }
 
-struct UniversalKernel : AnchorPair {  // x of the frames is axis_a, y is axis_b
+struct UniversalKernel : AnchorPair {  // the frames' x axis is axis_a, y is axis_b
   static constexpr int lock_count = 4;
   static constexpr std::array<JointCoordinateInfo, 2> coordinates{
       {{"angle_a", true}, {"angle_b", true}}};
@@ -58,7 +59,7 @@ struct UniversalKernel : AnchorPair {  // x of the frames is axis_a, y is axis_b
     }
   }
   [[nodiscard]] JointHold hold_here(const UniversalKernel& defined, const Substep& now) const {
-    // From A's frame to B's it is a turn about x, and then one about y.
+    // The rotation from A's frame to B's is a turn about x, followed by one about y.
     const Quaternion across = turned_about(b.orientation(now), 1, -coordinate_of(*this, 1, now));
     return JointHold::of(defined.a, now, b.position(now),
                          turned_about(across, 0, -coordinate_of(*this, 0, now)));
@@ -96,7 +97,7 @@ Errors UniversalJoint::validate(const BodySet& bodies, const std::string& path) 
   Errors errors = JointDef::validate(bodies, path);
   check_direction(axis_a, name, path + "/axis_a", errors);
   check_direction(axis_b, name, path + "/axis_b", errors);
-  // What six printed decimals leave of a right angle.
+  // Rounding error of a right angle printed with six decimals.
   if (std::abs(axis_a.normalized().dot(axis_b.normalized())) > 1e-5) {
     errors.push_back(
         {path + "/axis_b", "joint \"" + name + "\": axis_b must be perpendicular to axis_a"});

@@ -14,8 +14,8 @@ class UniversalJoint final : public JointDef {
       Vector3::UnitY();             ///< fixed to body_b, perpendicular to axis_a; any length but 0
   double compliance = 0.0;          ///< of each direction of translation [m/N], >= 0
   double angular_compliance = 0.0;  ///< of the angle between the axes [rad/(N m)], >= 0
-  JointCoordinate angle_a;  ///< of the cross against body_a, about axis_a [rad], 0 at time 0
-  JointCoordinate angle_b;  ///< of body_b against the cross, about axis_b [rad], 0 at time 0
+  JointCoordinate angle_a;  ///< of the cross relative to body_a, about axis_a [rad], 0 at time 0
+  JointCoordinate angle_b;  ///< of body_b relative to the cross, about axis_b [rad], 0 at time 0
 
   static constexpr std::string_view type_name = "universal";
   static constexpr std::string_view type_meaning =
