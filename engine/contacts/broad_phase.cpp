@@ -39,8 +39,8 @@ std::span<const std::pair<int, int>> BroadPhase::find(std::span<const Bounds> bo
     const double b = boxes[at(j)].low[axis];
     return a != b ? a < b : i < j;
   };
-  // What little has moved since the last time is soonest sorted in by hand, but not another axis'
-  // order.
+  // Insertion sort is fastest for an order that has changed little. After a change of axis the
+  // order changes much, so the number of moves is limited.
   std::size_t moves = 16 * order_.size();
   for (std::size_t k = 1; k < order_.size() && moves > 0; ++k) {
     const int moved = order_[k];

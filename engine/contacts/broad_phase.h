@@ -1,10 +1,10 @@
 #pragma once
-// Which pairs of boxes overlap: sweep and prune along the axis along which their centres are spread
-// most.
+// Finds the pairs of boxes that overlap, by sweep and prune along the axis along which the centres
+// of the boxes are spread most.
 //
 // Cost: sorting (of an order that hardly changes from substep to substep, so nearly linear) and one
-// test per pair that overlaps along the axis. The pairs come out in ascending order and depend on
-// the boxes alone, not on what came before.
+// test per pair that overlaps along the axis. The pairs are in ascending order and depend on the
+// boxes alone, not on earlier calls.
 
 #include <span>
 #include <utility>
@@ -14,7 +14,7 @@
 
 namespace sheave {
 
-/// An axis-aligned box [m]; infinite for what has no end.
+/// An axis-aligned box [m]; infinite for unbounded forms.
 struct Bounds {
   Vector3 low = Vector3::Zero();
   Vector3 high = Vector3::Zero();
@@ -30,7 +30,7 @@ class BroadPhase {
   std::span<const std::pair<int, int>> find(std::span<const Bounds> boxes);
 
  private:
-  std::vector<int> order_;  // by the lower end; kept only because it is nearly sorted the next time
+  std::vector<int> order_;  // by the lower end; kept because it is nearly sorted in the next call
   std::vector<std::pair<int, int>> pairs_;
 };
 

@@ -1,38 +1,40 @@
-// An impact within a substep. The gap starts at c with the rate w and the acceleration a of free
-// bodies; it closes after
-//   T = 2 c / (|w| + |w_i|)  with  w_i^2 = w^2 - 2 a c,
-// and with restitution e it is, at the end of the substep h,
+// An impact within a substep. The gap starts at c with the rate w and the acceleration a of bodies
+// without constraints. The gap closes after
+//   T = 2 c / (|w| + |w_i|)  with  w_i^2 = w^2 - 2 a c.
+// With restitution e, the gap at the end of the substep h is
 //   target = e |w_i| (h - T) + a (h - T)^2 / 2,   and grows at  e |w_i| + a (h - T).
-// So a ball loses nothing of its height by where in a substep it meets the floor. `xpbd` keeps the
-// mean velocity of a substep for the velocity of a body, so its w is that plus a h / 2. That
-// settles positions; for velocities the approach is taken from the end (rebound.cpp). Bodies that
-// touch at the end of a substep, and approach, bounce in the next one: `rattle`, which has the
-// velocities of the end, must not stop them before. Bodies that meet at less than 2 |a| h do not
-// bounce: they would for ever.
+// The height to which a ball rebounds therefore does not depend on when in a substep it meets the
+// floor. With `xpbd` a body's velocity is the mean over a substep, so w is that velocity plus a h /
+// 2. These formulas determine positions; for velocities the approach at the end is used
+// (rebound.cpp). Bodies that touch at the end of a substep, and approach, rebound in the next one;
+// `rattle`, which has the velocities of the end, must not stop them before. Bodies that meet at
+// less than 2 |a| h do not rebound; otherwise their rebounds would never end.
 //
-// Tangents. What slides has friction against its sliding and none across it, so it has one row,
-// along its velocity at the start. (A second one would hold it to that direction.) What is slow
-// enough to stop, or sticks, has two, which bound the norm of the force (engine/friction_rows.h). They begin
-// with the direction of the force that the whole manifold holds, along which it will slip.
+// Tangents. Friction of a sliding point acts against the slip and not across it, so the point has
+// one row, along its velocity at the start. (A second row would keep the slip in that direction.) A
+// point that sticks, or is slow enough to stop, has two rows, which bound the norm of the force
+// (engine/friction_rows.h). The first is along the static friction of the whole manifold, the
+// direction in which slip will begin.
 //
-// A compliant contact is a spring 1 / a with a damper b = 2 z / sqrt(a w) beside it that together
-// never pull: with the yield w of the point a mass 1 / w on it has the damping ratio z. It leaves it
-// at e times the speed of meeting, with cos c = z,
-//   e = exp(-(z / sin c) atan2(sin 2c, cos 2c)),
-// where the force of spring and damper is 0; z is that of the restitution e, but no more than 1, which
-// is critical and leaves e^-2 of the speed. `xpbd` has the damper as any other (engine/row.h).
-// `rattle` has it in two parts, so that a substep h of any length shrinks the area in phase space by
-// as much as it should, e^(-2 z omega h) with omega^2 = w / a, and the swing with it. The midpoint rule
-// with a damper b1 = s h / 2a shrinks it by
+// A compliant contact is a spring of compliance a with a damper b = 2 z / sqrt(a w) in parallel;
+// the sum of their forces never pulls. With the effective inverse mass w of the point, the damping
+// ratio is z. The body leaves at e times the speed of arrival, at the time when the force of spring
+// and damper is 0. With cos c = z,
+//   e = exp(-(z / sin c) atan2(sin 2c, cos 2c)).
+// z follows from the restitution e, but is at most 1, which is critical and leaves e^-2 of the
+// speed. `xpbd` treats the damper as any other (engine/row.h). `rattle` divides the damper in two,
+// so that a substep h of any length reduces the area in phase space by the exact factor e^(-2 z
+// omega h) with omega^2 = w / a, and with it the amplitude. The midpoint rule with a damper b1 = s
+// h / 2a reduces the area by
 //   D = (1 + k (1 - s) / 4) / (1 + k (1 + s) / 4),  k = omega^2 h^2,
-// and the rest is taken from the velocity at the end. s is such that D is half of the whole, in
-// logarithms, but no more than 1, which is implicit Euler's spring. A damper at the end alone would
-// leave a spring that is much faster than the substep, which the midpoint rule turns over each time,
-// for ever; one within the rule alone its velocity.
+// and a factor on the velocity at the end does the rest. s is chosen such that log D is half of the
+// whole, but at most 1, which is the spring of implicit Euler. With a damper at the end alone, a
+// spring that is much faster than the substep would oscillate for ever, because the midpoint rule
+// reverses it in each substep. With a damper within the rule alone, its velocity would not decay.
 //
-// A rigid contact that overlaps at the start is opened by a fiftieth per substep only, because the
-// velocity that opening it at once would leave behind is energy that nobody has put in. Where it
-// bounces it does so at once, from where it is, c = 0 above, and the way of its rebound opens it.
+// A rigid contact that overlaps at the start opens by 2 % of the overlap per substep only. Opening
+// all of it at once would leave a velocity, and so energy from nowhere. A contact that rebounds
+// does so from its present position (c = 0 above), and the rebound opens it.
 
 #include "engine/contacts/contact.h"
 
@@ -45,27 +47,30 @@ namespace sheave {
 namespace {
 
 constexpr double opened_share = 0.02;
-constexpr double slow_impact = 2.0;  // of what gravity does in a substep
-/// Share of a row's own yield by which solvers of all rows soften it: between the corners of a box,
-/// which four rows hold where three would do, it shares the load. It lets contacts sink by this
-/// share of what the load would move the body by in a substep if nothing held it.
+constexpr double slow_impact = 2.0;  // times the speed that gravity adds in a substep
+/// Softness of a normal row relative to the row's effective inverse mass, for solvers of all rows.
+/// The softness shares the load between the corners of a box, which four rows hold where three are
+/// sufficient. Contacts sink by this share of the displacement that the load would cause in a
+/// substep without the contact.
 constexpr double softened_share = 1e-9;
-/// It is made larger where that would be less than `least_sink` of the scene's size, a thousand
-/// times what rounding leaves of a gap: below it rounding would share the load, another way in each
-/// round, and friction at corners that carry little would follow it about without an end.
+/// The softness is increased where contacts would sink less than `least_sink` times the scene's
+/// size, a thousand times the rounding error of a gap. With less, rounding would share the load,
+/// differently in each round. Friction at corners that carry little would then change from round to
+/// round without end.
 constexpr double least_sink = 1e-11;
 constexpr double most_softened = 1e-6;
-/// The same for friction, which is hyperstatic far more often: a taut rope over a wheel sticks at
-/// many points to what moves as one. With less, rounding decides which of them slip, and the search
-/// for them goes on and on (373 changes per substep for a rope of 100 segments, 61 with this, 10
-/// with a hundred times as much); with more, a box on a slope creeps by more than 1e-9 m/s.
+/// Softness of friction rows, which are redundant far more often than normal rows: a taut rope over
+/// a wheel sticks at many points to one rigid body. With less, rounding decides which of them slip,
+/// and the search for the active set becomes long (373 changes per substep for a rope of 100
+/// segments, 61 with this value, 10 with a hundred times as much). With more, a box on a slope
+/// creeps by more than 1e-9 m/s.
 constexpr double softened_friction = 1e-7;
-/// A point whose friction is all that it may be slides only if it moves: beside points that hold it
-/// does not, but for their softness, by which it may move so many times as far as by its own. That
-/// is 1e-5 of the way that its friction takes in a substep from what slides.
+/// A point at its friction bound slides only if it moves. A point beside others that stick may only
+/// move by their softness, which can be this many times its own. The threshold is 1e-5 of the
+/// displacement by which friction slows a sliding point in a substep.
 constexpr double let_go = 100.0;
 
-/// Rotation of a body since the start of the substep [rad]; a mounted rotor has its own about its
+/// Rotation of a body since the start of the substep [rad]; a mounted rotor adds its own about its
 /// axle.
 Vector3 turn_of(const Substep& substep, int body) {
   const int mount = substep.bodies[body].mount;
@@ -90,7 +95,7 @@ void choose_tangents(const Vector3& sliding, Contact& contact) {
   contact.tangents[1] = cross(contact.normal, contact.tangents[0]);
 }
 
-/// w of the row along the first tangent [1/kg].
+/// Effective inverse mass w of the row along the first tangent [1/kg].
 double tangent_yield(const Substep& substep, const Contact& contact) {
   Row row;
   RowResponse response;
@@ -123,7 +128,7 @@ void meet(const Substep& substep, double restitution, double rate, double accele
   contact.acceleration = acceleration;
 }
 
-/// `yield` [1/kg] is that of the row along the normal.
+/// Sets the damper of a contact; `yield` is the effective inverse mass along the normal [1/kg].
 void damp(const Substep& substep, const ContactMaterial& material, double yield, Contact& contact) {
   contact.damping = contact.settling = 0.0;
   const double ratio = material.damping_ratio;
@@ -162,7 +167,7 @@ void prepare_contact(const Substep& substep, const ContactMaterial& material,
   const Vector3 sliding = velocity - rate * contact.normal;
   contact.compliance = material.compliance;
   if (material.friction > 0.0 || material.static_friction > 0.0) {
-    // Up to this speed friction may bring the point to rest within the substep.
+    // Friction can stop the point within the substep up to this speed.
     choose_tangents(sliding.norm() > 0.0 ? sliding : free_acceleration, contact);
     const double pressing =
         std::max(pressure * tangent_yield(substep, contact), free_acceleration.norm());
@@ -170,7 +175,7 @@ void prepare_contact(const Substep& substep, const ContactMaterial& material,
     const bool slow = sliding.norm() <= stoppable;
     if (is_new) contact.stuck = slow;
     contact.rows = slow && !contact.plane_axis ? 3 : 2;
-    // A velocity much below that is mostly rounding.
+    // A velocity far below this speed consists mainly of rounding errors.
     if (contact.stuck || sliding.norm() <= 0.01 * stoppable) {
       choose_tangents(held.squaredNorm() > 0.0 ? Vector3(-held) : free_acceleration, contact);
     }
@@ -198,7 +203,7 @@ void prepare_contact(const Substep& substep, const ContactMaterial& material,
     }
     contact.softness[at(i)] = share * response.inverse_mass;
     if (i > 0) continue;
-    // A compliance shares the load by itself; softness beside it would be off its law.
+    // A compliance shares the load by itself, so only the missing part is added as softness.
     const double own = material.compliance / (h * h);
     contact.softness[0] = std::max(contact.softness[0] - own, 0.0);
     damp(substep, material, response.inverse_mass, contact);

@@ -1,9 +1,9 @@
-// All points of contact. Found anew at the start of every substep and matched with those of the
-// last one, so that friction knows what it holds and the solver begins with the last forces.
+// All points of contact. The points are found anew in every substep and matched with those
+// of the last one, so that static friction continues and the solver has a warm start.
 //
-// In a sweep of Gauss-Seidel friction is bounded by the normal multiplier of the moment. A solver
-// of all rows at once gets bounds from its last round, or the last substep, and revise() asks for
-// another round until they agree.
+// A Gauss-Seidel sweep bounds friction by the present normal multiplier. A solver of all rows at
+// once takes the bounds from its last round, or from the last substep, and revise() asks for
+// another round until bounds and multipliers agree.
 
 #include "engine/contacts/contact_batch.h"
 
@@ -22,13 +22,13 @@
 namespace sheave {
 namespace {
 
-/// Relative change of a normal force below which the bounds of friction count as found.
+/// Relative change of a normal force below which the bounds of friction are final.
 constexpr double settled_share = 1e-9;
-/// What rounding leaves of a gap, relative to the scene's size. How corners of a box share its load is
-/// known to this over their softness.
+/// Rounding error of a gap, relative to the scene's size. Divided by the softness, this is the
+/// precision with which the loads of a box's corners are known.
 constexpr double rounding_share = 1e-15;
-/// A point of contact is the same as one of the last substep if it is no farther away on one of the
-/// bodies than this share of the smaller form.
+/// A point of contact matches one of the last substep if their distance on one of the bodies is at
+/// most this share of the smaller form.
 constexpr double same_point = 0.05;
 
 class ContactBatch final : public ConstraintBatch {
@@ -85,7 +85,7 @@ class ContactBatch final : public ConstraintBatch {
       crowd_.add(substep, finder_.forms()[at(pair.a)].body, finder_.forms()[at(pair.b)].body);
       return !crowd_.too_many();
     });
-    // The substep is void: fault().
+    // The substep is invalid: see fault().
     if (crowd_.too_many()) contacts_.clear();
     multipliers_.assign(3 * contacts_.size(), 0.0);
   }
@@ -139,14 +139,14 @@ class ContactBatch final : public ConstraintBatch {
       if (contact.friction == 0.0) continue;
       note_slip(substep, i);
       const double now = multipliers_[3 * i] / substep.load_share;
-      // Where friction does not use what it has, having more or less changes nothing.
+      // While friction does not need its bound, changes of the bound have no effect.
       const double needed =
           portable::hypot(multipliers_[3 * i + 1], multipliers_[3 * i + 2]) / substep.load_share;
       const bool matters = contact.slips || needed > contact.friction * now;
       const double change = std::abs(now - contact.pressed);
       const double yields = contact.softness[0] + contact.compliance / (substep.h * substep.h);
       const double rounding = rounding_share * substep.bodies.scale() / yields;
-      // What is small and becomes no less is rounding.
+      // A change at the level of rounding that no longer decreases has converged.
       const bool rounded =
           change <= rounding && contact.last_change > 0.0 && 2.0 * change >= contact.last_change;
       if (matters && change > settled_share * std::max(now, contact.pressed) && !rounded) {
@@ -185,7 +185,7 @@ class ContactBatch final : public ConstraintBatch {
       record.normal = contact.normal;
       record.point =
           substep.point(contact.body_a, contact.own_a) - contact.radius_a * contact.normal;
-      // Points that share a load have theirs to its rounding, on either side of none.
+      // Rounding errors in a shared load may make a multiplier slightly negative.
       record.force = inverse_square * std::max(multipliers_[3 * i], 0.0);
       for (std::size_t k = 0; k < 2 && contact.friction > 0.0; ++k) {
         record.friction += inverse_square * multipliers_[3 * i + 1 + k] * contact.tangents[k];
@@ -206,7 +206,7 @@ class ContactBatch final : public ConstraintBatch {
     for (std::size_t i = 0; i < contact_count(own); ++i) {
       const ContactRecord record = read_contact(own, i);
       const double compliance = finder_.material(record.forms).compliance;
-      // Not by the force, which is a mean and has that of the damper in it.
+      // The force is a mean and includes the damper, so the energy follows from the depth.
       const double depth = std::max(-record.gap, 0.0);
       if (compliance > 0.0) energy += 0.5 * depth * depth / compliance;
     }
@@ -214,10 +214,10 @@ class ContactBatch final : public ConstraintBatch {
   }
 
  private:
-  /// Of the forms of another world, their places among those of this one; -1: it does not have it.
+  /// The indices in this world of another world's forms; -1: the form does not exist here.
   [[nodiscard]] std::vector<int> places_of(std::span<const ContactForm> others) const {
     const std::span<const ContactForm> own = finder_.forms();
-    std::map<int, std::size_t> first_of;  // per body, as they follow each other
+    std::map<int, std::size_t> first_of;  // index of each body's first form; the others follow it
     for (std::size_t i = own.size(); i-- > 0;) first_of[own[i].body] = i;
     std::vector<int> places;
     std::size_t within = 0;
@@ -231,8 +231,8 @@ class ContactBatch final : public ConstraintBatch {
     }
     return places;
   }
-  /// Appends the points of one pair. `old` is the first record of the state that is not of an
-  /// earlier pair.
+  /// Appends the points of one pair. `old` is the first record of the state that does not belong to
+  /// an earlier pair.
   void add_manifold(const Substep& substep, const FeatureState& state, const FormPair& pair,
                     Manifold& manifold, std::size_t& old) {
     const std::optional<Vector3> plane = plane_of_motion(
@@ -286,7 +286,7 @@ class ContactBatch final : public ConstraintBatch {
     }
   }
 
-  /// Size of the smaller form; a half-space has none [m].
+  /// Size of the smaller form [m]; a half-space has no size.
   [[nodiscard]] double smaller_spread(const FormPair& pair) const {
     const double size = finder_.forms()[at(pair.a)].spread;
     const double other = finder_.forms()[at(pair.b)].spread;
@@ -297,8 +297,8 @@ class ContactBatch final : public ConstraintBatch {
     return substep.orientation(body).conjugate() * (point - substep.position(body));
   }
 
-  /// The record of the same point, nearest first come; null if there is none. It then is nobody
-  /// else's.
+  /// The nearest record that has not been taken, if it is the same point, else null. Taking a
+  /// record removes it from further matches.
   const ContactRecord* take_record(const Contact& contact, std::size_t points) {
     ContactRecord* best = nullptr;
     double nearest = std::numeric_limits<double>::infinity();
@@ -319,21 +319,21 @@ class ContactBatch final : public ConstraintBatch {
 
   void note_slip(const Substep& substep, std::size_t i) {
     Contact& contact = contacts_[i];
-    // Positions of `rattle` carry half of the force.
+    // The positions of `rattle` carry half of the force.
     const double limit = (1.0 - 1e-9) * substep.load_share * contact.friction * contact.pressed;
     contact.slips = portable::hypot(multipliers_[3 * i + 1], multipliers_[3 * i + 2]) >= limit;
   }
 
-  /// Whether friction is all that the normal force allows, which in a round that follows it may be
-  /// less than what the round began with. Of each multiplier `late` has been added since [kg m].
+  /// Whether friction is at its bound by the normal force found. `late` has been added to the
+  /// multipliers since [kg m] and is subtracted.
   [[nodiscard]] bool is_at_bound(std::size_t i, const std::array<double, 3>& late = {}) const {
     const double* own = &multipliers_[3 * i];
     const double limit = (1.0 - settled_share) * contacts_[i].friction * (own[0] - late[0]);
     return portable::hypot(own[1] - late[1], own[2] - late[2]) >= limit;
   }
 
-  /// Lets go what is held by all the friction there may be and moves all the same: from the
-  /// beginning of the substep it has the friction of what slides. Returns whether there was any.
+  /// Gives sliding friction, from the start of the substep on, to points that move although their
+  /// static friction is at its bound. Returns whether there were any.
   bool let_go(const Substep& substep) {
     bool any = false;
     if (substep.tentative) return any;
@@ -346,21 +346,22 @@ class ContactBatch final : public ConstraintBatch {
     return any;
   }
 
-  /// Whether the point slides at the end of the substep. One that sticks lets go at its bound, if it
-  /// moves: one that others hold may have all the friction that the normal force allows, and does
-  /// not. One that slides goes on until it does not move; rounding may leave it a little less than
-  /// its bound.
+  /// Whether the point slides at the end of the substep. A sticking point starts to slide if it is
+  /// at its bound and moves. (Other points may hold it still at its bound.) A sliding point slides
+  /// until it does not move; rounding may leave its friction slightly below the bound.
   [[nodiscard]] bool slides(const Substep& substep, std::size_t i) const {
     const Contact& contact = contacts_[i];
     if (contact.stuck && !contact.slips && !is_at_bound(i)) return false;
-    // Velocities of `xpbd` are those of the way. Of a free body that a torque turns they differ from
-    // it by half of what the torque gives in a substep, though the body is held.
+    // Velocities of `xpbd` are those of the displacement. For a free body under a torque they
+    // differ from it by half of the torque's change of velocity in a substep, even if the body is
+    // held.
     if (contact.moves(substep)) return true;
     return substep.load_share != 1.0 && contact.moves_on(substep);
   }
 
-  /// Contact::slipped of a point that sticks, for the next substep. Where friction has used all of
-  /// its bound it begins anew, or, if others have held the point, with what its bound yields.
+  /// Contact::slipped of a sticking point for the next substep. A point at its bound that moved
+  /// starts from 0. A point at its bound that others held keeps at most the displacement that
+  /// softness allows.
   [[nodiscard]] Vector3 kept_slip(const Substep& substep, std::size_t i) const {
     const Contact& contact = contacts_[i];
     const bool full = contact.slips || is_at_bound(i) || has_slid(substep, i);
@@ -371,8 +372,8 @@ class ContactBatch final : public ConstraintBatch {
     return full && size > most ? Vector3(slip * (most / size)) : slip;
   }
 
-  /// Whether friction has let slip what it acted against on the way of the substep. What the second
-  /// half of `rattle` adds may bring that to rest, not back.
+  /// Whether friction was at its bound in the motion of the substep. The second half of `rattle`
+  /// may bring such a point to rest, but not back.
   [[nodiscard]] bool has_slid(const Substep& substep, std::size_t i) const {
     if (place_ >= substep.late_forces.size() || substep.late_forces[place_].empty()) return false;
     const double square = substep.h * substep.h;
@@ -380,8 +381,8 @@ class ContactBatch final : public ConstraintBatch {
     return is_at_bound(i, {square * own[0], square * own[1], square * own[2]});
   }
 
-  /// Makes what acted in the second half of the substep four numbers per contact: along the normal,
-  /// and friction.
+  /// Converts the forces of the substep's second half to four numbers per contact: the normal force
+  /// and the friction vector.
   void describe_late_forces(Substep& substep) {
     if (place_ >= substep.late_forces.size() || substep.late_forces[place_].empty()) return;
     late_.clear();

@@ -1,9 +1,9 @@
-// How far bodies may be apart at the start of a substep and still be looked at: as far as their
-// velocities, what they gain by free fall and their rotation can bring surfaces together within the
-// substep, and a skin of a hundredth of the smaller form, so that what rests keeps its points. A
-// point that is apart has a row that does nothing until the gap is closed; that is what stops a
-// fast body at a thin wall. Not seen is a motion that forces bend within one substep by more than
-// the skin, and what a body that turns fast sweeps sideways.
+// The largest distance at which two bodies are examined at the start of a substep: the distance
+// that their velocities, free fall and rotation can close within the substep, plus 1 % of the
+// smaller form, so that resting bodies keep their points. A point with a gap has a row that acts
+// once the gap closes; such rows stop a fast body at a thin wall. Two motions are not detected:
+// displacements by forces within one substep that exceed the 1 %, and the sideways sweep of a body
+// that turns fast.
 
 #include "engine/contacts/contact_finder.h"
 
@@ -34,7 +34,7 @@ bool share_a_name(const std::vector<std::string>& a, const std::vector<std::stri
   });
 }
 
-/// The body whose motion a body has but for its own spin.
+/// The carrier of a mounted rotor, else the body itself.
 int carrier_of(const BodySet& bodies, int body) {
   return bodies[body].mount >= 0 ? bodies[body].mount : body;
 }
@@ -117,7 +117,7 @@ double damping_ratio_of(double restitution) {
 }
 
 void ContactFinder::combine_materials(const Model& model) {
-  std::vector<double> ratios;  // per collider; only springs have one
+  std::vector<double> ratios;  // per collider; only compliant contacts use it
   for (const ColliderDef& c : model.colliders) {
     ratios.push_back(c.compliance > 0.0 || c.restitution > 0.0 ? damping_ratio_of(c.restitution)
                                                                : 1.0);
@@ -174,7 +174,8 @@ void ContactFinder::place(const Substep& substep) {
     bounds_[i] = {Vector3(position.array() - reach), Vector3(position.array() + reach)};
     if (!std::isfinite(form.radius)) continue;
     for (int k = 0; k < 3; ++k) {
-      // What the core and its radius really need, which is less for long and flat forms.
+      // The exact extent of core and radius, which is smaller than the ball for long and flat
+      // forms.
       double low = infinite;
       double high = -infinite;
       for (const Vector3& vertex : placed_[i].vertices) {

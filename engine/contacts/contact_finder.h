@@ -1,5 +1,5 @@
 #pragma once
-// The colliders of a model and where they touch.
+// The colliders of a model, and the points at which they touch.
 
 #include <cstdint>
 #include <span>
@@ -17,18 +17,19 @@ struct Model;
 struct ContactForm {
   int body = 0;
   int collider = 0;              ///< index into Model::colliders
-  const Shape* shape = nullptr;  ///< which it is known by, in all worlds that have it
+  const Shape* shape = nullptr;  ///< identifies the form in all worlds that have it
   ConvexSolid solid;
   Vector3 position = Vector3::Zero();  ///< of the shape's origin, the body's own frame [m]
   Quaternion orientation = Quaternion::Identity();  ///< shape frame to own frame
-  double radius =
-      0.0;  ///< of the ball about the shape's origin that contains it [m]; infinite of a half-space
-  double turning_arm =
-      0.0;  ///< how far from the centre of mass a rotation moves its surface out of itself [m]
-  double spread = 0.0;  ///< edge length of the smallest cube it fits in [m]; 0 of a half-space
+  /// Radius of the ball about the shape's origin that contains it [m]; infinite for a half-space
+  double radius = 0.0;
+  /// Largest lever [m] with which a rotation of the body moves the form's surface outwards
+  double turning_arm = 0.0;
+  /// Edge length of the smallest cube that contains the form [m]; 0 for a half-space
+  double spread = 0.0;
 };
 
-/// What a pair of colliders has in common.
+/// The combined settings of a pair of colliders.
 struct ContactMaterial {
   double friction = 0.0;
   double static_friction = 0.0;
@@ -37,11 +38,11 @@ struct ContactMaterial {
   double damping_ratio = 0.0;  ///< of a compliant contact; 1 is critical
 };
 
-/// The damping ratio of a spring that never pulls and throws a mass back at `restitution` times the
-/// speed at which it came; 1 where that would have to be more (engine/contacts/contact.cpp).
+/// The damping ratio of a spring that never pulls and returns a mass with `restitution` times its
+/// speed of arrival; at most 1 (engine/contacts/contact.cpp).
 [[nodiscard]] double damping_ratio_of(double restitution);
 
-/// One manifold and the forms that it lies between; `b` is the later one, or a half-space.
+/// Two forms with a manifold between them. `b` is the form with the larger index, or a half-space.
 struct FormPair {
   int a = 0;
   int b = 0;
@@ -51,9 +52,9 @@ class ContactFinder {
  public:
   ContactFinder(const Model& model, const BodySet& bodies);
 
-  /// Calls `use(pair, manifold)`, until it returns false, for every pair of forms with points that touch or may do so within
-  /// the substep, which is at its start, in ascending order of the pairs. Points may be apart by
-  /// what the motion of the substep can close.
+  /// Calls `use(pair, manifold)` for each pair of forms that touch or may touch within the substep,
+  /// in ascending order of the pairs, until `use` returns false. `substep` must be at its start.
+  /// Points may be apart by as much as the motion of the substep can close.
   template <class Use>
   void find(const Substep& substep, const Use& use) {
     place(substep);
@@ -70,7 +71,7 @@ class ContactFinder {
 
   [[nodiscard]] std::span<const ContactForm> forms() const { return forms_; }
   [[nodiscard]] const ContactMaterial& material(const FormPair& pair) const;
-  /// Acceleration [m/s2] of a body that nothing holds, for gravity and its constant force.
+  /// Acceleration [m/s2] of a body without constraints, by gravity and its constant force.
   [[nodiscard]] const Vector3& free_acceleration(int body) const {
     return accelerations_[at(body)];
   }
@@ -80,7 +81,7 @@ class ContactFinder {
   void exclude_pairs(const Model& model, const BodySet& bodies);
   void combine_materials(const Model& model);
   void place(const Substep& substep);
-  /// How a form goes on as its body moves at the start of the substep.
+  /// The motion of a form in the substep, if its body keeps its velocities of the start.
   [[nodiscard]] SolidMotion motion(const Substep& substep, int form) const;
   [[nodiscard]] bool may_touch(const FormPair& pair) const;
   [[nodiscard]] std::size_t pair_of_colliders(int a, int b) const {

@@ -1,5 +1,5 @@
 #pragma once
-// How a point of contact is kept between substeps.
+// The record of a point of contact in a state.
 
 #include "engine/contacts/contact.h"
 #include "engine/state.h"

@@ -1,5 +1,5 @@
 #pragma once
-// Bodies of which too many touch each other.
+// Detects bodies that touch too many others.
 
 #include <string>
 #include <vector>
@@ -8,21 +8,21 @@
 
 namespace sheave {
 
-/// Finds bodies that are in one place. The rows of n bodies that all touch each other are n^2 and a
-/// dense matrix, which needs memory as n^4: a gigabyte for 40 boxes. In a heap nobody touches more
-/// than 26 others of its size; one large body may touch any number of small ones.
+/// Finds bodies that occupy one place. If all of n bodies touch each other, their n^2 rows give a
+/// dense matrix, whose memory grows as n^4: a gigabyte for 40 boxes. In a heap, no body touches
+/// more than 26 others of its size; one large body may touch any number of small ones.
 class Crowd {
  public:
-  /// A body that touches more others than this is crowded if many of these are, too.
+  /// A body that touches more others than this is crowded if many of these others are crowded, too.
   static constexpr std::size_t most_neighbours = 32;
-  /// The most pairs of crowded bodies that touch each other.
+  /// The largest allowed number of pairs of crowded bodies that touch each other.
   static constexpr int most_pairs = 32;
 
   void begin(int bodies);
-  /// Bodies that cannot move couple nothing.
+  /// Adds a pair that touches. A pair with an immovable body is ignored: it couples no rows.
   void add(const Substep& substep, int body_a, int body_b);
   [[nodiscard]] bool too_many() const { return crowded_ > most_pairs; }
-  /// Which bodies these are; empty unless there are too many.
+  /// The message that names the bodies; empty unless there are too many.
   [[nodiscard]] std::string fault() const;
 
  private:

@@ -1,17 +1,17 @@
-// A cylinder B against anything: each way in which a flat end, a rim or the mantle can touch a
-// corner, an edge, a face, a rim or a mantle gives a direction, and the one with the largest gap
-// counts.
+// A cylinder B against any solid. Each way in which a flat end, a rim or the mantle can touch a
+// corner, an edge, a face, a rim or a mantle gives a candidate direction. The one with the largest
+// gap is used.
 //
 //   flat end       the cylinder's axis
-//   corner         from the nearest point of the cylinder to it
+//   corner         from the nearest point of the cylinder to the corner
 //   mantle, edge   axis x edge
-//   rim, edge      tangent of the rim x edge, at the point of the rim that is nearest to the edge's line
+//   rim, edge      tangent of the rim x edge, at the rim's point nearest to the line of the edge
 //   rim, rim       tangent x tangent, at the nearest points of the two circles
-//   rim, mantle    from the other axis to the point of the rim that is nearest to it
+//   rim, mantle    from the other axis to the rim's point nearest to that axis
 //
-// Nearest points of circles are found by projecting back and forth; where solids overlap deeply
-// these need not be the best ones, so the best direction is improved by a search across it. A
-// direction that is a little off has a gap that is too small by the square of that.
+// Nearest points of circles are found by alternating projections. For solids that overlap deeply,
+// these need not be the best ones, so a search across the best direction improves it. The gap along
+// a direction with a small error is too small by the square of the error.
 
 #include <array>
 #include <cmath>
@@ -86,13 +86,13 @@ class Search {
     try_normal(-normal);
   }
 
-  /// From the best direction uphill, by steps across it that are halved where none helps. What is
-  /// best already by more than rounding, and has a closed form, stays as it is.
+  /// Improves the best direction by steps across it, whose length is halved when no step increases
+  /// the gap. A direction with a closed form remains if steps improve it by rounding only.
   void climb() {
     const double size = a_.solid->radius + b_.solid->radius + (a_.first() - b_.first()).norm();
     for (double step = 0.1; step > 1e-7; step *= 0.5) {
       constexpr int most_moves =
-          1000;  // few are needed, for what is 2 steps away has been tried before
+          1000;  // few are needed: directions two steps away have been tried with the longer step
       bool higher = true;
       for (int move = 0; higher && move < most_moves; ++move) {
         const double before = best_.gap;
@@ -139,7 +139,7 @@ class Search {
       try_both(cross(rim.tangent(on_rim), along));
     }
     if (edge.repeats) return;
-    // Where the edge goes deep into the cylinder, other points of the rim may serve better.
+    // If the edge is deep in the cylinder, other points of the rim may give a larger gap.
     if (!knows_tangents_) find_tangents();
     for (const Vector3& tangent : tangents_) try_both(cross(tangent, along));
   }

@@ -1,7 +1,7 @@
-// Solids with flat faces: the separating axis is the normal of a face, or the cross product of two
-// edges whose arcs on the sphere of normals cross (Gregorius, "The separating axis test between
-// convex polyhedra", 2013). Cost: faces x corners of both, and edges x edges tests of some 20
-// operations; fine for hundreds of edges, slow for thousands.
+// Solids with flat faces. The separating axis is the normal of a face, or the cross product of two
+// edges whose arcs on the Gauss sphere cross (Gregorius, "The separating axis test between convex
+// polyhedra", 2013). Cost: faces x corners of both, and edges x edges tests of some 20 operations;
+// fine for hundreds of edges, slow for thousands.
 
 #include <limits>
 
@@ -24,7 +24,7 @@ void try_faces(const PlacedSolid& own, const PlacedSolid& other, ContactAxis::Ki
   }
 }
 
-/// Whether the arcs a b and c d of unit vectors cross on the sphere.
+/// Whether the arcs a b and c d of unit vectors cross on the unit sphere.
 bool arcs_cross(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d) {
   const Vector3 ba = cross(b, a);
   const Vector3 dc = cross(d, c);
@@ -38,9 +38,8 @@ bool arcs_cross(const Vector3& a, const Vector3& b, const Vector3& c, const Vect
 }  // namespace
 
 ContactAxis axis_of_faces(const PlacedSolid& a, const PlacedSolid& b, double margin) {
-  // Axes of faces give whole faces to stand on, so another kind must be better by more than
-  // rounding could make it; and the choice between two equal ones must not depend on rounding
-  // either.
+  // The normals of faces give whole faces as contacts. Another kind of axis must therefore be
+  // better by more than rounding errors, and so must the second of two equal faces.
   const double size =
       (a.vertices.front() - a.vertices.back()).norm() + (b.first() - b.last()).norm();
   const double preferred = 1e-9 * size;
@@ -54,7 +53,7 @@ ContactAxis axis_of_faces(const PlacedSolid& a, const PlacedSolid& b, double mar
     const Vector3 left = a.face_normal(at(p.left));
     const Vector3 right = a.face_normal(at(p.right));
     for (const ConvexSolid::Edge& q : b.solid->edges) {
-      // The solid that is subtracted counts with its normals turned round.
+      // The Minkowski difference takes B with reversed normals.
       if (!arcs_cross(left, right, -b.face_normal(at(q.left)), -b.face_normal(at(q.right)))) {
         continue;
       }
@@ -66,7 +65,7 @@ ContactAxis axis_of_faces(const PlacedSolid& a, const PlacedSolid& b, double mar
       normal /= sine;
       const Vector3& on_p = a.vertices[at(p.from)];
       const Vector3& on_q = b.vertices[at(q.from)];
-      // Outward of B: the mean of its faces' normals is on that side.
+      // Outwards from B: towards the mean of the adjacent faces' normals.
       if (dot(normal, b.face_normal(at(q.left)) + b.face_normal(at(q.right))) < 0.0)
         normal = -normal;
       const double gap = dot(normal, on_p - on_q);

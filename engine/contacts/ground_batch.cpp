@@ -1,12 +1,12 @@
 // One row per point that can touch the floor: C = n . (p - p0) >= 0 with l in [0, inf), gradient n
-// at p. The points of a body are those its shapes name for the floor's direction at the start of
-// the substep; corners are fixed to the body for the substep, so the gradient is exact. What is
-// round does not turn its lowest point along: of a ball or a capsule it stays right below the
-// centre or the end of the core, of a cylinder the rims' points turn as the axis does, not about
-// it, so that no force turns it about its axis. (Fixed to the body they would be off the middle by
-// r w h when the floor stops a fall at the speed v, which makes a cylinder spin by 2 v w h / r.) A
-// rotor on a fixed axle cannot fall and has no points; a mounted rotor's shape counts as part of
-// its carrier.
+// at p. The shapes of a body give its points for the floor's direction at the start of the substep.
+// Corners are fixed to the body for the substep, so the gradient is exact. The lowest point of a
+// round form does not turn with the body: for a ball or a capsule it stays below the centre or the
+// end of the core. The rim points of a cylinder turn with its axis, not about it, so that no force
+// turns the cylinder about its axis. (Points fixed to the body would be off the middle by r w h
+// when the floor stops a fall at the speed v, and a cylinder would gain the spin 2 v w h / r.) A
+// rotor on a fixed axle cannot fall and has no points. The shape of a mounted rotor belongs to its
+// carrier.
 
 #include "engine/contacts/ground_batch.h"
 
@@ -62,7 +62,7 @@ class GroundBatch final : public ConstraintBatch {
         if (contact.surface == Surface::corners) continue;
         round_reach = std::max(round_reach, contact.point.norm() + owner.radius);
       }
-      // The lowest point of what is round off its centre of mass comes farther from it as it turns.
+      // The lowest point of a round form moves away from the centre of mass as the body turns.
       owner.reach = std::max(std::sqrt(reach_squared), round_reach);
       owner.near = may_come_near(substep, owner);
     }
@@ -72,8 +72,8 @@ class GroundBatch final : public ConstraintBatch {
     double correction = 0.0;
     Row row;
     for (Owner& owner : owners_) {
-      // One look at a shape that is nowhere near the floor; not from where a point of it has been
-      // pushed.
+      // One test for a shape that is far from the floor. A shape with a point that has been pushed
+      // is always evaluated.
       if (!owner.touches && height(substep.position(owner.body)) > owner.reach) continue;
       for (std::size_t i = owner.first; i < owner.first + owner.count; ++i) {
         row.clear();
@@ -89,8 +89,8 @@ class GroundBatch final : public ConstraintBatch {
 
   void linearise(Substep& substep, RowList& rows) override {
     for (Owner& owner : owners_) {
-      // A row that appears in the middle of a substep has no start there, and rattle leaves that
-      // substep to xpbd.
+      // A row that appears in the middle of a substep has no value at the start; `rattle` leaves
+      // such a substep to `xpbd`.
       owner.near = owner.near || height(substep.position(owner.body)) <= owner.reach;
       if (!owner.near) continue;
       for (std::size_t i = owner.first; i < owner.first + owner.count; ++i) {
@@ -125,8 +125,8 @@ class GroundBatch final : public ConstraintBatch {
     }
   }
 
-  // Of a shape that slides and does not turn all points move alike: the lowest alone can touch.
-  // What else moves has no force as long as it ends a substep above the floor.
+  // Affine substeps. All points of a shape that slides without turning move alike, so only the
+  // lowest can touch. Other bodies have no force as long as they end a substep above the floor.
   bool append_affine(const AffineBodies& bodies, AffineRows& rows) override {
     sliding_.clear();
     above_ = DirectSolver::closed * bodies.set().scale();
@@ -169,7 +169,7 @@ class GroundBatch final : public ConstraintBatch {
         if (!(height > above_)) return false;
         continue;
       }
-      // What has fallen so far at once has no row at the start: see linearise().
+      // A body that was too far to have a row at the start has fallen this far: see linearise().
       if (!body.near && height + body.below <= body.reach) return false;
       const auto first = next.reals.begin() + static_cast<std::ptrdiff_t>(owners_[i].first);
       std::fill_n(first, owners_[i].count, 0.0);
@@ -187,38 +187,40 @@ class GroundBatch final : public ConstraintBatch {
   enum class Surface { corners, ball, cylinder };
   struct Contact {
     int body;
-    Vector3 point;         // own frame [m], set in begin(); of what is round that of the core
-    bool pressed = false;  // in the last substep
+    Vector3 point;         // own frame [m], set in begin(); for round forms a point of the core
+    bool pressed = false;  // whether it had a force in the last substep
     Surface surface = Surface::corners;
     double radius = 0.0;                 // of a ball [m]
     Vector3 own_axis = Vector3::Zero();  // of a cylinder, own frame
-    // At the start of the substep:
+    // The following are values at the start of the substep.
     Vector3 axis = Vector3::Zero();
-    Vector3 offset = Vector3::Zero();  // from the core [m]
+    Vector3 offset = Vector3::Zero();  // from the core to the surface [m]
   };
   struct Owner {
     int body;
     const PlacedShape* shape;
     Vector3 center_of_mass;  // body frame
-    std::size_t first = 0;   // of its contacts
+    std::size_t first = 0;   // index of its first contact
     std::size_t count = 0;
     double reach =
-        0.0;  // largest distance of a contact's point from the centre of mass [m], in this substep
-    bool touches = false;  // one of its multipliers may not be 0
-    bool near = false;     // may touch the floor in this substep, as far as its speed tells
+        0.0;  // largest distance of a contact's point from the centre of mass in this substep [m]
+    bool touches = false;  // whether one of its multipliers may differ from 0
+    bool near = false;     // whether its speed allows it to touch the floor in this substep
     Surface surface = Surface::corners;
-    double radius = 0.0;  // of what is round [m]
+    double radius = 0.0;  // radius of a round form [m]
   };
 
-  /// A body of one number: its lowest point is at `lowest` + `along` times that above the floor.
+  /// A body with one coordinate q: its lowest point is at the height `lowest` + `along` times q
+  /// above the floor.
   struct Sliding {
     int number = 0;
     double along = 0.0;
-    double lowest = 0.0;  ///< [m]
-    int contact = -1;     ///< the lowest one; -1: it may be another, or none is ever reached
-    double below = 0.0;   ///< the centre of mass is so far above it [m]
-    double reach = 0.0;   ///< of Owner
-    bool near = false;    ///< likewise
+    double lowest = 0.0;  ///< height at q = 0 [m]
+    /// Index of the lowest contact; -1: it changes, or the body never reaches the floor
+    int contact = -1;
+    double below = 0.0;  ///< height of the centre of mass above the lowest point [m]
+    double reach = 0.0;  ///< Owner::reach [m]
+    bool near = false;   ///< Owner::near
   };
 
   [[nodiscard]] Sliding slide(const AffineBodies& bodies, const Owner& owner) {
@@ -232,7 +234,7 @@ class GroundBatch final : public ConstraintBatch {
                           along * dot(bodies.axis(number), initial.bodies[at(body)].position);
     Sliding sliding{number, along};
     if (mount >= 0) {
-      // As it may turn.
+      // An upper bound for all angles of the rotor.
       sliding.below = (owner.shape->position - owner.center_of_mass).norm() +
                       owner.shape->shape->half_extent().norm();
     } else {
@@ -243,7 +245,7 @@ class GroundBatch final : public ConstraintBatch {
         depths.push_back(-dot(normal_, initial.bodies[at(body)].orientation * point));
         sliding.reach = std::max(sliding.reach, point.norm());
       }
-      // Of points that rounding alone tells apart the first bears the load, as by the stages.
+      // Among points that differ by rounding only, the first bears the load, as in the stages.
       const double rounding = RowSystem::value_rounding * set.scale();
       double deepest = -std::numeric_limits<double>::infinity();
       std::size_t lowest = 0;
@@ -252,7 +254,7 @@ class GroundBatch final : public ConstraintBatch {
         deepest = std::max(deepest, depths[i]);
       }
       sliding.below = depths.empty() ? 0.0 : depths[lowest];
-      // On a level rail nothing of it yields to the floor.
+      // A body on a level rail does not yield to the floor.
       constexpr double level = 1e-12;
       if (std::abs(along) > level && !depths.empty()) {
         sliding.contact = static_cast<int>(owner.first + lowest);
@@ -277,7 +279,7 @@ class GroundBatch final : public ConstraintBatch {
   }
 
   static void find_surface(const BodySet& bodies, Owner& owner) {
-    // What only slides does not turn.
+    // A slider does not turn.
     if (bodies[owner.body].mount < 0 && bodies[owner.body].mobility == Mobility::slider) return;
     const ConvexSolid solid = owner.shape->shape->solid();
     owner.radius = solid.radius;
@@ -306,7 +308,7 @@ class GroundBatch final : public ConstraintBatch {
     contact.offset = rotated(orientation, point - contact.point);
   }
 
-  /// Twice its size above the floor leaves room for what the substep adds to the speed.
+  /// The factor 2 allows for the speed that the body gains in the substep.
   [[nodiscard]] bool may_come_near(const Substep& substep, const Owner& owner) const {
     const double above = height(substep.position(owner.body));
     const int mount = substep.bodies[owner.body].mount;
@@ -335,9 +337,10 @@ class GroundBatch final : public ConstraintBatch {
     }
     Vector3 spin = Vector3::Zero();
     if (contact.surface == Surface::cylinder) {
-      // By the smallest rotation that takes the axis there.
+      // The offset turns by the smallest rotation that takes the axis from its start to its present
+      // direction.
       const Vector3 axis = rotated(substep.orientation(contact.body), contact.own_axis);
-      const double facing = 1.0 + dot(axis, contact.axis);  // 0 where it is turned over
+      const double facing = 1.0 + dot(axis, contact.axis);  // 0 if the axis has been reversed
       const double tilt = facing > 1e-9 ? dot(axis, contact.offset) / facing : 0.0;
       const Vector3 offset = contact.offset - tilt * (contact.axis + axis);
       spin = axis * dot(axis, cross(offset, normal_));
@@ -351,8 +354,8 @@ class GroundBatch final : public ConstraintBatch {
   Vector3 point_;
   Vector3 normal_;
   std::vector<Owner> owners_;
-  double above_ = 0.0;            // [m], below it `rattle` counts a row as closed
-  std::vector<Sliding> sliding_;  // per owner, where all bodies have one number
+  double above_ = 0.0;            // height [m] below which `rattle` counts a row as closed
+  std::vector<Sliding> sliding_;  // per owner, if all bodies have one coordinate
   std::vector<Contact> contacts_;
   std::vector<Vector3> points_;      // scratch
   std::vector<double> multipliers_;  // scratch

@@ -1,6 +1,6 @@
-// Given the normal, each solid offers what it turns towards the other: a face, an edge or a line,
-// or a point. A face clips what lies above it to the prism over itself (Sutherland and Hodgman
-// 1974); two lines touch along what they share if they are parallel, and in one point otherwise.
+// Given the normal, each solid presents a side to the other: a face, a line or a point. A side
+// above a face is clipped to the prism over the face (Sutherland and Hodgman 1974). Two lines touch
+// along their common part if they are parallel, else in one point.
 
 #include "engine/contacts/manifold.h"
 
@@ -14,25 +14,25 @@
 namespace sheave {
 namespace {
 
-/// Cosines and sines of the angle within which a flat or a straight side of a cylinder counts as
-/// facing the other solid.
+/// Limits for a cylinder's side: cosine of the angle within which a flat end faces the other solid,
+/// and sine of the angle within which its mantle does.
 constexpr double faces_it = 0.99;
 constexpr double lies_along_it = 0.02;
-/// How many points span an area.
+/// Number of points that span an area.
 constexpr std::size_t spread_points = 4;
-/// Slope up to which points lie in one plane: far above what rounding tilts a body by, far below
-/// the angle between the sides of the roundest prism.
+/// Slope below which points are taken to lie in one plane: far above the tilt that rounding causes,
+/// far below the angle between the sides of the roundest prism.
 constexpr double flat = 1e-6;
 
-/// What a solid turns towards a direction.
+/// The part of a solid that faces a direction.
 struct Side {
   std::vector<Vector3> points;       // of the core: 1, 2, or the corners of a face in order
-  Vector3 normal = Vector3::Zero();  // of the face, outward
+  Vector3 normal = Vector3::Zero();  // outward normal of a face
   double radius = 0.0;
   [[nodiscard]] bool is_face() const { return points.size() > 2; }
 };
 
-/// The face that looks most along `direction`.
+/// Index of the face whose normal is closest to `direction`.
 std::size_t best_face(const PlacedSolid& solid, const Vector3& direction) {
   std::size_t best = 0;
   double most = -2.0;
@@ -54,10 +54,10 @@ Side face_side(const PlacedSolid& solid, std::size_t face) {
   return side;
 }
 
-/// A flat end of a cylinder as an octagon, the point of the rim that is deepest among its corners.
+/// A flat end of a cylinder as an octagon with the deepest point of the rim as a corner.
 Side end_side(const PlacedSolid& cylinder, const Vector3& center, const Vector3& outward,
               const Vector3& direction) {
-  // Below this slope the end is flat and any corner is the deepest.
+  // Below this slope the end is level, and no corner is distinguished.
   constexpr double level = 1e-6;
   Side side;
   side.normal = outward;
@@ -80,7 +80,7 @@ Vector3 rim_point(const PlacedSolid& cylinder, const Vector3& center, const Vect
                       (length > 0.0 ? Vector3(out / length) : Vector3(cylinder.rotation.col(0)));
 }
 
-/// What a cylinder turns towards a direction.
+/// The side of a cylinder that faces `direction`.
 Side cylinder_side(const PlacedSolid& cylinder, const Vector3& direction) {
   const double along = dot(cylinder.axis(), direction);
   const Vector3& center = along < 0.0 ? cylinder.first() : cylinder.last();
@@ -97,21 +97,21 @@ Side cylinder_side(const PlacedSolid& cylinder, const Vector3& direction) {
   return side;
 }
 
-/// What a solid turns towards `direction`; of one with faces always a face.
+/// The side of a solid that faces `direction`; always a face if the solid has faces.
 Side side_towards(const PlacedSolid& solid, const Vector3& direction) {
   if (solid.is(ConvexSolid::Kind::cylinder)) return cylinder_side(solid, direction);
   if (solid.solid->faces.empty()) return {solid.vertices, Vector3::Zero(), solid.solid->radius};
   return face_side(solid, best_face(solid, direction));
 }
 
-/// The part of points (a point, a line or a convex polygon) above a face.
+/// Clips a point, a line or a convex polygon to the prism over a face.
 void clip(std::vector<Vector3>& points, const Side& face) {
   std::vector<Vector3> kept;
   for (std::size_t i = 0; i < face.points.size(); ++i) {
     const Vector3& from = face.points[i];
     const Vector3 edge = face.points[(i + 1) % face.points.size()] - from;
     const Vector3 inward = cross(face.normal, edge).normalized();
-    // What lies on the border by rounding stays as it is.
+    // Points outside the border by rounding are kept unchanged.
     const double border = -1e-9 * edge.norm();
     kept.clear();
     const std::size_t count = points.size();
@@ -129,12 +129,12 @@ void clip(std::vector<Vector3>& points, const Side& face) {
   }
 }
 
-/// Contacts of what lies above a face. `above_is_a`: whether the face is that of B.
+/// Appends the contacts of a side above a face. `above_is_a`: the face is that of B.
 void stand_on_face(const Side& above, const Side& face, bool above_is_a, double margin,
                    Manifold& manifold) {
   std::vector<Vector3> points = above.points;
   clip(points, face);
-  // Along the manifold's normal, which need not be the face's.
+  // Measured along the manifold's normal, which may differ from the face's.
   const Vector3 up = above_is_a ? manifold.normal : Vector3(-manifold.normal);
   const double slope = dot(up, face.normal);
   for (const Vector3& point : points) {
@@ -150,8 +150,8 @@ void stand_on_face(const Side& above, const Side& face, bool above_is_a, double 
   }
 }
 
-/// The same of the side that a solid turns towards the face now, in the direction `down`, and, if
-/// another one is nearer to it when both have moved, of that, which is in the direction `later`.
+/// As above, for the side of `above` that now faces `down`, and also for the side that faces
+/// `later`, the direction of the face relative to the solid after the motion of the substep.
 void stand_on_face(const PlacedSolid& above, const Vector3& down, const Vector3& later,
                    const Side& face, bool above_is_a, double margin, Manifold& manifold) {
   stand_on_face(side_towards(above, down), face, above_is_a, margin, manifold);
@@ -159,7 +159,7 @@ void stand_on_face(const PlacedSolid& above, const Vector3& down, const Vector3&
   const std::size_t now = best_face(above, down);
   const std::size_t next = best_face(above, later);
   if (next == now) return;
-  // Sides with an edge in common have its corners twice.
+  // Two sides with a common edge share its corners.
   const std::size_t first = manifold.points.size();
   stand_on_face(face_side(above, next), face, above_is_a, margin, manifold);
   const auto begin = manifold.points.begin();
@@ -178,7 +178,7 @@ void add_pair(const Side& a, const Side& b, const Vector3& p, const Vector3& q, 
   if (gap <= margin) manifold.points.push_back({p, q, a.radius, b.radius, gap});
 }
 
-/// Points and lines.
+/// Appends the contacts of points and lines.
 void cross_lines(const Side& a, const Side& b, double margin, Manifold& manifold) {
   constexpr double parallel = 0.02;  // sine of the angle
   const Vector3& p0 = a.points.front();
@@ -204,7 +204,7 @@ void cross_lines(const Side& a, const Side& b, double margin, Manifold& manifold
   add_pair(a, b, p, q, margin, manifold);
 }
 
-/// Of a solid above a half-space: every point of it that may touch.
+/// All points of a solid that may touch a half-space.
 Side all_points(const PlacedSolid& solid, const Vector3& direction) {
   if (!solid.is(ConvexSolid::Kind::cylinder)) {
     return {solid.vertices, Vector3::Zero(), solid.solid->radius};
@@ -230,7 +230,7 @@ void stand_on_half_space(const PlacedSolid& a, const PlacedSolid& b, double marg
   }
 }
 
-/// Where no face of a solid looks along `direction` it touches with an edge or a corner.
+/// Reduces a side to an edge or a corner if no face is perpendicular to `direction`.
 void shrink_to_edge(const PlacedSolid& solid, const Vector3& direction, Side& side) {
   if (!side.is_face() || dot(side.normal, direction) > 1.0 - 1e-6 ||
       solid.is(ConvexSolid::Kind::cylinder)) {
@@ -248,11 +248,11 @@ void shrink_to_edge(const PlacedSolid& solid, const Vector3& direction, Side& si
   side.points = {extreme};
 }
 
-/// Four that span about the same area as all, among points that are apart.
+/// Four points that span about the same area as all, chosen from points at a distance.
 std::vector<std::size_t> spanning_points(const Manifold& manifold, double size) {
   const std::vector<ContactPoint>& points = manifold.points;
-  // The corners of two squares that are turned against each other by a little come in pairs. One of
-  // each will do, and then it is no matter of rounding which four are kept.
+  // The corners of two squares that are slightly rotated against each other come in pairs. One of
+  // each pair is sufficient, and the choice of four then does not depend on rounding.
   std::vector<std::size_t> apart;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (std::none_of(apart.begin(), apart.end(), [&](std::size_t other) {
@@ -263,7 +263,7 @@ std::vector<std::size_t> spanning_points(const Manifold& manifold, double size) 
   }
   if (apart.size() <= spread_points) return apart;
   const auto position = [&](std::size_t i) -> const Vector3& { return points[apart[i]].core_a; };
-  // Of points as deep as each other the first one, whatever rounding says.
+  // Among points of equal depth the first is chosen, independent of rounding.
   std::size_t deepest = 0;
   for (std::size_t i = 1; i < apart.size(); ++i) {
     if (points[apart[i]].gap < points[apart[deepest]].gap - 1e-3 * size) deepest = i;
@@ -283,9 +283,9 @@ std::vector<std::size_t> spanning_points(const Manifold& manifold, double size) 
           apart[farthest([&](const Vector3& p) { return -dot(across, p - origin); })]};
 }
 
-/// Those on which it will come to lie: the lowest one, the first one that it meets when it tips about
-/// that, and the first ones when it tips about the line through both to either side. Of what it
-/// meets at once, as on a flat side, the farthest.
+/// The points on which a tilted solid comes to rest: the lowest one, the first one that it meets
+/// when it tips about the lowest, and the first ones to either side when it tips about the line
+/// through both. Among points met at the same time, as on a flat side, the farthest is chosen.
 std::vector<std::size_t> bearing_points(const Manifold& manifold, double size) {
   const std::vector<ContactPoint>& points = manifold.points;
   std::size_t lowest = 0;
@@ -294,7 +294,7 @@ std::vector<std::size_t> bearing_points(const Manifold& manifold, double size) {
   }
   std::vector<std::size_t> found{lowest};
   const Vector3 origin = points[lowest].core_a;
-  // The point with the least rise per distance; `rise` and `distance` are functions of its number.
+  // The point with the least rise per distance; `rise` and `distance` are functions of its index.
   const auto first_met = [&](const auto& rise, const auto& distance) -> std::optional<std::size_t> {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -351,7 +351,7 @@ void reduce_points(Manifold& manifold) {
 
 namespace {
 
-/// Of two solids that are both bounded.
+/// Finds the contacts of two bounded solids.
 void meet_solids(const PlacedSolid& a, const PlacedSolid& b, double margin,
                  const SolidMotion& motion_a, const SolidMotion& motion_b, Manifold& manifold) {
   const ContactAxis axis = contact_axis(a, b, margin);
@@ -389,7 +389,8 @@ void meet_solids(const PlacedSolid& a, const PlacedSolid& b, double margin,
     }
   }
   if (manifold.points.empty() && axis.gap <= 0.0) {
-    // Overlapping, and clipping has found no point by rounding: where each reaches deepest.
+    // The solids overlap, but rounding left no point after clipping: take the deepest point of
+    // each.
     Side side_a{{a.vertices[a.extreme(down)]}, {}, a.round_reach(down)};
     Side side_b{{b.vertices[b.extreme(axis.normal)]}, {}, b.round_reach(axis.normal)};
     cross_lines(side_a, side_b, margin, manifold);

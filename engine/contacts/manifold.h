@@ -1,5 +1,5 @@
 #pragma once
-// The points in which two solids touch or are about to.
+// The points at which two solids touch or are about to touch.
 
 #include <vector>
 
@@ -8,23 +8,22 @@
 namespace sheave {
 
 /// A pair of points of the two cores, one above the other along the manifold's normal. The points
-/// that touch lie on the surfaces: core_a - radius_a n and core_b + radius_b n. Bodies turn about
-/// contacts by way of the cores, so that a ball rolls on its surface and not on the corner that a
-/// fixed point of it would be.
+/// that touch are on the surfaces: core_a - radius_a n and core_b + radius_b n. Rows use the core
+/// points, so a ball rolls on its surface; a fixed point of the surface would act as a corner.
 struct ContactPoint {
   Vector3 core_a = Vector3::Zero();  ///< [m], world frame
   Vector3 core_b = Vector3::Zero();
   double radius_a = 0.0;  ///< [m]
   double radius_b = 0.0;
   double gap = 0.0;  ///< n . (core_a - core_b) - radius_a - radius_b [m]; < 0: overlap
-  double due = 0.0;  ///< the gap at the end of the substep, if both solids go on as they move [m]
+  double due = 0.0;  ///< gap at the end of the substep if both solids keep their velocities [m]
 };
 
-/// How a solid goes on.
+/// A rigid displacement of a solid.
 struct SolidMotion {
-  Vector3 center = Vector3::Zero();    ///< about which it turns [m], world frame
-  Vector3 way = Vector3::Zero();       ///< of that point [m]
-  Matrix3 turn = Matrix3::Identity();  ///< world frame
+  Vector3 center = Vector3::Zero();    ///< centre of the rotation [m], world frame
+  Vector3 way = Vector3::Zero();       ///< displacement of the centre [m]
+  Matrix3 turn = Matrix3::Identity();  ///< rotation, world frame
   [[nodiscard]] Vector3 moved(const Vector3& point) const {
     return center + way + times(turn, point - center);
   }
@@ -36,17 +35,18 @@ struct Manifold {
   std::vector<ContactPoint> points;   ///< at most most_points
 };
 
-/// The points of A and B whose gap is at most `margin` [m]. A half-space must be B. Of flat sides
-/// that lie on one another the corners of their overlap, four that span it; of round ones the ends
-/// of the line, or the point, in which they touch; of what is nearly round, such as a prism of many
-/// sides, the corner that will be nearest at the end of the substep, and those beside it.
+/// Finds the points of A and B whose gap is at most `margin` [m]. A half-space must be B. Flat
+/// sides touch at four corners that span their overlap. Round sides touch at a point, or at the
+/// ends of a line. Nearly round forms, such as a prism with many sides, also touch at the corner
+/// that will be nearest at the end of the substep, and at those beside it.
 void find_contacts(const PlacedSolid& a, const PlacedSolid& b, double margin, Manifold& manifold,
                    const SolidMotion& motion_a = {}, const SolidMotion& motion_b = {});
 
-/// Keeps at most most_points of the points: four that span about the same area, the deepest, the one
-/// farthest from it, and the farthest to both sides of the line between them; and, where the solids
-/// do not lie flat on each other, those on which they will come to lie: the one with the least
-/// ContactPoint::due, and those that are next if they tip about it.
+/// Keeps at most most_points of the points. Four of them span about the same area as all: the
+/// deepest, the one farthest from it, and the farthest to both sides of the line between these two.
+/// If the solids are tilted relative to each other, the points on which they will come to rest are
+/// kept, too: the one with the least ContactPoint::due, and the next ones when the solid tips about
+/// it.
 void reduce_points(Manifold& manifold);
 
 }  // namespace sheave

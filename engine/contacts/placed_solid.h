@@ -1,5 +1,5 @@
 #pragma once
-// A convex solid where it is now, with what contacts ask of it.
+// A convex solid at its present pose, with the queries that contacts need.
 
 #include <cmath>
 #include <vector>
@@ -13,7 +13,7 @@ namespace sheave {
 struct PlacedSolid {
   const ConvexSolid* solid = nullptr;
   Matrix3 rotation = Matrix3::Identity();
-  std::vector<Vector3> vertices;  ///< of the core
+  std::vector<Vector3> vertices;  ///< corners of the core
 
   void place(const ConvexSolid& form, const Vector3& position, const Quaternion& orientation) {
     solid = &form;
@@ -24,7 +24,7 @@ struct PlacedSolid {
     }
   }
   [[nodiscard]] bool is(ConvexSolid::Kind kind) const { return solid->kind == kind; }
-  /// A ball or a capsule.
+  /// Whether the solid is a ball or a capsule.
   [[nodiscard]] bool is_round() const {
     return is(ConvexSolid::Kind::rounded) && solid->faces.empty();
   }
@@ -41,7 +41,7 @@ struct PlacedSolid {
   [[nodiscard]] Vector3 edge_vector(const ConvexSolid::Edge& edge) const {
     return vertices[at(edge.to)] - vertices[at(edge.from)];
   }
-  /// The corner of the core that is farthest along `direction`.
+  /// Index of the core's corner that is farthest along `direction`.
   [[nodiscard]] std::size_t extreme(const Vector3& direction) const {
     std::size_t best = 0;
     double farthest = dot(direction, vertices.front());
@@ -53,8 +53,7 @@ struct PlacedSolid {
     }
     return best;
   }
-  /// How far the radius reaches beyond the core along a unit vector: all of it, or what the rim of
-  /// a cylinder does.
+  /// The extent beyond the core along a unit vector: the radius, or for a cylinder that of its rim.
   [[nodiscard]] double round_reach(const Vector3& direction) const {
     if (!is(ConvexSolid::Kind::cylinder)) return solid->radius;
     const double along = dot(direction, axis());
@@ -66,9 +65,9 @@ struct PlacedSolid {
   }
 };
 
-/// The distance along the unit vector `normal` by which `a` lies beyond `b`; negative if they
-/// overlap as seen along it. The largest over all directions is the distance of convex solids, or
-/// minus the depth of their overlap.
+/// The distance between the supporting planes of `a` and `b` along the unit vector `normal`;
+/// negative if their projections overlap. The largest value over all directions is the distance of
+/// convex solids, or minus the depth of their overlap.
 [[nodiscard]] inline double gap_along(const PlacedSolid& a, const PlacedSolid& b,
                                       const Vector3& normal) {
   return -a.reach(-normal) - b.reach(normal);

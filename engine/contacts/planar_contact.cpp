@@ -5,7 +5,7 @@
 namespace sheave {
 namespace {
 
-/// Farther apart than this share of the smaller form, points are not behind one another.
+/// Largest distance across the axis, relative to the smaller form, of points behind one another.
 constexpr double same_place = 1e-6;
 
 bool has_plane(const BodySet& bodies, int body) {

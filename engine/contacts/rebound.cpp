@@ -1,18 +1,18 @@
-// Newton's law for impacts, v+ = -e v-, with v- the normal velocity that points of contact would
-// have at the end of the substep if nothing had touched. Where the law holds in all of them with
-// impulses m >= 0, the energy changes by
+// Newton's law of restitution, v+ = -e v-, where v- is the normal velocity at the end of the
+// substep that points of contact would have without any contact. If the law holds at all points
+// with impulses m >= 0, the energy changes by
 //   m . (v+ + v-) / 2 = (1 - e) m . v- / 2 <= 0,
-// so that no bounce makes any, however many meet. (The approach at the start would not do: bodies
-// turn in a substep.)
+// so no rebound creates energy, for any number of simultaneous impacts. (With the approach velocity
+// at the start this would not hold, because bodies turn in a substep.)
 //
-// v- is reached at the depth c < 0 beyond the surface, under the acceleration a. The impact was at
-// v_i^2 = v-^2 - 2 a c, the time 2 c / (v- + v_i) ago, and since then the rebound e v_i has been
-// slowed by a. `xpbd` keeps the mean velocity of the substep, which is by a h / 2 less.
+// v- is reached at the depth c < 0 below the surface, under the acceleration a. The impact had
+// v_i^2 = v-^2 - 2 a c and was the time 2 c / (v- + v_i) ago. Since then a has changed the rebound
+// e v_i. `xpbd` stores the mean velocity of the substep, which is less by a h / 2.
 //
-// Substeps of `rattle` with an impact are left to `xpbd`: multipliers along the gradients of the
-// start would bounce a body that turns off places where it no longer is. Impulses, found by sweeps,
-// bring points that bounce to that velocity and keep those that are pressed from falling; friction
-// takes its share. With those of the positions, l / h, no impulse pulls.
+// `rattle` leaves substeps with an impact to `xpbd`: multipliers along the gradients of the start
+// would act on a turning body at points where it no longer is. Sweeps find the impulses, bring
+// rebounding points to their velocity, keep pressed points from approaching, and include friction.
+// Their sum with the positions' impulses l / h never pulls.
 
 #include "engine/contacts/rebound.h"
 
@@ -46,12 +46,12 @@ void push(Substep& substep, const Row& row, const RowResponse& response, double 
   }
 }
 
-/// How far the mean velocity of a substep is behind that of its end.
+/// The velocity at the end of a substep minus its mean velocity.
 double lag(const Substep& substep, const Contact& contact) {
   return contact.mean_velocities ? 0.5 * substep.h * contact.acceleration : 0.0;
 }
 
-/// The normal velocity at the end of the substep after an impact, from that without it.
+/// The normal velocity at the end of the substep after an impact, from the velocity without it.
 double rebound_from(const Substep& substep, const Contact& contact, double free_velocity) {
   const double a = contact.acceleration;
   const double h = substep.h;
@@ -83,7 +83,7 @@ void Rebound::collect(const Substep& substep, std::span<const Contact> contacts,
                       std::span<const double> multipliers) {
   impacts_.clear();
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    // Springs push through the substep, whatever meets beside them.
+    // Compliant contacts act by their springs throughout the substep, also during impacts.
     if (!(multipliers[3 * i] > 0.0) || contacts[i].compliance > 0.0) continue;
     Impact& impact = impacts_.emplace_back();
     impact.contact = i;
@@ -120,7 +120,7 @@ void Rebound::find_rebounds(Substep& substep, std::span<Contact> contacts,
 }
 
 double Rebound::rub(Substep& substep, const Impact& impact, double limit, double* multipliers) {
-  // The force that would stop the slip, along one or both tangents, as far as the limit lets.
+  // The impulse that would stop the slip, along one or both tangents, limited in its norm.
   double w = 0.0;
   for (std::size_t k = 1; k < impact.rows.size(); ++k) {
     w = std::max(w, impact.responses[k].inverse_mass);

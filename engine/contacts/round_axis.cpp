@@ -1,7 +1,7 @@
-// Balls and capsules: all points within a radius of a core, so their distance is that of the cores
-// less the radii, along the line between the nearest points of the cores. Where a core lies inside
-// a solid with faces that line does not exist; the shortest way out is along a face's normal or
-// across an edge.
+// Balls and capsules consist of all points within a radius of a core. Their distance is that of the
+// cores less the radii, along the line between the nearest points of the cores. If a core is partly
+// inside a solid with faces, that line does not exist; the shortest way out is along a face's
+// normal or across an edge.
 
 #include <algorithm>
 #include <limits>
@@ -11,8 +11,7 @@
 namespace sheave {
 namespace {
 
-/// The part of a segment, as shares of it, that lies inside a solid with faces; empty if begin >
-/// end.
+/// The part of a segment inside a solid with faces, as shares of the segment; empty if begin > end.
 struct Inside {
   double begin = 0.0;
   double end = 1.0;
@@ -43,7 +42,7 @@ bool above_face(const PlacedSolid& solid, std::size_t face, const Vector3& point
   return true;
 }
 
-/// The shortest way out of a solid with faces for a core that reaches into it.
+/// The shortest way out of a solid with faces, for a core that is partly inside.
 ContactAxis way_out(const PlacedSolid& a, const PlacedSolid& b) {
   ContactAxis best;
   best.gap = -std::numeric_limits<double>::infinity();
@@ -62,7 +61,7 @@ ContactAxis way_out(const PlacedSolid& a, const PlacedSolid& b) {
     for (const double side : {1.0, -1.0}) {
       const Vector3 along = side * normal;
       const double gap = gap_along(a, b, along);
-      // An edge between faces that serve as well only adds rounding.
+      // An edge that is only as good as a face adds rounding errors.
       if (!(gap > best.gap + 1e-9 * std::abs(best.gap))) continue;
       const auto [p, q] =
           nearest_points(a.first(), a.last(), b.vertices[at(edge.from)], b.vertices[at(edge.to)]);
@@ -76,7 +75,7 @@ ContactAxis way_out(const PlacedSolid& a, const PlacedSolid& b) {
 
 NearestPoints nearest_points(const Vector3& p0, const Vector3& p1, const Vector3& q0,
                              const Vector3& q1) {
-  // Minimise |p0 + s u - q0 - t w|^2 over the unit square (Ericson, "Real-Time Collision
+  // Minimises |p0 + s u - q0 - t w|^2 over the unit square (Ericson, "Real-Time Collision
   // Detection", 5.1.9).
   const Vector3 u = p1 - p0;
   const Vector3 w = q1 - q0;
@@ -93,7 +92,7 @@ NearestPoints nearest_points(const Vector3& p0, const Vector3& p1, const Vector3
     if (determinant > 1e-12 * uu * ww) {
       s = std::clamp((uw * wd - ww * ud) / determinant, 0.0, 1.0);
     } else {
-      // Parallel: the middle of what they share, seen from P.
+      // Parallel segments: the middle of the part of P beside Q.
       const double from = -ud / uu;
       const double to = (uw - ud) / uu;
       s = 0.5 *
@@ -123,7 +122,7 @@ ContactAxis axis_of_round(const PlacedSolid& a, const PlacedSolid& b) {
     axis.gap = distance - radii;
     return axis;
   }
-  // The cores meet: across both, or across one, or anywhere.
+  // The cores meet: the normal is across both, or across one, or arbitrary.
   Vector3 across = cross(a.last() - a.first(), b.last() - b.first());
   if (!(across.norm() > 1e-9 * radii * radii)) {
     const Vector3 along =
@@ -157,7 +156,7 @@ ContactAxis axis_of_round_and_faces(const PlacedSolid& a, const PlacedSolid& b) 
         nearest_points(a.first(), a.last(), b.vertices[at(edge.from)], b.vertices[at(edge.to)]);
     const Vector3 between = p - q;
     const double distance = between.norm();
-    // A face that is as near is the better choice: its normal has no rounding of a difference.
+    // An equally near face is preferred, because its normal is not computed from a difference.
     if (!(distance < nearest * (1.0 - 1e-9))) continue;
     if (!(distance > 1e-9 * radius)) return way_out(a, b);
     nearest = distance;

@@ -2,7 +2,8 @@
 // The hold of a joint that was released and has been locked.
 //
 // A locked joint constrains the degrees of freedom of its type, starting from the poses of its
-// bodies at that time. Neither positions nor coordinates jump. The hold changes the definition of the joint as little as possible:
+// bodies at that time. Neither positions nor coordinates jump. The hold changes the
+// definition of the joint as little as possible:
 //
 //   with a common anchor   A's anchor moves to the present place of B's anchor; along the free
 //                          directions the distance of the anchors is kept. A's axes become those
