@@ -1,11 +1,11 @@
 #pragma once
-// The bits of numbers. std::bit_cast would do, but emscripten's library does not have it yet.
+// The bits of numbers. std::bit_cast would be enough, but emscripten's library lacks it.
 
 #include <cstdint>
 
 namespace sheave {
 
-/// As IEEE 754 lays them out: sign, 11 bits of exponent, 52 of mantissa.
+/// The IEEE 754 layout: sign, 11 bits of exponent, 52 bits of mantissa.
 [[nodiscard]] constexpr std::uint64_t bits_of(double x) {
   return __builtin_bit_cast(std::uint64_t, x);
 }

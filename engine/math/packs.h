@@ -1,9 +1,10 @@
 #pragma once
-// Loops that are compiled twice, for pairs of doubles and for packs of four; which of the two runs
-// is chosen when the program starts, by what the processor can do.
+// Loops that are compiled twice, for pairs of doubles and for packs of four. The program chooses
+// one of the two when it starts, according to the processor.
 //
-// Both have the same bits: products and sums are not contracted, lanes are not summed. Where
-// compilers or the C library cannot do it, or the sanitizers are in the way, there are pairs alone.
+// Both give the same bits: products and sums are not contracted, and lanes are not summed. Where
+// the compiler or the C library does not support the choice, or sanitizers prevent it, only pairs
+// exist.
 
 #include <cstddef>  // tells __GLIBC__
 
@@ -16,7 +17,7 @@
 
 namespace sheave {
 
-/// Lanes that a maximum or a minimum is taken in, so that it needs no order.
+/// Lanes of a maximum or minimum, which does not depend on the order of its arguments.
 inline constexpr int pack_lanes = 8;
 
 }  // namespace sheave

@@ -1,4 +1,4 @@
-// After FreeBSD's msun, e_atan2.c, e_exp.c, s_expm1.c and e_log.c, whose coefficients these are:
+// After FreeBSD's msun, e_atan2.c, e_exp.c, s_expm1.c and e_log.c, the source of the coefficients:
 //
 //   Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved.
 //   Developed at SunPro, a Sun Microsystems, Inc. business.
@@ -40,10 +40,10 @@ double arc(double t, double high, double low) {
   return high - ((t * (odd + even) - low) - t);
 }
 
-/// The angle of (x, y), neither below 0, not both 0.
+/// The angle of (x, y), where neither is below 0 and not both are 0.
 double first_quadrant(double y, double x) {
   if (y < 0.4375 * x) return arc(y / x, 0.0, 0.0);
-  // Differences of what is alike are exact.
+  // Differences of numbers of similar size are exact.
   if (y < 0.6875 * x) {
     return arc((2.0 * y - x) / (2.0 * x + y), 4.63647609000806093515e-01,
                2.26987774529616870924e-17);
@@ -58,7 +58,7 @@ double first_quadrant(double y, double x) {
   return arc(-x / y, 1.57079632679489655800e+00, 6.12323399573676603587e-17);
 }
 
-/// x times 2^power, of a result that may be subnormal or infinite.
+/// x times 2^power; the result may be subnormal or infinite.
 double scaled(double x, int power) {
   const auto two_to = [](int n) { return double_of(static_cast<std::uint64_t>(1023 + n) << 52U); };
   if (power > 1023) return x * two_to(1023) * two_to(std::min(power - 1023, 1023));
@@ -78,10 +78,10 @@ double atan2(double y, double x) {
     if (most == infinity) {
       a = a == infinity ? 1.0 : 0.0;
       b = b == infinity ? 1.0 : 0.0;
-    } else if (most > 1e300) {  // whose sums would overflow
+    } else if (most > 1e300) {  // sums would overflow
       a *= 0x1p-10;
       b *= 0x1p-10;
-    } else if (most < 1e-290) {  // whose comparisons would lose digits
+    } else if (most < 1e-290) {  // comparisons would lose digits
       a *= 0x1p+60;
       b *= 0x1p+60;
     }
@@ -112,7 +112,7 @@ double exp(double x) {
 
 double expm1(double x) {
   if (!(std::abs(x) < 0.34)) return exp(x) - 1.0;
-  // Without a reduction: the sum of x, x^2 / 2 and a rational function that knows the rest.
+  // Without argument reduction: the sum of x, x^2 / 2 and a rational function for the rest.
   if (std::abs(x) < 0x1p-54) return x;
   const double half = 0.5 * x;
   const double square = x * half;

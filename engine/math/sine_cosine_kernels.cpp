@@ -8,7 +8,7 @@ void sines_cosines(std::size_t count, const double* angles, double* __restrict s
                    double* __restrict cosines) {
   std::uint64_t large = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    // A NaN is not smaller.
+    // The comparison is false for a NaN.
     large |= std::abs(angles[i]) < small_angle ? 0U : 1U;
   }
   for (std::size_t i = 0; i < count && large == 0; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Integers of 128 bits, for questions of geometry that must be answered exactly.
+// Integers of 128 bits, for exact decisions in geometry.
 
 #include <cmath>
 #include <compare>
@@ -7,21 +7,21 @@
 
 namespace sheave {
 
-/// A signed integer of 128 bits in two's complement, for machines whose compiler has none (32 bit).
-/// What does not fit wraps around.
+/// A signed integer of 128 bits in two's complement, for compilers without one (32 bit). Overflow
+/// wraps around.
 class TwoWordInteger {
  public:
   constexpr TwoWordInteger() = default;
-  // Mixed arithmetic reads as with the types of the language.
-  // NOLINTNEXTLINE(google-explicit-constructor,hicpp-explicit-conversions)
+  // Implicit, so that mixed arithmetic reads as with built-in types.
   constexpr TwoWordInteger(std::int64_t value)
       : low_(static_cast<std::uint64_t>(value)), high_(value < 0 ? ~std::uint64_t{0} : 0) {}
 
-  /// The nearest double; of two equally near ones the even one.
+  /// The nearest double; of two equally near ones the one with an even last bit.
   explicit operator double() const {
     if (negative()) return -static_cast<double>(-*this);
     if (high_ == 0) return static_cast<double>(low_);
-    // The highest 64 bits; a last bit stands for all that are lost, so that rounding once is right.
+    // The highest 64 bits. Their last bit is set if a lower bit is, so that one rounding gives the
+    // right result.
     int lost = 64;
     std::uint64_t kept = high_;
     std::uint64_t rest = low_;
@@ -67,8 +67,7 @@ class TwoWordInteger {
 };
 
 #ifdef __SIZEOF_INT128__
-// What ISO C++ lacks; only a typedef can do without -Wpedantic's warning.
-// NOLINTNEXTLINE(modernize-use-using)
+// Not part of ISO C++; only a typedef avoids -Wpedantic's warning.
 __extension__ typedef __int128 WideInteger;
 #else
 using WideInteger = TwoWordInteger;

@@ -14,9 +14,9 @@ std::span<const Field> Capsule::field_table() {
 }
 
 MassProperties Capsule::unit_density() const {
-  // The two half balls: together one ball of volume b. Their centres of mass lie 3/8 r outside the
-  // ends of the cylinder, and 2/5 b r^2 about the ball's centre becomes, with the parallel axis
-  // moved to the capsule's centre, 2/5 b r^2 + b (L/2)^2 + b (L/2) (3/8 r) 2.
+  // Together the two half balls are one ball of volume b. Their centres of mass are 3/8 r outside
+  // the ends of the cylinder. The moment of inertia 2/5 b r^2 about the ball's centre becomes 2/5 b
+  // r^2 + b (L/2)^2 + b (L/2) (3/8 r) 2 about the capsule's centre, by the parallel axis theorem.
   const double cylinder = pi * radius * radius * length;
   const double ball = 4.0 / 3.0 * pi * radius * radius * radius;
   const double half = 0.5 * length;

@@ -4,17 +4,17 @@
 //
 // Every face keeps the list of the points strictly above it. The highest point p of some face
 // replaces all faces below p by a cone from p to their common border, the horizon. A point above
-// the new face through the horizon edge e is above one of the two old faces that met at e (what
-// lies below both lies below the new face), so only their two lists are searched.
+// the new face through the horizon edge e is above one of the two old faces that met at e, because
+// a point below both is below the new face. Only the lists of these two are searched.
 //
 // Exactness: grid coordinates differ by at most 2^40, so the components of a face normal are below
-// 2^81 and a height (normal . offset) below 3 * 2^121, inside 128 bits. With exact signs the faces
-// visible from p are whole flat faces and form a disc, so the horizon is always one simple loop; a
-// new triangle cannot be degenerate, because p on the line of e would be in the plane of the
-// visible face at e, and then that face would not be visible.
+// 2^81 and a height (normal . offset) is below 3 * 2^121, inside 128 bits. With exact signs the
+// faces visible from p are whole flat faces and form a disc, so the horizon is always one simple
+// loop. A new triangle cannot be degenerate: if p were on the line of e, p would be in the plane of
+// the visible face at e, and that face would not be visible.
 //
-// Cost: O(n log n) typical. 4096 points on a sphere, the most a polyhedron may have, take some
-// 0.1 s; a hundred points, well under a millisecond.
+// Cost: typically O(n log n). 4096 points on a sphere, the most a polyhedron may have, take some
+// 0.1 s; a hundred points take less than a millisecond.
 
 #include <algorithm>
 #include <cstdint>
@@ -37,9 +37,9 @@ double length_of(const std::array<WideInteger, 3>& v) {
 
 struct Face {
   Triangle corners{};
-  std::array<WideInteger, 3> normal{};  ///< outward, as long as twice the area
-  std::vector<int> above;               ///< points strictly above, ascending; empty once not alive
-  bool alive = true;                    ///< still part of the hull
+  std::array<WideInteger, 3> normal{};  ///< outward; its length is twice the area
+  std::vector<int> above;  ///< points strictly above, ascending; empty once the face is not alive
+  bool alive = true;       ///< still part of the hull
 };
 
 /// A hull that grows point by point; points are indices into the grid.
@@ -52,13 +52,12 @@ class GrowingHull {
   std::vector<Triangle> grow() {
     std::vector<Triangle> surface;
     if (!start()) return surface;
-    // add() appends faces, so that iterators would not survive.
-    // NOLINTNEXTLINE(modernize-loop-convert)
+    // add() appends faces, which would invalidate iterators.
     for (std::size_t id = 0; id < faces_.size(); ++id) {
       const int next = faces_[id].alive ? highest_above(faces_[id]) : -1;
-      if (next >= 0) add(next);  // and faces_[id] is part of the hull no more
+      if (next >= 0) add(next);  // removes faces_[id] from the hull
     }
-    WideInteger six_volumes = 0;  // exact: seen from the corner 0 no face is turned away
+    WideInteger six_volumes = 0;  // exact: seen from corner 0 all faces are back faces
     double twice_area = 0.0;
     for (const Face& face : faces_) {
       if (!face.alive) continue;
@@ -96,8 +95,8 @@ class GrowingHull {
             WideInteger{u[0]} * v[1] - WideInteger{u[1]} * v[0]};
   }
 
-  /// The point farthest from the plane through `origin`, on either side; of several the last, so
-  /// that it is a corner of the hull. -1 if all are in the plane.
+  /// The point farthest from the plane through `origin`, on either side. Among several the last
+  /// one, which is a corner of the hull. -1 if all points are in the plane.
   [[nodiscard]] int farthest(const std::array<WideInteger, 3>& normal, int origin) const {
     int best = -1;
     WideInteger best_distance = 1;
@@ -111,8 +110,8 @@ class GrowingHull {
     return best;
   }
 
-  /// The first tetrahedron: the lexicographically first and last points, the farthest from them in
-  /// some direction across, and the farthest from the plane of the three.
+  /// Makes the first tetrahedron: the lexicographically first and last points, the point farthest
+  /// from them in a direction across, and the point farthest from the plane of these three.
   bool start() {
     const int first = 0;
     const int last = static_cast<int>(points_.size()) - 1;
@@ -151,8 +150,8 @@ class GrowingHull {
     faces_.push_back(std::move(face));
   }
 
-  /// The highest point above a face if it stands out, otherwise -1. Of several the last, so that it
-  /// is a corner of the hull and no middle of one of its faces.
+  /// The highest point above a face if it stands out, otherwise -1. Among several the last one,
+  /// which is a corner of the hull and not in the middle of one of its faces.
   [[nodiscard]] int highest_above(const Face& face) const {
     int best = -1;
     WideInteger best_height = 0;
@@ -177,7 +176,7 @@ class GrowingHull {
         const int from = corners[k];
         const int to = corners[(k + 1) % 3];
         const int beyond = face_at_edge_.at(edge_key(to, from));
-        if (!faces_[beyond].alive) continue;  // visible too: not on the horizon
+        if (!faces_[beyond].alive) continue;  // also visible, so the edge is not on the horizon
         std::vector<int> candidates;
         const std::vector<int>& one = faces_[id].above;
         const std::vector<int>& other = faces_[beyond].above;
@@ -193,15 +192,15 @@ class GrowingHull {
 
   const std::vector<GridPoint>& points_;
   std::vector<Face> faces_;
-  std::vector<std::vector<int>> seen_by_;  ///< of each point: the faces it was ever above
+  std::vector<std::vector<int>> seen_by_;  ///< per point: the faces that it was ever above
   std::unordered_map<std::uint64_t, int> face_at_edge_;  ///< the face to the left of each edge
 };
 
 }  // namespace
 
 Vector3 Hull::area_vector(const std::array<int, 3>& triangle) const {
-  // The cross product of the shortest edge with another: two long edges of a thin triangle would
-  // cancel, and the volume of a rod of slenderness s would lose s^2 instead of s in accuracy.
+  // The cross product of the shortest edge with another. Two long edges of a thin triangle would
+  // cancel, and the volume of a rod of slenderness s would lose accuracy by s^2 instead of s.
   std::array<Vector3, 3> edges;
   int shortest = 0;
   for (int k = 0; k < 3; ++k) {

@@ -9,7 +9,7 @@ namespace sheave {
 namespace {
 
 double distance(const GridPoint& a, const GridPoint& b) {
-  // Not std::hypot, whose last bit is up to the library.
+  // std::hypot differs between libraries in the last bit.
   const auto x = static_cast<double>(b[0] - a[0]);
   const auto y = static_cast<double>(b[1] - a[1]);
   return std::sqrt(x * x + y * y);
@@ -26,7 +26,8 @@ std::vector<int> without_flat_corners(const std::vector<GridPoint>& points,
                                       const std::vector<int>& corners) {
   std::vector<int> kept;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    // Neighbours are those that stay: of points within rounding of each other one must remain.
+    // The neighbours are corners that stay. Of points within rounding of each other one must
+    // remain.
     const bool last = i + 1 == corners.size();
     const int next = !last ? corners[i + 1] : (kept.empty() ? corners : kept).front();
     const GridPoint& before = points[kept.empty() ? corners.back() : kept.back()];
@@ -45,7 +46,7 @@ Result<std::vector<Vector3>> hull_2d(std::span<const Vector3> points) {
                    "are needed"};
   const Result<PointGrid> grid = PointGrid::make(points, 2);
   if (!grid) return grid.errors();
-  // First the lower border from left to right, then the upper one back.
+  // The lower border from left to right, then the upper one back.
   const int count = static_cast<int>(grid->points.size());
   std::vector<int> chain;
   const auto extend = [&](int point, std::size_t fixed) {

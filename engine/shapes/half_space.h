@@ -5,8 +5,8 @@
 namespace sheave {
 
 /// All points beneath a plane through the shape's origin: a floor, a wall or a slope for colliders.
-/// It has no mass, so only static and kinematic bodies can have it, and nothing that a cable could
-/// be laid round.
+/// A half-space has no mass, so only static and kinematic bodies can have one, and no cable can be
+/// laid round it.
 class HalfSpace final : public Shape {
  public:
   Vector3 normal = Vector3::UnitY();  ///< away from the solid side; any length but 0
@@ -20,15 +20,15 @@ class HalfSpace final : public Shape {
   [[nodiscard]] std::string_view type() const override { return type_name; }
   [[nodiscard]] const void* settings() const override { return this; }
   [[nodiscard]] Errors validate(const std::string& path) const override;
-  /// Mass 0: it has none.
+  /// Mass 0, because the volume is infinite.
   [[nodiscard]] MassProperties unit_density() const override { return {}; }
   [[nodiscard]] bool bounded() const override { return false; }
-  /// None: it rests on nothing.
+  /// Appends nothing, because a half-space never rests on a floor.
   void append_contact_points(const Vector3& down, std::vector<Vector3>& points) const override;
-  /// Nothing: cables do not see it.
+  /// Appends nothing, because cables do not touch half-spaces.
   void append_section(const SectionPlane& plane, std::vector<Vector3>& points) const override;
   [[nodiscard]] ConvexSolid solid() const override;
-  /// 0: it adds nothing to the size of a scene.
+  /// 0, so that a half-space does not change the size of a scene.
   [[nodiscard]] Vector3 half_extent() const override { return Vector3::Zero(); }
 };
 

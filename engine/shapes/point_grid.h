@@ -1,5 +1,5 @@
 #pragma once
-// Points rounded to a grid on which the side of a line or plane is an exact integer question.
+// Points rounded to a grid, so that the side of a line or plane is decided exactly with integers.
 
 #include <array>
 #include <cstdint>
@@ -16,16 +16,16 @@ namespace sheave {
 /// fits in 128 bits.
 constexpr double grid_cells = 0x1p40;
 
-/// Points that stand out by no more than this many cells are on a line or plane. Rounding moves a
-/// point by at most half a cell along each axis, 0.87 in all; points that were coplanar then stand
-/// out from the plane through three of them by twice that if the three surround them, and by more
-/// if they do not.
+/// Points that stand out from a line or plane by at most this many cells count as being on it.
+/// Rounding moves a point by at most half a cell along each axis, 0.87 cells in all. Points that
+/// were coplanar then stand out from the plane through three of them by twice that if the three
+/// surround them, and by more otherwise.
 constexpr double flat_cells = 4.0;
 
-/// What is flat as a whole: area over perimeter, or volume over surface, relative to the extent.
-/// Rounded flat sets stay below flat_cells / grid_cells = 4e-12; a plate whose thickness is 1e-8 of
-/// its width has 5e-9. Decided on the grid, because the volume of a needle in floating point is
-/// mostly rounding.
+/// The limit of area over perimeter, or volume over surface, relative to the extent, for a set that
+/// is flat as a whole. Rounded flat sets stay below flat_cells / grid_cells = 4e-12; a plate whose
+/// thickness is 1e-8 of its width has 5e-9. The grid decides, because the volume of a needle in
+/// floating point consists mainly of rounding errors.
 constexpr double thinnest = 1e-9;
 
 using GridPoint = std::array<std::int64_t, 3>;  ///< 0 .. 2^40 each

@@ -55,7 +55,7 @@ MassProperties Polyhedron::unit_density() const {
   }
   if (!(volume > 0.0)) return {};
   const Vector3 center = first_moment / volume;
-  // Its own matrix, because Eigen would scale one factor first and the result not be symmetric.
+  // A separate matrix, because Eigen would scale one factor first and lose the symmetry.
   const Matrix3 square = center * center.transpose();
   const Matrix3 spread = second_moment - volume * square;
   return {volume, surface.vertices[0] + center, spread.trace() * Matrix3::Identity() - spread};

@@ -19,13 +19,13 @@ class Polyhedron final : public Shape {
   [[nodiscard]] Errors validate(const std::string& path) const override;
   /// Mass 0 if the points are not valid.
   [[nodiscard]] MassProperties unit_density() const override;
-  /// Every point: what is inside the hull or repeated never decides a contact.
+  /// Appends all points; points inside the hull and repeated points do not change contacts.
   void append_contact_points(const Vector3& down, std::vector<Vector3>& contacts) const override;
   void append_section(const SectionPlane& plane, std::vector<Vector3>& section) const override;
   [[nodiscard]] ConvexSolid solid() const override;
   [[nodiscard]] Vector3 half_extent() const override;
 
-  /// The surface. Computed anew by each call; empty if the points are not valid.
+  /// The surface, computed anew in each call; empty if the points are not valid.
   [[nodiscard]] Hull hull() const;
 };
 

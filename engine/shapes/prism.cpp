@@ -44,7 +44,7 @@ Errors Prism::validate(const std::string& path) const {
     extent = std::max(extent, (corner - corners->front()).norm());
   }
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    // Allows for the rounding of whatever turned a drawing into this plane.
+    // Allows for rounding in the program that placed a drawing in this plane.
     if (std::abs(outline[i].z()) <= 1e-9 * extent) continue;
     return {{here + "/" + std::to_string(i),
              "outline: this point has z = " + std::to_string(outline[i].z()) +
@@ -70,7 +70,7 @@ MassProperties Prism::unit_density() const {
   }
   if (!(area > 0.0)) return {};
   const Vector3 center = first_moment / area;
-  // Its own matrix, because Eigen would scale one factor first and the result not be symmetric.
+  // A separate matrix, because Eigen would scale one factor first and lose the symmetry.
   const Matrix3 square = center * center.transpose();
   Matrix3 spread = length * (second_moment - area * square);
   spread(2, 2) = area * length * length * length / 12.0;

@@ -21,14 +21,14 @@ class Prism final : public Shape {
   [[nodiscard]] Errors validate(const std::string& path) const override;
   /// Mass 0 if the outline is not valid.
   [[nodiscard]] MassProperties unit_density() const override;
-  /// Every outline point at both ends: what is inside the hull or repeated never decides a contact.
+  /// Appends all outline points at both ends; points inside the hull do not change contacts.
   void append_contact_points(const Vector3& down, std::vector<Vector3>& points) const override;
   void append_section(const SectionPlane& plane, std::vector<Vector3>& points) const override;
   [[nodiscard]] ConvexSolid solid() const override;
   [[nodiscard]] Vector3 half_extent() const override;
 
-  /// Corners of the cross-section at z = 0, counter-clockwise about z, without those that lie
-  /// between their neighbours on a line. Computed anew by each call; empty if it is not valid.
+  /// Corners of the cross-section at z = 0, counter-clockwise about z, without those on a line
+  /// between their neighbours. Computed anew in each call; empty if the outline is not valid.
   [[nodiscard]] std::vector<Vector3> hull() const;
 };
 

@@ -26,7 +26,7 @@ void append_hull_section(std::span<const Vector3> corners, const SectionPlane& p
     heights.push_back(plane.normal.dot(corner - plane.point));
     extent = std::max(extent, (corner - corners[0]).norm());
   }
-  // Rounding of the heights must not decide whether a face that lies in the plane counts.
+  // Rounding of the heights must not decide whether a face in the plane belongs to the section.
   const double thickness = 1e-12 * extent;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     if (std::abs(heights[i]) <= thickness) points.push_back(corners[i]);
@@ -55,8 +55,8 @@ void append_ball_section(const Vector3& center, double radius, const SectionPlan
 
 void append_cylinder_section(double radius, double length, const SectionPlane& plane,
                              std::vector<Vector3>& points) {
-  // Line by line along the barrel, then the two end discs: linear, where the hull of all rim points
-  // would be quadratic.
+  // The section of each line along the mantle, then those of the two end discs. The cost is linear;
+  // the hull of all rim points would be quadratic.
   const Vector3 half(0.0, 0.0, 0.5 * length);
   const Vector3& n = plane.normal;
   for (int i = 0; i < curved_section_corners; ++i) {

@@ -8,8 +8,8 @@
 
 namespace sheave {
 
-/// Corners of the polygons that stand for a curved section. They lie on the curve, so the polygon
-/// is too small by 1 - cos(pi / 256) = 8e-5 of its radius at most.
+/// Number of corners of the polygon for a curved section. The corners lie on the curve, so the
+/// polygon is too small by at most 1 - cos(pi / 256) = 8e-5 of its radius.
 inline constexpr int curved_section_corners = 256;
 
 /// The plane through `point` [m] with the unit normal `normal`.
@@ -18,10 +18,10 @@ struct SectionPlane {
   Vector3 normal = Vector3::UnitZ();
 };
 
-/// Appends the section of the convex hull of `corners` [m]: where the plane meets the line between
-/// any corner on one side and any on the other, and the corners in the plane. (Every edge of the
-/// hull is such a line, and no such line leaves the hull.) Nothing if the plane misses it. Cost:
-/// the square of the number of corners.
+/// Appends the section of the convex hull of `corners` [m]: the points at which the plane meets the
+/// lines between corners on either side, and the corners in the plane. (Every edge of the hull is
+/// such a line, and no such line leaves the hull.) Appends nothing if the plane misses the hull.
+/// Cost: the square of the number of corners.
 void append_hull_section(std::span<const Vector3> corners, const SectionPlane& plane,
                          std::vector<Vector3>& points);
 

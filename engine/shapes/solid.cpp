@@ -20,8 +20,8 @@ Vector3 loop_area(std::span<const Vector3> vertices, const std::vector<int>& loo
   return 0.5 * sum;
 }
 
-/// The boundary of triangles that lie in one plane, as one loop: their edges but for those that two
-/// of them share.
+/// The boundary of triangles that lie in one plane, as one loop: all edges that belong to one
+/// triangle only.
 std::vector<int> boundary(const Hull& hull, const std::vector<int>& triangles) {
   std::map<int, int> next;
   std::map<std::pair<int, int>, bool> edges;
@@ -109,7 +109,7 @@ ConvexSolid solid_of_outline(std::span<const Vector3> outline, double length) {
 }
 
 ConvexSolid solid_of_hull(const Hull& hull) {
-  // Neighbours whose normals differ by less than this lie in one plane but for rounding
+  // Neighbours whose normals differ by less than this lie in one plane, with rounding errors
   // (engine/shapes/convex_hull.h).
   constexpr double flat = 1e-9;
   std::map<std::pair<int, int>, int> triangle_at;

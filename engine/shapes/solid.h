@@ -1,6 +1,5 @@
 #pragma once
-// A convex solid as contacts see it: corners, edges and faces of a core, and what is put round the
-// core.
+// A convex solid for contacts: corners, edges and faces of a core, and a radius around the core.
 
 #include <span>
 #include <vector>
@@ -12,8 +11,9 @@ namespace sheave {
 /// In the frame of a shape.
 struct ConvexSolid {
   enum class Kind {
-    rounded,   ///< all points within `radius` of the core; of a box and a hull the radius is 0
-    cylinder,  ///< about the core, a segment along z between the centres of the flat ends
+    rounded,  ///< all points within `radius` of the core; 0 for a box and a hull
+    /// Within `radius` of the core's axis, a segment along z between the centres of the flat ends
+    cylinder,
     /// All points beneath the plane through `vertices[0]` with the normal of `faces[0]`
     half_space,
   };
@@ -25,20 +25,21 @@ struct ConvexSolid {
   struct Edge {
     int from = 0;
     int to = 0;
-    int left = -1;  ///< the face that runs along it from `from` to `to`; -1: the core is a segment
+    /// The face on the left of the edge, seen from outside; -1: the core is a segment
+    int left = -1;
     int right = -1;
-    bool repeats = false;  ///< it is parallel to an edge before it
+    bool repeats = false;  ///< whether the edge is parallel to an earlier one
   };
 
   Kind kind = Kind::rounded;
   double radius = 0.0;            ///< [m]
-  std::vector<Vector3> vertices;  ///< [m]; a single one: the core is a point
+  std::vector<Vector3> vertices;  ///< [m]; a single one if the core is a point
   std::vector<Face> faces;
   std::vector<Edge> edges;
 };
 
-/// A ball, a capsule or a cylinder: the core is the segment between two points on the z axis, or a
-/// point if it is 0 long.
+/// A ball, a capsule or a cylinder: the core is a segment on the z axis, centred at the origin, or
+/// a point if `length` is 0.
 [[nodiscard]] ConvexSolid solid_about_segment(ConvexSolid::Kind kind, double length, double radius);
 /// A solid with flat sides only. `loops` are the corners of the faces, counter-clockwise from
 /// outside.
