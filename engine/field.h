@@ -61,7 +61,7 @@ using FieldSlot = std::variant<double*, int*, bool*, std::string*, Vector3*, Qua
                                std::optional<BodyId>*, std::vector<double>*, std::vector<Vector3>*,
                                std::vector<std::string>*, ChoiceSlot>;
 
-/// One setting of one type. The default is what a default-constructed object holds.
+/// One setting of one type. The default is its value in a default-constructed object.
 struct Field {
   std::string_view name;  ///< key in a scene, and the name of the member
   std::string_view unit;  ///< "" for none

@@ -30,8 +30,8 @@ struct MovingBody {
   /// because few rows need the orientation of one) has here that of the start of the substep;
   /// Substep::orientation() computes the present one.
   Quaternion orientation = Quaternion::Identity();
-  /// Rotation since the start of the substep [rad], as the sum of all rotation vectors applied. It
-  /// is not wrapped: a wheel may turn several times in one substep.
+  /// Rotation since the start of the substep [rad], as the sum of all rotation vectors applied,
+  /// with whole turns: a wheel may turn several times in one substep.
   Vector3 turn = Vector3::Zero();
   /// The rotation axis of a body that has only one: the normal of a planar body, the axle of a
   /// rotor (for a mounted rotor as of the last update of its inverse inertia). Unit vector, world
@@ -56,7 +56,7 @@ struct MovingBody {
   /// turned by the sum c of all corrections, exp(c) q*, not by the corrections one after the other.
   /// Velocities follow from the sum c, and rotations do not commute. Sweeps that turn a slender
   /// body to and fro about several axes would leave a sum, and so a velocity, without a rotation.
-  /// That velocity would grow from substep to substep.
+  /// The velocity would grow from substep to substep.
   [[gnu::always_inline]] void rotate(const Vector3& correction) {
     turn += correction;
     if (tracks_orientation) orientation = turned(free_orientation, turn - free_turn);

@@ -7,7 +7,7 @@
 namespace sheave {
 
 /// Returns true to end the step that is running. World::step() calls it repeatedly. The function
-/// must neither throw nor touch the world that steps. It may read a clock, a flag that a signal
+/// must neither throw nor touch the world that steps, but may read a clock, a flag that a signal
 /// sets, or a button.
 using StopRequest = std::function<bool()>;
 

@@ -24,10 +24,11 @@ struct SineCosine {
 inline constexpr double small_angle = 1e6;
 
 /// Sine and cosine of an angle [rad] below small_angle, each with an error below 1e-15 and the same
-/// bits on every machine. They take a third of the time of the library's functions, which are exact
-/// to the last bit. The angle is reduced to an eighth of a turn with pi / 2 in three parts, whose
-/// products with numbers below 2^20 are exact but for the last. Polynomials of FreeBSD's msun
-/// follow, of degree 13 and 14. The function has no branch, so that compilers can vectorise it.
+/// bits on every machine. The function takes a third of the time of the library's functions, which
+/// are exact to the last bit. The angle is reduced to an eighth of a turn with pi / 2 in three
+/// parts, whose products with numbers below 2^20 are exact but for the last. Polynomials of
+/// FreeBSD's msun follow, of degree 13 and 14. The function has no branch, so that compilers can
+/// vectorise it.
 [[nodiscard, gnu::always_inline]] inline SineCosine sine_cosine_of_small(double angle) {
   constexpr double whole = 6755399441055744.0;  // 1.5 x 2^52: adding it rounds
   const double shifted = angle * 0.63661977236758134308 + whole;

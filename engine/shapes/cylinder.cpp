@@ -21,8 +21,8 @@ MassProperties Cylinder::unit_density() const {
 
 void Cylinder::append_contact_points(const Vector3& down, std::vector<Vector3>& points) const {
   // A tilted rim touches at its lowest point. A flat face needs at least three points of its rim
-  // for support. Four points, including the lowest, serve both cases. They vary continuously with
-  // `down` except where the face is exactly flat and any choice is right.
+  // for support. Four points, including the lowest, serve both cases. The points vary
+  // continuously with `down` except where the face is exactly flat and any choice is right.
   Vector3 lowest(down.x(), down.y(), 0.0);
   const double slope = lowest.norm();
   lowest = slope > 1e-9 ? Vector3(lowest / slope) : Vector3(Vector3::UnitX());
