@@ -68,7 +68,7 @@ class BodyCheck {
     if (!by_shape && reach(body_.position) <= farthest) return;
     const std::string field = body_.shapes.size() == 1 ? "/shape" : "/shapes";
     fail(by_shape ? field : "/position",
-         "no more than 1e150 m from the origin is allowed, for squares of lengths must be finite");
+         "at most 1e150 m from the origin is allowed, because squares of lengths must be finite");
   }
 
   void check_shape(std::size_t i) {
@@ -209,8 +209,8 @@ class BodyCheck {
     const bool bearing = is(Mobility::rotor) && !body_.mount && body_.spin_inertia != 0.0;
     if (!is(Mobility::free) && !is(Mobility::planar) && !bearing) {
       fail("/angular_damping",
-           "only free and planar bodies and rotors with inertia on fixed axles can have it; "
-           "mobility is " +
+           "only free and planar bodies and rotors with inertia on fixed axles can have angular "
+           "damping; mobility is " +
                mobility_name());
     }
   }

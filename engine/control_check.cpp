@@ -69,11 +69,11 @@ std::string ramp_fault(const DriveNow& now, const DriveTarget& target) {
   }
   const double over = target.over.value_or(now.interval);
   if (!std::isfinite(over) || over < 0.0 || (position && over == 0.0)) {
-    return " must get there in a finite time " +
-           std::string(position ? "above 0, for it cannot jump" : "of at least 0 s") + ", not " +
-           number_text(over);
+    return " must reach its target in a finite time " +
+           std::string(position ? "above 0 s" : "of at least 0 s") + ", not " + number_text(over);
   }
-  if (target.rate && !position) return " has no rate to arrive with; only an angle or position has";
+  if (target.rate && !position)
+    return " has no rate on arrival, because it prescribes no angle or position";
   if (target.rate && !std::isfinite(*target.rate)) {
     return " must arrive at a finite rate, not " + number_text(*target.rate);
   }
@@ -90,7 +90,7 @@ std::string ControlCheck::joint_name(int joint) const {
 }
 
 std::string ControlCheck::fault_of(BodyId body) const {
-  if (body.is_world()) return "the world stays where it is; name a body";
+  if (body.is_world()) return "the world cannot move; name a body";
   if (bodies_.contains(body)) return {};
   return "there is no body number " + std::to_string(body.index) + "; there are " +
          std::to_string(bodies_.count());
@@ -117,7 +117,7 @@ std::string ControlCheck::motion_fault(int body) const {
   if (is_kinematic(body)) return {};
   return body_name(body) + " is " +
          std::string(mobility_names[static_cast<std::size_t>(bodies_[body].mobility)]) +
-         "; only kinematic bodies go where they are told to";
+         "; only a kinematic body can have a motion";
 }
 
 bool ControlCheck::is_sound(const ForceControl& force) {
@@ -187,16 +187,17 @@ std::string ControlCheck::way_fault(int body, const BodyState& state) const {
   };
   if (off(moved) > slop || off(state.velocity) > 1e-9 * (state.velocity.norm() + bodies_.scale())) {
     return body_name(body) +
-           " has a motion of its own and keeps to the directions of it; without one, or with an "
-           "axis, it may go elsewhere";
+           " has a motion in its definition and moves in the directions of that motion alone; give "
+           "it an axis in place of the motion, or neither";
   }
   const Vector3 axis = turns ? def.angular_velocity : Vector3(Vector3::Zero());
   const double off_axis = turns ? along(change.vec(), axis) : change.vec().norm();
   const double spin_off =
       turns ? along(state.angular_velocity, axis) : state.angular_velocity.norm();
   if (off_axis > turn_slop || spin_off > 1e-9 * (1.0 + state.angular_velocity.norm())) {
-    return body_name(body) + (turns ? " turns about the direction of its angular_velocity alone"
-                                    : " has a motion of its own without turning, and keeps to it");
+    return body_name(body) +
+           (turns ? " turns about the direction of its angular_velocity alone"
+                  : " has a motion without rotation in its definition and cannot turn");
   }
   return {};
 }
@@ -234,7 +235,8 @@ std::string ControlCheck::limit_fault(int joint, int coordinate, double limit) c
   const JointEffect& drive = *find_drive(joint, coordinate);
   if (takes_limit(drive, limit)) return {};
   if (drive.kind == JointEffect::Kind::force) {
-    return joint_name(joint) + ": the drive's force is what its target says; it has no limit";
+    return joint_name(joint) +
+           ": the target prescribes the drive's force, so the drive has no limit";
   }
   return joint_name(joint) + ": the limit of a drive must be finite and at least 0, not " +
          number_text(limit);
@@ -256,7 +258,8 @@ std::string ControlCheck::bodies_fault(const Controls& controls) const {
     std::string fault;
     if (const DriveControl* drive = controls.body_drives.find(i)) {
       fault = drive_fault(i);
-      if (!drive->has_target || !is_drive(*drive)) fault = body_name(i) + " has no such drive";
+      if (!drive->has_target || !is_drive(*drive))
+        fault = body_name(i) + " has an invalid control of its drive";
     }
     if (const ForceControl* force = controls.forces.find(i); force != nullptr && fault.empty()) {
       fault = force_fault(i);
@@ -264,7 +267,8 @@ std::string ControlCheck::bodies_fault(const Controls& controls) const {
     }
     if (const MotionControl* set = controls.motions.find(i); set != nullptr && fault.empty()) {
       fault = motion_fault(i);
-      if (fault.empty() && !takes_motion(i, *set)) fault = body_name(i) + " has no such motion";
+      if (fault.empty() && !takes_motion(i, *set))
+        fault = body_name(i) + " has an invalid control of its motion";
     }
     if (!fault.empty()) return fault;
   }
@@ -283,7 +287,8 @@ std::string ControlCheck::joints_fault(const ControlTable<DriveControl>& drives)
       if (drive == nullptr) continue;
       std::string fault = joint_fault(j, k);
       if (fault.empty() && !std::isnan(drive->limit)) fault = limit_fault(j, k, drive->limit);
-      if (fault.empty() && !is_drive(*drive)) fault = joint_name(j) + " has no such drive";
+      if (fault.empty() && !is_drive(*drive))
+        fault = joint_name(j) + " has an invalid control of its drive";
       if (!fault.empty()) return fault;
     }
   }
@@ -301,7 +306,7 @@ std::string ControlCheck::fault_of(
   for (const auto& feature : features) {
     cables = cables || feature->takes_cables();
     if (!feature->accepts_controls(controls)) {
-      return "it has controls of " + std::string(feature->name()) + " that these cannot have";
+      return "it has invalid controls of " + std::string(feature->name());
     }
   }
   return controls.cables_any() && !cables ? "it has controls of cables, and there are none" : "";

@@ -52,7 +52,7 @@ std::optional<Divergence> find_divergence(
   const BodySet& bodies = substep.bodies;
   const double time = substep.next.time;
   if (!std::isfinite(time)) {
-    return Divergence{BodyId::world(), time, "the time is not finite: no step can be as long"};
+    return Divergence{BodyId::world(), time, "the time is not finite; the step must be shorter"};
   }
   // Texts are made on failure only, because this function runs in every substep.
   const auto when = [&] { return " at time " + number_text(time) + " s"; };
@@ -87,7 +87,8 @@ std::string infinite_number(const State& state, const BodySet& bodies,
   if (!std::isfinite(state.time)) return "its time is not finite";
   // The largest count of steps that a double holds exactly
   constexpr std::int64_t most_steps = std::int64_t{1} << 53;
-  if (state.steps < 0 || state.steps > most_steps) return "no run comes to its number of steps";
+  if (state.steps < 0 || state.steps > most_steps)
+    return "its number of steps is not between 0 and 2^53";
   for (int i = 0; i < bodies.count(); ++i) {
     const BodyState& body = state.bodies[at(i)];
     const char* what = !body.position.allFinite()               ? "position"

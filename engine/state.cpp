@@ -268,7 +268,7 @@ Result<SavedState> saved_state_from_bytes(const std::string& bytes) {
       return Error{"",
                    "a saved state must be as it was written: the checksum at the end of these " +
                        std::to_string(bytes.size()) +
-                       " bytes is not theirs; they are truncated or have been changed"};
+                       " bytes is wrong; the bytes are truncated or have been changed"};
     }
     saved.checked = reader.word() == no_older_version;
     saved.origin.scene = reader.word();

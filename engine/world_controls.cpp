@@ -182,7 +182,7 @@ Errors refuse_joint(int joint, const char* key, std::string fault) {
     return refuse_body(body, "position", name + ": " + fault_of(target, over));
   }
   fault = check.way_fault(body.index, end_of(target, state.bodies[at(body.index)]));
-  if (fault.empty()) fault = name + " cannot get there in " + number_text(over) + " s";
+  if (fault.empty()) fault = name + " cannot reach the target in " + number_text(over) + " s";
   return refuse_body(body, "position", std::move(fault));
 }
 
@@ -355,7 +355,7 @@ Errors World::clear_motion(BodyId body, std::optional<double> over) {
   std::string fault = check.fault_of(body);
   if (fault.empty()) fault = check.motion_fault(body.index);
   if (fault.empty() && !(time > 0.0 && std::isfinite(time))) {
-    fault = "the way back takes a finite time above 0, not " + number_text(time) + " s";
+    fault = "the return takes a finite time above 0, not " + number_text(time) + " s";
   }
   if (!fault.empty()) return refuse_body(body, "position", std::move(fault));
   const MotionControl* set = c.state.controls.motions.find(body.index);
@@ -370,7 +370,7 @@ Errors World::clear_motion(BodyId body, std::optional<double> over) {
   if (!check.takes_motion(body.index, motion)) {
     return refuse_body(
         body, "position",
-        check.body_name(body.index) + " cannot get back in " + number_text(time) + " s");
+        check.body_name(body.index) + " cannot return in " + number_text(time) + " s");
   }
   controls_of_features().motions.put(body.index, at(c.bodies->count()), motion);
   return {};

@@ -55,7 +55,7 @@ class CoordinateCheck {
         coordinate_.drive_amplitude != 0.0 || coordinate_.drive_limit ||
         coordinate_.drive_compliance != 0.0 ||
         coordinate_.drive_interpolation != Interpolation::linear) {
-      fail("drive", "settings of a drive need one; say what it prescribes");
+      fail("drive", "settings of a drive need a drive; name the quantity that it prescribes");
     }
   }
 
@@ -79,10 +79,10 @@ class CoordinateCheck {
     }
     const bool position = coordinate_.drive == CoordinateDrive::position;
     if (coordinate_.drive_limit && coordinate_.drive == CoordinateDrive::force) {
-      fail("drive_limit", "the drive's force is what its values say; leave the limit out");
+      fail("drive_limit", "the values prescribe the drive's force; leave the limit out");
     }
     if (coordinate_.drive_compliance > 0.0 && !position) {
-      fail("drive_compliance", "only a drive to a position can give");
+      fail("drive_compliance", "only a drive to a position can have compliance");
     }
     if (errors_.size() > faults) return;  // an inconsistent table has no value at 0
     const double start = coordinate_.signal().at(0.0);

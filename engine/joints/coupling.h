@@ -64,7 +64,9 @@ inline void check_coupling(const JointDef& joint, BodyId carrier, double ratio,
   const auto count = std::unique(touched.begin(), touched.end()) - touched.begin();
   if (count > Row::max_terms) {
     errors.push_back(
-        {path + "/carrier", start + "the bodies and those that carry them are more than four"});
+        {path + "/carrier",
+         start +
+             "the bodies and their carriers are more than four, the most that a joint can have"});
   }
 }
 

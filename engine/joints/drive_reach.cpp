@@ -95,10 +95,10 @@ void check_reach(const JointCoordinate& angle, const JointDef& joint, const Vect
                            ? spans(a, b, direction)
                            : leans(a, direction) || leans(b, direction) || meet(a, b);
   if (reached) return;
-  errors.push_back({path, "joint \"" + joint.name + "\": its drive turns bodies about " +
-                              text_of(direction) + ", but " + ability(bodies, index_a, a) +
-                              " and " + ability(bodies, index_b, b) +
-                              "; join bodies that can, or give a drive_limit, at which it stalls"});
+  errors.push_back(
+      {path, "joint \"" + joint.name + "\": its drive turns bodies about " + text_of(direction) +
+                 ", but " + ability(bodies, index_a, a) + " and " + ability(bodies, index_b, b) +
+                 "; join bodies that can, or give a drive_limit, at which the drive stalls"});
 }
 
 }  // namespace sheave

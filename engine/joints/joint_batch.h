@@ -219,7 +219,7 @@ class JointBatch final : public JointFeature {
     joint.kernel.apply(hold);
     const std::string fault = fault_of_hold(now, joint, own);
     if (fault.empty()) return hold;
-    return Error{"", "joint \"" + names_[j] + "\" cannot be locked where it is: " + fault};
+    return Error{"", "joint \"" + names_[j] + "\" cannot be locked in this pose: " + fault};
   }
   void lock(int index, const JointHold& hold, FeatureState& own) const override {
     layout_.set_hold(own, at(index), hold);

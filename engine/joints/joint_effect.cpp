@@ -85,7 +85,7 @@ std::string hold_fault(const JointEffect& effect, const JointCoordinateInfo& inf
   if (off <= slop * (info.angle ? 1.0 : scale)) return {};
   return "its " + std::string(info.name) + " is " + number_text(off) +
          (info.angle ? " rad" : " m") +
-         (effect.is_drive() ? " off what its drive asks for" : " beyond a stop");
+         (effect.is_drive() ? " off the target of its drive" : " beyond a stop");
 }
 
 void set_effect(const JointEffect& effect, const Substep& substep, double now, double start,

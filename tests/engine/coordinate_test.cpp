@@ -99,7 +99,7 @@ TEST(JointCoordinate, SettingsOfADriveNeedOne) {
   cases[3].drive_limit = 1.0;
   cases[4].drive_compliance = 1.0;
   for (const JointCoordinate& coordinate : cases) {
-    expect_error(coordinate, "drive", "settings of a drive need one");
+    expect_error(coordinate, "drive", "settings of a drive need a drive");
   }
 }
 
@@ -136,7 +136,7 @@ TEST(JointCoordinate, OnlyPositionsGiveAndForcesHaveNoLimit) {
   speed.drive_limit = 2.0;
   EXPECT_TRUE(errors_of(speed).empty());
   speed.drive_compliance = 0.1;
-  expect_error(speed, "drive_compliance", "only a drive to a position can give");
+  expect_error(speed, "drive_compliance", "only a drive to a position can have compliance");
 }
 
 TEST(JointCoordinate, ARigidPositionBeginsWhereTheJointIs) {

@@ -49,7 +49,7 @@ TEST(DriveReach, ABodyInAPlaneTurnsAboutItsNormalAlone) {
       errors[0].message,
       "joint \"hinge\": its drive turns bodies about (1, 0, 0), but \"world\" cannot turn and "
       "\"door\" turns about (0, 0, 1) alone; join bodies that can, or give a drive_limit, at "
-      "which it stalls");
+      "which the drive stalls");
   EXPECT_TRUE(
       errors_of(body_of(Mobility::free, Vector3::UnitZ()), driven_about({1, 0, 0})).empty());
 }

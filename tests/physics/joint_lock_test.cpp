@@ -339,8 +339,8 @@ TEST(JointLock, IsRefusedWhereItWouldBeABlow) {
     ASSERT_EQ(errors.size(), 1U);
     EXPECT_THAT(errors[0].path, "/joints/0");
     EXPECT_THAT(errors[0].message,
-                HasSubstr(stop ? "joint \"rail\" cannot be locked where it is: its travel is 0.5"
-                               : "m off what its drive asks for"));
+                HasSubstr(stop ? "joint \"rail\" cannot be locked in this pose: its travel is 0.5"
+                               : "m off the target of its drive"));
     EXPECT_EQ(hash(s.world.state()), before);
   }
   // A drive that can do no more than its limit pulls it back gently.
