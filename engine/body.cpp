@@ -9,9 +9,8 @@ std::span<const Field> BodyDef::field_table() {
                                        "which motions the body has"),
       field<&BodyDef::axis>(
           "axis", "", any_number(), optional,
-          "planar: normal (default z); slider: direction (required); rotor: axle "
-          "(default the body's own z axis); kinematic: normal of the plane that it "
-          "keeps, if it does"),
+          "planar: normal (default z); slider: direction (required); rotor: axle (default the "
+          "body's own z axis); kinematic: normal of the plane that the body keeps"),
       field<&BodyDef::mount>("mount", "", {}, optional, "rotor: the body that carries the axle"),
       field<&BodyDef::position>("position", "m", any_number(), optional,
                                 "origin of the body frame"),
@@ -20,7 +19,7 @@ std::span<const Field> BodyDef::field_table() {
       field<&BodyDef::velocity>("velocity", "m/s", any_number(), optional,
                                 "of the body frame's origin"),
       field<&BodyDef::angular_velocity>("angular_velocity", "rad/s", any_number(), optional,
-                                        "absolute, also of a mounted rotor"),
+                                        "absolute, also for a mounted rotor"),
       field<&BodyDef::mass>("mass", "kg", above(0.0), optional, "excludes density"),
       field<&BodyDef::density>("density", "kg/m3", above(0.0), optional,
                                "mass and inertia follow from the shapes; excludes mass"),
@@ -32,8 +31,8 @@ std::span<const Field> BodyDef::field_table() {
                                     "the shapes; 0: a massless wheel"),
       choice_field<&BodyDef::drive>(
           "drive", drive_names, optional,
-          "rotor: what drive_values prescribe about the axis; on a mount against the carrier, "
-          "which bears the opposite torque"),
+          "rotor: quantity that drive_values prescribe about the axis; for a mounted rotor "
+          "relative to the carrier, which takes the opposite torque"),
       field<&BodyDef::drive_times>(
           "drive_times", "s", any_number(), optional,
           "increasing times of the drive's values; none for one constant value"),
@@ -55,9 +54,9 @@ std::span<const Field> BodyDef::field_table() {
                                    "kinematic: amplitude A of the motion position + velocity t + "
                                    "A (sin(2 pi f t + p) - sin p)"),
       field<&BodyDef::oscillation_frequency>("oscillation_frequency", "Hz", at_least(0.0), optional,
-                                             "kinematic: frequency f of that motion"),
+                                             "kinematic: frequency f of the oscillation"),
       field<&BodyDef::oscillation_phase>("oscillation_phase", "rad", any_number(), optional,
-                                         "kinematic: phase p of that motion"),
+                                         "kinematic: phase p of the oscillation"),
   };
   return table;
 }

@@ -15,20 +15,18 @@ std::span<const Field> StepSettings::field_table() {
       field<&StepSettings::dt>("dt", "s", above(0.0), optional, "time per step, one frame"),
       field<&StepSettings::substeps>("substeps", "", between(1, 100000), optional,
                                      "substeps per step"),
-      field<&StepSettings::iterations>("iterations", "", between(1, 1000000), optional,
-                                       "sweeps over all constraint rows per substep; of the direct "
-                                       "solver, rounds at most"),
+      field<&StepSettings::iterations>(
+          "iterations", "", between(1, 1000000), optional,
+          "sweeps over all constraint rows per substep; for the direct solver, the most rounds"),
       choice_field<&StepSettings::solver>(
           "solver", solver_names, optional,
           "gauss-seidel: row after row as in the paper, rough unless there are many iterations; "
-          "direct: all rows at once, "
-          "for more than a few wheels, light wheels, large mass ratios or wherever numbers count "
-          "(bench/SOLVERS.md)"),
+          "direct: all rows at once, for more than a few wheels, light wheels, large mass ratios "
+          "or accurate results (bench/SOLVERS.md)"),
       choice_field<&StepSettings::integrator>(
           "integrator", integrator_names, optional,
-          "xpbd: the paper's, of first order, damps motion the more the larger the step; rattle: "
-          "of second order, keeps "
-          "energy"),
+          "xpbd: as in the paper, of first order, with numerical damping that grows with the step; "
+          "rattle: of second order, conserves energy"),
   };
   return table;
 }

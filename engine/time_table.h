@@ -25,9 +25,9 @@ enum class Interpolation {
 inline constexpr std::array<std::string_view, 4> interpolation_names{"linear", "cubic", "clamped",
                                                                      "monotone"};
 inline constexpr std::string_view interpolation_meaning =
-    "of the values between their times; cubic: a smooth spline through them, which may overshoot "
-    "them and may start backwards; clamped: one from rest to rest; monotone: smooth, and never "
-    "beyond the two values around it";
+    "of the values between their times; cubic: a smooth spline, which may overshoot the values and "
+    "may start backwards; clamped: a spline with rate 0 at both ends; monotone: smooth, and within "
+    "the range of the two values around a time";
 
 /// A function through (times[i], values[i]), constant before the first and after the last point.
 /// Times increase strictly. Without times the function is the constant values[0]; without values it

@@ -15,19 +15,19 @@ std::span<const Field> ColliderDef::field_table() {
       field<&ColliderDef::friction>("friction", "", at_least(0.0), optional,
                                     "coefficient while sliding; of a pair the geometric mean"),
       field<&ColliderDef::static_friction>("static_friction", "", at_least(0.0), optional,
-                                           "the same while sticking (default: friction)"),
+                                           "coefficient while sticking (default: friction)"),
       field<&ColliderDef::restitution>(
           "restitution", "", between(0.0, 1.0), optional,
-          "speed of parting over speed of meeting; of a pair the larger one. Rigid bodies that "
-          "meet "
-          "more slowly than gravity would make them in two substeps do not bounce; a compliant "
-          "contact has a damper that leaves this share, and is critical below 0.135"),
+          "separation speed over approach speed; of a pair the larger one. Rigid bodies do not "
+          "rebound if they approach more slowly than the speed that gravity gives them in two "
+          "substeps. A compliant contact has a damper for this ratio, which is critical below "
+          "0.135"),
       field<&ColliderDef::compliance>("compliance", "m/N", at_least(0.0), optional,
                                       "of each point of contact; of a pair the sum; 0 is rigid"),
       field<&ColliderDef::groups>("groups", "", {}, optional,
-                                  "groups it belongs to, names of your choice"),
+                                  "groups to which the collider belongs, names of your choice"),
       field<&ColliderDef::ignores>("ignores", "", {}, optional,
-                                   "groups whose members it does not touch"),
+                                   "groups whose members the collider does not touch"),
   };
   return table;
 }

@@ -34,7 +34,7 @@ struct FixedKernel : AnchorPair {
 std::span<const Field> FixedJoint::field_table() {
   static const std::array table{
       field<&FixedJoint::anchor>("anchor", "m", any_number(), required,
-                                 "where the bodies are joined, world frame at time 0"),
+                                 "point at which the bodies are joined, world frame at time 0"),
       field<&FixedJoint::compliance>("compliance", "m/N", at_least(0.0), optional,
                                      "of each direction of translation; 0 (default) is rigid"),
       field<&FixedJoint::angular_compliance>("angular_compliance", "rad/(N m)", at_least(0.0),

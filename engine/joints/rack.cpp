@@ -43,7 +43,7 @@ std::span<const Field> RackJoint::field_table() {
       field<&RackJoint::direction>("direction", "", any_number(), required,
                                    "of body_b's translation, world frame at time 0"),
       field<&RackJoint::anchor>("anchor", "m", any_number(), required,
-                                "where the force acts on body_b, world frame at time 0"),
+                                "point of body_b at which the force acts, world frame at time 0"),
       field<&RackJoint::radius>("radius", "m/rad", any_number(), required,
                                 "travel per angle, not 0; a screw has its pitch / 2 pi"),
       field<&RackJoint::carrier>("carrier", "", {}, optional,

@@ -45,7 +45,7 @@ bool slides_only(const BodyProperties& body, const Vector3& axis) {
 std::span<const Field> SliderJoint::field_table() {
   static const std::vector<Field> table = joined(
       {{field<&SliderJoint::anchor>("anchor", "m", any_number(), required,
-                                    "where the bodies are joined, world frame at time 0"),
+                                    "point at which the bodies are joined, world frame at time 0"),
         field<&SliderJoint::axis>("axis", "", any_number(), required,
                                   "direction of the axis, fixed to body_a; world frame at time 0"),
         field<&SliderJoint::compliance>("compliance", "m/N", at_least(0.0), optional,

@@ -41,21 +41,22 @@ class DistanceJoint(Joint):
         [m])
     limit_compliance: of the stops; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
     friction: dry friction, of bearings or guides (a number >= 0 [N]; default: 0.0)
-    drive: what the drive's values prescribe ("none", "position", "speed", "force"; default: "none")
+    drive: quantity that the drive's values prescribe ("none", "position", "speed", "force";
+        default: "none")
     drive_times: increasing times of the values; none for a constant (a list of numbers [s];
         default: [])
     drive_values: values of the drive, one per time (a list of numbers [m, m/s or N]; default: [])
-    drive_interpolation: of the values between their times; cubic: a smooth spline through them,
-        which may overshoot them and may start backwards; clamped: one from rest to rest; monotone:
-        smooth, and never beyond the two values around it ("linear", "cubic", "clamped", "monotone";
-        default: "linear")
-    drive_amplitude: of a sine added to the values (a number [m, m/s or N]; default: 0.0)
+    drive_interpolation: of the values between their times; cubic: a smooth spline, which may
+        overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
+        monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
+        "clamped", "monotone"; default: "linear")
+    drive_amplitude: amplitude of a sine added to the values (a number [m, m/s or N]; default: 0.0)
     drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
     drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
-    drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a number
-        >= 0 [N])
-    drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >= 0
-        [m/N]; default: 0.0)
+    drive_limit: largest force or torque of the drive (default: no limit); 0 is an open brake (a
+        number >= 0 [N])
+    drive_compliance: deflection per force of a drive to a position; 0 (default) is rigid (a number
+        >= 0 [m/N]; default: 0.0)
     """
 
     _kind = "joint"
@@ -136,12 +137,12 @@ class BallJoint(Joint):
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
     relative_to: the body in whose frame at time 0 the points and directions below are told; in
         scene files (the name of a body, or "world")
-    axis: direction that swing and twist refer to, world frame at time 0 ([x, y, z], numbers)
+    axis: reference direction of swing and twist, world frame at time 0 ([x, y, z], numbers)
     compliance: of each direction; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
-    swing_limit: the most the axes of the bodies may differ (default: anything) (a number > 0 and <
-        3.141592653589793 [rad])
-    swing_limit_compliance: of that stop; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default:
-        0.0)
+    swing_limit: largest angle between the axes of the bodies (default: no limit) (a number > 0 and
+        < 3.141592653589793 [rad])
+    swing_limit_compliance: of the stop at swing_limit; 0 (default) is rigid (a number >= 0 [rad/(N
+        m)]; default: 0.0)
     damping: viscous friction against any relative rotation (a number >= 0 [N m s/rad]; default:
         0.0)
     friction: dry friction against any relative rotation (a number >= 0 [N m]; default: 0.0)
@@ -153,27 +154,27 @@ class BallJoint(Joint):
         0.0)
     twist_stiffness: of a spring along the twist of body_b about the axis (a number >= 0 [N m/rad];
         default: 0.0)
-    twist_rest: where the spring is relaxed (a number [rad]; default: 0.0)
+    twist_rest: coordinate at which the spring is relaxed (a number [rad]; default: 0.0)
     twist_damping: viscous friction (a number >= 0 [N m s/rad]; default: 0.0)
     twist_friction: dry friction, of bearings or guides (a number >= 0 [N m]; default: 0.0)
-    twist_drive: what the drive's values prescribe ("none", "angle", "speed", "torque"; default:
-        "none")
+    twist_drive: quantity that the drive's values prescribe ("none", "angle", "speed", "torque";
+        default: "none")
     twist_drive_times: increasing times of the values; none for a constant (a list of numbers [s];
         default: [])
     twist_drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m];
         default: [])
-    twist_drive_interpolation: of the values between their times; cubic: a smooth spline through
-        them, which may overshoot them and may start backwards; clamped: one from rest to rest;
-        monotone: smooth, and never beyond the two values around it ("linear", "cubic", "clamped",
-        "monotone"; default: "linear")
-    twist_drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default:
-        0.0)
+    twist_drive_interpolation: of the values between their times; cubic: a smooth spline, which may
+        overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
+        monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
+        "clamped", "monotone"; default: "linear")
+    twist_drive_amplitude: amplitude of a sine added to the values (a number [rad, rad/s or N m];
+        default: 0.0)
     twist_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
     twist_drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
-    twist_drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a
-        number >= 0 [N m])
-    twist_drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >= 0
-        [rad/(N m)]; default: 0.0)
+    twist_drive_limit: largest force or torque of the drive (default: no limit); 0 is an open brake
+        (a number >= 0 [N m])
+    twist_drive_compliance: deflection per force of a drive to a position; 0 (default) is rigid (a
+        number >= 0 [rad/(N m)]; default: 0.0)
     """
 
     _kind = "joint"
@@ -274,25 +275,27 @@ class HingeJoint(Joint):
     limit_compliance: of the stops; 0 (default) is rigid (a number >= 0 [rad/(N m)]; default: 0.0)
     stiffness: of a spring along the angle of body_b against body_a (a number >= 0 [N m/rad];
         default: 0.0)
-    rest: where the spring is relaxed (a number [rad]; default: 0.0)
+    rest: coordinate at which the spring is relaxed (a number [rad]; default: 0.0)
     damping: viscous friction (a number >= 0 [N m s/rad]; default: 0.0)
     friction: dry friction, of bearings or guides (a number >= 0 [N m]; default: 0.0)
-    drive: what the drive's values prescribe ("none", "angle", "speed", "torque"; default: "none")
+    drive: quantity that the drive's values prescribe ("none", "angle", "speed", "torque"; default:
+        "none")
     drive_times: increasing times of the values; none for a constant (a list of numbers [s];
         default: [])
     drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m]; default:
         [])
-    drive_interpolation: of the values between their times; cubic: a smooth spline through them,
-        which may overshoot them and may start backwards; clamped: one from rest to rest; monotone:
-        smooth, and never beyond the two values around it ("linear", "cubic", "clamped", "monotone";
-        default: "linear")
-    drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default: 0.0)
+    drive_interpolation: of the values between their times; cubic: a smooth spline, which may
+        overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
+        monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
+        "clamped", "monotone"; default: "linear")
+    drive_amplitude: amplitude of a sine added to the values (a number [rad, rad/s or N m]; default:
+        0.0)
     drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
     drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
-    drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a number
-        >= 0 [N m])
-    drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >= 0
-        [rad/(N m)]; default: 0.0)
+    drive_limit: largest force or torque of the drive (default: no limit); 0 is an open brake (a
+        number >= 0 [N m])
+    drive_compliance: deflection per force of a drive to a position; 0 (default) is rigid (a number
+        >= 0 [rad/(N m)]; default: 0.0)
     """
 
     _kind = "joint"
@@ -369,7 +372,8 @@ class SliderJoint(Joint):
 
     name: unique name among the joints (a string; required)
     body_b: differs from body_a (the name of a body, or "world"; required)
-    anchor: where the bodies are joined, world frame at time 0 ([x, y, z], numbers [m]; required)
+    anchor: point at which the bodies are joined, world frame at time 0 ([x, y, z], numbers [m];
+        required)
     axis: direction of the axis, fixed to body_a; world frame at time 0 ([x, y, z], numbers;
         required)
     body_a: default: the world (the name of a body, or "world"; default: "world")
@@ -385,24 +389,25 @@ class SliderJoint(Joint):
     limit_compliance: of the stops; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
     stiffness: of a spring along the travel of body_b against body_a (a number >= 0 [N/m]; default:
         0.0)
-    rest: where the spring is relaxed (a number [m]; default: 0.0)
+    rest: coordinate at which the spring is relaxed (a number [m]; default: 0.0)
     damping: viscous friction (a number >= 0 [N s/m]; default: 0.0)
     friction: dry friction, of bearings or guides (a number >= 0 [N]; default: 0.0)
-    drive: what the drive's values prescribe ("none", "position", "speed", "force"; default: "none")
+    drive: quantity that the drive's values prescribe ("none", "position", "speed", "force";
+        default: "none")
     drive_times: increasing times of the values; none for a constant (a list of numbers [s];
         default: [])
     drive_values: values of the drive, one per time (a list of numbers [m, m/s or N]; default: [])
-    drive_interpolation: of the values between their times; cubic: a smooth spline through them,
-        which may overshoot them and may start backwards; clamped: one from rest to rest; monotone:
-        smooth, and never beyond the two values around it ("linear", "cubic", "clamped", "monotone";
-        default: "linear")
-    drive_amplitude: of a sine added to the values (a number [m, m/s or N]; default: 0.0)
+    drive_interpolation: of the values between their times; cubic: a smooth spline, which may
+        overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
+        monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
+        "clamped", "monotone"; default: "linear")
+    drive_amplitude: amplitude of a sine added to the values (a number [m, m/s or N]; default: 0.0)
     drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
     drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
-    drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a number
-        >= 0 [N])
-    drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >= 0
-        [m/N]; default: 0.0)
+    drive_limit: largest force or torque of the drive (default: no limit); 0 is an open brake (a
+        number >= 0 [N])
+    drive_compliance: deflection per force of a drive to a position; 0 (default) is rigid (a number
+        >= 0 [m/N]; default: 0.0)
     """
 
     _kind = "joint"
@@ -497,26 +502,27 @@ class CylindricalJoint(Joint):
     travel_limit_compliance: of the stops; 0 (default) is rigid (a number >= 0 [m/N]; default: 0.0)
     travel_stiffness: of a spring along the travel of body_b against body_a (a number >= 0 [N/m];
         default: 0.0)
-    travel_rest: where the spring is relaxed (a number [m]; default: 0.0)
+    travel_rest: coordinate at which the spring is relaxed (a number [m]; default: 0.0)
     travel_damping: viscous friction (a number >= 0 [N s/m]; default: 0.0)
     travel_friction: dry friction, of bearings or guides (a number >= 0 [N]; default: 0.0)
-    travel_drive: what the drive's values prescribe ("none", "position", "speed", "force"; default:
-        "none")
+    travel_drive: quantity that the drive's values prescribe ("none", "position", "speed", "force";
+        default: "none")
     travel_drive_times: increasing times of the values; none for a constant (a list of numbers [s];
         default: [])
     travel_drive_values: values of the drive, one per time (a list of numbers [m, m/s or N];
         default: [])
-    travel_drive_interpolation: of the values between their times; cubic: a smooth spline through
-        them, which may overshoot them and may start backwards; clamped: one from rest to rest;
-        monotone: smooth, and never beyond the two values around it ("linear", "cubic", "clamped",
-        "monotone"; default: "linear")
-    travel_drive_amplitude: of a sine added to the values (a number [m, m/s or N]; default: 0.0)
+    travel_drive_interpolation: of the values between their times; cubic: a smooth spline, which may
+        overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
+        monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
+        "clamped", "monotone"; default: "linear")
+    travel_drive_amplitude: amplitude of a sine added to the values (a number [m, m/s or N];
+        default: 0.0)
     travel_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
     travel_drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
-    travel_drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a
-        number >= 0 [N])
-    travel_drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >=
-        0 [m/N]; default: 0.0)
+    travel_drive_limit: largest force or torque of the drive (default: no limit); 0 is an open brake
+        (a number >= 0 [N])
+    travel_drive_compliance: deflection per force of a drive to a position; 0 (default) is rigid (a
+        number >= 0 [m/N]; default: 0.0)
     angle_lower: stops the angle of body_b against body_a from below (default: no stop) (a number
         [rad])
     angle_upper: stops the angle of body_b against body_a from above (default: no stop) (a number
@@ -525,27 +531,27 @@ class CylindricalJoint(Joint):
         0.0)
     angle_stiffness: of a spring along the angle of body_b against body_a (a number >= 0 [N m/rad];
         default: 0.0)
-    angle_rest: where the spring is relaxed (a number [rad]; default: 0.0)
+    angle_rest: coordinate at which the spring is relaxed (a number [rad]; default: 0.0)
     angle_damping: viscous friction (a number >= 0 [N m s/rad]; default: 0.0)
     angle_friction: dry friction, of bearings or guides (a number >= 0 [N m]; default: 0.0)
-    angle_drive: what the drive's values prescribe ("none", "angle", "speed", "torque"; default:
-        "none")
+    angle_drive: quantity that the drive's values prescribe ("none", "angle", "speed", "torque";
+        default: "none")
     angle_drive_times: increasing times of the values; none for a constant (a list of numbers [s];
         default: [])
     angle_drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m];
         default: [])
-    angle_drive_interpolation: of the values between their times; cubic: a smooth spline through
-        them, which may overshoot them and may start backwards; clamped: one from rest to rest;
-        monotone: smooth, and never beyond the two values around it ("linear", "cubic", "clamped",
-        "monotone"; default: "linear")
-    angle_drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default:
-        0.0)
+    angle_drive_interpolation: of the values between their times; cubic: a smooth spline, which may
+        overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
+        monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
+        "clamped", "monotone"; default: "linear")
+    angle_drive_amplitude: amplitude of a sine added to the values (a number [rad, rad/s or N m];
+        default: 0.0)
     angle_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
     angle_drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
-    angle_drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a
-        number >= 0 [N m])
-    angle_drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >= 0
-        [rad/(N m)]; default: 0.0)
+    angle_drive_limit: largest force or torque of the drive (default: no limit); 0 is an open brake
+        (a number >= 0 [N m])
+    angle_drive_compliance: deflection per force of a drive to a position; 0 (default) is rigid (a
+        number >= 0 [rad/(N m)]; default: 0.0)
     """
 
     _kind = "joint"
@@ -678,54 +684,54 @@ class UniversalJoint(Joint):
         default: 0.0)
     angle_a_stiffness: of a spring along the turn about axis_a (a number >= 0 [N m/rad]; default:
         0.0)
-    angle_a_rest: where the spring is relaxed (a number [rad]; default: 0.0)
+    angle_a_rest: coordinate at which the spring is relaxed (a number [rad]; default: 0.0)
     angle_a_damping: viscous friction (a number >= 0 [N m s/rad]; default: 0.0)
     angle_a_friction: dry friction, of bearings or guides (a number >= 0 [N m]; default: 0.0)
-    angle_a_drive: what the drive's values prescribe ("none", "angle", "speed", "torque"; default:
-        "none")
+    angle_a_drive: quantity that the drive's values prescribe ("none", "angle", "speed", "torque";
+        default: "none")
     angle_a_drive_times: increasing times of the values; none for a constant (a list of numbers [s];
         default: [])
     angle_a_drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m];
         default: [])
-    angle_a_drive_interpolation: of the values between their times; cubic: a smooth spline through
-        them, which may overshoot them and may start backwards; clamped: one from rest to rest;
-        monotone: smooth, and never beyond the two values around it ("linear", "cubic", "clamped",
-        "monotone"; default: "linear")
-    angle_a_drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default:
-        0.0)
+    angle_a_drive_interpolation: of the values between their times; cubic: a smooth spline, which
+        may overshoot the values and may start backwards; clamped: a spline with rate 0 at both
+        ends; monotone: smooth, and within the range of the two values around a time ("linear",
+        "cubic", "clamped", "monotone"; default: "linear")
+    angle_a_drive_amplitude: amplitude of a sine added to the values (a number [rad, rad/s or N m];
+        default: 0.0)
     angle_a_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
     angle_a_drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
-    angle_a_drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a
-        number >= 0 [N m])
-    angle_a_drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >=
-        0 [rad/(N m)]; default: 0.0)
+    angle_a_drive_limit: largest force or torque of the drive (default: no limit); 0 is an open
+        brake (a number >= 0 [N m])
+    angle_a_drive_compliance: deflection per force of a drive to a position; 0 (default) is rigid (a
+        number >= 0 [rad/(N m)]; default: 0.0)
     angle_b_lower: stops the turn about axis_b from below (default: no stop) (a number [rad])
     angle_b_upper: stops the turn about axis_b from above (default: no stop) (a number [rad])
     angle_b_limit_compliance: of the stops; 0 (default) is rigid (a number >= 0 [rad/(N m)];
         default: 0.0)
     angle_b_stiffness: of a spring along the turn about axis_b (a number >= 0 [N m/rad]; default:
         0.0)
-    angle_b_rest: where the spring is relaxed (a number [rad]; default: 0.0)
+    angle_b_rest: coordinate at which the spring is relaxed (a number [rad]; default: 0.0)
     angle_b_damping: viscous friction (a number >= 0 [N m s/rad]; default: 0.0)
     angle_b_friction: dry friction, of bearings or guides (a number >= 0 [N m]; default: 0.0)
-    angle_b_drive: what the drive's values prescribe ("none", "angle", "speed", "torque"; default:
-        "none")
+    angle_b_drive: quantity that the drive's values prescribe ("none", "angle", "speed", "torque";
+        default: "none")
     angle_b_drive_times: increasing times of the values; none for a constant (a list of numbers [s];
         default: [])
     angle_b_drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m];
         default: [])
-    angle_b_drive_interpolation: of the values between their times; cubic: a smooth spline through
-        them, which may overshoot them and may start backwards; clamped: one from rest to rest;
-        monotone: smooth, and never beyond the two values around it ("linear", "cubic", "clamped",
-        "monotone"; default: "linear")
-    angle_b_drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default:
-        0.0)
+    angle_b_drive_interpolation: of the values between their times; cubic: a smooth spline, which
+        may overshoot the values and may start backwards; clamped: a spline with rate 0 at both
+        ends; monotone: smooth, and within the range of the two values around a time ("linear",
+        "cubic", "clamped", "monotone"; default: "linear")
+    angle_b_drive_amplitude: amplitude of a sine added to the values (a number [rad, rad/s or N m];
+        default: 0.0)
     angle_b_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
     angle_b_drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
-    angle_b_drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a
-        number >= 0 [N m])
-    angle_b_drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >=
-        0 [rad/(N m)]; default: 0.0)
+    angle_b_drive_limit: largest force or torque of the drive (default: no limit); 0 is an open
+        brake (a number >= 0 [N m])
+    angle_b_drive_compliance: deflection per force of a drive to a position; 0 (default) is rigid (a
+        number >= 0 [rad/(N m)]; default: 0.0)
     """
 
     _kind = "joint"
@@ -863,27 +869,27 @@ class PlaneJoint(Joint):
         0.0)
     angle_stiffness: of a spring along the angle of body_b about the normal (a number >= 0 [N
         m/rad]; default: 0.0)
-    angle_rest: where the spring is relaxed (a number [rad]; default: 0.0)
+    angle_rest: coordinate at which the spring is relaxed (a number [rad]; default: 0.0)
     angle_damping: viscous friction (a number >= 0 [N m s/rad]; default: 0.0)
     angle_friction: dry friction, of bearings or guides (a number >= 0 [N m]; default: 0.0)
-    angle_drive: what the drive's values prescribe ("none", "angle", "speed", "torque"; default:
-        "none")
+    angle_drive: quantity that the drive's values prescribe ("none", "angle", "speed", "torque";
+        default: "none")
     angle_drive_times: increasing times of the values; none for a constant (a list of numbers [s];
         default: [])
     angle_drive_values: values of the drive, one per time (a list of numbers [rad, rad/s or N m];
         default: [])
-    angle_drive_interpolation: of the values between their times; cubic: a smooth spline through
-        them, which may overshoot them and may start backwards; clamped: one from rest to rest;
-        monotone: smooth, and never beyond the two values around it ("linear", "cubic", "clamped",
-        "monotone"; default: "linear")
-    angle_drive_amplitude: of a sine added to the values (a number [rad, rad/s or N m]; default:
-        0.0)
+    angle_drive_interpolation: of the values between their times; cubic: a smooth spline, which may
+        overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
+        monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
+        "clamped", "monotone"; default: "linear")
+    angle_drive_amplitude: amplitude of a sine added to the values (a number [rad, rad/s or N m];
+        default: 0.0)
     angle_drive_frequency: of the sine (a number >= 0 [Hz]; default: 0.0)
     angle_drive_phase: of the sine at time 0 (a number [rad]; default: 0.0)
-    angle_drive_limit: the most the drive can do (default: anything); 0 is a brake that is open (a
-        number >= 0 [N m])
-    angle_drive_compliance: how far a drive to a position gives; 0 (default) is rigid (a number >= 0
-        [rad/(N m)]; default: 0.0)
+    angle_drive_limit: largest force or torque of the drive (default: no limit); 0 is an open brake
+        (a number >= 0 [N m])
+    angle_drive_compliance: deflection per force of a drive to a position; 0 (default) is rigid (a
+        number >= 0 [rad/(N m)]; default: 0.0)
     """
 
     _kind = "joint"
@@ -966,7 +972,8 @@ class FixedJoint(Joint):
 
     name: unique name among the joints (a string; required)
     body_b: differs from body_a (the name of a body, or "world"; required)
-    anchor: where the bodies are joined, world frame at time 0 ([x, y, z], numbers [m]; required)
+    anchor: point at which the bodies are joined, world frame at time 0 ([x, y, z], numbers [m];
+        required)
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
     breaking_torque: a larger torque breaks the joint (default: none does) (a number > 0 [N m])
@@ -1080,7 +1087,8 @@ class RackJoint(Joint):
     body_b: differs from body_a (the name of a body, or "world"; required)
     axis: of body_a's rotation, world frame at time 0 ([x, y, z], numbers; required)
     direction: of body_b's translation, world frame at time 0 ([x, y, z], numbers; required)
-    anchor: where the force acts on body_b, world frame at time 0 ([x, y, z], numbers [m]; required)
+    anchor: point of body_b at which the force acts, world frame at time 0 ([x, y, z], numbers [m];
+        required)
     radius: travel per angle, not 0; a screw has its pitch / 2 pi (a number [m/rad]; required)
     body_a: default: the world (the name of a body, or "world"; default: "world")
     breaking_force: a larger force breaks the joint (default: none does) (a number > 0 [N])
@@ -1151,10 +1159,10 @@ class PidController(Controller):
     setpoint: constant, in the observable's unit (a number)
     setpoint_times: increasing times of the setpoint's values (a list of numbers [s]; default: [])
     setpoint_values: of a setpoint that changes, one per time (a list of numbers; default: [])
-    setpoint_interpolation: of the values between their times; cubic: a smooth spline through them,
-        which may overshoot them and may start backwards; clamped: one from rest to rest; monotone:
-        smooth, and never beyond the two values around it ("linear", "cubic", "clamped", "monotone";
-        default: "linear")
+    setpoint_interpolation: of the values between their times; cubic: a smooth spline, which may
+        overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
+        monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
+        "clamped", "monotone"; default: "linear")
     setpoint_quantity: an observable that is the setpoint (a string; default: "")
     sample_time: how often it acts, at most once per substep; default: dt (a number > 0 [s])
     on: at time 0; triggers switch it (true or false; default: true)
@@ -1237,10 +1245,10 @@ class BangBangController(Controller):
     setpoint: constant, in the observable's unit (a number)
     setpoint_times: increasing times of the setpoint's values (a list of numbers [s]; default: [])
     setpoint_values: of a setpoint that changes, one per time (a list of numbers; default: [])
-    setpoint_interpolation: of the values between their times; cubic: a smooth spline through them,
-        which may overshoot them and may start backwards; clamped: one from rest to rest; monotone:
-        smooth, and never beyond the two values around it ("linear", "cubic", "clamped", "monotone";
-        default: "linear")
+    setpoint_interpolation: of the values between their times; cubic: a smooth spline, which may
+        overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
+        monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
+        "clamped", "monotone"; default: "linear")
     setpoint_quantity: an observable that is the setpoint (a string; default: "")
     sample_time: how often it acts, at most once per substep; default: dt (a number > 0 [s])
     on: at time 0; triggers switch it (true or false; default: true)
@@ -1749,13 +1757,13 @@ class Step(Part):
         ("standard", "paper"; default: "standard")
     dt: time per step, one frame (a number > 0 [s]; default: 0.016666666666666666)
     substeps: substeps per step (an integer 1 ... 100000; default: 4)
-    iterations: sweeps over all constraint rows per substep; of the direct solver, rounds at most
+    iterations: sweeps over all constraint rows per substep; for the direct solver, the most rounds
         (an integer 1 ... 1000000; default: 50)
     solver: gauss-seidel: row after row as in the paper, rough unless there are many iterations;
         direct: all rows at once, for more than a few wheels, light wheels, large mass ratios or
-        wherever numbers count (bench/SOLVERS.md) ("gauss-seidel", "direct"; default: "direct")
-    integrator: xpbd: the paper's, of first order, damps motion the more the larger the step;
-        rattle: of second order, keeps energy ("xpbd", "rattle"; default: "rattle")
+        accurate results (bench/SOLVERS.md) ("gauss-seidel", "direct"; default: "direct")
+    integrator: xpbd: as in the paper, of first order, with numerical damping that grows with the
+        step; rattle: of second order, conserves energy ("xpbd", "rattle"; default: "rattle")
     """
 
     _kind = "step"
@@ -1790,13 +1798,13 @@ class Body(Part):
     mobility: which motions the body has ("static", "free", "planar", "slider", "rotor",
         "kinematic"; default: "free")
     axis: planar: normal (default z); slider: direction (required); rotor: axle (default the body's
-        own z axis); kinematic: normal of the plane that it keeps, if it does ([x, y, z], numbers)
+        own z axis); kinematic: normal of the plane that the body keeps ([x, y, z], numbers)
     mount: rotor: the body that carries the axle (the name of a body, or "world")
     position: origin of the body frame ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
     orientation: unit quaternion [w, x, y, z], body frame to world frame (a unit quaternion [w, x,
         y, z]; default: [1.0,0.0,0.0,0.0])
     velocity: of the body frame's origin ([x, y, z], numbers [m/s]; default: [0.0,0.0,0.0])
-    angular_velocity: absolute, also of a mounted rotor ([x, y, z], numbers [rad/s]; default:
+    angular_velocity: absolute, also for a mounted rotor ([x, y, z], numbers [rad/s]; default:
         [0.0,0.0,0.0])
     mass: excludes density (a number > 0 [kg])
     density: mass and inertia follow from the shapes; excludes mass (a number > 0 [kg/m3])
@@ -1804,16 +1812,17 @@ class Body(Part):
         scaled to the mass ([x, y, z], numbers > 0 [kg m2])
     spin_inertia: rotor: moment of inertia about the axle, in place of that of the shapes; 0: a
         massless wheel (a number >= 0 [kg m2])
-    drive: rotor: what drive_values prescribe about the axis; on a mount against the carrier, which
-        bears the opposite torque ("none", "speed", "angle", "torque"; default: "none")
+    drive: rotor: quantity that drive_values prescribe about the axis; for a mounted rotor relative
+        to the carrier, which takes the opposite torque ("none", "speed", "angle", "torque";
+        default: "none")
     drive_times: increasing times of the drive's values; none for one constant value (a list of
         numbers [s]; default: [])
     drive_values: values of the drive, one per time (a list of numbers [rad/s, rad or N m]; default:
         [])
-    drive_interpolation: of the values between their times; cubic: a smooth spline through them,
-        which may overshoot them and may start backwards; clamped: one from rest to rest; monotone:
-        smooth, and never beyond the two values around it ("linear", "cubic", "clamped", "monotone";
-        default: "linear")
+    drive_interpolation: of the values between their times; cubic: a smooth spline, which may
+        overshoot the values and may start backwards; clamped: a spline with rate 0 at both ends;
+        monotone: smooth, and within the range of the two values around a time ("linear", "cubic",
+        "clamped", "monotone"; default: "linear")
     wrappable: whether cables that come against the body are wrapped round it (true or false;
         default: false)
     force: constant, at the centre of mass ([x, y, z], numbers [N]; default: [0.0,0.0,0.0])
@@ -1824,8 +1833,9 @@ class Body(Part):
         (a number >= 0 [N m s/rad]; default: 0.0)
     oscillation: kinematic: amplitude A of the motion position + velocity t + A (sin(2 pi f t + p) -
         sin p) ([x, y, z], numbers [m]; default: [0.0,0.0,0.0])
-    oscillation_frequency: kinematic: frequency f of that motion (a number >= 0 [Hz]; default: 0.0)
-    oscillation_phase: kinematic: phase p of that motion (a number [rad]; default: 0.0)
+    oscillation_frequency: kinematic: frequency f of the oscillation (a number >= 0 [Hz]; default:
+        0.0)
+    oscillation_phase: kinematic: phase p of the oscillation (a number [rad]; default: 0.0)
     relative_to: the body in whose frame position, orientation (or rotation) and axis are told; in
         scene files (the name of a body, or "world")
     rotation: the orientation as a turn in degrees; excludes orientation
@@ -1971,15 +1981,16 @@ class Collider(Part):
 
     body: a body with at least one shape (the name of a body, or "world"; required)
     friction: coefficient while sliding; of a pair the geometric mean (a number >= 0; default: 0.0)
-    static_friction: the same while sticking (default: friction) (a number >= 0)
-    restitution: speed of parting over speed of meeting; of a pair the larger one. Rigid bodies that
-        meet more slowly than gravity would make them in two substeps do not bounce; a compliant
-        contact has a damper that leaves this share, and is critical below 0.135 (a number 0 ... 1;
-        default: 0.0)
+    static_friction: coefficient while sticking (default: friction) (a number >= 0)
+    restitution: separation speed over approach speed; of a pair the larger one. Rigid bodies do not
+        rebound if they approach more slowly than the speed that gravity gives them in two substeps.
+        A compliant contact has a damper for this ratio, which is critical below 0.135 (a number 0
+        ... 1; default: 0.0)
     compliance: of each point of contact; of a pair the sum; 0 is rigid (a number >= 0 [m/N];
         default: 0.0)
-    groups: groups it belongs to, names of your choice (a list of strings; default: [])
-    ignores: groups whose members it does not touch (a list of strings; default: [])
+    groups: groups to which the collider belongs, names of your choice (a list of strings; default:
+        [])
+    ignores: groups whose members the collider does not touch (a list of strings; default: [])
     """
 
     _kind = "collider"
