@@ -54,7 +54,7 @@ class ConstraintBatch {
   /// motion (a winch whose cable has run out). Several features may reduce the same share.
   virtual void limit_drives(Substep& /*substep*/) {}
   /// One Gauss-Seidel sweep: each row in order, re-evaluated at the current positions and solved.
-  /// Returns the largest correction, as an error of a row [m or rad].
+  /// Returns the largest correction, as a residual of a row [m or rad].
   virtual double sweep(Substep& substep) = 0;
   /// Appends all rows at the current positions, and moves nothing. Row::index refers to
   /// multipliers().
