@@ -1,6 +1,6 @@
 """Builds the Python package: CMake makes the compiled half.
 
-    venv/bin/pip install --no-build-isolation .      docs/python.md tells how to make the environment
+    venv/bin/pip install --no-build-isolation .      docs/how-to/python.md tells how to make the environment
 
 With SHEAVE_MODULE, a compiled half that is there already, nothing is compiled.
 """

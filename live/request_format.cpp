@@ -25,7 +25,7 @@ std::vector<ObjectFormat> make_formats() {
   return formats;
 }
 
-constexpr std::string_view scene_page = "../scenes/REFERENCE.md";  // from docs/
+constexpr std::string_view scene_page = "../../scenes/REFERENCE.md";  // from docs/reference/
 
 /// Collects a format and its members' formats that are not on the page of scenes.
 void collect(const ObjectFormat& format, std::vector<const ObjectFormat*>& formats) {

@@ -14,7 +14,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 COMMAND = ROOT / "build" / "asan-ubsan" / "tools" / "sheave"
-# docs/reliability.md; `run` of a short time neither fails checks of its own accord nor is interrupted.
+# docs/explanation/reliability.md; `run` of a short time neither fails checks of its own accord nor is interrupted.
 CONTRACT = {0, 1, 2, 65, 66, 74, 75, 76}
 SECONDS = 10.0
 NUMBERS = [0, -0.0, 1, -1, 0.5, 2, 10, 1e3, 1e-3, 1e6, 1e-6, 1e9, 1e-9, 1e15, 1e30, 1e-30, 1e100, -1e100, 1e300, -1e300, 1e308,

@@ -238,7 +238,7 @@ Requests come in on standard input, one JSON object per line, e.g.
   {"type":"set","controls":[{"type":"speed","body":"hoist winch","value":1.2}]}
   {"type":"step","count":10}
   {"type":"observe","quantities":["hoist cable.2.tension"]}
-and each is answered by one line on standard output. docs/live.md tells all of them.
+and each is answered by one line on standard output. docs/reference/live.md tells all of them.
 
 Exit codes: 0 at the end of input or by the request "quit", 2 wrong usage, 65 bad scene, 66 no such
 file, 70 internal error, 74 input or output failed, as when nobody reads the answers any more, 130

@@ -27,7 +27,7 @@ struct SweepMeasure {
 /// How a run of a sweep ended.
 enum class SweepStatus {
   done,
-  doubtful,    ///< its own numbers contradict each other (docs/certificate.md)
+  doubtful,    ///< its own numbers contradict each other (docs/explanation/certificate.md)
   diverged,    ///< the simulation stopped at a state that means nothing
   invalid,     ///< the values make no valid scene
   time_limit,  ///< took longer than --time-limit

@@ -49,7 +49,8 @@ class Step final : public Request {
             {"reason", {Kind::text}, "the same for people", optional},
             {"doubtful",
              {Kind::text},
-             "what speaks against the run so far, if something does: docs/certificate.md",
+             "the item of the certificate that makes the run doubtful, if there is one: "
+             "docs/explanation/certificate.md",
              optional}};
   }
   [[nodiscard]] Errors run(SessionState& session, Json& answer) const override;

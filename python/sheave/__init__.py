@@ -6,7 +6,7 @@
 True
 >>> sim.cables["cable"].tension(0)
 
-docs/python.md tells all of it.
+docs/how-to/python.md tells all of it.
 """
 
 from ._batch import Batch

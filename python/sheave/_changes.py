@@ -12,7 +12,7 @@ from .parts import Body, Cable, Collider, Joint, Link
 
 
 class Changes:
-    """One method for each type of change (docs/editing.md)."""
+    """One method for each type of change (docs/how-to/editing.md)."""
 
     def _add(self, kind: str, settings: Dict[str, Any]) -> None:
         raise NotImplementedError

@@ -36,7 +36,7 @@ class Bounds(NamedTuple):
 class VectorEnvironment:
     """n worlds with the conventions of Gymnasium's vector environments, and plain arrays.
 
-    observations: names of quantities. actions: names of controls (docs/control.md), with the
+    observations: names of quantities. actions: names of controls (docs/how-to/control.md), with the
     bounds `low` and `high`. reward(observations, actions) gives n numbers; terminated(observations)
     n truth values. A world that has ended, or has taken `most_steps` actions, is reset by the next
     step(), which then does nothing else to it (Gymnasium's next-step autoreset).

@@ -19,7 +19,7 @@ class Fault:
     pointer: str = ""
     """JSON pointer of the setting, which may be missing."""
     code: str = "meaning"
-    """Kind of the fault (docs/errors.md)."""
+    """Kind of the fault (docs/explanation/errors.md)."""
     message: str = ""
     value: str = ""
     """As it stands in the text, shortened."""

@@ -179,7 +179,7 @@ def changes_text() -> str:
                            typing="Dict, Literal, Mapping, Optional, Sequence, Union"),
              "from ._part import BodyLike", f"from .parts import {', '.join(used)}", "", "",
              "class Changes:",
-             '    """One method for each type of change (docs/editing.md)."""', "",
+             '    """One method for each type of change (docs/how-to/editing.md)."""', "",
              "    def _add(self, kind: str, settings: Dict[str, Any]) -> None:",
              "        raise NotImplementedError"]
     for variant in change["variants"]:

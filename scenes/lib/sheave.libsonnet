@@ -5,7 +5,7 @@
 //
 // A part is an object with lists of a scene (bodies, joints, cables, ...). Hidden fields (written
 // with ::, they are not in the scene) tell what others need to know of it: points, names, closed
-// forms. Units are SI; machines stand in the plane z = 0, y is up. docs/jsonnet.md has pictures.
+// forms. Units are SI; machines stand in the plane z = 0, y is up. docs/how-to/jsonnet.md has pictures.
 {
   local sheave = self,
   local lists = ['bodies', 'joints', 'cables', 'controllers', 'triggers', 'colliders', 'paint', 'checks'],

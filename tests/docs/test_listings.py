@@ -20,7 +20,7 @@ import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 COMMAND = pathlib.Path(os.environ.get("SHEAVE_COMMAND", ROOT / "build/release/tools/sheave"))
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 CONSOLE = re.compile(r"^ *```console\n(.*?)^ *```", re.DOTALL | re.MULTILINE)
 PLAIN = re.compile(r"^ *```(?:text)?\n(.*?)^ *```", re.DOTALL | re.MULTILINE)
 # Commands that take minutes, or need the file of an earlier one or emscripten.
@@ -101,11 +101,11 @@ CASES = [(page, command, shown) for page in PAGES for command, shown in sessions
 
 
 def test_there_are_listings():
-    assert len([page for page, _, _ in CASES if page.name == "tutorial.md"]) >= 10
+    assert len([page for page, _, _ in CASES if page.parent.name == "tutorial"]) >= 10
 
 
 @pytest.mark.parametrize("page, command, shown", CASES,
-                         ids=[f"{page.name}: {command}"[:70] for page, command, _ in CASES])
+                         ids=[f"{page.relative_to(ROOT)}: {command}"[:90] for page, command, _ in CASES])
 def test_a_command_prints_what_the_page_says(page, command, shown, shell):
     # Two seconds of a video tell as much as twenty.
     made = shell(command + " --duration 2" if "--video" in command else command)
@@ -133,7 +133,7 @@ def test_there_are_plain_commands():
 
 
 @pytest.mark.parametrize("page, command", PLAIN_CASES,
-                         ids=[f"{page.name}: {command}"[:70] for page, command in PLAIN_CASES])
+                         ids=[f"{page.relative_to(ROOT)}: {command}"[:90] for page, command in PLAIN_CASES])
 def test_a_plain_command_runs(page, command, shell):
     # A page is opened by whoever reads it; pictures of pages are drawn elsewhere (test_page_pictures.py).
     # A few frames of a film tell as much as a thousand.
@@ -145,7 +145,7 @@ def test_a_plain_command_runs(page, command, shell):
 PARTS = [(page, name, text) for page in PAGES for name, text in PART.findall(page.read_text(encoding="utf-8"))]
 
 
-@pytest.mark.parametrize("page, name, text", PARTS, ids=[f"{page.name}: {name}" for page, name, _ in PARTS])
+@pytest.mark.parametrize("page, name, text", PARTS, ids=[f"{page.relative_to(ROOT)}: {name}" for page, name, _ in PARTS])
 def test_a_part_of_a_file_is_in_it(page, name, text):
     whole = " ".join((page.parent / name).read_text(encoding="utf-8").split())
     assert " ".join(text.split()) in whole
@@ -166,14 +166,14 @@ def test_scenes_and_options_in_pages_are_there(shell):
             name = command.split()[0]
             for option in re.findall(r"(?<=\s)--[\w-]+", command):
                 if option not in options[name]:
-                    faults.append(f"{page.name}: sheave {command}: no option {option}")
+                    faults.append(f"{page.relative_to(ROOT)}: sheave {command}: no option {option}")
             for scene in re.findall(r"\bscenes/[\w/-]+\.json", command):
                 if not (ROOT / scene).exists():
-                    faults.append(f"{page.name}: sheave {command}: no {scene}")
+                    faults.append(f"{page.relative_to(ROOT)}: sheave {command}: no {scene}")
     assert not faults, "\n".join(faults)
 
 
 def test_the_page_of_commands_is_what_the_help_says():
     made = subprocess.run([str(ROOT / "tools/command-pages"), str(COMMAND)], text=True, capture_output=True, check=True)
-    assert made.stdout == (ROOT / "docs/commands.md").read_text(encoding="utf-8"), \
-        "run: tools/command-pages build/release/tools/sheave > docs/commands.md"
+    assert made.stdout == (ROOT / "docs/reference/commands.md").read_text(encoding="utf-8"), \
+        "run: tools/command-pages build/release/tools/sheave > docs/reference/commands.md"

@@ -46,7 +46,7 @@ TEST(LiveSchema, KnowsEveryRequestAndControl) {
 }
 
 std::string page() {
-  std::ifstream file(std::string(SHEAVE_SOURCE_DIR) + "/docs/live.md");
+  std::ifstream file(std::string(SHEAVE_SOURCE_DIR) + "/docs/reference/live.md");
   std::stringstream text;
   text << file.rdbuf();
   return text.str();
@@ -122,7 +122,7 @@ TEST(LivePage, ItsExamplesHappenAsItSays) {
 
 TEST(LivePage, HasTheReferenceThatIsMadeFromTheTables) {
   EXPECT_NE(page().find(live::protocol_reference()), std::string::npos)
-      << "put this at the end of docs/live.md:\n"
+      << "put this at the end of docs/reference/live.md:\n"
       << live::protocol_reference();
 }
 

@@ -75,7 +75,7 @@ TEST_P(SlidingRun, RoundARingNotEveryLinkSlides) {
 
 TEST_P(SlidingRun, CableBetweenDryFrictionAndAHoleHasATensionThatHolds) {
   // Sweeps end with either, and the velocities of `rattle` leave open what is redundant
-  // (docs/friction.md).
+  // (docs/explanation/friction.md).
   if (GetParam().solver != SolverKind::direct || GetParam().rattle()) GTEST_SKIP();
   // A block that dry friction holds, a rough hole in the world, a weight: the block does not move,
   // so nothing slides, and what the first span carries is within the cone of the hole.

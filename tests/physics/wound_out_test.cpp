@@ -110,7 +110,7 @@ TEST_P(WoundOut, EnergyDoesNotGrow) {
     for (const int substeps : {1, 2, 8}) {
       if (!direct && (stiffness > 1e6 || substeps < 8 || GetParam().rattle())) continue;
       // Of a rope as stiff as that `rattle` gains 3 % in substeps of 1/60 s and 1/120 s, which is
-      // listed in docs/known-faults.md.
+      // listed in docs/reference/known-faults.md.
       if (stiffness == 1e9 && substeps < 8 && GetParam().rattle()) continue;
       for (const bool mirrored : {false, true}) {
         SCOPED_TRACE(testing::Message()

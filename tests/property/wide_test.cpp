@@ -320,7 +320,8 @@ TEST(Property, WideMachinesGoOnFromTheMiddleToTheLastBit) {
   });
 }
 
-// What is reported of each substep belongs together (docs/certificate.md), as long as the machine
+// What is reported of each substep belongs together (docs/explanation/certificate.md), as long as the
+// machine
 // asks for nothing that cannot be: where rows contradict each other (drives that pull a rigid cable
 // apart, joints that lock each other), the direct solver makes all of them give way and counts
 // these rounds (StepStatistics::compromises), or finds that nothing can move for them

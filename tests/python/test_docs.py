@@ -1,4 +1,4 @@
-"""Every listing of docs/python.md does what it says."""
+"""Every listing of docs/how-to/python.md does what it says."""
 
 import contextlib
 import io
@@ -7,7 +7,7 @@ import re
 import pytest
 from conftest import ROOT
 
-PAGE = (ROOT / "docs/python.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs/how-to/python.md").read_text(encoding="utf-8")
 LISTINGS = re.findall(r"```python\n(.*?)```\n(?:\n```output\n(.*?)```)?", PAGE, re.DOTALL)
 
 
@@ -19,5 +19,5 @@ def test_there_are_listings():
 def test_a_listing_does_what_it_says(code, output, root):
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
-        exec(compile(code, "docs/python.md", "exec"), {"__name__": "listing"})
+        exec(compile(code, "docs/how-to/python.md", "exec"), {"__name__": "listing"})
     assert printed.getvalue() == output

@@ -1,4 +1,5 @@
-// Inputs that never end are read up to a size that docs/reliability.md states, and refused.
+// Inputs that never end are read up to a size that docs/explanation/reliability.md
+// states, and refused.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -111,7 +111,7 @@ TEST(Player, ShowsTheFirstTensionsAtTheStart) {
 
 TEST(RenderCommand, APictureOfARestHasTheTensionsOfTheRest) {
   // 1000 kg on an elastic rope that the scene stretches to 52.6 kN: at rest it carries 9810 N, told
-  // as "9.8 kN". (The recipe of docs/statics.md.)
+  // as "9.8 kN". (The recipe of docs/how-to/statics.md.)
   const TemporaryFolder folder;
   const std::string scene = folder.write("load.json", R"({
     "format": "sheave-scene/1", "gravity": [0, -9.81, 0], "duration": 1,

@@ -1,4 +1,4 @@
-// What the file says; how it looks is docs/pictures.md's.
+// What the file says; how it looks is docs/how-to/pictures.md's.
 
 #include "view/svg_canvas.h"
 
