@@ -1,13 +1,13 @@
-"""What the pages list does what they say.
+"""Commands on pages run and print the lines of the page.
 
-* A ```console block: its commands run (in docs/, or for README.md in a folder with its scenes), end with exit code 0 and
-  print the lines below them; "..." stands for any lines. Numbers may differ by a hundred-thousandth, for pages show more
-  digits than anybody promises.
-* A block without a language: its lines that run `sheave` on a scene of the repository, or on `crane.json`, end with exit
-  code 0, but for those that take minutes (LEFT_OUT).
-* A block below <!-- file: NAME --> is part of that file. One below the words `NAME.json` is a scene that the page's
-  commands find under that name.
-* Commands in the text name scenes that are there, and options that the command knows.
+* The commands of a ```console block run in a folder with the scenes, end with exit code 0 and
+  print the lines below them. "..." stands for any lines. Numbers may differ by a hundred-thousandth, because pages show more
+  digits than the tests of physics hold.
+* In a block without a language, lines that run `sheave` on a scene of the repository, or on `crane.json`, end with exit
+  code 0. Commands that take minutes are left out (LEFT_OUT).
+* A block below <!-- file: NAME --> is part of that file; NAME is relative to the page. A block below the words `NAME.json`
+  is a scene, and the commands of the page find it under that name.
+* Commands in the text name existing scenes, and options of the command.
 """
 
 import os
