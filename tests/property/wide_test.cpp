@@ -320,15 +320,13 @@ TEST(Property, WideMachinesGoOnFromTheMiddleToTheLastBit) {
   });
 }
 
-// What is reported of each substep belongs together (docs/explanation/certificate.md), as long as the
-// machine
-// asks for nothing that cannot be: where rows contradict each other (drives that pull a rigid cable
-// apart, joints that lock each other), the direct solver makes all of them give way and counts
-// these rounds (StepStatistics::compromises), or finds that nothing can move for them
-// (StepStatistics::impossible), or nothing near satisfies them (StepStatistics::dead_ends), and the
-// certificate is right to doubt what follows.
-// What else it finds is for people to look at, and this runs when it is asked for: by
-// tools/campaign.
+// The certificate of each substep is clean (docs/explanation/certificate.md) if the machine asks for
+// nothing impossible. Rows can contradict each other: drives that pull a rigid cable apart, joints
+// that lock each other. Then the direct solver makes all of them give way and counts these rounds
+// (StepStatistics::compromises), or finds that nothing can move for them
+// (StepStatistics::impossible), or that nothing near satisfies them (StepStatistics::dead_ends).
+// After that a doubtful certificate is right. Other findings are for people to examine, so this
+// campaign runs on request, by tools/campaign.
 TEST(Property, DISABLED_WideMachinesAreCertified) {
   run_wide_campaign("wide-certificate", [](const Machine& machine, std::uint64_t) {
     const bool direct = machine.model.step.solver == SolverKind::direct;
