@@ -147,7 +147,7 @@ std::optional<Certificate> Simulation::certificate() const {
 
 // Costs in instructions, fitted to the counts of callgrind for 34 scenes of the repository with
 // three pairs of solver and integrator: the largest cost of a check there, and the smallest cost of
-// a substep (docs/certificate.md).
+// a substep (docs/explanation/certificate.md).
 CertificateSchedule::CertificateSchedule(const Simulation& simulation, double share) {
   const World& world = simulation.world;
   const Model& model = world.model();

@@ -11,7 +11,7 @@
 // (cable/certificate/) shares nothing with the solvers except the model. It checks the balances of
 // momentum, the residual of every constraint, the laws of friction, the balance of energy and the
 // length of the cables. Each figure is relative to its own scale, so units and sizes have no
-// influence. The check cannot see the discretisation error of the time step (docs/certificate.md).
+// influence. The check cannot see the discretisation error of the time step (docs/explanation/certificate.md).
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 #pragma once
 // The protocol by which programs in any language use a world: one JSON object per line in, one line
 // out for each, and event lines, which begin with {"event":, in between. Documentation:
-// docs/live.md.
+// docs/reference/live.md.
 
 #include <array>
 #include <cstddef>

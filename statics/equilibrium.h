@@ -6,7 +6,7 @@
 //   if (!rest.converged) report(rest.message);
 //   tension = simulation->cable_reports()[0].spans[2].tension;  // the simulation is there now
 //
-// Equations and method: docs/statics.md.
+// Equations and method: docs/how-to/statics.md.
 
 #include <string>
 #include <vector>

@@ -5,7 +5,7 @@
 //   auto modes = sheave::find_modes(*simulation);
 //   double first = modes.modes[0].frequency;  // [Hz]
 //
-// Equations and their limits: docs/modes.md.
+// Equations and their limits: docs/how-to/modes.md.
 
 #include <complex>
 #include <string>
