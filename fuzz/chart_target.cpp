@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
+#include "command/text/one_line.h"
 #include "fuzz/chart_texts.h"
 #include "fuzz/target.h"
-#include "tools/one_line.h"
 
 namespace sheave::fuzz {
 namespace {

@@ -6,13 +6,13 @@
 #include <limits>
 #include <string_view>
 
+#include "command/bench/table.h"
+#include "command/plot/data.h"
+#include "command/stress/table.h"
+#include "command/sweep/table.h"
+#include "command/trade/table.h"
 #include "fuzz/target.h"
 #include "scenes/json/text.h"
-#include "tools/bench_table.h"
-#include "tools/plot_data.h"
-#include "tools/stress_table.h"
-#include "tools/sweep_table.h"
-#include "tools/trade_table.h"
 
 namespace sheave::fuzz {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/gnuplot_script.h"
+#include "command/output/gnuplot_script.h"
 
 namespace sheave::fuzz {
 

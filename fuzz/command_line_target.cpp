@@ -1,9 +1,9 @@
 #include <CLI/CLI.hpp>
 
+#include "command/command_line.h"
+#include "command/registry.h"
 #include "fuzz/target.h"
 #include "scenes/scene.h"
-#include "tools/command.h"
-#include "tools/command_line.h"
 
 namespace sheave::fuzz {
 namespace {

@@ -10,9 +10,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "command/registry.h"
 #include "live/request_format.h"
 #include "scenes/format.h"
-#include "tools/command.h"
 
 namespace sheave::fuzz {
 namespace {

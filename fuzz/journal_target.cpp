@@ -5,11 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "command/bench/table.h"
+#include "command/failure.h"
+#include "command/trade/journal.h"
+#include "command/trade/journal_check.h"
 #include "fuzz/target.h"
-#include "tools/bench_table.h"
-#include "tools/failure.h"
-#include "tools/trade_journal.h"
-#include "tools/trade_journal_check.h"
 
 namespace sheave::fuzz {
 namespace {

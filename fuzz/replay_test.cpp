@@ -13,13 +13,13 @@
 
 #include <gtest/gtest.h>
 
+#include "command/output/gnuplot.h"
+#include "command/text/one_line.h"
 #include "fuzz/chart_texts.h"
 #include "fuzz/machine.h"
 #include "fuzz/target.h"
 #include "tests/property/shrink.h"
 #include "tests/support/hostile_text.h"
-#include "tools/gnuplot.h"
-#include "tools/one_line.h"
 
 #if SHEAVE_HAS_RENDER
 #include "render/child_process.h"
@@ -77,7 +77,7 @@ void keep_scene(Bytes bytes, std::uint64_t seed) {
       << test::scene_of(trial_from(bytes).machine);
 }
 
-// SHEAVE_CASES machines that follow from the seeds from SHEAVE_SEED on: `tools/fuzz random`.
+// SHEAVE_CASES machines that follow from the seeds from SHEAVE_SEED on: `dev/fuzz random`.
 // Scenes of those that break a promise are written to the folder SHEAVE_FAULTS.
 TEST(RandomMachines, keep_every_promise) {
   const std::uint64_t cases = from_environment("SHEAVE_CASES", 10);

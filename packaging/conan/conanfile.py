@@ -20,7 +20,7 @@ class SheaveConan(ConanFile):
     def export_sources(self):
         root = os.path.join(self.recipe_folder, "..", "..")
         for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "engine/*", "cable/*", "sheave/*",
-                        "scenes/*", "live/*", "measure/*", "tools/*"):
+                        "scenes/*", "live/*", "measure/*", "command/*"):
             copy(self, pattern, root, self.export_sources_folder)
 
     def layout(self):

@@ -19,7 +19,7 @@ class Sheave < Formula
            "-DSHEAVE_WARNINGS_AS_ERRORS=OFF"
     system "cmake", "--build", "build"
     system "cmake", "--install", "build"
-    system "tools/install-pages", "build/tools/sheave", prefix
+    system "dev/install-pages", "build/tools/sheave", prefix
   end
 
   test do

@@ -72,7 +72,7 @@ def shell(tmp_path_factory):
     folder = tmp_path_factory.mktemp("pages")
     (folder / "bin").mkdir()
     (folder / "bin" / "sheave").symlink_to(COMMAND)
-    for name in ("scenes", "docs", "build", "examples", "tools", "tests"):
+    for name in ("scenes", "docs", "build", "examples", "dev", "tools", "tests"):
         (folder / name).symlink_to(ROOT / name)
     (folder / "tutorial").symlink_to(ROOT / "docs" / "tutorial")
     (folder / "crane.json").symlink_to(ROOT / "scenes/machines/crane.json")
@@ -174,6 +174,6 @@ def test_scenes_and_options_in_pages_are_there(shell):
 
 
 def test_the_page_of_commands_is_what_the_help_says():
-    made = subprocess.run([str(ROOT / "tools/command-pages"), str(COMMAND)], text=True, capture_output=True, check=True)
+    made = subprocess.run([str(ROOT / "dev/command-pages"), str(COMMAND)], text=True, capture_output=True, check=True)
     assert made.stdout == (ROOT / "docs/reference/commands.md").read_text(encoding="utf-8"), \
-        "run: tools/command-pages build/release/tools/sheave > docs/reference/commands.md"
+        "run: dev/command-pages build/release/tools/sheave > docs/reference/commands.md"

@@ -1,4 +1,4 @@
-"""Pictures of pages are what the commands that stand above them make (tools/page-pictures)."""
+"""Pictures of pages are what the commands that stand above them make (dev/page-pictures)."""
 
 import importlib.machinery
 import importlib.util
@@ -9,7 +9,7 @@ import shutil
 import pytest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-LOADER = importlib.machinery.SourceFileLoader("page_pictures", str(ROOT / "tools/page-pictures"))
+LOADER = importlib.machinery.SourceFileLoader("page_pictures", str(ROOT / "dev/page-pictures"))
 page_pictures = importlib.util.module_from_spec(importlib.util.spec_from_loader("page_pictures", LOADER))
 LOADER.exec_module(page_pictures)
 

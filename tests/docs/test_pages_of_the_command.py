@@ -45,7 +45,7 @@ def test_other_shells_read_their_scripts(shell, words, tmp_path):
 
 
 def test_manual_pages_say_what_the_help_says(tmp_path):
-    subprocess.run([ROOT / "tools/man-pages", COMMAND, tmp_path], check=True)
+    subprocess.run([ROOT / "dev/man-pages", COMMAND, tmp_path], check=True)
     names = {page.name for page in tmp_path.iterdir()}
     assert {"sheave.1", "sheave-run.1", "sheave-completion.1"} <= names
     text = (tmp_path / "sheave-run.1").read_text(encoding="utf-8")

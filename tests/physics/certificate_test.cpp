@@ -1,6 +1,6 @@
 // The certificate finds nothing where numbers are right, to what solvers leave, and something where
 // a solver has not converged. That it sees faults of the code itself is shown by
-// tools/mutation-table.
+// bench/tables/mutation-table.
 
 #include "cable/certificate.h"
 

@@ -28,7 +28,7 @@
 namespace sheave::test {
 namespace {
 
-// Tests that begin with DISABLED_ have seeds that fail and are not yet explained: tools/campaign
+// Tests that begin with DISABLED_ have seeds that fail and are not yet explained: dev/campaign
 // runs them, too.
 
 constexpr int wide_steps = 30;
@@ -326,7 +326,7 @@ TEST(Property, WideMachinesGoOnFromTheMiddleToTheLastBit) {
 // (StepStatistics::compromises), or finds that nothing can move for them
 // (StepStatistics::impossible), or that nothing near satisfies them (StepStatistics::dead_ends).
 // After that a doubtful certificate is right. Other findings are for people to examine, so this
-// campaign runs on request, by tools/campaign.
+// campaign runs on request, by dev/campaign.
 TEST(Property, DISABLED_WideMachinesAreCertified) {
   run_wide_campaign("wide-certificate", [](const Machine& machine, std::uint64_t) {
     const bool direct = machine.model.step.solver == SolverKind::direct;

@@ -1,4 +1,4 @@
-"""Calls of everything that the module has, with anything: for test_fuzz.py and tools/fuzz-python.
+"""Calls of everything that the module has, with anything: for test_fuzz.py and dev/fuzz-python.
 
 A call may only come back, or raise what sheave promises: its own errors, or the TypeError of a
 call that Python itself refuses. Whatever else it raises is a fault, and a simulation that a

@@ -1,6 +1,6 @@
 """Anything is called with anything: errors that tell, no crash, nothing changed by what was refused.
 
-Short here; tools/fuzz-python does the same for as long as one wants.
+Short here; dev/fuzz-python does the same for as long as one wants.
 """
 
 import pytest

@@ -1,4 +1,4 @@
-"""Worlds that come and go take no memory along. tools/leak-python does the same 100,000 times."""
+"""Worlds that come and go take no memory along. dev/leak-python does the same 100,000 times."""
 
 import gc
 import os

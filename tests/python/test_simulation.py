@@ -255,7 +255,7 @@ def test_certificates_are_told(atwood):
 
 def test_a_run_is_doubtful_as_the_command_says():
     # A driven drum that ten sweeps let run backwards.
-    sim = sheave.load(ROOT / "tools/faults/a3-drum.json")
+    sim = sheave.load(ROOT / "dev/faults/a3-drum.json")
     assert not sim.doubtful
     sim.run()
     assert sim.doubtful and any(item["relative"] > 0.01 for item in sim.run_certificate())

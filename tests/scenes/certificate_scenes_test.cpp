@@ -1,5 +1,5 @@
 // Every scene of the repository is clean with the direct solver, whatever the integrator: nothing
-// that is reported contradicts anything else. So are the machines of tools/faults that once
+// that is reported contradicts anything else. So are the machines of dev/faults that once
 // came out wrong silently and are mended.
 
 #include <gtest/gtest.h>
@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(scenes, CertifiedScene, testing::ValuesIn(valid_scene_f
                          [](const auto& scene) { return test_name(scene.param); });
 
 std::vector<std::filesystem::path> mended_machines() {
-  const std::filesystem::path folder = std::filesystem::path(SHEAVE_SOURCE_DIR) / "tools/faults";
+  const std::filesystem::path folder = std::filesystem::path(SHEAVE_SOURCE_DIR) / "dev/faults";
   std::vector<std::filesystem::path> files;
   for (const char* name : {"a1-drum-and-post", "a1-eyelets", "a1-feed", "a1-holes", "a2-post",
                            "axles", "damped-friction", "elastic-friction", "feed",
@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(faults, CertifiedScene, testing::ValuesIn(mended_machin
 // nothing.
 TEST(CertificateOfScenes, ALoadAtRestWithoutGravityIsClean) {
   const SceneResult loaded =
-      load_scene(std::string(SHEAVE_SOURCE_DIR) + "/tools/faults/mainsheet.json");
+      load_scene(std::string(SHEAVE_SOURCE_DIR) + "/dev/faults/mainsheet.json");
   ASSERT_TRUE(loaded);
   const Certificate all = certify_scene(*loaded.scene, 3.0, 1);
   EXPECT_TRUE(all.clean()) << all.worst()->sentence();
@@ -81,7 +81,7 @@ TEST(CertificateOfScenes, ALoadAtRestWithoutGravityIsClean) {
 // backwards, while tension and torque read right.
 TEST(CertificateOfScenes, ADrumThatRunsBackwardsIsDoubtful) {
   const SceneResult loaded =
-      load_scene(std::string(SHEAVE_SOURCE_DIR) + "/tools/faults/a3-drum.json");
+      load_scene(std::string(SHEAVE_SOURCE_DIR) + "/dev/faults/a3-drum.json");
   ASSERT_TRUE(loaded);
   const Certificate all = certify_scene(*loaded.scene, 0.5, 1);
   ASSERT_NE(all.find(CertificateItem::Kind::drive), nullptr);

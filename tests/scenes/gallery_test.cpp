@@ -1,4 +1,4 @@
-// scenes/README.md, which tools/gallery writes, shows every scene that is there and nothing else.
+// scenes/README.md, which dev/gallery writes, shows every scene that is there and nothing else.
 
 #include <regex>
 

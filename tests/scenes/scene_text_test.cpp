@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/tools/scenes.h"
+#include "tests/command/scenes.h"
 
 namespace sheave::test {
 namespace {

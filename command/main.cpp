@@ -1,0 +1,77 @@
+// The `sheave` command, and how it ends.
+
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "command/command_line.h"
+#include "command/registry.h"
+#include "command/terminal.h"
+
+namespace sheave::tools {
+namespace {
+
+ExitCode dispatch(int argc, char** argv) {
+  const CommandLine line;
+  if (!parse_command_line(*line.app, argc, argv)) return ExitCode::done;
+  for (std::size_t i = 0; i < commands().size(); ++i) {
+    if (line.app->got_subcommand(commands()[i].name)) return line.actions[i]();
+  }
+  return ExitCode::internal;
+}
+
+void print_internal_error(const char* what) {
+  try {
+    print_error(std::string("internal: ") + what);
+  } catch (const std::bad_alloc&) {
+    print_error("out of memory");
+  }
+}
+
+/// Every way to end leads through here.
+ExitCode run_command_line(int argc, char** argv) {
+  try {
+    return dispatch(argc, argv);
+  } catch (const Failure& failure) {
+    print_error(failure.what());
+    return failure.code();
+  } catch (const std::bad_alloc&) {
+    print_error("out of memory");
+  } catch (const std::exception& error) {
+    print_internal_error(error.what());
+  }
+  return ExitCode::internal;
+}
+
+/// An exception that a destructor or another function must not throw: libraries allocate in some.
+/// The way back is lost, the reason is not.
+[[noreturn]] void end_at_once() noexcept {
+  try {
+    if (const std::exception_ptr failure = std::current_exception()) {
+      std::rethrow_exception(failure);
+    }
+    print_internal_error("terminated");
+  } catch (const std::bad_alloc&) {
+    print_error("out of memory");
+  } catch (const std::exception& error) {
+    print_internal_error(error.what());
+  } catch (...) {
+    print_internal_error("unknown exception");
+  }
+  std::_Exit(static_cast<int>(ExitCode::internal));
+}
+
+}  // namespace
+}  // namespace sheave::tools
+
+int main(int argc, char** argv) {
+  sheave::tools::turn_signals_into_errors();
+  // Mesa's software renderer starts a thread per core for each picture line of ours, and waits for
+  // ever for those that the system does not allow. Without them pictures are the same.
+  ::setenv("LP_NUM_THREADS", "0", 0);
+  std::set_terminate(sheave::tools::end_at_once);
+  return static_cast<int>(sheave::tools::run_command_line(argc, argv));
+}

@@ -1,0 +1,84 @@
+#include "command/output/gnuplot.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "command/failure.h"
+#include "command/interrupt.h"
+
+#if SHEAVE_HAS_RENDER
+#include "render/child_process.h"
+#include "render/output_file.h"
+#endif
+
+namespace sheave::tools {
+
+#if SHEAVE_HAS_RENDER
+
+namespace {
+
+/// Whether a picture ends as one of its format does: gnuplot may end with success and half of one.
+bool is_whole_picture(const std::vector<std::uint8_t>& bytes, ChartFormat format) {
+  constexpr std::ptrdiff_t longest = 16;
+  const auto size = static_cast<std::ptrdiff_t>(bytes.size());
+  const std::string tail(bytes.end() - std::min(size, longest), bytes.end());
+  const std::string_view mark =
+      format == ChartFormat::png ? "IEND" : (format == ChartFormat::svg ? "</svg>" : "%%EOF");
+  return tail.find(mark) != std::string::npos;
+}
+
+[[noreturn]] void not_drawn(const std::string& path, const std::string& why) {
+  throw Failure(ExitCode::io, path + ": " + why);
+}
+
+/// The picture that a script makes.
+std::vector<std::uint8_t> drawn(const std::string& path, const GnuplotScript& script) {
+  // The first signal may have ended the run that is to be drawn; then the chart is still wanted.
+  const bool already = interrupted();
+  const auto unwanted = [already] { return already ? hurried() : interrupted(); };
+  // -d: without gnuplotrc and ~/.gnuplot. GNUTERM and GNUPLOT_... choose terminals, drivers, fonts
+  // and folders of scripts, FIT_..., PAGER and SHELL files and programs.
+  Result<render::ChildProcess> gnuplot = render::ChildProcess::start(
+      {"gnuplot", "-d", "-"},
+      {.abandon = unwanted,
+       .keeps_output = true,
+       .hidden_variables = {"GNUPLOT", "GNUTERM", "GNUHELP", "FIT_", "PAGER=", "SHELL="},
+       .if_missing = "charts need gnuplot (Debian: apt install gnuplot-nox)"});
+  if (!gnuplot) throw Failure(ExitCode::io, to_text(gnuplot.errors()));
+  const std::string text = script.text();
+  Errors errors = gnuplot->write(std::vector<std::uint8_t>(text.begin(), text.end()));
+  if (errors.empty()) errors = gnuplot->finish();
+  if (unwanted()) throw Failure(ExitCode::interrupted, path + ": not drawn: interrupted");
+  if (!errors.empty()) not_drawn(path, to_text(errors));
+  std::vector<std::uint8_t> picture = gnuplot->output();
+  if (!is_whole_picture(picture, script.format())) {
+    const std::string said = gnuplot->last_words();
+    not_drawn(path, "'gnuplot' has left no picture" + (said.empty() ? "" : ": " + said));
+  }
+  return picture;
+}
+
+}  // namespace
+
+void draw_with_gnuplot(const std::string& path, const GnuplotScript& script) {
+  // Otherwise a signal would end us, and leave a gnuplot that hangs to itself.
+  catch_interrupts();
+  Result<render::OutputFile> file = render::OutputFile::create(path);
+  if (!file) throw Failure(ExitCode::io, to_text(file.errors()));
+  // Written by us and not by gnuplot, which does not tell of a full disk.
+  Errors errors = file->write(drawn(path, script));
+  if (errors.empty()) errors = file->commit();
+  if (!errors.empty()) throw Failure(ExitCode::io, to_text(errors));
+}
+
+#else
+
+void draw_with_gnuplot(const std::string& path, const GnuplotScript&) {
+  throw Failure(ExitCode::io, path + ": this build cannot start gnuplot (SHEAVE_RENDER is off)");
+}
+
+#endif
+
+}  // namespace sheave::tools

@@ -1,0 +1,58 @@
+#include "command/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include <sched.h>
+
+namespace sheave::tools {
+
+int core_count() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (::sched_getaffinity(0, sizeof set, &set) == 0) return std::max(1, CPU_COUNT(&set));
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+void run_parallel(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
+                  const std::function<void()>& poll) {
+  std::atomic<std::size_t> next = 0;
+  std::mutex mutex;  // of the two below
+  std::condition_variable changed;
+  std::exception_ptr failure;
+  std::size_t ended = 0;
+  const std::size_t workers = std::min(count, static_cast<std::size_t>(std::max(threads, 1)));
+  std::vector<std::jthread> pool;
+  for (std::size_t w = 0; w < workers; ++w) {
+    pool.emplace_back([&] {
+      try {
+        for (std::size_t i = next++; i < count; i = next++) work(i);
+      } catch (...) {
+        next = count;
+        const std::lock_guard lock(mutex);
+        if (!failure) failure = std::current_exception();
+      }
+      const std::lock_guard lock(mutex);
+      ++ended;
+      changed.notify_one();
+    });
+  }
+  constexpr std::chrono::milliseconds interval{50};
+  std::unique_lock lock(mutex);
+  while (!changed.wait_for(lock, interval, [&] { return ended == workers; })) {
+    lock.unlock();
+    poll();
+    lock.lock();
+  }
+  lock.unlock();
+  pool.clear();  // waits
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace sheave::tools

@@ -1,0 +1,61 @@
+#pragma once
+// What every subcommand provides. Adding one: a folder here and a line in command/registry.cpp.
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "command/failure.h"
+
+namespace CLI {
+class App;
+}
+
+namespace sheave::tools {
+
+/// What a subcommand does once the command line is read.
+using Action = std::function<ExitCode()>;
+
+/// One subcommand.
+struct Command {
+  const char* name;
+  const char* meaning;               ///< one line of help
+  Action (*declare)(CLI::App& app);  ///< adds options and examples to `app`
+};
+
+/// All subcommands, in the order of the help.
+[[nodiscard]] std::span<const Command> commands();
+
+/// All that the command line may say.
+struct CommandLine {
+  std::unique_ptr<CLI::App> app;
+  std::vector<Action> actions;  ///< of commands(), in their order; they need `app`
+
+  CommandLine();
+  ~CommandLine();
+  CommandLine(const CommandLine&) = delete;
+  CommandLine& operator=(const CommandLine&) = delete;
+};
+
+/// Of what needs the renderer, in a build without it: takes any arguments and fails.
+Action declare_without_renderer(CLI::App& app);
+Action declare_run(CLI::App& app);
+Action declare_live(CLI::App& app);
+Action declare_render(CLI::App& app);
+Action declare_statics(CLI::App& app);
+Action declare_modes(CLI::App& app);
+Action declare_view(CLI::App& app);
+Action declare_validate(CLI::App& app);
+Action declare_schema(CLI::App& app);
+Action declare_reference(CLI::App& app);
+Action declare_generate(CLI::App& app);
+Action declare_bench(CLI::App& app);
+Action declare_trade(CLI::App& app);
+Action declare_stress(CLI::App& app);
+Action declare_completion(CLI::App& app);
+Action declare_sweep(CLI::App& app);
+Action declare_merge(CLI::App& app);
+Action declare_plot(CLI::App& app);
+
+}  // namespace sheave::tools

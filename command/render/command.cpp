@@ -1,0 +1,295 @@
+// sheave render: simulate a scene and write a video, pictures or a still.
+
+#include <CLI/CLI.hpp>
+
+#include "command/registry.h"
+
+#if SHEAVE_HAS_RENDER
+
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "command/command_line.h"
+#include "command/interrupt.h"
+#include "command/output/file.h"
+#include "command/output/paths.h"
+#include "command/render/look.h"
+#include "command/render/moments.h"
+#include "command/render/outputs.h"
+#include "command/render/trails.h"
+#include "command/run/checker.h"
+#include "command/run/player.h"
+#include "command/run/state_file.h"
+#include "command/scene_options.h"
+#include "command/terminal.h"
+#include "engine/field_check.h"
+#include "engine/number_text.h"
+#include "render/video_writer.h"
+#include "render/view_builder.h"
+#include "view/gltf_animation.h"
+
+namespace sheave::tools {
+namespace {
+
+struct RenderOptions {
+  SceneOptions scene;
+  PictureOptions pictures;
+  std::string load_state;
+  bool quiet = false;
+};
+
+/// The run as glTF, if that is asked for.
+class GlbOutput {
+ public:
+  GlbOutput(const PictureOptions& options, const Look& look)
+      : path_(options.glb), speed_(options.speed), animation_(look.builder, look.tension_max) {
+    if (!path_.empty()) file_.emplace(path_);
+  }
+  [[nodiscard]] bool is_wanted() const { return file_.has_value(); }
+  [[nodiscard]] long frames() const { return static_cast<long>(animation_.frames()); }
+
+  void add(const Simulation& simulation, const std::vector<CableReport>& cables) {
+    if (!file_) return;
+    const double time = simulation.world.state().time;
+    if (animation_.frames() == 0) begin_ = time;
+    animation_.add((time - begin_) / speed_, simulation.world, cables);
+  }
+  void finish(const Model& model) {
+    if (!file_ || animation_.frames() == 0) return;
+    file_->write(animation_.finish(model));
+    file_->commit();
+  }
+
+ private:
+  std::string path_;
+  double speed_;
+  double begin_ = 0.0;  // [s]
+  view::GltfAnimation animation_;
+  std::optional<OutputFile> file_;
+};
+
+ExitCode report(const RunOutcome& outcome, const PictureOutputs& outputs, long glb_frames,
+                const PictureOptions& options) {
+  if (outcome.status == RunStatus::done) {
+    if (!outcome.certificate.clean(default_trust)) {
+      print_warning("doubtful: " + doubt_text(outcome.certificate, default_trust));
+    }
+    return ExitCode::done;
+  }
+  const bool diverged = outcome.status == RunStatus::diverged;
+  std::string text =
+      diverged ? "diverged: " + outcome.divergence->message : std::string("interrupted");
+  const auto tell = [&](const std::string& path, long frames) {
+    if (path.empty()) return;
+    text += frames > 0 ? fmt::format("\n{}: partial, {} frames", path, frames)
+                       : fmt::format("\n{}: no frame was drawn", path);
+  };
+  // What is at fault is told with its fault.
+  if (outputs.has_video() || outputs.frames() == 0) tell(options.video, outputs.frames());
+  tell(options.png, outputs.png_frames());
+  tell(options.glb, glb_frames);
+  if (!options.still.empty() && !outputs.has_still()) {
+    text += "\n" + options.still + ": not written, its time was not reached";
+  }
+  if (diverged) {
+    print_error(text);
+  } else {
+    print_warning(text);
+  }
+  return diverged ? ExitCode::diverged : ExitCode::interrupted;
+}
+
+/// Plays the scene again and draws it.
+ExitCode draw(const Scene& scene, const RenderOptions& options, std::span<const Moment> moments,
+              const Look& look, Trails& trails, PictureOutputs& outputs) {
+  Progress progress("draw", 0.0, static_cast<double>(step_count(scene)), options.quiet);
+  GlbOutput glb(options.pictures, look);
+  const auto show = [&](std::size_t k, const Simulation& simulation) {
+    const Moment& moment = moments[k];
+    trails.observe(simulation.world);
+    if (!moment.frame && !moment.still) return true;
+    const std::vector<CableReport> cables = reports_to_show(scene, simulation);
+    if (moment.frame) glb.add(simulation, cables);
+    if (outputs.any_left()) {
+      render::DrawList list = look.builder.build(simulation.world, cables);
+      trails.add_to(list, look.builder.cable_radius());
+      if (moment.still) outputs.add_still(list, look.camera);
+      if (moment.frame) outputs.add_frame(std::move(list), look.camera);
+    }
+    return outputs.any_left() || glb.is_wanted();
+  };
+  RunOutcome outcome;
+  try {
+    outcome = play(scene, options.load_state, times_of(moments), progress, show);
+  } catch (...) {
+    outputs.finish();  // keeps what has been drawn
+    throw;
+  }
+  progress.clear();
+  outputs.finish();
+  const long glb_frames = glb.frames();
+  outputs.faults().attempt([&] { glb.finish(scene.model); });
+  return outputs.faults().report(report(outcome, outputs, glb_frames, options.pictures));
+}
+
+ExitCode render_scene(const RenderOptions& options) {
+  const PictureOptions& pictures = options.pictures;
+  const NamedPath first_frame{
+      "--png", pictures.png.empty() ? "" : fmt::format("{}/frame_000000.png", pictures.png)};
+  check_paths({{"the scene", options.scene.path}, {"--load-state", options.load_state}},
+              {{"--video", pictures.video},
+               {"--still", pictures.still},
+               {"--glb", pictures.glb},
+               first_frame},
+              false);
+  const Scene scene = load(options.scene);
+  double begin = 0.0;
+  if (!options.load_state.empty()) {
+    Simulation loaded = make_simulation(scene);
+    load_state(loaded, options.load_state, false);  // it is loaded once more
+    begin = loaded.world.state().time;
+  }
+  Trails trails(scene, pictures.trails);
+  const std::vector<Moment> moments =
+      choose_moments(scene, pictures, begin, trails.longest_interval());
+  catch_interrupts();
+  std::optional<PictureOutputs> outputs;
+  // What cannot be written is told before anything is simulated, if the size is known.
+  if (pictures.format != PictureFormat::best) outputs.emplace(sized(pictures, pictures.format));
+  const auto steps = static_cast<double>(step_count(scene));
+  Progress survey_progress("survey", 0.0, steps, options.quiet);
+  const Look look = survey(scene, {pictures, options.load_state, begin}, moments, survey_progress);
+  survey_progress.clear();
+  if (!outputs) outputs.emplace(sized(pictures, look.format));
+  return draw(scene, options, moments, look, trails, *outputs);
+}
+
+void check_usage(const PictureOptions& options) {
+  const auto ends_with_any = [](const std::string& path, std::initializer_list<const char*> ends) {
+    return std::any_of(ends.begin(), ends.end(),
+                       [&](const char* end) { return path.ends_with(end); });
+  };
+  if (!options.has_frames() && options.still.empty()) {
+    throw Failure(ExitCode::usage, "nothing to write: give --video, --png, --still or --glb");
+  }
+  if (!options.video.empty() && !ends_with_any(options.video, {".mp4", ".mov", ".mkv", ".gif"})) {
+    throw Failure(ExitCode::usage,
+                  "--video " + options.video + ": the name must end in .mp4, .mov, .mkv or .gif");
+  }
+  if (options.video.ends_with(".gif") && options.fps > render::VideoWriter::most_gif_rate) {
+    throw Failure(
+        ExitCode::usage,
+        fmt::format("--fps {}: of a GIF it must be at most {}, which is what browsers show",
+                    number_text(options.fps), number_text(render::VideoWriter::most_gif_rate)));
+  }
+  if (!options.glb.empty() && !ends_with_any(options.glb, {".glb"})) {
+    throw Failure(ExitCode::usage, "--glb " + options.glb + ": the name must end in .glb");
+  }
+  if (!options.still.empty() && !ends_with_any(options.still, {".png", ".svg"})) {
+    throw Failure(ExitCode::usage,
+                  "--still " + options.still + ": the name must end in .png or .svg");
+  }
+}
+
+void add_look_options(CLI::App& app, PictureOptions& options) {
+  const std::map<std::string, PictureFormat> formats{{"landscape", PictureFormat::landscape},
+                                                     {"portrait", PictureFormat::portrait},
+                                                     {"square", PictureFormat::square},
+                                                     {"best", PictureFormat::best}};
+  app.add_option("--format", options.format,
+                 "landscape: width and height as they are (the default); portrait: the other way "
+                 "round; square; best: what shows the scene largest")
+      ->transform(CLI::Transformer(formats))
+      ->option_text("FORMAT");
+  app.add_option("--tension-max", options.tension_max,
+                 "top of the colour scale [N]; default: the scene's, else that of the whole run")
+      ->check(number_between(1e-30, 1e30))
+      ->option_text("N");
+  app.add_option("--trail", options.trails,
+                 "the way of a body in the last seconds, NAME:SECONDS, or of a point in its own "
+                 "frame, NAME:SECONDS:X,Y,Z; may be repeated")
+      ->option_text("TRAIL");
+}
+
+void add_picture_options(CLI::App& app, PictureOptions& options) {
+  app.add_option("--video", options.video, "write a video (.mp4, .mov, .mkv or .gif; needs ffmpeg)")
+      ->option_text("FILE");
+  app.add_option("--png", options.png, "write every frame into a folder, frame_000000.png ...")
+      ->option_text("DIR");
+  CLI::Option* still = app.add_option("--still", options.still,
+                                      "write one picture (.png, or .svg with its texts as texts)");
+  still->option_text("FILE");
+  app.add_option("--at", options.at, "time of the still [s]; default: the end")
+      ->check(number_between(0.0, std::numeric_limits<double>::max()))
+      ->option_text("T")
+      ->needs(still);
+  app.add_option("--glb", options.glb, "write an animated glTF 2.0 model (.glb)")
+      ->option_text("FILE");
+  app.add_option("--width", options.width, "pixels; default 1280")
+      ->check(CLI::Range(render::Renderer::min_side, render::Renderer::max_side / 2))
+      ->option_text("N");
+  app.add_option("--height", options.height, "pixels; default 720")
+      ->check(CLI::Range(render::Renderer::min_side, render::Renderer::max_side / 2))
+      ->option_text("N");
+  app.add_option("--fps", options.fps,
+                 "frames per second of the video and of glTF; default 60, of a GIF 25 (50 at most)")
+      ->check(number_between(0.001, 1000.0))
+      ->option_text("X");
+  app.add_option("--speed", options.speed,
+                 "simulated seconds per second of the video; default 1, 0.1 is slow motion")
+      ->check(number_between(1e-9, 1e9))
+      ->option_text("X");
+  app.add_option("--parallel", options.threads,
+                 "frames drawn side by side; default: one per core, at most 8")
+      ->check(CLI::Range(1, 1024))
+      ->option_text("N");
+  add_look_options(app, options);
+  app.add_flag("--labels", options.labels, "write the tensions [N] beside the cables");
+}
+
+}  // namespace
+
+Action declare_render(CLI::App& app) {
+  auto options = std::make_shared<RenderOptions>();
+  add_scene_options(app, options->scene);
+  add_picture_options(app, options->pictures);
+  app.add_option("--load-state", options->load_state, "start from a saved state (sheave run)")
+      ->option_text("FILE");
+  app.add_flag("-q,--quiet", options->quiet, "print nothing but warnings and errors");
+  app.footer(R"(Examples:
+  sheave render crane.json --video crane.mp4
+  sheave render crane.json --still crane.png --at 1.5 --labels --width 1920 --height 1080
+  sheave render crane.json --video crane.gif --width 480 --height 270 --format best
+  sheave render crane.json --still way.png --trail hook:3
+  sheave render crane.json --glb crane.glb --fps 30
+  sheave render crane.json --video slow.mp4 --speed 0.1 --dt 0.001 --png frames
+
+The camera is that of the scene. What the scene leaves open is chosen so that the whole run is in
+the picture. Outputs appear when they are complete; after a divergence or Ctrl-C they hold the
+frames so far. Exit codes as for sheave run.)");
+  const CLI::Option* rate = app.get_option("--fps");
+  return [options, rate] {
+    constexpr double usual_gif_rate = 25.0;
+    PictureOptions& pictures = options->pictures;
+    if (rate->count() == 0 && pictures.video.ends_with(".gif")) pictures.fps = usual_gif_rate;
+    check_usage(pictures);
+    return render_scene(*options);
+  };
+}
+
+}  // namespace sheave::tools
+
+#else
+
+namespace sheave::tools {
+
+Action declare_render(CLI::App& app) { return declare_without_renderer(app); }
+
+}  // namespace sheave::tools
+
+#endif  // SHEAVE_HAS_RENDER

@@ -1,0 +1,110 @@
+// Only in builds with the renderer.
+#if SHEAVE_HAS_RENDER
+
+#include "command/render/look.h"
+
+#include <cmath>
+#include <utility>
+
+#include "command/failure.h"
+#include "render/scene_view.h"
+#include "render/view_survey.h"
+
+namespace sheave::tools {
+namespace {
+
+/// A camera for one format, and how large it shows the middle of what is in the picture.
+struct Framing {
+  render::Camera camera;
+  double scale = 0.0;  // [pixels/m]
+};
+
+Framing frame(const Scene& scene, const std::vector<CableReport>& cables,
+              const Eigen::AlignedBox3d& box, const render::DrawList& typical,
+              const PictureOptions& options) {
+  Framing framing;
+  framing.camera = render::scene_camera(scene, cables, box, typical, options.width, options.height);
+  const render::Projector projector(framing.camera, options.width, options.height);
+  const Vector3 middle = box.isEmpty() ? framing.camera.target : Vector3(box.center());
+  framing.scale = projector.scale_at(projector.depth_of(middle));
+  return framing;
+}
+
+/// Another format must show the scene so many times larger to be worth it.
+constexpr double worth = 1.15;
+
+std::pair<PictureFormat, render::Camera> choose_format(const Scene& scene,
+                                                       const std::vector<CableReport>& cables,
+                                                       const Eigen::AlignedBox3d& box,
+                                                       const render::DrawList& typical,
+                                                       const PictureOptions& options) {
+  const auto framed = [&](PictureFormat format) {
+    return frame(scene, cables, box, typical, sized(options, format));
+  };
+  // A camera that the scene places by hand is meant for the usual one.
+  const bool placed = scene.camera && scene.camera->position;
+  if (options.format != PictureFormat::best) {
+    return {options.format, framed(options.format).camera};
+  }
+  PictureFormat chosen = PictureFormat::landscape;
+  Framing best = framed(chosen);
+  for (const PictureFormat other : {PictureFormat::square, PictureFormat::portrait}) {
+    if (placed) break;
+    const Framing framing = framed(other);
+    if (framing.scale < worth * best.scale) continue;
+    chosen = other;
+    best = framing;
+  }
+  return {chosen, best.camera};
+}
+
+}  // namespace
+
+PictureOptions sized(PictureOptions options, PictureFormat format) {
+  if (format == PictureFormat::portrait) std::swap(options.width, options.height);
+  if (format == PictureFormat::square) {
+    const double pixels = static_cast<double>(options.width) * options.height;
+    // Even, for the encoder.
+    options.width = options.height = 2 * static_cast<int>(std::lround(0.5 * std::sqrt(pixels)));
+  }
+  return options;
+}
+
+Look survey(const Scene& scene, const SurveyOptions& options, std::span<const Moment> moments,
+            Progress& progress) {
+  const PictureOptions& pictures = options.pictures;
+  render::ViewOptions view = render::scene_view_options(scene);
+  if (pictures.tension_max) view.tension_max = pictures.tension_max;
+  std::vector<Moment> looked_at(moments.begin(), moments.end());
+  if (!view.tension_max) looked_at = merged(moments, scale_moments(scene, options.begin));
+  render::ViewSurvey survey;
+  const RunOutcome outcome = play(scene, options.load_state, times_of(looked_at), progress,
+                                  [&](std::size_t k, const Simulation& simulation) {
+                                    const std::vector<CableReport> cables =
+                                        reports_to_show(scene, simulation);
+                                    if (looked_at[k].scale) {
+                                      survey.add_tensions(simulation.world, cables);
+                                    } else {
+                                      survey.add_room(simulation.world, cables);
+                                    }
+                                    return true;
+                                  });
+  if (outcome.status == RunStatus::interrupted) {
+    throw Failure(ExitCode::interrupted, "interrupted before anything was drawn");
+  }
+  const Simulation start = make_simulation(scene);
+  const std::vector<CableReport> cables = start.cable_reports();
+  if (!view.tension_max) view.tension_max = survey.tension_max();
+  view.run_bounds = survey.bounds();
+  view.travels = survey.travels();
+  view.force_labels = view.force_labels || pictures.labels;
+  const double tension_max = *view.tension_max;
+  render::ViewBuilder builder(start.world, cables, view);
+  const render::DrawList typical = builder.build(start.world, cables);
+  const auto [format, camera] = choose_format(scene, cables, survey.bounds(), typical, pictures);
+  return {std::move(builder), camera, tension_max, format};
+}
+
+}  // namespace sheave::tools
+
+#endif  // SHEAVE_HAS_RENDER

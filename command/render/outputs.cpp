@@ -1,0 +1,162 @@
+// Only in builds with the renderer.
+#if SHEAVE_HAS_RENDER
+
+#include "command/render/outputs.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "command/failure.h"
+#include "command/interrupt.h"
+#include "command/parallel.h"
+#include "command/terminal.h"
+#include "render/destination.h"
+#include "render/output_file.h"
+#include "render/overlay.h"
+#include "render/png_writer.h"
+#include "view/svg_canvas.h"
+
+namespace sheave::tools {
+namespace {
+
+// Edges of a still are averaged over this many pixels in each direction.
+constexpr int still_supersample = 2;
+
+template <class T>
+T value_or_fail(Result<T> result, ExitCode code) {
+  if (!result) throw Failure(code, to_text(result.errors()));
+  return std::move(result).value();
+}
+
+void check(const Errors& errors, ExitCode code) {
+  if (!errors.empty()) throw Failure(code, to_text(errors));
+}
+
+/// A file can be made there; nothing is left behind.
+void check_writable(const std::string& path) {
+  value_or_fail(render::OutputFile::create(path), ExitCode::io);
+}
+
+void make_folder(const std::string& path) {
+  std::error_code code;
+  std::filesystem::create_directories(path, code);
+  if (code) throw Failure(ExitCode::io, path + ": cannot make this folder: " + code.message());
+}
+
+/// Mesa fills the pixels of all contexts with the same threads, one for each core; what runs beside
+/// it is the rest of a frame. More contexts would only cost memory.
+int default_threads() { return std::min(core_count(), 8); }
+
+}  // namespace
+
+PictureOutputs::PictureOutputs(const PictureOptions& options) : options_(options) {
+  if (!options.png.empty()) {
+    make_folder(options.png);
+    check_writable(frame_path(0));
+  }
+  if (!options.still.empty()) check_writable(options.still);
+  if (!options.video.empty()) {
+    video_ = value_or_fail(
+        render::VideoWriter::create(options.video, options.width, options.height,
+                                    {.frames_per_second = options.fps, .abandon = hurried}),
+        ExitCode::io);
+  }
+  if (!frames_wanted()) return;
+  render::FrameLineOptions line{.threads =
+                                    options.threads > 0 ? options.threads : default_threads()};
+  if (!options.png.empty()) line.png = render::PngEffort::sequence;
+  line_ = value_or_fail(render::FrameLine::create(options.width, options.height, line),
+                        ExitCode::internal);
+}
+
+std::string PictureOutputs::frame_path(long frame) const {
+  return fmt::format("{}/frame_{:06}.png", options_.png, frame);
+}
+
+void PictureOutputs::add_frame(render::DrawList list, const render::Camera& camera) {
+  if (!line_) return;
+  while (line_->full()) write_oldest();
+  line_->put(std::move(list), camera);
+}
+
+render::FrameLine::Frame PictureOutputs::take_oldest() {
+  try {
+    return value_or_fail(line_->take(), ExitCode::internal);
+  } catch (...) {
+    line_.reset();  // a frame is missing, so none may come after it
+    throw;
+  }
+}
+
+void PictureOutputs::write_oldest() {
+  const render::FrameLine::Frame frame = take_oldest();
+  // Without an encoder that takes all frames there is no video at all.
+  if (video_ && !faults_.attempt([&] { check(video_->add(frame.image), ExitCode::io); })) {
+    video_.reset();
+  }
+  if (!options_.png.empty() && png_well_) {
+    const std::string path = frame_path(frames_);
+    // Waiting for the disk after each frame would take longer than drawing it.
+    png_well_ = faults_.attempt([&] {
+      check(render::write_file(path, frame.png, render::Durability::process), ExitCode::io);
+    });
+    if (png_well_) ++png_frames_;
+  }
+  ++frames_;
+}
+
+void PictureOutputs::add_still(const render::DrawList& list, const render::Camera& camera) {
+  // Only now: until then its memory is not needed.
+  const bool svg = options_.still.ends_with(".svg");
+  render::Renderer renderer =
+      value_or_fail(render::Renderer::create(options_.width, options_.height,
+                                             {.supersample = still_supersample, .text = !svg}),
+                    ExitCode::internal);
+  const render::Image image = value_or_fail(renderer.draw(list, camera), ExitCode::internal);
+  std::vector<std::uint8_t> content =
+      value_or_fail(render::encode_png(image, render::PngEffort::still), ExitCode::internal);
+  if (svg) {
+    view::SvgCanvas canvas(options_.width, options_.height);
+    render::draw_overlay(list, camera, canvas);
+    const std::string text = canvas.document({content.begin(), content.end()}, list.title);
+    content.assign(text.begin(), text.end());
+  }
+  still_well_ = faults_.attempt([&] {
+    check(render::write_file(options_.still, content, render::Durability::power_loss),
+          ExitCode::io);
+  });
+  has_still_ = still_well_;
+}
+
+bool PictureOutputs::any_left() const {
+  const bool folder = !options_.png.empty() && png_well_;
+  const bool still = !options_.still.empty() && !has_still_ && still_well_;
+  return video_.has_value() || folder || still;
+}
+
+void PictureOutputs::finish() {
+  while (line_ && frames_wanted() && !line_->empty()) write_oldest();
+  line_.reset();
+  if (video_ && frames_ > 0) {
+    video_done_ = faults_.attempt([&] { check(video_->finish(), ExitCode::io); });
+  }
+  if (options_.png.empty() || png_frames_ == 0) return;
+  // One wait for the disk instead of one for each frame.
+  render::synchronise_files_beside(frame_path(0));
+  if (png_well_) warn_of_old_frames();
+}
+
+void PictureOutputs::warn_of_old_frames() const {
+  std::error_code code;
+  if (std::filesystem::exists(frame_path(frames_), code)) {
+    print_warning(fmt::format("{} holds more frames, from an earlier run: {} and on", options_.png,
+                              frame_path(frames_)));
+  }
+}
+
+}  // namespace sheave::tools
+
+#endif  // SHEAVE_HAS_RENDER

@@ -1,0 +1,115 @@
+#include "command/run/monitor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/body_set.h"
+#include "engine/joint_report.h"
+
+namespace sheave::tools {
+
+RunMonitor::RunMonitor(std::int64_t steps)
+    : stride_(std::max<std::int64_t>(1, steps / 2000)),
+      half_(steps / 2),
+      joint_stride_(std::max<std::int64_t>(1, steps / 200)) {}
+
+void RunMonitor::observe(const Simulation& simulation, const RunStatistics& statistics) {
+  final_ = statistics.energy;
+  finite_ &= std::isfinite(final_.total());
+  if (observed_ == 0) {
+    initial_ = final_;
+    min_energy_ = final_.total();
+  }
+  min_energy_ = std::min(min_energy_, final_.total());
+  loss_.observe(simulation.world, final_.total(), statistics.integrator_fallbacks);
+  vibration_loss_ = statistics.numerical_damping;
+  max_gain_ = std::max(max_gain_, final_.total() - initial_.total());
+  most_vivid_ = std::max(most_vivid_, final_.kinetic + final_.elastic);
+  max_drift_ = std::max(max_drift_, std::abs(final_.total() - initial_.total()));
+  if (observed_ % stride_ == 0 || observed_ == half_) observe_cables(simulation);
+  if (observed_ % joint_stride_ == 0) observe_joints(simulation);
+  ++observed_;
+}
+
+void RunMonitor::finish(const Simulation& simulation, bool conservative) {
+  integrator_loss_ = std::max({0.0, loss_.taken(), vibration_loss_});
+  // No more can have been taken than is missing, where nothing puts any in.
+  if (conservative) {
+    integrator_loss_ = std::min(integrator_loss_, initial_.total() - min_energy_);
+  }
+  // After a divergence the state is one that no step reported.
+  final_ = simulation.world.energy();
+  max_drift_ = std::max(max_drift_, std::abs(final_.total() - initial_.total()));
+  observe_cables(simulation);
+  observe_joints(simulation);
+}
+
+void RunMonitor::observe_joints(const Simulation& simulation) {
+  const std::vector<JointReport> reports = joint_reports(simulation.world);
+  const double time = simulation.world.state().time;
+  joints_.resize(reports.size());
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    JointCourse& course = joints_[i];
+    // Written so that NaN counts as large.
+    if (!(reports[i].error <= course.error)) {
+      course.error = reports[i].error;
+      course.error_time = time;
+    }
+    if (!(reports[i].angle_error <= course.angle_error)) {
+      course.angle_error = reports[i].angle_error;
+      course.angle_error_time = time;
+    }
+    // Before the first step nothing has been driven.
+    if (observed_ == 0) continue;
+    for (const JointCoordinateReport& coordinate : reports[i].coordinates) {
+      // Of a brake, which asks for nothing but rest, any rounding would be much.
+      const double rounding = 1e-12 * (coordinate.angle ? 1.0 : simulation.world.bodies().scale());
+      const double error = std::abs(coordinate.drive_error);
+      if (!(error <= rounding)) course.drive_error += error;
+      course.drive_asked += std::abs(coordinate.drive_target);
+    }
+  }
+}
+
+void RunMonitor::observe_cables(const Simulation& simulation) {
+  if (simulation.cables == nullptr) return;
+  if (links_.empty()) {
+    for (const CableReport& report : simulation.cable_reports()) {
+      std::vector<Touched>& links = links_.emplace_back();
+      for (const LinkReport& link : report.links) links.push_back({link.body, link.radius});
+    }
+    cables_.resize(links_.size());
+  }
+  simulation.gauge_cables(gauges_);
+  for (std::size_t i = 0; i < gauges_.size(); ++i) {
+    const CableGauge& gauge = gauges_[i];
+    CableCourse& course = cables_[i];
+    // Written so that NaN counts as large.
+    if (!(std::abs(gauge.length_error) <= std::abs(course.length_error))) {
+      course.length_error = gauge.length_error;
+    }
+    course.max_stretch = std::max(course.max_stretch, gauge.max_stretch);
+    course.max_strain = std::max(course.max_strain, gauge.max_strain);
+    course.length = gauge.total_length;
+    if (observed_ > 0) {
+      const std::size_t half = observed_ > half_ ? 1 : 0;
+      double way = 0.0;
+      for (const Touched& link : links_[i]) way = std::max(way, way_of(simulation.world, link));
+      course.way[half] += way;
+      course.stretching[half] += std::abs(gauge.excess - course.excess);
+    }
+    course.excess = gauge.excess;
+  }
+  last_seen_ = simulation.world.state().bodies;
+}
+
+double RunMonitor::way_of(const World& world, const Touched& link) const {
+  if (link.body.is_world() || last_seen_.empty()) return 0.0;
+  const auto body = static_cast<std::size_t>(link.body.index);
+  const BodyState& now = world.state().bodies[body];
+  const BodyState& before = last_seen_[body];
+  const double moved = (now.position - before.position).norm();
+  return std::max(moved, link.radius * std::abs(now.angle - before.angle));
+}
+
+}  // namespace sheave::tools

@@ -1,0 +1,31 @@
+#pragma once
+// Plays a scene and shows it at given moments, which need not be those of its steps.
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "command/run/simulate.h"
+#include "scenes/scene.h"
+
+namespace sheave::tools {
+
+/// The simulation of a scene that has been loaded, which always builds.
+[[nodiscard]] Simulation make_simulation(const Scene& scene);
+
+/// Simulates `scene` and calls `show(k, simulation)` for every time k of `times`
+/// [s], which are in order. A moment between two steps shows bodies and cables half way between
+/// them. `show` may return false to end the play. Playing the same scene twice shows the same. Ends
+/// after the last of `times`, or early (see RunOutcome); then moments that were not reached are not
+/// shown. `start` is a state file to begin with; empty: the scene's start.
+RunOutcome play(const Scene& scene, const std::string& start, std::span<const double> times,
+                Progress& progress,
+                const std::function<bool(std::size_t, const Simulation&)>& show);
+
+/// The cables of a simulation that plays `scene`, for a picture. At the scene's start no tension has
+/// been computed, and a taut cable would look slack; so there the tensions of a first step from that
+/// state are shown. A state that has tensions, such as a rest found by statics, is shown with them.
+[[nodiscard]] std::vector<CableReport> reports_to_show(const Scene& scene,
+                                                       const Simulation& simulation);
+
+}  // namespace sheave::tools

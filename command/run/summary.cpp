@@ -1,0 +1,357 @@
+#include "command/run/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "cable/cable_system.h"
+#include "command/run/remedy.h"
+#include "engine/body_set.h"
+#include "engine/field_check.h"
+#include "engine/integrators/loads.h"
+#include "measure/stress_judge.h"
+#include "scenes/control/scene_supervisor.h"
+#include "scenes/magnitude.h"
+
+namespace sheave::tools {
+
+bool RunSummary::checks_passed() const {
+  return std::all_of(checks.begin(), checks.end(),
+                     [](const CheckResult& check) { return check.passed; });
+}
+
+bool RunSummary::doubtful() const {
+  return outcome.status == RunStatus::done && !outcome.certificate.clean(trust);
+}
+
+std::string_view RunSummary::status() const {
+  return doubtful() ? "doubtful" : name_of(outcome.status);
+}
+
+namespace {
+
+/// Joints that have not held. Rigid ones are as exact as the solver: open by more than a thousandth
+/// of the scene, or a hundredth of a radian, they have not.
+void append_joint_warnings(const Simulation& simulation, const RunStatistics& statistics,
+                           const RunMonitor& monitor, std::vector<Warning>& warnings) {
+  const double most_open = 1e-3 * simulation.world.bodies().scale();
+  constexpr double most_tilted = 1e-2;
+  constexpr double share_limit = 0.05;
+  std::size_t worst = 0;
+  double worst_share = 1.0;
+  std::size_t count = 0;
+  const auto& joints = monitor.joints();
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const double share = std::max(joints[i].error / most_open, joints[i].angle_error / most_tilted);
+    if (share <= 1.0) continue;
+    ++count;
+    if (share <= worst_share) continue;
+    worst = i;
+    worst_share = share;
+  }
+  const std::string why =
+      statistics.compromises > 0
+          ? "joints, drives or cables contradict each other, and all of them gave way"
+          : "the solver did not converge, or joints and drives contradict each other";
+  const auto& names = simulation.world.model().joints;
+  if (count > 0) {
+    const JointCourse& course = joints[worst];
+    const bool tilted = course.angle_error / most_tilted > course.error / most_open;
+    warnings.push_back(
+        {"joint_open", names[worst]->name,
+         fmt::format("joint {} was off by {:.3g} {} at {} s{}: {}", names[worst]->name,
+                     tilted ? course.angle_error : course.error, tilted ? "rad" : "m",
+                     number_text(tilted ? course.angle_error_time : course.error_time),
+                     count > 1 ? fmt::format(", and {} more were", count - 1) : "", why)});
+  }
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    if (joints[i].drive_error <= share_limit * joints[i].drive_asked) continue;
+    warnings.push_back(
+        {"drive_off", names[i]->name,
+         fmt::format("the drive of joint {} was off what it asks for by {:.3g} of it in the mean: "
+                     "{}",
+                     names[i]->name, joints[i].drive_error / joints[i].drive_asked, why)});
+  }
+}
+
+/// A rigid cable that is much longer than it can be at the end puts bodies in the wrong place.
+///
+/// One whose length changes by much of the way that things move does not hold them: the solver has
+/// not converged, and accelerations and tensions are wrong by about that share. A sag that stays
+/// what it was is none: there the forces are right. Sweeps that do not converge act like a spring,
+/// so that the excess may well come and go. Changes by less than 1e-7 of the cable are of no
+/// interest.
+void append_stretch_warnings(const Simulation& simulation, const RunStatistics& statistics,
+                             const RunMonitor& monitor, std::vector<Warning>& warnings) {
+  constexpr double share_limit = 0.05;
+  constexpr double length_limit = 0.05;
+  constexpr double negligible_share = 1e-7;
+  const StepSettings& step = simulation.world.model().step;
+  const std::string way_out = remedy(step, StepFault::unconverged);
+  const std::vector<CableReport> reports = simulation.cable_reports();
+  for (std::size_t i = 0; i < monitor.cables().size(); ++i) {
+    const CableCourse& course = monitor.cables()[i];
+    if (course.excess > length_limit * course.length) {
+      std::string name(reports[i].name);
+      // No solver can help where nothing gives way: the warnings "impossible" and "dead_end" have
+      // what it is.
+      const std::string cause =
+          statistics.impossible + statistics.dead_ends > 0
+              ? "what moves as it is told has drawn it apart, or the solver did not converge"
+              : fmt::format("the solver did not converge; {} may avoid that", way_out);
+      std::string message = fmt::format("cable {} is {:.3g} m longer than it can be at the end: {}",
+                                        name, course.excess, cause);
+      warnings.push_back({"stretched", std::move(name), std::move(message)});
+      continue;
+    }
+    const double negligible = negligible_share * course.length;
+    const auto gives_way = [&](double stretching, double way) {
+      return stretching > std::max(share_limit * way, negligible);
+    };
+    const double stretching = course.stretching[0] + course.stretching[1];
+    const double way = course.way[0] + course.way[1];
+    // What gives way only at first matters if things go on moving: else it is a sag, and nothing
+    // else has moved.
+    const bool moves_on = course.way[1] > stretching;
+    if (!gives_way(course.stretching[1], course.way[1]) &&
+        !(moves_on && gives_way(stretching, way))) {
+      continue;
+    }
+    std::string name(reports[i].name);
+    std::string message = fmt::format(
+        "cable {} did not keep its length: it gave way by {:.3g} m all in all while nothing on it "
+        "moved by more than {:.3g} m; the solver did not converge, and motion and tensions are "
+        "wrong by about that share; {} may avoid that",
+        name, stretching, way, way_out);
+    warnings.push_back({"stretched", std::move(name), std::move(message)});
+  }
+}
+
+/// xpbd damps vibrations by half of w^2 h, with the frequency w; rattle does not.
+void append_damping_warning(const StepSettings& step, const RunStatistics& statistics,
+                            const RunMonitor& monitor, std::vector<Warning>& warnings) {
+  constexpr double share_limit = 0.1;  // of energy: 5 % of speeds
+  const double energy = monitor.most_vivid_energy();
+  if (!(statistics.numerical_damping > share_limit * energy)) return;
+  std::string message = fmt::format(
+      "the step is too long for the vibration of elastic cables: xpbd took {:.3g} J from it, where "
+      "kinetic and elastic energy were {:.3g} J at most; {} may avoid that",
+      statistics.numerical_damping, energy, remedy(step, StepFault::long_step));
+  warnings.push_back({"damped_vibration", "", std::move(message)});
+}
+
+/// xpbd takes energy from every motion that is not straight and uniform
+/// (cable/certificate/integrator_loss.h).
+void append_loss_warning(const StepSettings& step, const RunMonitor& monitor,
+                         std::vector<Warning>& warnings) {
+  constexpr double share_limit = 0.01;
+  constexpr double rounding = 1e-12;  // of the potential energy
+  const bool said = std::any_of(warnings.begin(), warnings.end(), [](const Warning& warning) {
+    return warning.kind == "damped_vibration";
+  });
+  const double loss = monitor.integrator_loss();
+  const double flow = monitor.energy_flow();
+  const double least = rounding * std::abs(monitor.initial_energy().potential);
+  // Of energies beyond the range of numbers there are no shares.
+  if (said || !(loss > share_limit * flow + least)) return;
+  std::string message = fmt::format(
+      "xpbd took about {:.3g} J from the motion, {:.2g} % of what there was at most and what came "
+      "and went: the step is too long for it; {} may avoid that",
+      loss, 100.0 * loss / flow, remedy(step, StepFault::long_step));
+  warnings.push_back({"integrator_loss", "", std::move(message)});
+}
+
+/// Where nothing puts energy into a scene, there is never more than at first. Steps too long for
+/// what swings or spins in them do make energy: a light weight on a taut cable, pulled round a
+/// wheel; the gyroscopic motion of long bodies. So do springs that are stretched without a force,
+/// because sweeps have not got to it.
+void append_energy_warning(const Scene& scene, const Simulation& simulation,
+                           const RunMonitor& monitor, std::vector<Warning>& warnings) {
+  constexpr double share_limit = 0.1;
+  constexpr double rounding = 1e-12;  // of the potential energy
+  if (!measure::is_conservative(scene)) return;
+  const double size = monitor.most_vivid_energy();
+  const double gain = monitor.max_energy_gain();
+  // Of the heights that weights could have in the scene, and not of those that they have: these may
+  // be 0.
+  const BodySet& bodies = simulation.world.bodies();
+  double potential = std::abs(monitor.initial_energy().potential);
+  for (int i = 0; i < bodies.count(); ++i) {
+    potential += bodies[i].mass * bodies.gravity().norm() * bodies.scale();
+  }
+  if (!(gain > share_limit * size + rounding * (size + potential))) return;
+  std::string message = fmt::format(
+      "there was {:.3g} J more energy than at the start, although nothing puts any into the scene, "
+      "and kinetic and elastic energy were {:.3g} J at most: the step is too long for what moves, "
+      "or "
+      "the solver did not converge, and the motion means little; {} may avoid that",
+      gain, size, remedy(scene.model.step, StepFault::either));
+  warnings.push_back({"energy_gain", "", std::move(message)});
+}
+
+/// The last digit of a position [m] in the direction in which the body is accelerated most, over
+/// what that acceleration moves it by in a substep; 0 without acceleration.
+double rounding_of_motion(const World& world, int body) {
+  const BodySet& bodies = world.bodies();
+  const BodyProperties& properties = bodies[body];
+  if (!(properties.mass > 0.0) || properties.mobility == Mobility::kinematic) return 0.0;
+  const Vector3 loads = bodies.gravity() + bodies.definition(body).force / properties.mass;
+  const Vector3 acceleration = allowed_velocity(properties, loads);
+  Eigen::Index axis = 0;
+  const double most = acceleration.cwiseAbs().maxCoeff(&axis);
+  if (!(most > 0.0)) return 0.0;
+  const StepSettings& step = world.model().step;
+  const double h = step.dt / step.substeps;
+  const double position =
+      std::abs(world.state().bodies[static_cast<std::size_t>(body)].position[axis]);
+  const double digit = std::nextafter(position, std::numeric_limits<double>::infinity()) - position;
+  return digit / (most * h * h);
+}
+
+/// Velocities are differences of positions, which loads change by a h^2 per substep. Where the last
+/// digit of a position is no small share of that, half of it is what accelerations are wrong by.
+void append_rounding_warning(const World& world, std::vector<Warning>& warnings) {
+  constexpr double share_limit = 0.1;
+  for (int i = 0; i < world.bodies().count(); ++i) {
+    const double share = rounding_of_motion(world, i);
+    if (share <= share_limit) continue;
+    const std::string& name = world.bodies().name(i);
+    std::string message = fmt::format(
+        "the substep is too short: what accelerates body {} moves it by little more than the "
+        "rounding of its position, {:.2g} of it, so that its velocity is wrong by about that share",
+        name, share);
+    warnings.push_back({"rounding", name, std::move(message)});
+    return;  // others will be alike
+  }
+}
+
+/// The controllers and triggers of the simulation's scene, if it has any.
+const SceneSupervisor* supervisor_of(const Simulation& simulation) {
+  return dynamic_cast<const SceneSupervisor*>(simulation.supervisor.get());
+}
+
+void append_control_warning(const Simulation& simulation, std::vector<Warning>& warnings) {
+  const SceneSupervisor* supervisor = supervisor_of(simulation);
+  if (supervisor == nullptr) return;
+  const std::int64_t refusals = supervisor->refusals(simulation.world.state());
+  if (refusals == 0) return;
+  warnings.push_back(
+      {"control_refused", "",
+       fmt::format("{} times a controller or trigger could not set what it wanted to, because it "
+                   "was not finite or not allowed there; give the controller limits",
+                   refusals)});
+}
+
+/// What of a run's steps together a single step tells, too.
+StepStatistics step_statistics(const RunStatistics& run) {
+  StepStatistics statistics;
+  statistics.solver_fallbacks = run.solver_fallbacks;
+  statistics.impossible = run.impossible;
+  statistics.dead_ends = run.dead_ends;
+  statistics.most_impossible = run.most_impossible;
+  statistics.integrator_fallbacks = run.integrator_fallbacks;
+  statistics.cut_substeps = run.cut_substeps;
+  statistics.substep_parts = run.substep_parts;
+  statistics.unconverged = run.unconverged;
+  statistics.exhausted = run.exhausted;
+  return statistics;
+}
+
+}  // namespace
+
+std::vector<Warning> scene_warnings(const CableSystem& cables) {
+  std::vector<Warning> warnings;
+  for (const CableSystem::WindingWarning& warning : cables.winding_warnings()) {
+    std::string message = fmt::format(
+        "cable \"{}\" crosses itself beside link {} on \"{}\", which looks like the wrong winding; "
+        "try "
+        "\"winding\": \"{}\" there, or \"turns\": 1 if a whole turn is meant",
+        warning.cable, warning.link, warning.body,
+        winding_names[static_cast<std::size_t>(warning.better)]);
+    warnings.push_back({"crossed_winding", warning.cable, std::move(message)});
+  }
+  return warnings;
+}
+
+std::vector<Warning> magnitude_warnings(const Scene& scene) {
+  constexpr std::size_t most = 10;
+  std::vector<Warning> warnings;
+  for (MagnitudeWarning& warning : check_magnitudes(scene, most)) {
+    warnings.push_back({"magnitude", std::move(warning.pointer), std::move(warning.message)});
+  }
+  return warnings;
+}
+
+std::vector<Warning> scene_warnings(const Scene& scene) {
+  std::vector<Warning> warnings = magnitude_warnings(scene);
+  if (scene.cables.empty()) return warnings;
+  const Result<Simulation> simulation = Simulation::create(scene.model, scene.cables);
+  if (!simulation || simulation->cables == nullptr) return warnings;
+  const auto& windings = simulation->cables->winding_warnings();
+  std::vector<Warning> of_cables = scene_warnings(*simulation->cables);
+  for (std::size_t i = 0; i < of_cables.size(); ++i) {
+    // One for each, in this order. Whoever corrects the scene wants to know where.
+    const auto cable =
+        std::find_if(scene.cables.begin(), scene.cables.end(),
+                     [&](const CableDef& own) { return own.name == windings[i].cable; });
+    of_cables[i].subject =
+        fmt::format("/cables/{}/links/{}", cable - scene.cables.begin(), windings[i].link);
+    warnings.push_back(std::move(of_cables[i]));
+  }
+  return warnings;
+}
+
+std::vector<Warning> collect_warnings(const Scene& scene, const Simulation& simulation,
+                                      const RunStatistics& statistics, const RunMonitor& monitor) {
+  std::vector<Warning> warnings;
+  if (simulation.cables != nullptr) {
+    warnings = scene_warnings(*simulation.cables);
+    constexpr double ever = -std::numeric_limits<double>::infinity();
+    append_cable_warnings(*simulation.cables, simulation.world.bodies(), ever, warnings);
+    append_stretch_warnings(simulation, statistics, monitor, warnings);
+  }
+  append_joint_warnings(simulation, statistics, monitor, warnings);
+  append_damping_warning(scene.model.step, statistics, monitor, warnings);
+  append_loss_warning(scene.model.step, monitor, warnings);
+  append_energy_warning(scene, simulation, monitor, warnings);
+  append_rounding_warning(simulation.world, warnings);
+  append_solver_warnings(step_statistics(statistics), warnings);
+  append_control_warning(simulation, warnings);
+  return warnings;
+}
+
+std::vector<RunEvent> collect_events(const Simulation& simulation,
+                                     const std::vector<JointReport>& joints) {
+  std::vector<RunEvent> events;
+  if (simulation.cables != nullptr) {
+    for (const CableEvent& event : simulation.cables->events()) {
+      events.push_back({event.time, RunEvent::Source::cable, event.cable, event.link, event.body,
+                        cable_event_names[static_cast<std::size_t>(event.kind)]});
+    }
+  }
+  for (const JointReport& joint : joints) {
+    if (!joint.broken_at) continue;
+    events.push_back({*joint.broken_at, RunEvent::Source::joint, joint.name, -1, "", "break"});
+  }
+  if (const SceneSupervisor* supervisor = supervisor_of(simulation)) {
+    const auto times = supervisor->acted_at(simulation.world.state());
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const TriggerDef& trigger = supervisor->trigger(i);
+      if (!times[i]) continue;
+      events.push_back({*times[i], RunEvent::Source::trigger, trigger.name, -1, "",
+                        trigger_action_names[static_cast<std::size_t>(trigger.action)]});
+    }
+  }
+  std::stable_sort(events.begin(), events.end(),
+                   [](const RunEvent& a, const RunEvent& b) { return a.time < b.time; });
+  return events;
+}
+
+double time_per_step(const RunOutcome& outcome) {
+  if (outcome.steps == 0) return std::numeric_limits<double>::quiet_NaN();
+  return outcome.step_time / static_cast<double>(outcome.steps);
+}
+
+}  // namespace sheave::tools

@@ -1,0 +1,215 @@
+#include "command/scene_options.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "command/command_line.h"
+#include "engine/field_check.h"
+#include "scenes/json/document.h"
+
+namespace sheave::tools {
+namespace {
+
+/// An option of its own for a setting that is changed often.
+struct Shortcut {
+  const char* option;
+  const char* pointer;
+  const char* meaning;
+  bool number;
+  std::string SceneOptions::*value;
+};
+
+constexpr std::array<Shortcut, 6> shortcuts{{
+    {"--dt", "/step/dt", "time per step [s]", true, &SceneOptions::dt},
+    {"--substeps", "/step/substeps", "substeps per step", true, &SceneOptions::substeps},
+    {"--iterations", "/step/iterations", "solver iterations per substep", true,
+     &SceneOptions::iterations},
+    {"--solver", "/step/solver", "how constraint rows are solved", false, &SceneOptions::solver},
+    {"--integrator", "/step/integrator", "how states are carried forward in time", false,
+     &SceneOptions::integrator},
+    {"--duration", "/duration", "time to simulate [s]", true, &SceneOptions::duration},
+}};
+
+std::string choices(const Shortcut& shortcut) {
+  std::string text;
+  for (const Field& field : StepSettings::field_table()) {
+    if (!std::string_view(shortcut.pointer).ends_with("/" + std::string(field.name))) continue;
+    for (const std::string_view choice : field.choices) {
+      text += (text.empty() ? ": " : ", ") + std::string(choice);
+    }
+  }
+  return text;
+}
+
+/// A number as JSON has it: ".5" and "+5" are numbers on a command line, but not there.
+std::string json_number(const std::string& text) {
+  return number_text(std::strtod(text.c_str(), nullptr));
+}
+
+std::string standard_input() {
+  // What is longer is no scene; one byte more is enough for the loader to see it.
+  const std::size_t most = json::Limits{}.bytes + 1;
+  std::string text;
+  std::vector<char> block(std::size_t{1} << 16U);
+  while (text.size() < most) {
+    const std::size_t count = std::fread(block.data(), 1, block.size(), stdin);
+    text.append(block.data(), count);
+    if (count == 0) break;
+  }
+  if (std::ferror(stdin) != 0) throw Failure(ExitCode::io, "standard input: cannot be read");
+  return text;
+}
+
+/// The override that "/json/pointer=value" means.
+Override parse_setting(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || text.front() != '/') {
+    throw Failure(ExitCode::usage, fmt::format("--set {}: must be /json/pointer=value, for example "
+                                               "--set /bodies/drum/mass=2",
+                                               text));
+  }
+  const std::string pointer = text.substr(0, equals);
+  return {pointer, text.substr(equals + 1), "--set " + pointer};
+}
+
+std::vector<Override> overrides(const SceneOptions& options) {
+  std::vector<Override> list;
+  for (const std::string& setting : options.settings) list.push_back(parse_setting(setting));
+  for (const Shortcut& shortcut : shortcuts) {
+    const std::string& value = options.*shortcut.value;
+    if (value.empty()) continue;
+    list.push_back(
+        {shortcut.pointer, shortcut.number ? json_number(value) : value, shortcut.option});
+  }
+  return list;
+}
+
+std::vector<SceneParameter> parameters(const SceneOptions& options) {
+  std::vector<SceneParameter> list;
+  for (const std::string& text : options.parameters) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      throw Failure(ExitCode::usage, fmt::format("--param {}: must be NAME=VALUE, for example "
+                                                 "--param load=200",
+                                                 text));
+    }
+    list.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return list;
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& app, SceneOptions& options) {
+  app.add_option("scene", options.path, "Scene file (JSON, or .jsonnet); - reads standard input")
+      ->required()
+      ->option_text("SCENE");
+  add_scene_changes(app, options);
+}
+
+void add_scene_changes(CLI::App& app, SceneOptions& options) {
+  for (const Shortcut& shortcut : shortcuts) {
+    const char* group = "Instead of what the scene says";
+    CLI::Option* option = app.add_option(shortcut.option, options.*shortcut.value,
+                                         shortcut.meaning + choices(shortcut));
+    option->group(group)->option_text(shortcut.number ? "X" : "NAME");
+    if (shortcut.number) option->check(finite_number());
+  }
+  app.add_option("--set", options.settings,
+                 "any setting, by its JSON pointer, with names or numbers "
+                 "(/bodies/drum/mass, /joints/0/drive); may be "
+                 "repeated")
+      ->group("Instead of what the scene says")
+      ->option_text("/POINTER=VALUE")
+      ->expected(1)
+      ->take_all();
+  add_jsonnet_options(app, options);
+}
+
+void add_jsonnet_options(CLI::App& app, SceneOptions& options) {
+  const char* const group = "Of a scene in Jsonnet";
+  app.add_option("--param", options.parameters,
+                 "a parameter of the scene: a number, a text or JSON; may be repeated")
+      ->group(group)
+      ->option_text("NAME=VALUE")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--import-from", options.import_folders,
+                 "another folder that it may import from; may be repeated")
+      ->group(group)
+      ->option_text("FOLDER")
+      ->expected(1)
+      ->take_all();
+}
+
+SceneResult load_file_or_stdin(const std::string& path, const std::vector<Override>& overrides,
+                               const JsonnetOptions& jsonnet) {
+  if (path != "-") return load_scene(path, overrides, jsonnet);
+  return load_scene_text(standard_input(), "standard input", overrides, jsonnet);
+}
+
+JsonnetOptions jsonnet_options(const SceneOptions& options) {
+  return {parameters(options), options.import_folders};
+}
+
+Scene load(const SceneOptions& options) {
+  const JsonnetOptions jsonnet = jsonnet_options(options);
+  SceneResult result =
+      options.text ? load_scene_text(*options.text, options.path, overrides(options), jsonnet)
+                   : load_file_or_stdin(options.path, overrides(options), jsonnet);
+  if (result) return std::move(*result.scene);
+  const ExitCode code = exit_code(result);
+  // One fault speaks for itself; a list begins in a line of its own.
+  std::string text = to_text(result);
+  if (result.errors.size() > 1) text = fmt::format("{} faults\n{}", result.errors.size(), text);
+  throw Failure(code, text);
+}
+
+ExitCode exit_code(const SceneResult& result) {
+  switch (result.status) {
+    case SceneStatus::ok:
+      return ExitCode::done;
+    case SceneStatus::not_found:
+      return ExitCode::no_input;
+    case SceneStatus::unreadable:
+      return ExitCode::io;
+    case SceneStatus::invalid:
+      break;
+  }
+  const bool all_from_options =
+      std::all_of(result.errors.begin(), result.errors.end(),
+                  [](const SceneError& error) { return error.file.starts_with("--"); });
+  return all_from_options ? ExitCode::usage : ExitCode::bad_scene;
+}
+
+std::string to_text(const SceneResult& result) {
+  std::string text;
+  for (SceneError error : result.errors) {
+    // An option is its own place.
+    if (error.file.starts_with("--")) {
+      error.line = 0;
+      if (error.file.ends_with(error.pointer) || !error.file.starts_with("--set")) {
+        error.pointer.clear();
+      }
+    }
+    if (!text.empty()) text += '\n';
+    text += to_string(error);
+  }
+  return text;
+}
+
+std::int64_t step_count(const Scene& scene) {
+  // Beyond this a double no longer counts steps one by one, and nobody waits for the end.
+  constexpr double most = 9e15;
+  const double steps = std::round(scene.duration / scene.model.step.dt);
+  return static_cast<std::int64_t>(std::clamp(steps, 1.0, most));
+}
+
+}  // namespace sheave::tools

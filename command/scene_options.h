@@ -1,0 +1,57 @@
+#pragma once
+// The options that subcommands which simulate share: which scene, and what to change in it.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command/failure.h"
+#include "scenes/scene.h"
+
+namespace CLI {
+class App;
+}
+
+namespace sheave::tools {
+
+/// Options as the user wrote them; empty means not given.
+struct SceneOptions {
+  std::string path;  ///< "-" is standard input
+  std::string dt, substeps, iterations, solver, integrator, duration;
+  std::vector<std::string> settings;        ///< of --set: "/json/pointer=value"
+  std::vector<std::string> parameters;      ///< of --param: "name=value"
+  std::vector<std::string> import_folders;  ///< of --import-from
+  std::optional<std::string> text{};        ///< the file's, if it has been read already
+};
+
+/// Adds the scene and its overrides to a subcommand. `options` must live as long as `app`.
+void add_scene_options(CLI::App& app, SceneOptions& options);
+
+/// The overrides alone.
+void add_scene_changes(CLI::App& app, SceneOptions& options);
+
+/// Parameters and imports of a scene in Jsonnet; add_scene_changes() has them too.
+void add_jsonnet_options(CLI::App& app, SceneOptions& options);
+
+/// What those options say; a Failure (2) if a parameter is no NAME=VALUE.
+[[nodiscard]] JsonnetOptions jsonnet_options(const SceneOptions& options);
+
+/// Loads and checks the scene. A Failure lists all its errors: 2 if they lie in the command line
+/// alone, 65 if in the scene, 66 if there is no such file, 74 if it cannot be read.
+[[nodiscard]] Scene load(const SceneOptions& options);
+
+/// The result of loading without overrides; "-" is standard input.
+[[nodiscard]] SceneResult load_file_or_stdin(const std::string& path,
+                                             const std::vector<Override>& overrides = {},
+                                             const JsonnetOptions& jsonnet = {});
+
+/// The exit code for a scene that did not load.
+[[nodiscard]] ExitCode exit_code(const SceneResult& result);
+/// All errors of a scene that did not load, one per line.
+[[nodiscard]] std::string to_text(const SceneResult& result);
+
+/// The number of steps that come nearest to the duration, at least 1.
+[[nodiscard]] std::int64_t step_count(const Scene& scene);
+
+}  // namespace sheave::tools

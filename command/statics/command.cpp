@@ -1,0 +1,106 @@
+// sheave statics: where a scene rests.
+
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "command/output/file.h"
+#include "command/registry.h"
+#include "command/statics/report.h"
+#include "command/terminal.h"
+#include "scenes/saved_state.h"
+
+namespace sheave::tools {
+namespace {
+
+struct StaticsOptions {
+  SceneOptions scene;
+  EquilibriumSettings settings;
+  std::vector<std::string> cases;
+  std::vector<std::string> quantities;
+  std::string save_state;
+  bool json = false;
+};
+
+/// "NAME:/pointer=value;/pointer=value", as the scene with these settings, too.
+StaticsCase make_case(const StaticsOptions& options, const std::string& text) {
+  const std::size_t colon = text.find(':');
+  if (colon == 0 || colon == std::string::npos || colon + 1 == text.size()) {
+    throw Failure(ExitCode::usage,
+                  fmt::format("--case {}: must be NAME:/json/pointer=value, for example --case "
+                              "'full:/bodies/load/mass=500', with ; between several",
+                              text));
+  }
+  StaticsCase one{text.substr(0, colon), options.scene};
+  std::string rest = text.substr(colon + 1);
+  while (!rest.empty()) {
+    const std::size_t end = rest.find(';');
+    one.scene.settings.push_back(rest.substr(0, end));
+    rest = end == std::string::npos ? "" : rest.substr(end + 1);
+  }
+  return one;
+}
+
+ExitCode statics(const StaticsOptions& options) {
+  std::vector<StaticsCase> cases;
+  if (options.cases.empty()) cases.push_back({"", options.scene});
+  for (const std::string& text : options.cases) cases.push_back(make_case(options, text));
+  std::vector<StaticsResult> results;
+  for (const StaticsCase& one : cases) {
+    results.push_back(find_rest(one, options.settings, options.quantities));
+  }
+  if (!options.save_state.empty()) {
+    const std::string bytes = saved_state(*results.front().simulation);
+    OutputFile file(options.save_state);
+    file.write(bytes);
+    file.commit();
+  }
+  print(options.json ? statics_json(options.scene.path, results)
+                     : printable(statics_text(results, !options.quantities.empty())));
+  ExitCode code = ExitCode::done;
+  for (const StaticsResult& result : results) {
+    if (result.rest.converged) continue;
+    print_error((result.name.empty() ? "" : result.name + ": ") + result.rest.message);
+    code = ExitCode::diverged;
+  }
+  return code;
+}
+
+}  // namespace
+
+Action declare_statics(CLI::App& app) {
+  auto options = std::make_shared<StaticsOptions>();
+  add_scene_options(app, options->scene);
+  app.add_option("--load-steps", options->settings.load_steps,
+                 "let gravity and forces grow from 0 in so many steps; default 1")
+      ->check(CLI::Range(1, 10000))
+      ->option_text("N");
+  app.add_option("--case", options->cases,
+                 "a load case: the scene with other settings, NAME:/pointer=value;...; may be "
+                 "repeated, and makes a table")
+      ->option_text("CASE")
+      ->expected(1)
+      ->take_all();
+  app.add_option("--quantity", options->quantities,
+                 "a quantity to tell, by its name in the files of sheave run; may be repeated; "
+                 "default of the table of cases: the largest tension of each cable")
+      ->option_text("NAME")
+      ->expected(1)
+      ->take_all();
+  CLI::Option* save = app.add_option("--save-state", options->save_state,
+                                     "write the state at rest, for --load-state of run and render");
+  save->option_text("FILE")->excludes(app.get_option("--case"));
+  app.add_flag("--json", options->json, "print one JSON object");
+  app.footer(R"(Examples:
+  sheave statics crane.json
+  sheave statics crane.json --case 'empty:/bodies/hook/mass=1' --case 'full:/bodies/hook/mass=5000'
+  sheave statics net.json --json | jq .cases[0].cables[0].spans[0].tension
+
+Drives stand where they are, controllers do nothing. Slack cables are found. What dry friction
+bears is open in statics, within its bounds; the output says where that is so. Exit codes: 0 at
+rest, 2 wrong usage, 65 bad scene, 75 no equilibrium was found.)");
+  return [options] { return statics(*options); };
+}
+
+}  // namespace sheave::tools

@@ -1,0 +1,44 @@
+#pragma once
+// What `sheave statics` finds, as text and as JSON.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "command/scene_options.h"
+#include "engine/joint_report.h"
+#include "statics/equilibrium.h"
+#include "statics/supports.h"
+
+namespace sheave::tools {
+
+/// One load case.
+struct StaticsCase {
+  std::string name;  ///< empty: the scene as it is
+  SceneOptions scene;
+};
+
+struct StaticsResult {
+  std::string name;
+  std::string scene;  ///< its name
+  Equilibrium rest;
+  State state;
+  std::vector<std::string> bodies;
+  std::shared_ptr<const Simulation> simulation;  ///< at rest; reports refer to its names
+  std::vector<CableReport> cables;
+  std::vector<JointReport> joints;
+  std::vector<SupportReaction> supports;
+  std::vector<std::string> quantities;
+  std::vector<double> values;   ///< of these; NaN where statics does not tell
+  bool cable_friction = false;  ///< a cable has links with friction
+};
+
+/// Loads the scene and finds its rest. A Failure (2) if a quantity does not exist.
+[[nodiscard]] StaticsResult find_rest(const StaticsCase& one, const EquilibriumSettings& settings,
+                                      const std::vector<std::string>& quantities);
+/// One rest in full, with its quantities if they were asked for, or a table of cases.
+[[nodiscard]] std::string statics_text(const std::vector<StaticsResult>& results, bool quantities);
+[[nodiscard]] std::string statics_json(const std::string& path,
+                                       const std::vector<StaticsResult>& results);
+
+}  // namespace sheave::tools

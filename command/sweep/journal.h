@@ -1,0 +1,44 @@
+#pragma once
+// What `sheave sweep --resume FILE` keeps: every run that has ended, as soon as it has.
+//
+// One line of JSON with what the sweep is, then a line per run, each written at once and whole: a
+// process that is killed loses only the runs that it was at. What a power loss has cut off in the
+// last line is left out. The file is JSON but for its end, which is added when it is read.
+
+#include <string>
+#include <vector>
+
+#include "command/sweep/table.h"
+
+namespace sheave::tools {
+
+inline constexpr std::string_view sweep_journal_format = "sheave-sweep-journal/1";
+
+/// Reads a journal. A Failure: 65 with all faults, located, if it is anything else; 66, 74.
+[[nodiscard]] SweepTable read_sweep_journal(const std::string& path);
+
+class SweepJournal {
+ public:
+  /// `path` empty: nothing is kept. Begins the file, or takes the rows of an earlier sitting into
+  /// `known`. A Failure: 2 if it is of another sweep, shard or program, or if another process
+  /// writes it; 65 if it is no journal; 74.
+  SweepJournal(std::string path, const SweepHead& head, std::vector<SweepRow>& known);
+  ~SweepJournal();
+  SweepJournal(const SweepJournal&) = delete;
+  SweepJournal& operator=(const SweepJournal&) = delete;
+
+  /// Appends a row and, at most once a second, waits until the disk has what there is. A Failure
+  /// (74).
+  void keep(const SweepRow& row);
+  /// Waits until the disk has everything.
+  void finish();
+
+ private:
+  void write(const std::string& text);
+
+  std::string path_;
+  int descriptor_ = -1;
+  double synced_at_ = 0.0;
+};
+
+}  // namespace sheave::tools

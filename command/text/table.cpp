@@ -1,0 +1,38 @@
+#include "command/text/table.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace sheave::tools {
+
+TextTable::TextTable(std::vector<std::string> head, std::size_t text_columns)
+    : rows_{std::move(head)}, text_columns_(text_columns) {}
+
+void TextTable::add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+
+std::string TextTable::text() const {
+  std::vector<std::size_t> widths(rows_.front().size(), 0);
+  for (const auto& row : rows_) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  std::string text;
+  for (const auto& row : rows_) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const bool left = i < text_columns_;
+      line += left ? fmt::format("  {:<{}}", row[i], widths[i])
+                   : fmt::format("  {:>{}}", row[i], widths[i]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string short_number(double value) {
+  // Minus zero is of no interest to people.
+  return fmt::format("{:.6g}", value == 0.0 ? 0.0 : value);
+}
+
+}  // namespace sheave::tools

@@ -1,0 +1,68 @@
+#pragma once
+// What `sheave trade --resume FILE` keeps, so that an interrupted run goes on where it was.
+//
+// One JSON object: a key, and below it what has been measured. The key is a hash of the scene as it
+// is run (with all overrides), of what decides how a number is measured, of the processor, and of
+// the program itself, byte by byte: numbers of another scene, setting or build are never taken.
+// Settings that were skipped are not kept, so more minutes measure more of them. Times are kept
+// once all of them are there: those of two sittings would not be interleaved.
+//
+// The trajectory of the reference is not kept, for it may be large; where it is needed again, its
+// finest run alone is repeated.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "command/trade/table.h"
+
+namespace sheave::tools {
+
+/// The hash, in hexadecimal.
+[[nodiscard]] std::string trade_key(const Scene& scene, const TradeOptions& options);
+
+class TradeJournal {
+ public:
+  /// `path` empty: nothing is kept. Reads the file if there is one; a Failure (65) if it is
+  /// anything but a journal. Says so if it is one of something else, and begins anew.
+  TradeJournal(std::string path, const std::string& key);
+  ~TradeJournal();
+  TradeJournal(const TradeJournal&) = delete;
+  TradeJournal& operator=(const TradeJournal&) = delete;
+
+  /// The reference and the motion in what is compared.
+  void keep(const measure::Reference& reference, double motion);
+  /// The reference without its frames, and the motion.
+  [[nodiscard]] std::optional<std::pair<measure::Reference, double>> reference() const;
+
+  /// The error of a setting, or its fault.
+  void keep(const TradeRow& row);
+  /// Fills in what is known of row.setting. Whether that is anything.
+  [[nodiscard]] bool restore(TradeRow& row) const;
+
+  /// The times of all rows that are measured.
+  void keep_times(const std::vector<TradeRow>& rows);
+  /// Whether all those are known, and then filled in.
+  [[nodiscard]] bool restore_times(std::vector<TradeRow>& rows) const;
+
+  void keep(const TradeLadder& ladder);
+  /// That of this setting.
+  [[nodiscard]] std::optional<TradeLadder> ladder(const TradeSetting& setting) const;
+
+  /// Writes the file if anything is new.
+  void save();
+  /// The same, if the last time was more than a second ago.
+  void save_sometimes();
+
+ private:
+  std::string path_;
+  std::unique_ptr<nlohmann::json> data_;
+  bool changed_ = false;
+  double saved_at_ = 0.0;
+};
+
+}  // namespace sheave::tools

@@ -1,0 +1,265 @@
+// sheave trade: what runs will cost, and the reference that all errors are against.
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "command/failure.h"
+#include "command/interrupt.h"
+#include "command/parallel.h"
+#include "command/progress.h"
+#include "command/trade/measure.h"
+#include "measure/scene_contender.h"
+#include "measure/timing.h"
+
+namespace sheave::tools {
+namespace {
+
+/// A reference is good enough if its error is a hundredth of the smallest that settings are named
+/// for.
+constexpr double reference_goal = 1e-6;
+/// One that is worse than a tenth of the largest cannot judge the whole run...
+constexpr double useless_reference = 1e-3;
+/// ...but as long as it is known to this.
+constexpr double trusted_level = 1e-4;
+/// How often the reference's step is halved beyond the finest setting, at most.
+constexpr int most_doublings = 6;
+
+/// Share of the time for everything after which no finer run is begun, and after which one that is
+/// running is given up.
+constexpr double reference_share = 0.2;
+constexpr double reference_end = 0.4;
+/// Share of the time for everything that one look at what a run costs may take.
+constexpr double pilot_share = 0.002;
+/// How many times fewer substeps a reference gets if it was not done in time.
+constexpr int coarser = 4;
+
+/// CPU time of a whole run [s], from its first frames; 0 if it cannot be run.
+double pilot_seconds(const TradeSetting& setting, const Scene& scene, double enough,
+                     const measure::Clock& clock) {
+  const Result<measure::Contender> contender =
+      measure::scene_contender("", setting.applied(scene), interrupted);
+  if (!contender) return 0.0;
+  const double start = clock.cpu();
+  std::int64_t frames = 0;
+  double seconds = 0.0;
+  while (frames < contender->frames && seconds < enough) {
+    const bool good = contender->frame();
+    ++frames;
+    seconds = clock.cpu() - start;
+    if (!good) break;
+  }
+  return seconds * static_cast<double>(contender->frames) / static_cast<double>(frames);
+}
+
+/// What runs cost: a part per substep and one per sweep of gauss-seidel, for each solver,
+/// integrator and tangent update.
+class CostModel {
+ public:
+  /// `enough`: CPU time for a look [s], one frame at least.
+  CostModel(const Scene& scene, double enough, const measure::Clock& clock)
+      : scene_(scene), enough_(enough), clock_(clock) {}
+
+  double seconds(const TradeSetting& setting) {
+    const StepSettings& step = setting.step;
+    const auto key = std::tuple(step.solver, step.integrator, setting.tangents);
+    auto found = parts_.find(key);
+    if (found == parts_.end()) found = parts_.emplace(key, measured(setting)).first;
+    const auto& [base, sweep] = found->second;
+    return step.substeps * (base + sweep * step.iterations);
+  }
+
+ private:
+  [[nodiscard]] std::array<double, 2> measured(TradeSetting setting) const {
+    setting.step.substeps = 1;
+    if (setting.step.solver == SolverKind::direct)
+      return {pilot_seconds(setting, scene_, enough_, clock_), 0.0};
+    constexpr int few = 1;
+    constexpr int more = 11;
+    setting.step.iterations = few;
+    const double first = pilot_seconds(setting, scene_, enough_, clock_);
+    setting.step.iterations = more;
+    const double second = pilot_seconds(setting, scene_, enough_, clock_);
+    const double sweep = std::max(0.0, (second - first) / (more - few));
+    return {std::max(0.0, first - few * sweep), sweep};
+  }
+
+  using Key = std::tuple<SolverKind, IntegratorKind, std::optional<TangentUpdate>>;
+  const Scene& scene_;
+  double enough_;
+  const measure::Clock& clock_;
+  std::map<Key, std::array<double, 2>> parts_;
+};
+
+/// Frames in which a reference can judge.
+std::size_t known_frames(const measure::Reference& reference, double dt) {
+  if (reference.estimate.position <= useless_reference) return reference.differences.size();
+  return measure::error_growth(reference.differences, dt, trusted_level).trusted_frames;
+}
+
+/// That of `rattle`; if it is not good, that of `xpbd` if it is known for longer, or better all the
+/// time. (In a chaotic scene the estimate at the end tells nothing: there it is the smaller the
+/// more the integrator damps.)
+measure::Reference choose(Result<measure::Reference>& second_order,
+                          Result<measure::Reference>& first_order, double dt) {
+  if (second_order && second_order->good) return std::move(second_order).value();
+  if (!first_order && !second_order) {
+    throw Failure(ExitCode::diverged, to_text(second_order.errors()));
+  }
+  if (!first_order) return std::move(second_order).value();
+  if (!second_order) return std::move(first_order).value();
+  const std::size_t long_known = known_frames(*second_order, dt);
+  const std::size_t other = known_frames(*first_order, dt);
+  const bool better = other != long_known
+                          ? other > long_known
+                          : first_order->estimate.position < second_order->estimate.position;
+  return better ? std::move(first_order).value() : std::move(second_order).value();
+}
+
+/// Both references side by side; that of `xpbd` is given up if that of `rattle` is good. Nothing if
+/// the time was too short.
+std::optional<measure::Reference> both_references(TradeRun& run) {
+  const double limit =
+      std::min(run.options.reference_seconds, reference_share * run.limit.seconds());
+  Progress progress("reference, at most", 0.0, 1.0, run.options.quiet);
+  const TimeLimit end = run.limit.part(reference_end);
+  std::atomic<bool> good = false;
+  std::array<Result<measure::Reference>, 2> results{Error{"", "not run"}, Error{"", "not run"}};
+  const std::array integrators{IntegratorKind::rattle, IntegratorKind::xpbd};
+  const auto make = [&](std::size_t i) {
+    measure::ReferenceOptions options;
+    options.integrator = integrators[i];
+    options.first_substeps = run.first_substeps;
+    options.most_substeps = std::min(options.first_substeps, 100'000 >> most_doublings)
+                            << most_doublings;
+    options.most_seconds = limit;
+    options.clock = run.options.clock;
+    options.good_enough = [](const measure::Reference& reference) {
+      return reference.estimate.position <= reference_goal;
+    };
+    options.stop = [&, i] { return interrupted() || (i == 1 && good) || !(end.left() > 0.0); };
+    options.observe = [&](std::int64_t, std::int64_t) { return !options.stop(); };
+    if (i == 1 && good) return;
+    results[i] = measure::reference_run(run.scene, options);
+    if (i == 0 && results[i] && results[i]->good) good = true;
+  };
+  run_parallel(2, run.threads(), make,
+               [&] { progress.update(1.0 - end.left() / end.seconds(), ""); });
+  if (interrupted()) stop_interrupted();
+  if (!results[0] && !results[1] && end.left() <= 0.0) return {};
+  return choose(results[0], results[1], run.table.dt);
+}
+
+measure::Reference new_reference(TradeRun& run) {
+  while (true) {
+    if (std::optional<measure::Reference> made = both_references(run)) return std::move(*made);
+    if (run.first_substeps == 1) break;
+    run.first_substeps = std::max(1, run.first_substeps / coarser);
+  }
+  throw Failure(ExitCode::check_failed,
+                fmt::format("two runs of the reference, with 1 and 2 substeps, take more than {:g} "
+                            "minutes allow; give more with --minutes",
+                            run.options.minutes));
+}
+
+/// To the time up to which the reference is known. If it knows nothing but time 0 the whole run is
+/// compared, and the reference's error says that it tells nothing.
+void limit_comparison(TradeRun& run) {
+  TradeTable& table = run.table;
+  const std::vector<double>& differences = table.reference.differences;
+  if (table.doubt.position <= useless_reference || differences.empty()) return;
+  table.chaos_rate = measure::error_growth(differences, table.dt, trusted_level).rate;
+  const std::size_t known = known_frames(table.reference, table.dt);
+  if (known < 2) return;
+  run.frames = known;
+  table.compared_seconds = table.dt * static_cast<double>(run.frames - 1);
+  table.doubt.position =
+      *std::max_element(differences.begin(), differences.begin() + static_cast<long>(run.frames));
+  table.doubt.position_end = differences[run.frames - 1];
+}
+
+/// The finest run again, of a reference that was made before.
+void repeat_reference(TradeRun& run) {
+  TradeSetting setting;
+  const measure::Reference& known = run.table.reference;
+  setting.step = {run.table.dt, known.substeps, measure::ReferenceOptions{}.rounds,
+                  SolverKind::direct, known.integrator};
+  const auto frames = static_cast<double>(measure::frame_count(run.scene));
+  Progress progress("reference, again", 0.0, frames, run.options.quiet);
+  Result<measure::Trajectory> again = measure::record(
+      setting.applied(run.scene),
+      [&](std::int64_t done, std::int64_t) {
+        progress.update(static_cast<double>(done), "");
+        return !interrupted();
+      },
+      interrupted);
+  if (interrupted()) stop_interrupted();
+  if (!again || !again->complete()) {
+    throw Failure(ExitCode::bad_scene,
+                  "--resume " + run.options.resume +
+                      ": the reference that it tells of cannot be run; was the file changed?");
+  }
+  run.truth = std::move(again).value();
+}
+
+bool needs_truth(TradeRun& run) {
+  return std::any_of(run.table.rows.begin(), run.table.rows.end(),
+                     [&](TradeRow row) { return row.measured() && !run.journal.restore(row); });
+}
+
+}  // namespace
+
+void plan_trade(TradeRun& run) {
+  CostModel model(run.scene, pilot_share * run.limit.seconds(), run.options.clock);
+  for (TradeRow& row : run.table.rows) {
+    if (interrupted()) stop_interrupted();
+    row.expected_seconds = model.seconds(row.setting);
+  }
+  // Two runs of the reference, at least, with s and 2 s substeps, should fit into its share.
+  const std::vector<int>& substeps = run.options.grid.substeps;
+  run.first_substeps = *std::max_element(substeps.begin(), substeps.end());
+  TradeSetting finest = run.table.rows.front().setting;
+  double expected = 0.0;  // of one substep, of the cheaper integrator
+  for (const IntegratorKind integrator : {IntegratorKind::rattle, IntegratorKind::xpbd}) {
+    finest.step = {run.table.dt, 1, measure::ReferenceOptions{}.rounds, SolverKind::direct,
+                   integrator};
+    const double own = model.seconds(finest);
+    expected = expected > 0.0 ? std::min(expected, own) : own;
+  }
+  const double share = reference_share * run.limit.seconds();
+  while (run.first_substeps > 1 && 3.0 * run.first_substeps * expected > share) {
+    run.first_substeps /= 2;
+  }
+}
+
+void make_reference(TradeRun& run) {
+  TradeTable& table = run.table;
+  auto known = run.journal.reference();
+  if (known) {
+    std::tie(table.reference, table.motion) = std::move(*known);
+  } else {
+    table.reference = new_reference(run);
+    run.truth = std::exchange(table.reference.trajectory, {});
+  }
+  table.doubt = table.reference.estimate;
+  table.compared_seconds = table.simulated_seconds;
+  limit_comparison(run);
+  if (!known) {
+    const std::size_t frames = run.frames > 0 ? run.frames : run.truth.frames.size();
+    table.motion = measure::motion_of(measure::first_frames(run.truth, frames));
+    run.journal.keep(table.reference, table.motion);
+  }
+  for (TradeRow& row : table.rows) {
+    if (row.setting.step.substeps <= table.reference.substeps) continue;
+    row.skipped = fmt::format("finer than the reference that the time allows ({} substeps)",
+                              table.reference.substeps);
+  }
+  if (run.truth.frames.empty() && needs_truth(run)) repeat_reference(run);
+}
+
+}  // namespace sheave::tools

@@ -1,0 +1,102 @@
+// Only in builds with the renderer.
+#if SHEAVE_HAS_RENDER
+
+#include "command/view/page_file.h"
+
+#include <array>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+#include "command/failure.h"
+#include "command/input/file.h"
+#include "command/terminal.h"
+#include "render/child_process.h"
+
+namespace sheave::tools {
+namespace {
+
+constexpr std::size_t longest_page = 64U << 20U;
+
+std::filesystem::path command_folder() {
+  std::error_code code;
+  return std::filesystem::read_symlink("/proc/self/exe", code).parent_path();
+}
+
+/// The page of this name; `remedy` is told where there is none.
+std::string read_page_file(const std::string& name, const std::string& remedy) {
+  const std::filesystem::path folder = command_folder();
+  std::error_code code;
+  // In a build tree; installed.
+  for (const char* place : {"../web", "../share/sheave"}) {
+    const std::filesystem::path path = (folder / place / name).lexically_normal();
+    if (std::filesystem::exists(path, code)) return read_input(path.string(), longest_page);
+  }
+  throw Failure(ExitCode::no_input,
+                (folder / "../web" / name).lexically_normal().string() + remedy);
+}
+
+std::string replaced(const std::string& page, std::string_view mark, const std::string& content) {
+  const std::size_t at = page.find(mark);
+  if (at == std::string::npos) {
+    throw Failure(ExitCode::internal,
+                  "the page has no place for what it is to show; build it anew");
+  }
+  std::string filled;
+  filled.reserve(page.size() + content.size());
+  filled.append(page, 0, at);
+  filled += content;
+  filled.append(page, at + mark.size());
+  return filled;
+}
+
+}  // namespace
+
+std::string read_page() {
+  return read_page_file(
+      "view.html",
+      ": the page is missing: this build was made without npm, or npm could not load what "
+      "web/package-lock.json names\n"
+      "to build it: install nodejs and npm, then cmake --build the target web");
+}
+
+std::string read_live_page() {
+  return read_page_file("live.html",
+                        ": the page with the engine inside is missing\n"
+                        "to build it: install emscripten and npm, then tools/playground "
+                        "--build-only");
+}
+
+std::string filled_page(const std::string& page, const std::string& recording) {
+  return replaced(page, "<!--RECORDING-->",
+                  "<script type=\"text/plain\" id=\"recording\">" + recording + "</script>");
+}
+
+std::string filled_live_page(const std::string& page, const std::string& scene) {
+  // As JSON, in which no "<" ends the script that holds it.
+  std::string text =
+      nlohmann::json(scene).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
+    text.replace(at, 1, "\\u003c");
+  }
+  return replaced(page, "<!--SCENE-->",
+                  "<script type=\"application/json\" id=\"scene\">" + text + "</script>");
+}
+
+void open_in_browser(const std::string& path) {
+  // A whole path begins with a slash: what else a name may begin with is no option of xdg-open, and
+  // no address of a page somewhere else.
+  const std::string whole = std::filesystem::absolute(path).string();
+  Result<render::ChildProcess> opener =
+      render::ChildProcess::start({"xdg-open", whole}, {.leaves_programs = true});
+  const Errors errors = opener ? opener->finish() : opener.errors();
+  if (!errors.empty()) {
+    print_warning("cannot open the browser: " + to_text(errors) + "\nplease open " + path);
+  }
+}
+
+}  // namespace sheave::tools
+
+#endif  // SHEAVE_HAS_RENDER
