@@ -12,7 +12,7 @@
 #include "command/terminal.h"
 #include "scenes/suggestion.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 constexpr std::size_t first_column = 30;
@@ -148,4 +148,4 @@ CLI::Validator finite_number() {
           "", "finite_number"};
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -8,7 +8,7 @@ class App;
 class Validator;
 }  // namespace CLI
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// Makes the help of `app` fit into 100 columns; subcommands added later inherit it.
 void use_wrapped_help(CLI::App& app);
@@ -26,4 +26,4 @@ void check_subcommands(const CLI::App& app, int argc, const char* const* words);
 /// A number that is neither infinite nor "nan".
 [[nodiscard]] CLI::Validator finite_number();
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

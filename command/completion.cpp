@@ -12,7 +12,7 @@
 #include "command/registry.h"
 #include "command/terminal.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// One word sequence after `sheave` and what may follow it.
@@ -239,4 +239,4 @@ Debian's package has all three installed already.)");
   };
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -8,7 +8,7 @@
 
 #include "engine/result.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// Exit codes; the numbers of BSD's sysexits.h where one fits.
 enum class ExitCode {
@@ -46,4 +46,4 @@ class Failure : public std::runtime_error {
   return text;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <ctime>
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// Signals that counted.
@@ -59,4 +59,4 @@ void catch_interrupts() {
 bool interrupted() { return signals() > 0; }
 bool hurried() { return signals() > 1; }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -2,7 +2,7 @@
 // Ctrl-C and its relatives end a simulation, within a step if that takes long, so that what was
 // computed is kept.
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// From now on SIGINT, SIGTERM and SIGHUP (unless ignored, as under nohup) set a flag the first
 /// time; another one half a second later or more sets the second flag, and a third one half a
@@ -14,4 +14,4 @@ void catch_interrupts();
 /// given up.
 [[nodiscard]] bool hurried();
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <thread>
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 std::string cpu_name() {
@@ -35,4 +35,4 @@ MachineInfo machine_info() {
   return info;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 struct MachineInfo {
   std::string cpu;  ///< as the system calls it; "unknown" if it does not tell
@@ -14,4 +14,4 @@ struct MachineInfo {
 
 [[nodiscard]] MachineInfo machine_info();
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

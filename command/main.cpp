@@ -11,7 +11,7 @@
 #include "command/registry.h"
 #include "command/terminal.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 ExitCode dispatch(int argc, char** argv) {
@@ -65,13 +65,13 @@ ExitCode run_command_line(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace sheave::tools
+}  // namespace sheave::command
 
 int main(int argc, char** argv) {
-  sheave::tools::turn_signals_into_errors();
+  sheave::command::turn_signals_into_errors();
   // Mesa's software renderer starts a thread per core for each picture line of ours, and waits for
   // ever for those that the system does not allow. Without them pictures are the same.
   ::setenv("LP_NUM_THREADS", "0", 0);
-  std::set_terminate(sheave::tools::end_at_once);
-  return static_cast<int>(sheave::tools::run_command_line(argc, argv));
+  std::set_terminate(sheave::command::end_at_once);
+  return static_cast<int>(sheave::command::run_command_line(argc, argv));
 }

@@ -11,7 +11,7 @@
 
 #include <sched.h>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 int core_count() {
   cpu_set_t set;
@@ -55,4 +55,4 @@ void run_parallel(std::size_t count, int threads, const std::function<void(std::
   if (failure) std::rethrow_exception(failure);
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

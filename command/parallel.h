@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <functional>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// Cores of the machine that this process may use, at least 1.
 [[nodiscard]] int core_count();
@@ -15,4 +15,4 @@ namespace sheave::tools {
 void run_parallel(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
                   const std::function<void()>& poll);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

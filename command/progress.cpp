@@ -11,7 +11,7 @@
 
 #include "command/terminal.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 // What is over sooner needs no bar; redrawing faster than one can read only costs time.
@@ -92,4 +92,4 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole % 3600 / 60);
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <string>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 class Progress {
  public:
@@ -41,4 +41,4 @@ class Progress {
 /// "42 s", "3 min 10 s", "2 h 05 min".
 [[nodiscard]] std::string duration_text(double seconds);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

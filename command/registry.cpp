@@ -11,7 +11,7 @@
 
 #include "command/command_line.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 std::span<const Command> commands() {
   static constexpr auto table = std::to_array<Command>({
@@ -62,4 +62,4 @@ See sheave SUBCOMMAND --help for options and examples.)");
 
 CommandLine::~CommandLine() = default;
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

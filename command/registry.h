@@ -12,7 +12,7 @@ namespace CLI {
 class App;
 }
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// What a subcommand does once the command line is read.
 using Action = std::function<ExitCode()>;
@@ -58,4 +58,4 @@ Action declare_sweep(CLI::App& app);
 Action declare_merge(CLI::App& app);
 Action declare_plot(CLI::App& app);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -14,7 +14,7 @@
 #include "engine/field_check.h"
 #include "scenes/json/document.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// An option of its own for a setting that is changed often.
@@ -212,4 +212,4 @@ std::int64_t step_count(const Scene& scene) {
   return static_cast<std::int64_t>(std::clamp(steps, 1.0, most));
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

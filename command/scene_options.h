@@ -13,7 +13,7 @@ namespace CLI {
 class App;
 }
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// Options as the user wrote them; empty means not given.
 struct SceneOptions {
@@ -54,4 +54,4 @@ void add_jsonnet_options(CLI::App& app, SceneOptions& options);
 /// The number of steps that come nearest to the duration, at least 1.
 [[nodiscard]] std::int64_t step_count(const Scene& scene);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -6,7 +6,7 @@
 
 #include "command/failure.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 double positive_share(const std::string& option, const std::string& text) {
   char* end = nullptr;
@@ -20,4 +20,4 @@ double positive_share(const std::string& option, const std::string& text) {
   return percent ? 0.01 * value : value;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

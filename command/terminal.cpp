@@ -15,7 +15,7 @@
 #include "command/failure.h"
 #include "scenes/json/text.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// False if the text could not be written; errno says why.
@@ -106,4 +106,4 @@ void turn_signals_into_errors() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

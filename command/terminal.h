@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// Writes to standard output at once; throws a Failure (74) if that is closed or full.
 void print(std::string_view text);
@@ -30,4 +30,4 @@ void print_note(std::string_view text);
 /// error like any other, not the end of the process.
 void turn_signals_into_errors();
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -27,11 +27,11 @@ std::vector<std::string> texts_of(Bytes bytes, const std::string& mark) {
 void try_chart(Bytes bytes) {
   const std::string mark = "PWN";
   const std::vector<std::string> texts = texts_of(bytes, mark);
-  for (const tools::GnuplotScript& chart : charts_with(texts, tools::ChartFormat::svg)) {
+  for (const command::GnuplotScript& chart : charts_with(texts, command::ChartFormat::svg)) {
     require_harmless(chart.text(), mark);
   }
   for (const std::string& text : texts) {
-    const std::string page = tools::markdown_text(text);
+    const std::string page = command::markdown_text(text);
     require(page.find_first_of("<>\n\r") == std::string::npos, "a page has markup from outside");
   }
 }

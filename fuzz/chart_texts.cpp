@@ -32,25 +32,25 @@ class InTurn {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-tools::GnuplotScript run_chart(InTurn& next, tools::ChartFormat format) {
-  std::vector<tools::PlotRun> runs(2);
-  for (tools::PlotRun& run : runs) {
+command::GnuplotScript run_chart(InTurn& next, command::ChartFormat format) {
+  std::vector<command::PlotRun> runs(2);
+  for (command::PlotRun& run : runs) {
     run.label = next();
     run.names = {next(), next(), next(), "a.x"};
     run.values = {{0.0, 1.0, 2.0}, {none, 1.0, 2.0}, {1e300, -1e300, none}, {none, none, none}};
     run.events = {{0.5, next()}, {1.5, next()}};
   }
-  return tools::plot_script(runs, next(), format);
+  return command::plot_script(runs, next(), format);
 }
 
-tools::GnuplotScript sweep_chart(InTurn& next, std::size_t axes, tools::ChartFormat format) {
-  tools::SweepTable table;
+command::GnuplotScript sweep_chart(InTurn& next, std::size_t axes, command::ChartFormat format) {
+  command::SweepTable table;
   table.head.scene = next();
   for (std::size_t a = 0; a < axes; ++a) table.head.axes.push_back(next());
   table.head.measures = {{next(), next(), {}}, {next(), "", {}}};
   table.head.runs = 4;
   for (std::size_t i = 0; i < table.head.runs; ++i) {
-    tools::SweepRow row;
+    command::SweepRow row;
     row.run = i;
     for (std::size_t a = 0; a < axes; ++a) row.values.push_back(next());
     row.measured = {static_cast<double>(i), i == 2 ? none : 7.0};
@@ -58,15 +58,15 @@ tools::GnuplotScript sweep_chart(InTurn& next, std::size_t axes, tools::ChartFor
     row.message = next();
     table.rows.push_back(std::move(row));
   }
-  return tools::sweep_chart_script(table, format);
+  return command::sweep_chart_script(table, format);
 }
 
-tools::GnuplotScript trade_chart(InTurn& next, tools::ChartFormat format) {
-  tools::TradeTable table;
+command::GnuplotScript trade_chart(InTurn& next, command::ChartFormat format) {
+  command::TradeTable table;
   table.scene = next();
   table.dt = 0.01;
   for (int i = 0; i < 3; ++i) {
-    tools::TradeRow row;
+    command::TradeRow row;
     row.setting.step.substeps = 1 << i;
     row.seconds = {1e-3 / (1 + i), 0.9e-3 / (1 + i), 1.1e-3 / (1 + i), 0.8e-3 / (1 + i), 5};
     row.error.position = 1e-2 / (1 + i);
@@ -75,11 +75,11 @@ tools::GnuplotScript trade_chart(InTurn& next, tools::ChartFormat format) {
   }
   table.families.push_back({next(), {}});
   table.limits.push_back(next());
-  return tools::trade_chart_script(table, format);
+  return command::trade_chart_script(table, format);
 }
 
-tools::GnuplotScript stress_chart(InTurn& next, tools::ChartFormat format) {
-  tools::StressResult result;
+command::GnuplotScript stress_chart(InTurn& next, command::ChartFormat format) {
+  command::StressResult result;
   result.map.name = next();
   result.map.meaning = next();
   result.map.x = {next(), {1.0, 1e4}};
@@ -88,13 +88,13 @@ tools::GnuplotScript stress_chart(InTurn& next, tools::ChartFormat format) {
   result.outcomes[0].verdict = {measure::StressKind::wrong, 1.0, next()};
   result.outcomes[0].doubt = next();
   result.outcomes[1].verdict.error = 1e-9;
-  return tools::stress_script(result, format);
+  return command::stress_script(result, format);
 }
 
-tools::GnuplotScript bench_chart(InTurn& next, tools::ChartFormat format) {
-  tools::BenchTable table;
+command::GnuplotScript bench_chart(InTurn& next, command::ChartFormat format) {
+  command::BenchTable table;
   for (int i = 0; i < 2; ++i) {
-    tools::BenchRow row;
+    command::BenchRow row;
     row.scene = next();
     row.file = next();
     row.paper_source = next();
@@ -103,7 +103,7 @@ tools::GnuplotScript bench_chart(InTurn& next, tools::ChartFormat format) {
     row.error.position = 1e-5;
     table.rows.push_back(std::move(row));
   }
-  return tools::chart_script(table, format);
+  return command::chart_script(table, format);
 }
 
 bool only_of(std::string_view text, std::string_view allowed) {
@@ -160,8 +160,8 @@ void require_command(std::string_view line) {
 
 }  // namespace
 
-std::vector<tools::GnuplotScript> charts_with(const std::vector<std::string>& texts,
-                                              tools::ChartFormat format) {
+std::vector<command::GnuplotScript> charts_with(const std::vector<std::string>& texts,
+                                                command::ChartFormat format) {
   InTurn next(texts);
   return {run_chart(next, format),      sweep_chart(next, 1, format), sweep_chart(next, 2, format),
           sweep_chart(next, 3, format), trade_chart(next, format),    stress_chart(next, format),

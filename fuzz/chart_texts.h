@@ -10,8 +10,8 @@ namespace sheave::fuzz {
 
 /// A chart of a run, of a sweep (over one axis, a map, clouds), of a trade, of a stress map and of
 /// a bench, which take the texts in turn.
-[[nodiscard]] std::vector<tools::GnuplotScript> charts_with(const std::vector<std::string>& texts,
-                                                            tools::ChartFormat format);
+[[nodiscard]] std::vector<command::GnuplotScript> charts_with(const std::vector<std::string>& texts,
+                                                              command::ChartFormat format);
 
 /// Reads a script as gnuplot does, by rules that share no code with what writes them: throws a
 /// BrokenPromise unless all of it is commands that only draw, numbers, and texts that gnuplot does

@@ -45,12 +45,12 @@ void try_command_line(Bytes bytes) {
   const std::vector<std::string> words = words_of(bytes);
   std::vector<const char*> arguments;
   for (const std::string& word : words) arguments.push_back(word.c_str());
-  const tools::CommandLine line;
+  const command::CommandLine line;
   try {
-    static_cast<void>(
-        tools::parse_command_line(*line.app, static_cast<int>(arguments.size()), arguments.data()));
-  } catch (const tools::Failure& failure) {
-    require(failure.code() == tools::ExitCode::usage,
+    static_cast<void>(command::parse_command_line(*line.app, static_cast<int>(arguments.size()),
+                                                  arguments.data()));
+  } catch (const command::Failure& failure) {
+    require(failure.code() == command::ExitCode::usage,
             "a command line is refused as if it were not");
     require(*failure.what() != '\0', "a command line is refused without a message");
   }

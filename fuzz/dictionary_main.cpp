@@ -73,7 +73,7 @@ void add_app(const CLI::App& app, Words& words) {
 
 Words command_line_words() {
   Words words{"nan", "inf", "-1", "1e999", "--set\n/bodies/0/mass=", "/step/dt=", "=", "\n--\n"};
-  const tools::CommandLine line;
+  const command::CommandLine line;
   add_app(*line.app, words);
   return words;
 }

@@ -37,8 +37,8 @@ bool is_taken(const Read& read) {
   try {
     read();
     return true;
-  } catch (const tools::Failure& failure) {
-    require(failure.code() == tools::ExitCode::bad_scene, "refused with another code than 65");
+  } catch (const command::Failure& failure) {
+    require(failure.code() == command::ExitCode::bad_scene, "refused with another code than 65");
     require(*failure.what() != '\0', "refused without a message");
     return false;
   }
@@ -48,10 +48,10 @@ bool is_taken(const Read& read) {
 void use(const std::string& text) {
   const nlohmann::json data = nlohmann::json::parse(text, nullptr, false, true);
   const MemoryFile file(text);
-  tools::TradeJournal journal(file.path(), data.at("key").get<std::string>());
+  command::TradeJournal journal(file.path(), data.at("key").get<std::string>());
   static_cast<void>(journal.reference());
-  std::vector<tools::TradeRow> rows(2);
-  for (tools::TradeRow& row : rows) static_cast<void>(journal.restore(row));
+  std::vector<command::TradeRow> rows(2);
+  for (command::TradeRow& row : rows) static_cast<void>(journal.restore(row));
   static_cast<void>(journal.restore_times(rows));
   static_cast<void>(journal.ladder(rows.front().setting));
 }
@@ -60,9 +60,9 @@ void use(const std::string& text) {
 
 void try_journal(Bytes bytes) {
   const std::string text(bytes.begin(), bytes.end());
-  if (is_taken([&] { tools::check_trade_journal(text, "journal"); })) use(text);
+  if (is_taken([&] { command::check_trade_journal(text, "journal"); })) use(text);
   const MemoryFile file(text);
-  is_taken([&] { static_cast<void>(tools::compare_with_baseline({}, file.path(), 1.1)); });
+  is_taken([&] { static_cast<void>(command::compare_with_baseline({}, file.path(), 1.1)); });
 }
 
 }  // namespace sheave::fuzz

@@ -127,7 +127,7 @@ TEST(HostileTexts, StayTexts) {
   const std::uint64_t end = first + from_environment("SHEAVE_CASES", 2000);
   for (std::uint64_t seed = first; seed < end; seed += texts_of_a_chart) {
     const std::vector<std::string> texts = some_texts(seed, texts_of_a_chart);
-    for (const auto& chart : charts_with(texts, tools::ChartFormat::svg)) {
+    for (const auto& chart : charts_with(texts, command::ChartFormat::svg)) {
       ASSERT_NO_THROW(require_harmless(chart.text(), test::hostile_mark)) << "seed " << seed;
     }
   }
@@ -142,7 +142,7 @@ bool has_gnuplot() {
 
 /// What gnuplot prints of the texts of a script that shows them.
 std::string read_back(const std::vector<std::string>& texts) {
-  tools::GnuplotScript script(tools::ChartFormat::svg, 100);
+  command::GnuplotScript script(command::ChartFormat::svg, 100);
   script.add({"set print '-'\n"});
   for (const std::string& text : texts) script.add({"print ", script.shown(text), "\n"});
   auto child = render::ChildProcess::start({"gnuplot", "-d", "-"}, {.keeps_output = true});
@@ -162,7 +162,7 @@ TEST(HostileTexts, AreReadBackByGnuplot) {
   for (std::uint64_t seed = first; seed < end; seed += at_once) {
     const std::vector<std::string> texts = some_texts(seed, std::min(at_once, end - seed));
     std::string expected;
-    for (const std::string& text : texts) expected += tools::one_line(text) + "\n";
+    for (const std::string& text : texts) expected += command::one_line(text) + "\n";
     ASSERT_EQ(read_back(texts), expected) << "seed " << seed;
   }
 }
@@ -218,9 +218,9 @@ TEST(HostileTexts, AreDrawn) {
   for (std::uint64_t i = 0; i < charts; ++i) {
     const std::uint64_t seed = first + 200 * texts_of_a_chart * i;
     for (const auto& chart :
-         charts_with(some_texts(seed, texts_of_a_chart), tools::ChartFormat::svg)) {
+         charts_with(some_texts(seed, texts_of_a_chart), command::ChartFormat::svg)) {
       const std::string picture = std::to_string(drawn++) + ".svg";
-      EXPECT_NO_THROW(tools::draw_with_gnuplot(picture, chart)) << "seed " << seed;
+      EXPECT_NO_THROW(command::draw_with_gnuplot(picture, chart)) << "seed " << seed;
       EXPECT_TRUE(fs::remove(picture)) << "seed " << seed;
       EXPECT_TRUE(drawing.is_empty()) << "seed " << seed;
     }

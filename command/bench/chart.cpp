@@ -10,7 +10,7 @@
 #include "command/output/gnuplot.h"
 #include "command/output/log_axis.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// Rows that get one colour.
@@ -138,4 +138,4 @@ void draw_chart(const BenchTable& table, const std::string& path) {
   draw_with_gnuplot(path, chart_script(table, format));
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

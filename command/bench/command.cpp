@@ -15,7 +15,7 @@
 #include "command/registry.h"
 #include "command/terminal.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 struct BenchArguments {
@@ -128,4 +128,4 @@ Keep the machine quiet, and the program on one core: taskset -c 1 sheave bench)"
   return [arguments] { return bench(*arguments); };
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -12,7 +12,7 @@
 #include "command/input/file.h"
 #include "command/input/json_check.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using BenchJson = nlohmann::ordered_json;
@@ -187,4 +187,4 @@ BenchComparison compare_with_baseline(const BenchTable& table, const std::string
   return comparison;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

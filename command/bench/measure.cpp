@@ -21,7 +21,7 @@
 #include "measure/scene_contender.h"
 #include "measure/timing.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// A reference is good if its error is at most this share of every error that is measured with it.
@@ -266,4 +266,4 @@ BenchTable list_table(const BenchOptions& options) {
 
 BenchTable measure_table(const BenchOptions& options) { return Measurement(options).run(); }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -12,7 +12,7 @@
 #include "measure/reference_run.h"
 #include "measure/spread.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// One scene with one setting.
 struct BenchRow {
@@ -114,4 +114,4 @@ void draw_chart(const BenchTable& table, const std::string& path);
 /// What gnuplot is told.
 [[nodiscard]] GnuplotScript chart_script(const BenchTable& table, ChartFormat format);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

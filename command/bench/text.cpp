@@ -9,7 +9,7 @@
 #include "command/text/one_line.h"
 #include "command/text/table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 const std::vector<std::string> bench_head{
@@ -137,4 +137,4 @@ std::string comparison_text(const BenchComparison& comparison) {
   return result;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -8,7 +8,7 @@
 
 #include "command/input/file.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// Far more than any program.
@@ -29,4 +29,4 @@ void ContentHash::add_program() {
 
 std::string ContentHash::text() const { return fmt::format("{:016x}", value_); }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

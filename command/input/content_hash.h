@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// FNV-1a, 64 bits, of a list of texts.
 class ContentHash {
@@ -21,4 +21,4 @@ class ContentHash {
   std::uint64_t value_ = 0xcbf29ce484222325ULL;
 };
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

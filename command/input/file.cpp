@@ -11,7 +11,7 @@
 
 #include "command/failure.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// A file that is closed whatever happens.
@@ -56,4 +56,4 @@ std::string read_input(const std::string& path, std::size_t most) {
   }
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

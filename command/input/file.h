@@ -4,10 +4,10 @@
 #include <cstddef>
 #include <string>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// The bytes of a file. Throws a Failure that names it: 66 if there is none, 74 if it cannot be
 /// read or is a folder, 65 if it is longer than `most`.
 [[nodiscard]] std::string read_input(const std::string& path, std::size_t most);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -10,7 +10,7 @@
 #include "engine/field_check.h"
 #include "scenes/suggestion.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using json::Kind;
@@ -173,4 +173,4 @@ void check_json(std::string_view text, const std::string& name, std::string_view
   if (!faults.empty()) fail_with(document, faults, name);
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

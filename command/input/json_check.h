@@ -11,7 +11,7 @@
 
 #include "scenes/json/document.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// Collects the faults of one document.
 struct JsonCheck {
@@ -55,4 +55,4 @@ struct JsonKey {
 void check_json(std::string_view text, const std::string& name, std::string_view format,
                 const JsonRule& rule, const json::Limits& limits = {});
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

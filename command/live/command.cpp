@@ -28,7 +28,7 @@
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/magnitude.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 constexpr double idle = 0.1;  // [s]; a signal may come just before a wait begins
@@ -246,4 +246,4 @@ interrupted. Requests that are wrong are answered by errors and end nothing.)");
   return [options] { return run_live(*options); };
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -9,7 +9,7 @@
 
 #include "command/failure.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 std::optional<LineReader::Line> LineReader::next() {
   const std::size_t end = buffer_.find('\n', searched_);
@@ -44,4 +44,4 @@ void LineReader::read() {
   if (count == 0) at_end_ = true;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

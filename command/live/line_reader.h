@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 class LineReader {
  public:
@@ -35,4 +35,4 @@ class LineReader {
   bool at_end_ = false;
 };
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -13,7 +13,7 @@
 
 #include "command/interrupt.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -116,4 +116,4 @@ void LineWriter::break_off() {
   written_ = 0;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 class LineWriter {
  public:
@@ -47,4 +47,4 @@ class LineWriter {
   std::string fault_;
 };
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 void Pacer::set_pace(std::optional<double> pace) {
   if (pace != pace_) start_.reset();
@@ -24,4 +24,4 @@ double Pacer::until(double time) {
   return std::max(wait(), 0.0);
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

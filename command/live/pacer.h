@@ -4,7 +4,7 @@
 #include <chrono>
 #include <optional>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 class Pacer {
  public:
@@ -31,4 +31,4 @@ class Pacer {
   std::optional<Start> start_;
 };
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -19,7 +19,7 @@
 #include "engine/field_check.h"
 #include "statics/equilibrium.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 struct ModesOptions {
@@ -207,4 +207,4 @@ Exit codes: 0 done, 2 wrong usage, 65 bad scene, 75 no rest was found.)");
   return [options] { return modes(*options); };
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

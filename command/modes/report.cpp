@@ -12,7 +12,7 @@
 #include "command/text/table.h"
 #include "scenes/observables.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using ModesJson = nlohmann::ordered_json;
@@ -206,4 +206,4 @@ std::string modes_json(const std::string& path, const ModesFound& found) {
   return object.dump(-1, ' ', false, ModesJson::error_handler_t::replace) + "\n";
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -8,7 +8,7 @@
 #include "statics/equilibrium.h"
 #include "statics/modes.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 struct ModesFound {
   std::string scene;
@@ -29,4 +29,4 @@ void write_matrices(const std::string& name, const ModesFound& found);
 [[nodiscard]] std::string modes_text(const ModesFound& found, std::size_t count);
 [[nodiscard]] std::string modes_json(const std::string& path, const ModesFound& found);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

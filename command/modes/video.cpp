@@ -16,7 +16,7 @@
 #include "render/view_builder.h"
 #include "render/view_survey.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 static_assert(least_mode_picture == render::Renderer::min_side);
@@ -129,11 +129,11 @@ void animate_mode(const Scene& scene, Simulation& simulation, const Modes& modes
   if (code != ExitCode::done) throw Failure(code, "the mode's picture could not be written");
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command
 
 #else
 
-namespace sheave::tools {
+namespace sheave::command {
 
 void animate_mode(const Scene& /*scene*/, Simulation& /*simulation*/, const Modes& /*modes*/,
                   const ModeVideo& /*video*/) {
@@ -141,6 +141,6 @@ void animate_mode(const Scene& /*scene*/, Simulation& /*simulation*/, const Mode
                 "this build has no renderer: configure with -DSHEAVE_RENDER=ON");
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command
 
 #endif  // SHEAVE_HAS_RENDER

@@ -6,7 +6,7 @@
 #include "scenes/scene.h"
 #include "statics/modes.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// What a picture's sides may be [pixels], as sheave render has it.
 constexpr int least_mode_picture = 16;
@@ -25,4 +25,4 @@ struct ModeVideo {
 void animate_mode(const Scene& scene, Simulation& simulation, const Modes& modes,
                   const ModeVideo& video);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

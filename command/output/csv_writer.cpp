@@ -5,7 +5,7 @@
 #include "command/output/file.h"
 #include "command/output/table_writer.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 class CsvWriter final : public TableWriter {
@@ -57,4 +57,4 @@ std::unique_ptr<TableWriter> open_csv(const std::string& path,
   return std::make_unique<CsvWriter>(path, columns);
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -4,7 +4,7 @@
 
 #include "command/terminal.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 bool OutputFaults::attempt(const std::function<void()>& write) {
   try {
@@ -37,4 +37,4 @@ ExitCode OutputFaults::report(ExitCode otherwise) const {
   return code_;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -7,7 +7,7 @@
 
 #include "command/failure.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 class OutputFaults {
  public:
@@ -31,4 +31,4 @@ class OutputFaults {
   ExitCode code_ = ExitCode::done;
 };
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -12,7 +12,7 @@
 #include "command/failure.h"
 #include "render/destination.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 18U;
@@ -163,4 +163,4 @@ void write_file(const std::string& path, std::string_view bytes) {
   file.commit();
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

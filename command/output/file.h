@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// Every member function throws a Failure (74) that names the path if something goes wrong.
 class OutputFile {
@@ -71,4 +71,4 @@ class OutputFile {
 /// Writes a whole file; if that fails, what was there stays.
 void write_file(const std::string& path, std::string_view bytes);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

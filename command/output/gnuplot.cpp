@@ -13,7 +13,7 @@
 #include "render/output_file.h"
 #endif
 
-namespace sheave::tools {
+namespace sheave::command {
 
 #if SHEAVE_HAS_RENDER
 
@@ -81,4 +81,4 @@ void draw_with_gnuplot(const std::string& path, const GnuplotScript&) {
 
 #endif
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -7,7 +7,7 @@
 #include "command/failure.h"
 #include "command/text/one_line.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 ChartFormat chart_format(const std::string& path) {
   if (path.ends_with(".png")) return ChartFormat::png;
   if (path.ends_with(".svg")) return ChartFormat::svg;
@@ -85,4 +85,4 @@ std::string GnuplotScript::text() const {
   return head.text() + texts + blocks_.text() + body_.text();
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -11,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 enum class ChartFormat { png, svg, pdf };
 
@@ -109,4 +109,4 @@ class GnuplotScript {
   GnuplotCode body_;
 };
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 std::string power_of_ten(int exponent) {
   constexpr std::array<const char*, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
@@ -45,4 +45,4 @@ void LogAxis::set(char axis, GnuplotScript& script) const {
               "]\nset format ", name, " ''\nset ", name, "tics add (", named, ")\n"});
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -6,7 +6,7 @@
 
 #include "command/output/gnuplot_script.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// "10⁻⁵".
 [[nodiscard]] std::string power_of_ten(int exponent);
@@ -27,4 +27,4 @@ class LogAxis {
   double highest_ = 0.0;
 };
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -16,7 +16,7 @@
 #include "command/output/table_writer.h"
 #include "command/terminal.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 constexpr std::size_t alignment = 64;
@@ -166,4 +166,4 @@ std::unique_ptr<TableWriter> open_table(const std::string& path,
   throw Failure(ExitCode::usage, path + ": the name of a table must end in .csv or .npy");
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

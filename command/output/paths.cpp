@@ -11,7 +11,7 @@
 #include "command/failure.h"
 #include "render/destination.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// What makes two names one file: device and inode, of the file or, where there is none yet, of its
@@ -81,4 +81,4 @@ void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPa
   }
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// A file as the user named it. An empty path is none; "-" is standard input or standard output.
 struct NamedPath {
@@ -19,4 +19,4 @@ struct NamedPath {
 void check_paths(const std::vector<NamedPath>& inputs, const std::vector<NamedPath>& outputs,
                  bool prints);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 class OutputFile;
 
@@ -52,4 +52,4 @@ class TableWriter {
 [[nodiscard]] std::unique_ptr<TableWriter> open_npy(const std::string& path,
                                                     const std::vector<std::string>& columns);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

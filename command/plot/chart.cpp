@@ -12,7 +12,7 @@
 #include "command/plot/data.h"
 #include "scenes/quantity_unit.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using PlotJson = nlohmann::ordered_json;
@@ -192,4 +192,4 @@ std::string plot_json(const std::vector<PlotRun>& runs, const std::string& file)
   return json.dump(-1, ' ', false, PlotJson::error_handler_t::replace) + "\n";
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -20,7 +20,7 @@
 #include "command/scene_options.h"
 #include "command/terminal.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 struct PlotArguments {
@@ -123,4 +123,4 @@ Events, such as a rope that breaks, are marked where the horizontal axis is time
   return [arguments] { return plot(*arguments); };
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

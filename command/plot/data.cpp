@@ -19,7 +19,7 @@
 #include "engine/joint_report.h"
 #include "scenes/suggestion.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 constexpr double missing_value = std::numeric_limits<double>::quiet_NaN();
@@ -278,4 +278,4 @@ PlotRun PlotRecorder::run(const std::string& label, const Simulation& simulation
   return run;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

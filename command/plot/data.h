@@ -9,7 +9,7 @@
 #include "command/output/gnuplot_script.h"
 #include "scenes/observables.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// Something that happened at a moment of a run.
 struct PlotEvent {
@@ -65,4 +65,4 @@ class PlotRecorder {
 /// The same in numbers: what is drawn, with the extremes of each line.
 [[nodiscard]] std::string plot_json(const std::vector<PlotRun>& runs, const std::string& file);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

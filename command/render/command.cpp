@@ -33,7 +33,7 @@
 #include "render/view_builder.h"
 #include "view/gltf_animation.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 struct RenderOptions {
@@ -282,14 +282,14 @@ frames so far. Exit codes as for sheave run.)");
   };
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command
 
 #else
 
-namespace sheave::tools {
+namespace sheave::command {
 
 Action declare_render(CLI::App& app) { return declare_without_renderer(app); }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command
 
 #endif  // SHEAVE_HAS_RENDER

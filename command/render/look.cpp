@@ -10,7 +10,7 @@
 #include "render/scene_view.h"
 #include "render/view_survey.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// A camera for one format, and how large it shows the middle of what is in the picture.
@@ -105,6 +105,6 @@ Look survey(const Scene& scene, const SurveyOptions& options, std::span<const Mo
   return {std::move(builder), camera, tension_max, format};
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command
 
 #endif  // SHEAVE_HAS_RENDER

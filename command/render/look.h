@@ -10,7 +10,7 @@
 #include "render/camera.h"
 #include "render/view_builder.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// What is known about the whole run.
 struct Look {
@@ -35,4 +35,4 @@ struct SurveyOptions {
 [[nodiscard]] Look survey(const Scene& scene, const SurveyOptions& options,
                           std::span<const Moment> moments, Progress& progress);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

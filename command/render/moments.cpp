@@ -13,7 +13,7 @@
 #include "command/scene_options.h"
 #include "engine/field_check.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 constexpr double most_frames = 1e7;
@@ -117,6 +117,6 @@ std::vector<double> times_of(std::span<const Moment> moments) {
   return times;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command
 
 #endif  // SHEAVE_HAS_RENDER

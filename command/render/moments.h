@@ -7,7 +7,7 @@
 #include "command/render/outputs.h"
 #include "scenes/scene.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// A moment at which the run is looked at.
 struct Moment {
@@ -33,4 +33,4 @@ struct Moment {
 
 [[nodiscard]] std::vector<double> times_of(std::span<const Moment> moments);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -19,7 +19,7 @@
 #include "render/png_writer.h"
 #include "view/svg_canvas.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 // Edges of a still are averaged over this many pixels in each direction.
@@ -157,6 +157,6 @@ void PictureOutputs::warn_of_old_frames() const {
   }
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command
 
 #endif  // SHEAVE_HAS_RENDER

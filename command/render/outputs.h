@@ -9,7 +9,7 @@
 #include "render/frame_line.h"
 #include "render/video_writer.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// How width and height are used.
 enum class PictureFormat {
@@ -89,4 +89,4 @@ class PictureOutputs {
   bool has_still_ = false;
 };
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

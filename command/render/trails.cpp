@@ -14,7 +14,7 @@
 #include "command/failure.h"
 #include "scenes/suggestion.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 constexpr render::Color fresh = render::rgb(0x2f6f8f);
@@ -107,6 +107,6 @@ void Trails::add_to(render::DrawList& list, double cable_radius) const {
   }
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command
 
 #endif  // SHEAVE_HAS_RENDER

@@ -9,7 +9,7 @@
 #include "render/draw_list.h"
 #include "scenes/scene.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 class Trails {
  public:
@@ -38,4 +38,4 @@ class Trails {
   std::vector<Trail> trails_;
 };
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using Kind = CertificateItem::Kind;
@@ -66,4 +66,4 @@ std::string certificate_text(const Certificate& certificate, double trust) {
   return fmt::format("checked: {}, in {} substeps", text, certificate.substeps);
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -5,7 +5,7 @@
 
 #include "cable/certificate.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// Figures above this part of their own scale make a run doubtful, unless the user says otherwise.
 inline constexpr double default_trust = 0.01;
@@ -17,4 +17,4 @@ inline constexpr double default_trust = 0.01;
 /// not clean.
 [[nodiscard]] std::string doubt_text(const Certificate& certificate, double trust);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -30,7 +30,7 @@
 #include "measure/error_estimate.h"
 #include "measure/stress_judge.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 struct RunOptions {
@@ -387,4 +387,4 @@ within the step; a third one ends the command at once.)");
   };
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

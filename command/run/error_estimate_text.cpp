@@ -8,7 +8,7 @@
 
 #include "command/text/table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using measure::ErrorEstimate;
@@ -186,4 +186,4 @@ std::string error_estimate_text(const ErrorEstimate& estimate) {
   return text + error_estimate_conclusion(estimate) + "\n";
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -5,7 +5,7 @@
 
 #include "measure/error_estimate.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// A table of what differs most, worst first, and the conclusion.
 [[nodiscard]] std::string error_estimate_text(const measure::ErrorEstimate& estimate);
@@ -14,4 +14,4 @@ namespace sheave::tools {
 /// nobody can tell.
 [[nodiscard]] std::string error_estimate_conclusion(const measure::ErrorEstimate& estimate);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

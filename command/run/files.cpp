@@ -3,7 +3,7 @@
 #include "command/terminal.h"
 #include "scenes/saved_state.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 RunFiles::RunFiles(const RecordOptions& tables, const std::string& state_path, bool other_output,
                    const Simulation& simulation)
@@ -41,4 +41,4 @@ void RunFiles::finish(const State& state, RunStatus status) {
   outputs_.push_back(std::move(saved));
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -11,7 +11,7 @@
 #include "command/run/recorder.h"
 #include "command/run/summary.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 class RunFiles {
  public:
@@ -52,4 +52,4 @@ class RunFiles {
   OutputFaults faults_;
 };
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -6,7 +6,7 @@
 #include "engine/body_set.h"
 #include "engine/joint_report.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 RunMonitor::RunMonitor(std::int64_t steps)
     : stride_(std::max<std::int64_t>(1, steps / 2000)),
@@ -112,4 +112,4 @@ double RunMonitor::way_of(const World& world, const Touched& link) const {
   return std::max(moved, link.radius * std::abs(now.angle - before.angle));
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

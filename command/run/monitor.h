@@ -9,7 +9,7 @@
 #include "cable/simulation.h"
 #include "command/run/simulate.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// Extremes of one cable over a run.
 struct CableCourse {
@@ -101,4 +101,4 @@ class RunMonitor {
   std::vector<BodyState> last_seen_;  // at the last look at the cables
 };
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

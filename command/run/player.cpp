@@ -10,7 +10,7 @@
 #include "command/scene_options.h"
 #include "scenes/control/scene_supervisor.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// The state at the fraction `f` of the way from `a` to `b`, two states of one world. For pictures
@@ -124,4 +124,4 @@ std::vector<CableReport> reports_to_show(const Scene& scene, const Simulation& s
   return reports;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -8,7 +8,7 @@
 #include "command/run/simulate.h"
 #include "scenes/scene.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// The simulation of a scene that has been loaded, which always builds.
 [[nodiscard]] Simulation make_simulation(const Scene& scene);
@@ -28,4 +28,4 @@ RunOutcome play(const Scene& scene, const std::string& start, std::span<const do
 [[nodiscard]] std::vector<CableReport> reports_to_show(const Scene& scene,
                                                        const Simulation& simulation);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

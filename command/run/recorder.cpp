@@ -11,7 +11,7 @@
 
 #include "command/failure.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 Recorder::Recorder(const RecordOptions& options, const Simulation& simulation)
     : observables_(simulation, options.patterns.empty() ? ObservableSet::Extent::columns
@@ -109,4 +109,4 @@ bool Recorder::is_writing() const {
                      [](const RecordedTable& table) { return table.writer != nullptr; });
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -10,7 +10,7 @@
 #include "command/output/table_writer.h"
 #include "scenes/observables.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// What to record.
 struct RecordOptions {
@@ -60,4 +60,4 @@ class Recorder {
   std::int64_t rows_ = 0;
 };
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

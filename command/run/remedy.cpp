@@ -2,7 +2,7 @@
 
 #include <vector>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 std::string remedy(const StepSettings& step, StepFault fault) {
   const bool sweeps = step.solver == SolverKind::gauss_seidel;
@@ -24,4 +24,4 @@ std::string remedy(const StepSettings& step, StepFault fault) {
   return text;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

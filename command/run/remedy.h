@@ -6,7 +6,7 @@
 
 #include "engine/step_settings.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// What was wrong.
 enum class StepFault {
@@ -18,4 +18,4 @@ enum class StepFault {
 /// "more iterations or the direct solver (--solver direct)", for these settings.
 [[nodiscard]] std::string remedy(const StepSettings& step, StepFault fault);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -6,7 +6,7 @@
 
 #include "command/output/file.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using RopeJson = nlohmann::ordered_json;
@@ -76,4 +76,4 @@ void write_rope_history(const RopeHistoryOptions& options, const measure::RopeHi
   file.commit();
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -6,7 +6,7 @@
 
 #include "measure/rope_history.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// Options of `sheave run` as the user wrote them.
 struct RopeHistoryOptions {
@@ -25,4 +25,4 @@ struct RopeHistoryOptions {
 /// Writes the file in one piece; a Failure (74) if it cannot be written.
 void write_rope_history(const RopeHistoryOptions& options, const measure::RopeHistory& history);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -8,7 +8,7 @@
 
 #include "command/interrupt.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -93,4 +93,4 @@ RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& pr
   return outcome;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

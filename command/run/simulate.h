@@ -10,7 +10,7 @@
 #include "cable/simulation.h"
 #include "command/progress.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// How a simulation ended.
 enum class RunStatus { done, diverged, interrupted, time_limit };
@@ -63,4 +63,4 @@ RunOutcome simulate(Simulation& simulation, std::int64_t last_step, Progress& pr
                     const std::function<bool(const RunStatistics&)>& observe,
                     const StopRequest& time_is_over = {});
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

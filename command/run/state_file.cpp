@@ -5,7 +5,7 @@
 #include "command/terminal.h"
 #include "scenes/saved_state.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// A world of a million bodies with everything that features carry has a tenth of that.
@@ -21,4 +21,4 @@ void load_state(Simulation& simulation, const std::string& path, bool warns) {
   for (const std::string& warning : *warnings) print_warning(path + ": " + warning);
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -5,7 +5,7 @@
 
 #include "cable/simulation.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// Puts a saved state into the simulation, and prints warnings of one without a checksum or of
 /// another scene, unless that has been done. Throws a Failure: 66 if there is no such file, 74 if it cannot be read, 65 if it is
@@ -13,4 +13,4 @@ namespace sheave::tools {
 /// steps). Saving is saved_state() of scenes/saved_state.h.
 void load_state(Simulation& simulation, const std::string& path, bool warns = true);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -15,7 +15,7 @@
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/magnitude.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 bool RunSummary::checks_passed() const {
   return std::all_of(checks.begin(), checks.end(),
@@ -354,4 +354,4 @@ double time_per_step(const RunOutcome& outcome) {
   return outcome.step_time / static_cast<double>(outcome.steps);
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

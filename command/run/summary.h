@@ -16,7 +16,7 @@
 #include "scenes/check.h"
 #include "scenes/scene.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// Something that happened at a moment.
 struct RunEvent {
@@ -95,4 +95,4 @@ struct RunSummary {
 /// Wall time per complete step [s]; NaN without any.
 [[nodiscard]] double time_per_step(const RunOutcome& outcome);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -7,7 +7,7 @@
 #include "command/run/summary.h"
 #include "engine/body_set.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 // Keeps the keys in the order in which people expect them. NaN and infinity become null.
@@ -334,4 +334,4 @@ std::string to_json(const RunSummary& summary) {
   return object.dump(-1, ' ', false, RunJson::error_handler_t::replace) + "\n";
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

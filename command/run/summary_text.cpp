@@ -9,7 +9,7 @@
 #include "command/text/table.h"
 #include "engine/body_set.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 // Longer lists are for programs.
@@ -195,4 +195,4 @@ std::string to_text(const RunSummary& summary) {
   return text;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -12,7 +12,7 @@
 #include "scenes/format.h"
 #include "scenes/generators.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// The options of one kind as the user wrote them.
@@ -104,4 +104,4 @@ See sheave generate KIND --help for the options of each kind.)");
   };
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

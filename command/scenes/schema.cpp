@@ -6,7 +6,7 @@
 #include "command/terminal.h"
 #include "scenes/scene.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// `text` with one line break at its end.
@@ -39,4 +39,4 @@ Every key of a scene with its unit, allowed values, default and meaning.)");
   };
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

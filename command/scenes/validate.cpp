@@ -15,7 +15,7 @@
 #include "scenes/json/document.h"
 #include "scenes/jsonnet/evaluate.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 struct ValidateOptions {
@@ -176,4 +176,4 @@ file cannot be read.)");
   };
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

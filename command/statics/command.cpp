@@ -11,7 +11,7 @@
 #include "command/terminal.h"
 #include "scenes/saved_state.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 struct StaticsOptions {
@@ -103,4 +103,4 @@ rest, 2 wrong usage, 65 bad scene, 75 no equilibrium was found.)");
   return [options] { return statics(*options); };
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -15,7 +15,7 @@
 #include "engine/field_check.h"
 #include "scenes/observables.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using StaticsJson = nlohmann::ordered_json;
@@ -309,4 +309,4 @@ std::string statics_json(const std::string& path, const std::vector<StaticsResul
   return object.dump(-1, ' ', false, StaticsJson::error_handler_t::replace) + "\n";
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -10,7 +10,7 @@
 #include "statics/equilibrium.h"
 #include "statics/supports.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// One load case.
 struct StaticsCase {
@@ -41,4 +41,4 @@ struct StaticsResult {
 [[nodiscard]] std::string statics_json(const std::string& path,
                                        const std::vector<StaticsResult>& results);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -10,7 +10,7 @@
 #include "command/output/log_axis.h"
 #include "command/stress/table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using measure::StressKind;
@@ -138,4 +138,4 @@ GnuplotScript stress_script(const StressResult& result, ChartFormat format) {
   return script;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -18,7 +18,7 @@
 #include "command/terminal.h"
 #include "measure/stress_scenes.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 struct StressArguments {
@@ -155,4 +155,4 @@ sheave run says nothing.)");
   return [arguments] { return stress(*arguments); };
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -8,7 +8,7 @@
 
 #include "command/stress/table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using StressJson = nlohmann::ordered_json;
@@ -51,4 +51,4 @@ std::string stress_json(const std::vector<StressResult>& results) {
   return object.dump(-1, ' ', false, StressJson::error_handler_t::replace) + "\n";
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

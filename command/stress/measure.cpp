@@ -15,7 +15,7 @@
 #include "scenes/control/scene_supervisor.h"
 #include "scenes/suggestion.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using measure::StressKind;
@@ -169,4 +169,4 @@ std::vector<StressResult> measure_stress(const StressOptions& options) {
   return results;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -9,7 +9,7 @@
 #include "measure/stress_judge.h"
 #include "measure/stress_map.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// How rows are solved and states carried on.
 struct StressSettings {
@@ -75,4 +75,4 @@ struct StressOptions {
 /// A gnuplot script that draws the heat map of one result.
 [[nodiscard]] GnuplotScript stress_script(const StressResult& result, ChartFormat format);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -10,7 +10,7 @@
 #include "command/text/one_line.h"
 #include "command/text/table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using measure::StressKind;
@@ -161,4 +161,4 @@ std::string stress_markdown(const std::vector<StressResult>& results,
   return text;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -10,7 +10,7 @@
 #include "command/output/gnuplot_script.h"
 #include "command/sweep/table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 constexpr int panel_height = 420;
@@ -249,4 +249,4 @@ GnuplotScript sweep_chart_script(const SweepTable& table, ChartFormat format) {
   return SweepChart(table, format).script();
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -18,7 +18,7 @@
 #include "command/sweep/run.h"
 #include "command/terminal.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// Where a table goes.
@@ -238,4 +238,4 @@ Exit code 1 if runs are missing; what is there is written nevertheless.)");
   return [arguments] { return merge(*arguments); };
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -21,7 +21,7 @@
 #include "command/input/json_check.h"
 #include "command/terminal.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -248,4 +248,4 @@ void SweepJournal::finish() {
   synced_at_ = seconds_now();
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -10,7 +10,7 @@
 
 #include "command/sweep/table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 inline constexpr std::string_view sweep_journal_format = "sheave-sweep-journal/1";
 
@@ -41,4 +41,4 @@ class SweepJournal {
   double synced_at_ = 0.0;
 };
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

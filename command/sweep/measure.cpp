@@ -11,7 +11,7 @@
 #include "command/failure.h"
 #include "command/sweep/table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 [[noreturn]] void bad_measure(const std::string& text, const std::string& what) {
@@ -78,4 +78,4 @@ SweepMeasure parse_measure(const std::string& text) {
   return measure;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -12,7 +12,7 @@
 #include "command/failure.h"
 #include "engine/field_check.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// Bits of the generator itself, not of a distribution: those differ from library to library.
@@ -251,4 +251,4 @@ SweepShard parse_shard(const std::string& text) {
   return shard;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// How the values of several axes make runs.
 enum class SweepDesign {
@@ -62,4 +62,4 @@ struct SweepShard {
 /// "2/8". A Failure (2) if it is no such thing.
 [[nodiscard]] SweepShard parse_shard(const std::string& text);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

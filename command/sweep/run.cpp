@@ -23,7 +23,7 @@
 #include "scenes/observables.h"
 #include "scenes/quantity_unit.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
@@ -272,4 +272,4 @@ SweepTable run_sweep(SweepOptions options) {
   return table;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -10,7 +10,7 @@
 #include "command/scene_options.h"
 #include "command/sweep/table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 struct SweepOptions {
   SceneOptions scene;
@@ -29,4 +29,4 @@ struct SweepOptions {
 /// signal; what has ended then is in the journal.
 [[nodiscard]] SweepTable run_sweep(SweepOptions options);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -11,7 +11,7 @@
 #include "command/sweep/plan.h"
 #include "scenes/scene.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// A number that is taken from every run.
 struct SweepMeasure {
@@ -75,4 +75,4 @@ struct SweepTable {
 /// more.
 [[nodiscard]] GnuplotScript sweep_chart_script(const SweepTable& table, ChartFormat format);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

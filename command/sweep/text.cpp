@@ -13,7 +13,7 @@
 #include "command/text/table.h"
 #include "engine/field_check.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -188,4 +188,4 @@ std::string sweep_json(const SweepTable& table) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 std::string error_text(double error, double doubt) {
   constexpr double well_above = 3.0;
@@ -20,4 +20,4 @@ std::string microseconds_text(double seconds) {
   return value >= 1000.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// Relative errors below this are rounding, which no reference tells from none.
 inline constexpr double rounding_error = 1e-11;
@@ -15,4 +15,4 @@ inline constexpr double rounding_error = 1e-11;
 /// [us] with three digits, and all digits before the point: "12.3", "4567".
 [[nodiscard]] std::string microseconds_text(double seconds);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

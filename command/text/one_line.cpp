@@ -5,7 +5,7 @@
 
 #include "scenes/json/text.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 constexpr std::string_view no_character = "\xEF\xBF\xBD";  // U+FFFD
@@ -98,4 +98,4 @@ std::string markdown_code(std::string_view text) {
   return fence + "\n" + std::string(text) + fence + "\n";
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

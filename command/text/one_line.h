@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// `text` as one line of UTF-8 that everything can show. Tabs and line breaks become spaces. What
 /// is no UTF-8, no character of XML, a control character or turns the direction of writing becomes
@@ -20,4 +20,4 @@ namespace sheave::tools {
 /// Lines between fences that nothing in them ends. The last line must have its line break.
 [[nodiscard]] std::string markdown_code(std::string_view text);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 TextTable::TextTable(std::vector<std::string> head, std::size_t text_columns)
     : rows_{std::move(head)}, text_columns_(text_columns) {}
@@ -35,4 +35,4 @@ std::string short_number(double value) {
   return fmt::format("{:.6g}", value == 0.0 ? 0.0 : value);
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

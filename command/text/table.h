@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// A small table for people: columns as wide as their widest cell, text on the left, numbers on the
 /// right.
@@ -25,4 +25,4 @@ class TextTable {
 /// Six digits: enough for people.
 [[nodiscard]] std::string short_number(double value);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -9,7 +9,7 @@
 #include "command/output/log_axis.h"
 #include "command/trade/table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// How the rows of one solver and integrator look. Colours that the colour-blind tell apart (Okabe
@@ -189,4 +189,4 @@ GnuplotScript trade_chart_script(const TradeTable& table, ChartFormat format) {
   return TradeChart(table, format).script();
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -24,7 +24,7 @@
 #include "scenes/json/document.h"
 #include "scenes/scene_text.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 struct TradeArguments {
@@ -312,4 +312,4 @@ Keep the machine quiet: times are those of one thread, but whatever else runs sl
   return [arguments] { return trade(*arguments); };
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -19,7 +19,7 @@
 #include "command/terminal.h"
 #include "command/trade/journal_check.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using JournalJson = nlohmann::json;
@@ -245,4 +245,4 @@ void TradeJournal::save_sometimes() {
   if (now_seconds() - saved_at_ > 1.0) save();
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -20,7 +20,7 @@
 
 #include "command/trade/table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// The hash, in hexadecimal.
 [[nodiscard]] std::string trade_key(const Scene& scene, const TradeOptions& options);
@@ -65,4 +65,4 @@ class TradeJournal {
   double saved_at_ = 0.0;
 };
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -5,7 +5,7 @@
 #include "command/input/json_check.h"
 #include "engine/step_settings.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 constexpr double largest = std::numeric_limits<double>::max();
@@ -87,4 +87,4 @@ void check_trade_journal(std::string_view text, const std::string& path) {
   check_json(text, path, trade_journal_format, journal);
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

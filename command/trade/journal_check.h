@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 inline constexpr std::string_view trade_journal_format = "sheave-trade-journal/1";
 
@@ -12,4 +12,4 @@ inline constexpr std::string_view trade_journal_format = "sheave-trade-journal/1
 /// is one that TradeJournal could have written. `path` is what errors call it.
 void check_trade_journal(std::string_view text, const std::string& path);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

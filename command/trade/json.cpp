@@ -5,7 +5,7 @@
 
 #include "command/trade/table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using TradeJson = nlohmann::ordered_json;
@@ -168,4 +168,4 @@ std::string trade_csv(const TradeTable& table) {
   return text;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -16,7 +16,7 @@
 #include "measure/scene_contender.h"
 #include "measure/timing.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// Beyond this error of the scene as written, what a rung changes is not told from what the setting
@@ -208,4 +208,4 @@ void climb_ladder(TradeRun& run) {
   }
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

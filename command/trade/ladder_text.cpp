@@ -8,7 +8,7 @@
 #include "command/text/table.h"
 #include "command/trade/table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 const std::vector<std::string> ladder_head{
@@ -109,4 +109,4 @@ std::string ladder_markdown(const TradeTable& table) {
   return result;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

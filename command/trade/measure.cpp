@@ -22,7 +22,7 @@
 #include "measure/scene_contender.h"
 #include "measure/timing.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// An energy that the reference itself does not know to this has nothing to be compared with:
@@ -344,4 +344,4 @@ TradeTable measure_trade(const Scene& scene, const TradeOptions& options) {
   return table;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -9,7 +9,7 @@
 #include "command/trade/journal.h"
 #include "command/trade/table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// Wall time that may be used up, from when it is made. The clock must outlive it.
 class TimeLimit {
@@ -69,4 +69,4 @@ void climb_ladder(TradeRun& run);
 /// "takes about 3 min 10 s, and 20 s are left".
 [[nodiscard]] std::string no_time_text(double expected, double left);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

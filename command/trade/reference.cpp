@@ -17,7 +17,7 @@
 #include "measure/scene_contender.h"
 #include "measure/timing.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// A reference is good enough if its error is a hundredth of the smallest that settings are named
@@ -262,4 +262,4 @@ void make_reference(TradeRun& run) {
   if (run.truth.frames.empty() && needs_truth(run)) repeat_reference(run);
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

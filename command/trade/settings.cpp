@@ -13,7 +13,7 @@
 #include "command/trade/table.h"
 #include "measure/paper_table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 /// A positive number at the beginning of `text`, which is shortened by it.
@@ -184,4 +184,4 @@ std::optional<std::size_t> answer(const TradeTable& table, const TradeQuestion& 
   return measure::cheapest_within(points, 1.0);
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -17,7 +17,7 @@
 #include "measure/spread.h"
 #include "measure/work_precision.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// What is varied: every combination that differs in what it does is run. Lists must not be empty.
 struct TradeGrid {
@@ -185,4 +185,4 @@ struct TradeQuestion {
 [[nodiscard]] std::optional<std::size_t> answer(const TradeTable& table,
                                                 const TradeQuestion& question);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

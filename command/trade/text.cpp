@@ -10,7 +10,7 @@
 #include "command/text/table.h"
 #include "command/trade/table.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 const std::vector<std::string> trade_head{
@@ -213,4 +213,4 @@ std::string trade_markdown(const TradeTable& table) {
   return result + ladder_markdown(table);
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

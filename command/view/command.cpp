@@ -25,7 +25,7 @@
 #include "scenes/json/document.h"
 #include "view/recording_pack.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 struct ViewOptions {
@@ -148,14 +148,14 @@ shows what was before.)");
   return [options] { return view_scene(*options); };
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command
 
 #else
 
-namespace sheave::tools {
+namespace sheave::command {
 
 Action declare_view(CLI::App& app) { return declare_without_renderer(app); }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command
 
 #endif  // SHEAVE_HAS_RENDER

@@ -15,7 +15,7 @@
 #include "command/terminal.h"
 #include "render/child_process.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 constexpr std::size_t longest_page = 64U << 20U;
@@ -97,6 +97,6 @@ void open_in_browser(const std::string& path) {
   }
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command
 
 #endif  // SHEAVE_HAS_RENDER

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// The text of the page. A Failure that says how to get it if it is not there.
 [[nodiscard]] std::string read_page();
@@ -19,4 +19,4 @@ namespace sheave::tools {
 /// Lets the user's browser open a file; a note if that does not work.
 void open_in_browser(const std::string& path);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

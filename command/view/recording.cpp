@@ -18,7 +18,7 @@
 #include "engine/joint_report.h"
 #include "render/scene_view.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 // 200 s at 60 frames per second, and what a page holds without trouble.
@@ -116,6 +116,6 @@ ExitCode report_run(const RunOutcome& outcome) {
   return ExitCode::done;
 }
 
-}  // namespace sheave::tools
+}  // namespace sheave::command
 
 #endif  // SHEAVE_HAS_RENDER

@@ -11,7 +11,7 @@
 #include "view/machine_json.h"
 #include "view/recording.h"
 
-namespace sheave::tools {
+namespace sheave::command {
 
 /// How many steps there are to a frame, so that neither frames nor numbers become too many for a
 /// page.
@@ -34,4 +34,4 @@ struct RecordedRun {
 /// Says on standard error what is wrong with the run; the exit code that it makes.
 ExitCode report_run(const RunOutcome& outcome);
 
-}  // namespace sheave::tools
+}  // namespace sheave::command

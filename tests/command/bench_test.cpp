@@ -160,8 +160,8 @@ TEST_F(Bench, WritesMarkdownAndCharts) {
               ElementsAre("chart.svg", "it's a chart.png", "simple.json", "table.md"));
 }
 
-tools::BenchRow measured_row(double error, double doubt) {
-  tools::BenchRow row;
+command::BenchRow measured_row(double error, double doubt) {
+  command::BenchRow row;
   row.scene = "Some";
   row.seconds = {1e-3, 0.9e-3, 1.1e-3, 0.8e-3, 5};
   row.row_solves = 10.0;
@@ -171,17 +171,17 @@ tools::BenchRow measured_row(double error, double doubt) {
 }
 
 TEST(BenchText, ShowsErrorsOnlyAsFarAsTheyAreKnown) {
-  tools::BenchTable table;
+  command::BenchTable table;
   table.rows = {measured_row(2e-3, 1e-5)};
-  EXPECT_THAT(tools::bench_text(table), HasSubstr("2.0e-03"));
+  EXPECT_THAT(command::bench_text(table), HasSubstr("2.0e-03"));
   table.rows = {measured_row(2e-3, 1e-3)};
-  EXPECT_THAT(tools::bench_text(table), HasSubstr("< 3.0e-03"));
+  EXPECT_THAT(command::bench_text(table), HasSubstr("< 3.0e-03"));
   table.rows = {measured_row(2e-3, INFINITY)};
-  EXPECT_THAT(tools::bench_text(table), HasSubstr("not verified"));
+  EXPECT_THAT(command::bench_text(table), HasSubstr("not verified"));
   table.rows = {measured_row(1e-15, 1e-16)};
-  EXPECT_THAT(tools::bench_text(table), HasSubstr("< 1.0e-11"));
+  EXPECT_THAT(command::bench_text(table), HasSubstr("< 1.0e-11"));
   table.rows.front().fault = "missing";
-  EXPECT_THAT(tools::bench_text(table), Not(HasSubstr("1000")));
+  EXPECT_THAT(command::bench_text(table), Not(HasSubstr("1000")));
 }
 
 }  // namespace

@@ -27,9 +27,9 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 // A text that a program meets cannot become code: only constants can, which the compiler sees.
-static_assert(!std::is_constructible_v<tools::GnuplotPiece, std::string>);
-static_assert(!std::is_constructible_v<tools::GnuplotPiece, std::string_view>);
-static_assert(!std::is_constructible_v<tools::GnuplotCode, std::string>);
+static_assert(!std::is_constructible_v<command::GnuplotPiece, std::string>);
+static_assert(!std::is_constructible_v<command::GnuplotPiece, std::string_view>);
+static_assert(!std::is_constructible_v<command::GnuplotCode, std::string>);
 
 bool has_gnuplot_here() {
   static const bool found = std::system("gnuplot --version > /dev/null 2>&1") == 0;  // NOLINT
@@ -258,7 +258,7 @@ TEST(Gnuplot, AFullDiskIsToldAsOne) {
 }
 
 TEST(OneLine, HoldsWhatEverythingCanShow) {
-  using tools::one_line;
+  using command::one_line;
   EXPECT_EQ(one_line("a\nb\tc\r\n"), "a b c  ");
   EXPECT_EQ(one_line("größe Ω"), "größe Ω");
   EXPECT_EQ(one_line(std::string("a\0b\x1a\x7f", 5)),
@@ -273,17 +273,17 @@ TEST(OneLine, HoldsWhatEverythingCanShow) {
 }
 
 TEST(MarkdownText, BeginsNothing) {
-  EXPECT_EQ(tools::markdown_text("a <b> & [c](d) `e` | \\"),
+  EXPECT_EQ(command::markdown_text("a <b> & [c](d) `e` | \\"),
             "a &lt;b&gt; &amp; \\[c\\](d) \\`e\\` \\| \\\\");
-  EXPECT_EQ(tools::markdown_code("``` a\n"), "````\n``` a\n````\n");
+  EXPECT_EQ(command::markdown_code("``` a\n"), "````\n``` a\n````\n");
 }
 
 TEST(MarkdownText, PagesOfTradesHoldNoMarkup) {
   for (const std::string& text : hostile_texts()) {
-    tools::TradeTable table;
+    command::TradeTable table;
     table.scene = text;
     table.limits = {text};
-    EXPECT_EQ(tools::trade_markdown(table).find("<script"), std::string::npos) << text;
+    EXPECT_EQ(command::trade_markdown(table).find("<script"), std::string::npos) << text;
   }
 }
 

@@ -300,7 +300,7 @@ TEST(Live, AWorldThatRunsTakesRequests) {
 TEST(LineReader, KeepsLinesOfAnyPieces) {
   std::array<int, 2> ends{};
   ASSERT_EQ(::pipe(ends.data()), 0);
-  tools::LineReader reader(ends[0], 5, "the pipe");
+  command::LineReader reader(ends[0], 5, "the pipe");
   const auto give = [&](std::string_view text) {
     ASSERT_EQ(::write(ends[1], text.data(), text.size()), static_cast<ssize_t>(text.size()));
     reader.read();
@@ -330,7 +330,7 @@ TEST(LineReader, KeepsLinesOfAnyPieces) {
 }
 
 TEST(Pacer, WaitsForAStepAndMakesUpForNoBreak) {
-  tools::Pacer pacer(0.1);
+  command::Pacer pacer(0.1);
   EXPECT_EQ(pacer.until(0.1), 0.0) << "as fast as it can";
   pacer.set_pace(1e-3);  // a step takes 100 s, so that no clock of this test matters
   EXPECT_NEAR(pacer.until(0.1), 100.0, 30.0);

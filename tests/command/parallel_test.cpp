@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 TEST(Parallel, DoesEachPieceOnce) {
@@ -32,4 +32,4 @@ TEST(Parallel, ThrowsWhatAPieceThrowsAndBeginsNoOther) {
 }
 
 }  // namespace
-}  // namespace sheave::tools
+}  // namespace sheave::command

@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace sheave::tools {
+namespace sheave::command {
 namespace {
 
 using testing::HasSubstr;
@@ -52,4 +52,4 @@ TEST(Remedy, NamesWhatHelps) {
 }
 
 }  // namespace
-}  // namespace sheave::tools
+}  // namespace sheave::command

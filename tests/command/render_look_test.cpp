@@ -17,9 +17,9 @@
 namespace sheave::test {
 namespace {
 
+using command::PictureFormat;
+using command::PictureOptions;
 using testing::HasSubstr;
-using tools::PictureFormat;
-using tools::PictureOptions;
 
 Scene atwood(double tension_max = 0.0) {
   SceneResult result = load_scene_text(atwood_scene, "atwood.json");
@@ -30,10 +30,10 @@ Scene atwood(double tension_max = 0.0) {
   return scene;
 }
 
-tools::Look look_of(const Scene& scene, const PictureOptions& options) {
-  tools::Progress progress("survey", 0.0, 100.0, true);
-  const auto moments = tools::choose_moments(scene, options, 0.0, 0.0);
-  return tools::survey(scene, {options, "", 0.0}, moments, progress);
+command::Look look_of(const Scene& scene, const PictureOptions& options) {
+  command::Progress progress("survey", 0.0, 100.0, true);
+  const auto moments = command::choose_moments(scene, options, 0.0, 0.0);
+  return command::survey(scene, {options, "", 0.0}, moments, progress);
 }
 
 PictureOptions still_at(double time) {
@@ -68,12 +68,12 @@ TEST(PictureFormat, TurnsWidthAndHeight) {
   PictureOptions options;
   options.width = 800;
   options.height = 450;
-  EXPECT_EQ(tools::sized(options, PictureFormat::landscape).width, 800);
-  EXPECT_EQ(tools::sized(options, PictureFormat::portrait).width, 450);
-  EXPECT_EQ(tools::sized(options, PictureFormat::portrait).height, 800);
+  EXPECT_EQ(command::sized(options, PictureFormat::landscape).width, 800);
+  EXPECT_EQ(command::sized(options, PictureFormat::portrait).width, 450);
+  EXPECT_EQ(command::sized(options, PictureFormat::portrait).height, 800);
   // 600 x 600 are as many pixels.
-  EXPECT_EQ(tools::sized(options, PictureFormat::square).width, 600);
-  EXPECT_EQ(tools::sized(options, PictureFormat::square).height, 600);
+  EXPECT_EQ(command::sized(options, PictureFormat::square).width, 600);
+  EXPECT_EQ(command::sized(options, PictureFormat::square).height, 600);
 }
 
 TEST(PictureFormat, TheBestOneSuitsTheScene) {
@@ -94,9 +94,9 @@ TEST(PictureFormat, TheBestOneSuitsTheScene) {
 
 TEST(Trails, ShowTheWayOfTheLastSeconds) {
   const Scene scene = atwood();
-  tools::Trails trails(scene, {"heavy:0.25", "wheel:10:0.5,0,0"});
+  command::Trails trails(scene, {"heavy:0.25", "wheel:10:0.5,0,0"});
   EXPECT_NEAR(trails.longest_interval(), 0.25 / 120.0, 1e-12);
-  Simulation simulation = tools::make_simulation(scene);
+  Simulation simulation = command::make_simulation(scene);
   trails.observe(simulation.world);
   for (int k = 0; k < 50; ++k) {
     ASSERT_TRUE(simulation.world.step().ok());

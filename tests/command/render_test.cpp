@@ -95,8 +95,8 @@ TEST(RenderCommand, WritesEveryOutputInOneGo) {
 TEST(Player, ShowsTheFirstTensionsAtTheStart) {
   const SceneResult scene = load_scene_text(atwood_scene, "atwood.json");
   ASSERT_TRUE(scene);
-  Simulation simulation = tools::make_simulation(*scene);
-  const std::vector<CableReport> start = tools::reports_to_show(*scene, simulation);
+  Simulation simulation = command::make_simulation(*scene);
+  const std::vector<CableReport> start = command::reports_to_show(*scene, simulation);
   EXPECT_EQ(start[0].spans[0].length, simulation.cable_reports()[0].spans[0].length);
   EXPECT_EQ(simulation.world.state().time, 0.0);
   ASSERT_TRUE(simulation.world.step().ok());
@@ -132,7 +132,7 @@ TEST(RenderCommand, APictureOfARestHasTheTensionsOfTheRest) {
 TEST(Player, ShowsTheTensionsOfARestAndTheNextOnesOfAStateWithout) {
   const SceneResult scene = load_scene_text(atwood_scene, "atwood.json");
   ASSERT_TRUE(scene);
-  Simulation simulation = tools::make_simulation(*scene);
+  Simulation simulation = command::make_simulation(*scene);
   State state = simulation.world.state();
   // Known tensions stay, be they what they may.
   ASSERT_TRUE(simulation.world.step().ok());
@@ -141,14 +141,14 @@ TEST(Player, ShowsTheTensionsOfARestAndTheNextOnesOfAStateWithout) {
   known.steps = 0;
   ASSERT_TRUE(simulation.world.restore(known).empty());
   const double tension = simulation.cable_reports()[0].spans[0].tension;
-  EXPECT_EQ(tools::reports_to_show(*scene, simulation)[0].spans[0].tension, tension);
+  EXPECT_EQ(command::reports_to_show(*scene, simulation)[0].spans[0].tension, tension);
   // A state that differs from the scene's start has the tensions of a step from itself: on a cable
   // that has gone slack there are none.
   for (double& length : state.features.back().reals) {
     length = length > 0.0 ? 2.0 * length : length;
   }
   ASSERT_TRUE(simulation.world.restore(state).empty());
-  EXPECT_EQ(tools::reports_to_show(*scene, simulation)[0].spans[0].tension, 0.0);
+  EXPECT_EQ(command::reports_to_show(*scene, simulation)[0].spans[0].tension, 0.0);
 }
 
 TEST(RenderCommand, StartsFromASavedState) {

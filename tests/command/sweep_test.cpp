@@ -16,12 +16,12 @@
 namespace sheave::test {
 namespace {
 
+using command::parse_axis;
+using command::SweepDesign;
+using command::SweepPlan;
 using nlohmann::json;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using tools::parse_axis;
-using tools::SweepDesign;
-using tools::SweepPlan;
 
 SweepPlan plan_of(std::vector<std::string> axes, SweepDesign design, std::size_t samples = 0) {
   SweepPlan plan;
@@ -38,7 +38,7 @@ TEST(SweepPlan, ReadsListsAndRanges) {
   EXPECT_THAT(parse_axis("v=[1,2],[3,4]").values, ElementsAre("[1,2]", "[3,4]"));
   EXPECT_THAT(parse_axis("s=direct,gauss-seidel").values, ElementsAre("direct", "gauss-seidel"));
   EXPECT_THAT(parse_axis("x=1:100:3:log").values, ElementsAre("1", "10", "100"));
-  const tools::SweepAxis range = parse_axis("x=-1:3");
+  const command::SweepAxis range = parse_axis("x=-1:3");
   EXPECT_TRUE(range.values.empty());
   EXPECT_EQ(range.low, -1.0);
   EXPECT_EQ(range.high, 3.0);
@@ -47,18 +47,19 @@ TEST(SweepPlan, ReadsListsAndRanges) {
 TEST(SweepPlan, RefusesWhatMeansNothing) {
   for (const char* text : {"load", "=1", "load=", "load=1:2:0", "load=1:x", "load=0:1:3:log",
                            "load=1:2:3:4", "load=1,,2", "load=1:2:1", "load=3:3", "load=1:inf:3"}) {
-    EXPECT_THROW((void)parse_axis(text), tools::Failure) << text;
+    EXPECT_THROW((void)parse_axis(text), command::Failure) << text;
   }
   for (const char* text : {"0/2", "3/2", "1", "1/", "/2", "1/2/3", "a/b", "-1/2"}) {
-    EXPECT_THROW((void)tools::parse_shard(text), tools::Failure) << text;
+    EXPECT_THROW((void)command::parse_shard(text), command::Failure) << text;
   }
   for (const char* text : {"", "max:", "most:load.y", "max:load.y@3", "load.y@1:2", "load.y@",
                            "max:load.y@3:2", "load.y@-1"}) {
-    EXPECT_THROW((void)tools::parse_measure(text), tools::Failure) << text;
+    EXPECT_THROW((void)command::parse_measure(text), command::Failure) << text;
   }
-  EXPECT_THROW((void)count_runs(plan_of({"a=1,2", "b=1,2,3"}, SweepDesign::list)), tools::Failure);
-  EXPECT_THROW((void)count_runs(plan_of({"a=1:2"}, SweepDesign::grid)), tools::Failure);
-  EXPECT_THROW((void)count_runs(plan_of({"a=1,2", "a=3"}, SweepDesign::grid)), tools::Failure);
+  EXPECT_THROW((void)count_runs(plan_of({"a=1,2", "b=1,2,3"}, SweepDesign::list)),
+               command::Failure);
+  EXPECT_THROW((void)count_runs(plan_of({"a=1:2"}, SweepDesign::grid)), command::Failure);
+  EXPECT_THROW((void)count_runs(plan_of({"a=1,2", "a=3"}, SweepDesign::grid)), command::Failure);
 }
 
 TEST(SweepPlan, LastAxisChangesFastest) {

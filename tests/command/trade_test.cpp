@@ -51,14 +51,14 @@ measure::Clock ticking_clock() {
 }
 
 /// Measured in this process by that clock, with one thread.
-json trade_by_ticks(const std::string& path, tools::TradeOptions options) {
+json trade_by_ticks(const std::string& path, command::TradeOptions options) {
   const SceneResult scene = load_scene(path);
   EXPECT_TRUE(scene);
   options.repetitions = 1;
   options.threads = 1;
   options.quiet = true;
   options.clock = ticking_clock();
-  return json::parse(tools::trade_json(tools::measure_trade(*scene, options)));
+  return json::parse(command::trade_json(command::measure_trade(*scene, options)));
 }
 
 double order_on_the_pendulum(const std::string& integrator, const std::string& substeps) {
@@ -213,7 +213,7 @@ TEST_F(TradeOfAFile, WritesTablesAndCharts) {
 
 TEST_F(TradeOfAFile, LadderTellsWhatTheWheelIsWorth) {
   // Both tangent updates are within 0.1 %, and equally dear by this clock: the first is chosen.
-  tools::TradeOptions options;
+  command::TradeOptions options;
   options.grid.solvers = {SolverKind::direct};
   options.grid.integrators = {IntegratorKind::rattle};
   options.grid.substeps = {1};
@@ -343,7 +343,7 @@ TEST_F(TradeOfAFile, OneThreadFindsWhatManyFind) {
 TEST_F(TradeOfAFile, SkipsWhatTakesTooLongAndSaysSo) {
   // By this clock each of 100 frames takes 0.01 s when one looks after each of them: 1 s in one
   // substep, and so 64 s in 64, of which there are 6.
-  tools::TradeOptions options;
+  command::TradeOptions options;
   options.minutes = 0.1;
   options.grid.substeps = {1, 64};
   options.grid.iterations = {2};
