@@ -1,6 +1,7 @@
 #pragma once
 // All constraints of one type: one virtual call per batch and stage, a plain loop inside.
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -87,8 +88,10 @@ class ConstraintBatch {
   /// Whether correct_velocities() can change a velocity.
   [[nodiscard]] virtual bool corrects_velocities() const { return false; }
   /// Called when velocities have been derived from positions: applies velocity changes that
-  /// positions do not express (a rebound).
-  virtual void correct_velocities(Substep& /*substep*/) {}
+  /// positions do not express (a rebound). `features`: all features of the world, the rows of which
+  /// pass impulses on.
+  virtual void correct_velocities(Substep& /*substep*/,
+                                  std::span<const std::unique_ptr<ConstraintBatch>> /*features*/) {}
   /// The reason why the substep just done is invalid, as a sentence that names the bodies; empty if
   /// the substep is valid.
   [[nodiscard]] virtual std::string fault() const { return {}; }

@@ -78,7 +78,9 @@ std::vector<Stage> substep_stages(const Model& model,
   for (const auto& feature : features) {
     if (!feature->corrects_velocities()) continue;
     add("correct velocities of " + std::string(feature->name()),
-        [&own = *feature](Substep& substep) { own.correct_velocities(substep); });
+        [&own = *feature, features](Substep& substep) {
+          own.correct_velocities(substep, features);
+        });
   }
   if (rattle) {
     add("solve velocities", [=](Substep& substep) { solver->solve_velocities(substep, features); });

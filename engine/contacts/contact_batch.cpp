@@ -165,9 +165,10 @@ class ContactBatch final : public ConstraintBatch {
                        [](const Contact& contact) { return contact.rebound > 0.0; });
   }
   [[nodiscard]] bool corrects_velocities() const override { return bounces_; }
-  void correct_velocities(Substep& substep) override {
+  void correct_velocities(Substep& substep,
+                          std::span<const std::unique_ptr<ConstraintBatch>> features) override {
     for (std::size_t i = 0; i < contacts_.size(); ++i) contacts_[i].slid = is_at_bound(i);
-    rebound_.run(substep, contacts_, multipliers_);
+    rebound_.run(substep, contacts_, multipliers_, features, *this);
   }
 
   void finish(Substep& substep, FeatureState& next) override {

@@ -13,6 +13,9 @@
 // would act on a turning body at points where it no longer is. Sweeps find the impulses, bring
 // rebounding points to their velocity, keep pressed points from approaching, and include friction.
 // Their sum with the positions' impulses l / h never pulls.
+//
+// Rigid joints and taut cables pass the impulse on at once (engine/contacts/held_rows.h): their rows
+// have the velocity 0 in v- and in v+, so that their impulses do no work and the theorem holds.
 
 #include "engine/contacts/rebound.h"
 
@@ -27,24 +30,9 @@ namespace sheave {
 namespace {
 
 constexpr int most_sweeps = 100;
-
-double velocity_along(const Substep& substep, const Row& row) {
-  double velocity = 0.0;
-  for (const RowTerm& term : row.active_terms()) {
-    const BodyState& body = substep.next.bodies[at(term.body)];
-    velocity += dot(term.linear, body.velocity) + dot(term.angular, body.angular_velocity);
-  }
-  return velocity;
-}
-
-void push(Substep& substep, const Row& row, const RowResponse& response, double impulse) {
-  for (std::size_t t = 0; t < at(row.term_count); ++t) {
-    const MovingBody& moving = substep.moving[at(row.terms[t].body)];
-    BodyState& body = substep.next.bodies[at(row.terms[t].body)];
-    if (moving.translates) body.velocity += impulse * response.linear[t];
-    if (moving.rotates) body.angular_velocity += impulse * response.angular[t];
-  }
-}
+/// Chains of joints pass an impulse on by one joint per sweep.
+constexpr int most_sweeps_of_joints = 2000;
+constexpr double settled = 1e-12;  // of the largest velocity
 
 /// The velocity at the end of a substep minus its mean velocity.
 double lag(const Substep& substep, const Contact& contact) {
@@ -68,15 +56,28 @@ double rebound_from(const Substep& substep, const Contact& contact, double free_
 
 }  // namespace
 
-void Rebound::run(Substep& substep, std::span<Contact> contacts, std::span<double> multipliers) {
+void Rebound::run(Substep& substep, std::span<Contact> contacts, std::span<double> multipliers,
+                  std::span<const std::unique_ptr<ConstraintBatch>> features,
+                  const ConstraintBatch& own) {
   if (std::none_of(contacts.begin(), contacts.end(),
                    [](const Contact& contact) { return contact.rebound > 0.0; })) {
     return;
   }
   substep.update_inertias();
+  held_.collect(substep, features, own);
   collect(substep, contacts, multipliers);
   find_rebounds(substep, contacts, multipliers);
   sweep(substep, contacts, multipliers);
+  held_.keep(features);
+}
+
+void Rebound::hold(Substep& substep) {
+  double fastest = 0.0;
+  for (int sweep = 0; sweep < most_sweeps_of_joints && !held_.empty(); ++sweep) {
+    const double change = held_.sweep(substep);
+    fastest = std::max(fastest, change);
+    if (change <= settled * fastest) break;
+  }
 }
 
 void Rebound::collect(const Substep& substep, std::span<const Contact> contacts,
@@ -105,6 +106,8 @@ void Rebound::find_rebounds(Substep& substep, std::span<Contact> contacts,
       push(substep, impact.rows[k], impact.responses[k], -impulse);
     }
   }
+  hold(substep);
+  held_.restore();
   follow_carriers(substep);
   for (const Impact& impact : impacts_) {
     Contact& contact = contacts[impact.contact];
@@ -145,9 +148,10 @@ double Rebound::rub(Substep& substep, const Impact& impact, double limit, double
 void Rebound::sweep(Substep& substep, std::span<const Contact> contacts,
                     std::span<double> multipliers) {
   const double h = substep.h;
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+  const int most = held_.empty() ? most_sweeps : most_sweeps_of_joints;
+  for (int sweep = 0; sweep < most; ++sweep) {
     double largest = 0.0;
-    double change = 0.0;
+    double change = held_.sweep(substep);
     for (const Impact& impact : impacts_) {
       double* of_contact = &multipliers[3 * impact.contact];
       largest = std::max(largest, std::abs(impact.wanted));
@@ -163,7 +167,7 @@ void Rebound::sweep(Substep& substep, std::span<const Contact> contacts,
       const double limit = contacts[impact.contact].friction * of_contact[0];
       change = std::max(change, rub(substep, impact, limit, of_contact + 1));
     }
-    if (change <= 1e-12 * largest) break;
+    if (change <= settled * largest) break;
   }
   follow_carriers(substep);
 }

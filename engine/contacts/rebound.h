@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/contacts/contact.h"
+#include "engine/contacts/held_rows.h"
 
 namespace sheave {
 
@@ -13,8 +14,9 @@ class Rebound {
  public:
   /// Computes Contact::rebound of the contacts with an impact in this substep, changes the
   /// velocities in substep.next, and adds h times the impulses to the multipliers, three per
-  /// contact.
-  void run(Substep& substep, std::span<Contact> contacts, std::span<double> multipliers);
+  /// contact. Rigid rows of the other `features` keep their velocities, and get their share.
+  void run(Substep& substep, std::span<Contact> contacts, std::span<double> multipliers,
+           std::span<const std::unique_ptr<ConstraintBatch>> features, const ConstraintBatch& own);
 
  private:
   struct Impact {
@@ -31,10 +33,13 @@ class Rebound {
   /// Solves friction of one contact, whose norm is limited by `limit` [kg m]; returns the change of
   /// velocity [m/s].
   static double rub(Substep& substep, const Impact& impact, double limit, double* multipliers);
+  /// Velocities of bodies without any contact, whose joints and taut cables hold.
+  void hold(Substep& substep);
   void sweep(Substep& substep, std::span<const Contact> contacts, std::span<double> multipliers);
 
   std::vector<Impact> impacts_;
   std::vector<BodyState> kept_;
+  HeldRows held_;
 };
 
 }  // namespace sheave
