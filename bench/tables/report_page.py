@@ -178,8 +178,8 @@ def causes_of(scene, direct, sweeps):
     if work < ASKED:
         causes.append(f"Gauss-Seidel with {sweeps['name'].split(' ', 1)[1]} is already accurate enough, so that there are few solves to save")
     if ns_per_solve(direct) > ns_per_solve(sweeps):
-        causes.append("a solve of the direct solver, which assembles, factors and checks its rows, and carries all that a substep costs "
-                      f"whatever the solver, takes {digits(ns_per_solve(direct) / ns_per_solve(sweeps))} times as long")
+        causes.append("a solve of the direct solver, which assembles, factors and checks its rows and carries the fixed cost of a substep, "
+                      f"takes {digits(ns_per_solve(direct) / ns_per_solve(sweeps))} times as long")
     return causes
 
 
@@ -285,7 +285,7 @@ def tangents_line(scenes):
     if not pairs:
         return []
     times, errors = sorted(p[0] for p in pairs), sorted(p[1] for p in pairs)
-    return [f"* **Tangents once per substep**, the paper's way, take {digits(times[len(times) // 2])} times the time of tangents in every "
+    return [f"* **Tangents once per substep**, as in the paper, take {digits(times[len(times) // 2])} times the time of tangents in every "
             f"iteration (median of {len(pairs)} pairs of settings; {digits(times[len(times) // 10])} to {digits(times[-1 - len(times) // 10])} in "
             f"the middle four fifths), with {digits(errors[len(errors) // 2])} times the error."]
 
@@ -312,7 +312,7 @@ def rung_rows(scenes):
 
 def advice_lines(scenes):
     good = [scene for scene in scenes if not scene.fault and scene.rows]
-    lines = ["## What to choose when", ""]
+    lines = ["## Recommendations", ""]
     for level in LEVELS:
         won = winners(good, level)
         parts = [f"`{name}` in {len(names)}" + (f" ({', '.join(names)})" if len(names) <= 6 else "")
@@ -320,23 +320,23 @@ def advice_lines(scenes):
         lines.append(f"* **{percent(level)}**: of {len(good)} scenes the cheapest setting is " + ", ".join(parts)
                      + (f"; no setting reaches it in {', '.join(won['none'])}" if "none" in won else "") + ".")
     lines += tangents_line(good)
-    lines += ["", "What each pair costs at 0.1 %, over the cheapest setting of the scene:", ""]
+    lines += ["", "The cost of each pair at 0.1 %, over the cheapest setting of the scene:", ""]
     lines += table(["", "scenes in which it is cheapest", "median", "worst", "scenes in which it does not reach 0.1 %"], margin_rows(good, 1e-3))
     rungs = rung_rows(good)
     if rungs:
-        lines += ["What effects are worth, over all scenes that have them: how far the motion is from that of the scene as written, and "
-                  "how much of the time is saved. The last column names the scenes where the change moves bodies by at most 0.1 % of the size and tensions by 1 %, and saves "
-                  "5 % or more: model only what a scene requires.", ""]
+        lines += ["The next table shows the influence of each effect, over all scenes that have it: the difference of the motion from the unchanged scene, and "
+                  "the saved time. The last column names the scenes where the change moves bodies by at most 0.1 % of the size and tensions by 1 %, and saves "
+                  "5 % or more. There the effect can be left out.", ""]
         lines += table(["change of the model", "scenes", "position: least", "most", "time saved: least", "most", "worth it in"], rungs)
     return lines
 
 
 def limit_lines(scenes):
     lines = ["## Limits", "",
-             "* Errors are against a reference of the same model with ever smaller steps, so they tell what solver, integrator and step do "
-             "wrong, not what the model leaves out. Its own error is added to every error before a setting is chosen.",
+             "* Errors are against a reference of the same model with smaller and smaller steps. So they are the errors of solver, integrator and step, "
+             "and not those of the model. The error of the reference is added to every error before a setting is chosen.",
              "* Times are CPU times of one thread on the machine named above; the row solves are the same anywhere.",
-             "* A setting that is twice as slow as one that is as accurate is timed once, in the run that its error is from."]
+             "* A setting that is twice as slow as another one with the same accuracy is timed once, in the run that gave its error."]
     for scene in scenes:
         if scene.fault:
             lines.append(f"* {scene.name}: not measured: {scene.fault}.")
@@ -403,15 +403,15 @@ def page(results, compared, folder):
     scenes = [Scene(name, result) for name, result in results.items()]
     machine = next((scene.result for scene in scenes if not scene.fault), None)
     lines = ["# Speed against accuracy", "",
-             "Made by `bench/tables/report`, from `sheave trade` on each scene ([how it is measured](README.md#speed-against-accuracy))."]
+             "Made by `bench/tables/report`, from `sheave trade` on each scene ([method](README.md#speed-against-accuracy))."]
     if machine:
         lines.append(f"Sheave {machine['version']}, {machine['machine']['cpu']}, {machine['machine']['compiler']}; one thread.")
     lines += ["", "Position errors are the largest of all frames, root mean square over the bodies, relative to the scene's size. "
               "Settings: solver, substeps (x iterations), integrator if it is not `xpbd`. ms / s: CPU time per simulated second.", ""]
     lines += advice_lines(scenes) + compared_lines(scenes, compared) + limit_lines(scenes) + other_lines(folder)
-    lines += ["## Scenes", "", "Charts: the cost of every setting and its error; the grey line joins what nothing beats; dashed lines are 1 %, "
-              "0.1 % and 0.01 %. Ladders: the same scene with one effect changed, with one setting; position and tension tell how far its run is "
-              "from that of the scene as written, relative to the scene's size and to the tensions.", ""]
+    lines += ["## Scenes", "", "Charts show the cost of every setting and its error. The grey line is the Pareto front; dashed lines are 1 %, "
+              "0.1 % and 0.01 %. Ladders show the same scene with one effect changed, with one setting. Position and tension are the differences "
+              "from the unchanged scene, relative to the size of the scene and to the tensions.", ""]
     for scene in scenes:
         lines += scene_lines(scene)
     return "\n".join(lines).rstrip() + "\n"
