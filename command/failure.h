@@ -1,7 +1,7 @@
 #pragma once
-// How the command ends. The libraries below return their errors as values; a subcommand that cannot
-// go on throws a Failure, and main turns it into a message and an exit code. Unfinished output
-// files vanish on the way.
+// How the command ends. The libraries return their errors as values. A subcommand that cannot
+// continue throws a Failure, and main turns the Failure into a message and an exit code. Stack
+// unwinding removes unfinished output files.
 
 #include <stdexcept>
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace sheave::command {
 
-/// Exit codes; the numbers of BSD's sysexits.h where one fits.
+/// Exit codes: the numbers of BSD's sysexits.h where one of them fits.
 enum class ExitCode {
   done = 0,
   check_failed = 1,  ///< a check of the scene did not hold
@@ -19,9 +19,9 @@ enum class ExitCode {
   no_input = 66,     ///< no such input file
   internal = 70,
   io = 74,            ///< an input cannot be read or an output cannot be written
-  diverged = 75,      ///< the simulation stopped at a state that means nothing
-  doubtful = 76,      ///< a run's own numbers contradict each other, and --strict was asked for
-  time_limit = 124,   ///< --time-limit, as of timeout(1)
+  diverged = 75,      ///< the simulation stopped at a meaningless state
+  doubtful = 76,      ///< a run's certificate is not clean, and --strict was given
+  time_limit = 124,   ///< --time-limit; the code is that of timeout(1)
   interrupted = 130,  ///< by a signal
 };
 

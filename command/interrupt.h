@@ -1,17 +1,17 @@
 #pragma once
-// Ctrl-C and its relatives end a simulation, within a step if that takes long, so that what was
-// computed is kept.
+// SIGINT and similar signals end a simulation and keep its results. A long step is interrupted
+// before its end.
 
 namespace sheave::command {
 
-/// From now on SIGINT, SIGTERM and SIGHUP (unless ignored, as under nohup) set a flag the first
-/// time; another one half a second later or more sets the second flag, and a third one half a
-/// second after that ends the process as usual.
+/// Installs handlers for SIGINT, SIGTERM and SIGHUP (unless ignored, as under nohup). The first
+/// signal sets a flag. A second one at least 0.5 s later sets a second flag. A third one at least
+/// 0.5 s after that ends the process by the signal's default action.
 void catch_interrupts();
-/// Whether such a signal has come.
+/// Whether a first signal has come.
 [[nodiscard]] bool interrupted();
-/// Whether a second one has come: what waits for others, an encoder that finishes its video, is
-/// given up.
+/// Whether a second signal has come: waiting for other programs, such as an encoder that completes
+/// its video, is then given up.
 [[nodiscard]] bool hurried();
 
 }  // namespace sheave::command

@@ -1,15 +1,15 @@
 #pragma once
-// What times depend on besides the program.
+// Properties of the machine and the build on which times depend.
 
 #include <string>
 
 namespace sheave::command {
 
 struct MachineInfo {
-  std::string cpu;  ///< as the system calls it; "unknown" if it does not tell
+  std::string cpu;  ///< the system's name for it; "unknown" if there is none
   int cores = 0;
-  std::string compiler;     ///< that this program was built with
-  bool assertions = false;  ///< built with assertions: its times mean nothing
+  std::string compiler;     ///< that built this program
+  bool assertions = false;  ///< built with assertions: its times are meaningless
 };
 
 [[nodiscard]] MachineInfo machine_info();

@@ -1,5 +1,6 @@
 #pragma once
-// What every subcommand provides. Adding one: a folder here and a line in command/registry.cpp.
+// The interface of a subcommand. A new subcommand needs a file here and a line in
+// tools/command_registry.cpp.
 
 #include <functional>
 #include <memory>
@@ -14,23 +15,24 @@ class App;
 
 namespace sheave::command {
 
-/// What a subcommand does once the command line is read.
+/// The action of a subcommand, called after the command line has been read.
 using Action = std::function<ExitCode()>;
 
 /// One subcommand.
 struct Command {
   const char* name;
-  const char* meaning;               ///< one line of help
+  const char* meaning;               ///< one line of the help
   Action (*declare)(CLI::App& app);  ///< adds options and examples to `app`
 };
 
 /// All subcommands, in the order of the help.
 [[nodiscard]] std::span<const Command> commands();
 
-/// All that the command line may say.
+/// The command line with all subcommands.
 struct CommandLine {
   std::unique_ptr<CLI::App> app;
-  std::vector<Action> actions;  ///< of commands(), in their order; they need `app`
+  /// One per entry of commands(), in the same order; valid while `app` lives.
+  std::vector<Action> actions;
 
   CommandLine();
   ~CommandLine();
@@ -38,7 +40,8 @@ struct CommandLine {
   CommandLine& operator=(const CommandLine&) = delete;
 };
 
-/// Of what needs the renderer, in a build without it: takes any arguments and fails.
+/// Declares a subcommand that needs the renderer, in a build without it: accepts any arguments and
+/// fails.
 Action declare_without_renderer(CLI::App& app);
 Action declare_run(CLI::App& app);
 Action declare_live(CLI::App& app);

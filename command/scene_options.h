@@ -1,5 +1,5 @@
 #pragma once
-// The options that subcommands which simulate share: which scene, and what to change in it.
+// Options that all simulating subcommands share: the scene, and changes to it.
 
 #include <cstdint>
 #include <optional>
@@ -15,33 +15,33 @@ class App;
 
 namespace sheave::command {
 
-/// Options as the user wrote them; empty means not given.
+/// Options as given by the user; an empty value means not given.
 struct SceneOptions {
   std::string path;  ///< "-" is standard input
   std::string dt, substeps, iterations, solver, integrator, duration;
   std::vector<std::string> settings;        ///< of --set: "/json/pointer=value"
   std::vector<std::string> parameters;      ///< of --param: "name=value"
   std::vector<std::string> import_folders;  ///< of --import-from
-  std::optional<std::string> text{};        ///< the file's, if it has been read already
+  std::optional<std::string> text{};        ///< the text of the file, if it has been read already
 };
 
 /// Adds the scene and its overrides to a subcommand. `options` must live as long as `app`.
 void add_scene_options(CLI::App& app, SceneOptions& options);
 
-/// The overrides alone.
+/// Adds the overrides without the scene.
 void add_scene_changes(CLI::App& app, SceneOptions& options);
 
-/// Parameters and imports of a scene in Jsonnet; add_scene_changes() has them too.
+/// Adds parameters and imports for scenes in Jsonnet; add_scene_changes() includes them.
 void add_jsonnet_options(CLI::App& app, SceneOptions& options);
 
-/// What those options say; a Failure (2) if a parameter is no NAME=VALUE.
+/// The Jsonnet options; a Failure (2) if a parameter is not NAME=VALUE.
 [[nodiscard]] JsonnetOptions jsonnet_options(const SceneOptions& options);
 
-/// Loads and checks the scene. A Failure lists all its errors: 2 if they lie in the command line
-/// alone, 65 if in the scene, 66 if there is no such file, 74 if it cannot be read.
+/// Loads and checks the scene. A Failure lists all errors: 2 if all lie in the command line, 65 if
+/// one lies in the scene, 66 if there is no such file, 74 if the file cannot be read.
 [[nodiscard]] Scene load(const SceneOptions& options);
 
-/// The result of loading without overrides; "-" is standard input.
+/// Loads a scene without overrides; "-" is standard input.
 [[nodiscard]] SceneResult load_file_or_stdin(const std::string& path,
                                              const std::vector<Override>& overrides = {},
                                              const JsonnetOptions& jsonnet = {});
@@ -51,7 +51,7 @@ void add_jsonnet_options(CLI::App& app, SceneOptions& options);
 /// All errors of a scene that did not load, one per line.
 [[nodiscard]] std::string to_text(const SceneResult& result);
 
-/// The number of steps that come nearest to the duration, at least 1.
+/// The number of steps nearest to the duration, at least 1.
 [[nodiscard]] std::int64_t step_count(const Scene& scene);
 
 }  // namespace sheave::command

@@ -1,11 +1,11 @@
 #pragma once
-// Shares on the command line.
+// Shares (percentages or fractions) on the command line.
 
 #include <string>
 
 namespace sheave::command {
 
-/// "0.1%" or "1e-3" as a number, > 0; a Failure (2) that names the option if it is no such thing.
+/// The value of "0.1%" or "1e-3", > 0; a Failure (2) that names the option for any other text.
 [[nodiscard]] double positive_share(const std::string& option, const std::string& text);
 
 }  // namespace sheave::command

@@ -1,7 +1,7 @@
 #pragma once
-// Files of the command's own (journals, baselines) are read as strictly as scenes: by the same
-// parser, and against rules for every value, so that whoever reads them finds what he expects.
-// Faults have a line and a column.
+// The command's own files (journals, baselines) are checked as strictly as scenes: the same parser
+// reads them, and every value has a rule. A reader can therefore rely on the structure. Faults have
+// a line and a column.
 
 #include <cstdint>
 #include <functional>
@@ -21,7 +21,7 @@ struct JsonCheck {
   void fault(json::NodeId node, std::string message, std::string allowed) const;
 };
 
-/// Says of a value what is wrong with it.
+/// Reports the faults of a value.
 using JsonRule = std::function<void(const JsonCheck&, json::NodeId)>;
 
 /// A key of an object.
@@ -31,27 +31,27 @@ struct JsonKey {
   bool required = true;
 };
 
-/// A number within [low, high]; with `any` also the words "inf", "-inf" and "nan", which JSON has
-/// no numbers for.
+/// A number within [low, high]. With `any` also the words "inf", "-inf" and "nan", which JSON
+/// cannot express as numbers.
 [[nodiscard]] JsonRule json_number(double low, double high, bool any = false);
-/// The same without a fraction.
+/// An integer within [low, high].
 [[nodiscard]] JsonRule json_integer(std::int64_t low, std::int64_t high);
 [[nodiscard]] JsonRule json_text();
 [[nodiscard]] JsonRule json_boolean();
-/// Null, or what the rule says.
+/// Null, or a value that satisfies the rule.
 [[nodiscard]] JsonRule json_optional(JsonRule rule);
-/// Any number of such elements.
+/// A list of any length whose elements satisfy the rule.
 [[nodiscard]] JsonRule json_list(JsonRule element);
-/// One element for each rule.
+/// A list with exactly one element for each rule.
 [[nodiscard]] JsonRule json_tuple(std::vector<JsonRule> elements);
-/// These keys and no others.
+/// An object with exactly these keys.
 [[nodiscard]] JsonRule json_object(std::vector<JsonKey> keys);
-/// Any keys, with such values.
+/// An object with any keys whose values satisfy the rule.
 [[nodiscard]] JsonRule json_map(JsonRule value);
 
 /// Checks a text, which errors call `name`. Throws a Failure (65) that lists all faults. `format`
-/// is what the key "format" must be; a text with another number at its end is of another version,
-/// and the Failure names both.
+/// is the required value of the key "format". If the text's value differs only in the number at its
+/// end, the text is of another version, and the Failure names both versions.
 void check_json(std::string_view text, const std::string& name, std::string_view format,
                 const JsonRule& rule, const json::Limits& limits = {});
 

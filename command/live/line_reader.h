@@ -1,5 +1,5 @@
 #pragma once
-// Lines from standard input, as they come.
+// Reads lines from standard input as they arrive.
 
 #include <cstddef>
 #include <optional>
@@ -9,20 +9,20 @@ namespace sheave::command {
 
 class LineReader {
  public:
-  /// A line of more than `longest` bytes is not kept. `what` is what failures call the source.
+  /// A line of more than `longest` bytes is discarded. Failures call the source `what`.
   LineReader(int descriptor, std::size_t longest, std::string what)
       : descriptor_(descriptor), longest_(longest), what_(std::move(what)) {}
 
   struct Line {
-    std::string text;  ///< without its end
+    std::string text;  ///< the line without its line break
     bool too_long = false;
   };
-  /// The next line that is there as a whole; at the end also one without its end.
+  /// The next complete line. At the end of the input also a last line without line break.
   [[nodiscard]] std::optional<Line> next();
-  /// Reads what there is; waits if there is nothing, but not beyond a signal. Throws a Failure
+  /// Reads the available bytes. If there are none, waits for some or for a signal. Throws a Failure
   /// (74).
   void read();
-  /// Whether there is nothing more to read. Lines may be left.
+  /// Whether the input has ended. Complete lines may still be buffered.
   [[nodiscard]] bool at_end() const { return at_end_; }
 
  private:
@@ -30,8 +30,8 @@ class LineReader {
   std::size_t longest_;
   std::string what_;
   std::string buffer_;
-  std::size_t searched_ = 0;  // of it, for the end of a line
-  bool skipping_ = false;     // the rest of a line that is too long
+  std::size_t searched_ = 0;  // bytes of the buffer already searched for a line break
+  bool skipping_ = false;     // discarding the rest of a line that is too long
   bool at_end_ = false;
 };
 

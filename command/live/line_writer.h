@@ -1,6 +1,6 @@
 #pragma once
-// Lines to a reader who may be slow: what has been begun is always completed, and what can be done
-// without is left out rather than waited for.
+// Writes lines to a reader who may be slow. A line that has been begun is always completed.
+// Optional lines are dropped instead of waiting for the reader.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,25 +12,26 @@ namespace sheave::command {
 
 class LineWriter {
  public:
-  /// `dropped` makes the line that tells how many have been left out.
+  /// `dropped` makes the line that reports how many lines were dropped.
   LineWriter(int descriptor, std::function<std::string(std::int64_t)> dropped);
 
-  /// Writes a line that must not be lost; waits for the reader if there is much that he has not
-  /// taken yet, but not beyond a signal.
+  /// Writes a line that must not be lost. Waits if the reader is far behind, but only until a
+  /// signal comes.
   void write(std::string_view line);
-  /// Writes a line that may be left out while the reader has much to take; never waits.
+  /// Writes an optional line: it is dropped while the reader is far behind. Never waits.
   void offer(std::string_view line);
-  /// Hands on what the reader takes now; waits for him up to this time [s], less if a signal comes.
+  /// Passes on as many bytes as the reader accepts. Waits for the reader at most this time [s], or
+  /// until a signal comes.
   void wait(double seconds);
-  /// Hands on all of it. After a signal the reader has two seconds to take it, or until another
-  /// signal.
+  /// Passes on all bytes. After a signal the reader has two seconds to accept them, or until
+  /// another signal comes.
   void finish();
 
   [[nodiscard]] int descriptor() const { return descriptor_; }
   [[nodiscard]] bool has_pending() const { return !pending_.empty(); }
-  /// Why nothing more can be written; empty: it can.
+  /// Why no more can be written; empty if writing is possible.
   [[nodiscard]] const std::string& fault() const { return fault_; }
-  /// Nobody reads any more: found out by waiting.
+  /// Called when a wait has shown that nobody reads any more.
   void break_off();
 
  private:
@@ -42,7 +43,7 @@ class LineWriter {
   bool is_file_ = false;
   std::function<std::string(std::int64_t)> dropped_line_;
   std::string pending_;
-  std::size_t written_ = 0;  // of it
+  std::size_t written_ = 0;  // bytes of the buffer already written
   std::int64_t dropped_ = 0;
   std::string fault_;
 };

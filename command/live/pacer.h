@@ -1,5 +1,5 @@
 #pragma once
-// Keeps a world's time to the clock.
+// Synchronises the simulated time with the clock.
 
 #include <chrono>
 #include <optional>
@@ -8,15 +8,15 @@ namespace sheave::command {
 
 class Pacer {
  public:
-  /// `step`: how much a step adds to the world's time [s], > 0.
+  /// `step`: simulated time per step [s], > 0.
   explicit Pacer(double step) : step_(step) {}
 
-  /// The world's seconds per second of the clock, > 0; nothing: as fast as it can.
+  /// Simulated seconds per second of the clock, > 0; nullopt: as fast as possible.
   void set_pace(std::optional<double> pace);
-  /// How long to wait until the step that ends at `time` is due [s]; 0: it is. Steps that are late
-  /// by more than a quarter of a second, as after a break, are not made up for.
+  /// The time to wait until the step that ends at `time` is due [s]; 0 if it is due. A delay of
+  /// more than 0.25 s, as after a pause, is not made up for.
   [[nodiscard]] double until(double time);
-  /// The next step is due a step after now, whatever was before.
+  /// Makes the next step due one step from now, independent of earlier steps.
   void restart() { start_.reset(); }
 
  private:

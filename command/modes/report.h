@@ -1,5 +1,5 @@
 #pragma once
-// What `sheave modes` finds, as text, JSON and NPY.
+// The results of `sheave modes` as text, JSON and NPY.
 
 #include <optional>
 #include <string>
@@ -12,7 +12,7 @@ namespace sheave::command {
 
 struct ModesFound {
   std::string scene;
-  std::optional<Equilibrium> rest;  ///< none: linearised about the pose as it was
+  std::optional<Equilibrium> rest;  ///< empty: linearised about the given pose
   Modes modes;
   std::vector<std::string> freedoms;
   std::vector<std::string> motions;  ///< largest_motion() of each mode
@@ -22,7 +22,7 @@ struct ModesFound {
   Eigen::MatrixXd output_matrix;  ///< C of y = C x, outputs x states
 };
 
-/// Linear outputs by differences of what states tell. A Failure (2) if one does not exist.
+/// Linear outputs by finite differences of the observables. A Failure (2) if one does not exist.
 void take_outputs(Simulation& simulation, const std::vector<std::string>& names, ModesFound& found);
 /// NAME.M.npy, .D.npy, .K.npy, .Z.npy, .A.npy, .B.npy, .C.npy
 void write_matrices(const std::string& name, const ModesFound& found);

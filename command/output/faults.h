@@ -1,6 +1,6 @@
 #pragma once
-// Outputs that fail must not take the others with them: each is attempted, and what failed is told
-// at the end, all of it.
+// One failing output must not prevent the others. Each output is attempted, and all faults are
+// reported at the end.
 
 #include <functional>
 #include <string>
@@ -11,18 +11,19 @@ namespace sheave::command {
 
 class OutputFaults {
  public:
-  /// Writes an output; if that ends in a Failure or for want of memory, remembers it. Whether it
-  /// was written.
+  /// Writes an output. Remembers a Failure or lack of memory. Returns whether the output was
+  /// written.
   bool attempt(const std::function<void()>& write);
-  /// Remembers a fault that was found elsewhere (74).
+  /// Remembers a fault found elsewhere (74).
   void add(const std::string& message, ExitCode code = ExitCode::io);
 
-  /// Remembers that memory was wanting; needs none.
+  /// Remembers lack of memory. Allocates nothing.
   void add_out_of_memory();
 
   [[nodiscard]] bool any() const { return code_ != ExitCode::done; }
-  /// Says on standard error what failed. The exit code: 70 if memory was wanting, else that of the
-  /// first fault, either of which replaces any other of the command; `otherwise` if there is none.
+  /// Reports all faults on standard error. Returns the exit code: 70 after lack of memory, else the
+  /// code of the first fault. Either replaces the command's other exit codes. `otherwise` if there
+  /// was no fault.
   [[nodiscard]] ExitCode report(ExitCode otherwise) const;
 
  private:

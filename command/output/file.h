@@ -1,9 +1,9 @@
 #pragma once
-// Output files that appear whole or not at all: written under a temporary name in the same folder
-// and renamed at the end. Unlike render/output_file.h, which a build without the renderer does not
-// have, this one consists of records, can go back to patch what it wrote, knows destinations
-// that cannot be replaced (pipes, devices, standard output), and can save what was written before a
-// fault.
+// Output files that appear complete or not at all: they are written under a temporary name in the
+// same folder and renamed at the end. render/output_file.h is not available in a build without the
+// renderer. In addition to its function, OutputFile consists of records, can patch bytes already
+// written, supports destinations that cannot be replaced (pipes, devices, standard output), and can
+// save the records written before a fault.
 
 #include <algorithm>
 #include <chrono>
@@ -15,7 +15,7 @@
 
 namespace sheave::command {
 
-/// Every member function throws a Failure (74) that names the path if something goes wrong.
+/// Every member function throws a Failure (74) that names the path if it fails.
 class OutputFile {
  public:
   /// `path`: "-" is standard output; a pipe or device is written to directly.
@@ -25,26 +25,27 @@ class OutputFile {
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&&) = delete;
 
-  /// Appends a record: after a fault it is there whole or not at all. What is written reaches the
-  /// system within a second, or with the next record if that takes longer.
+  /// Appends a record. After a fault a record is in the file completely or not at all. Records
+  /// reach the system within a second, or with the next record if that comes later.
   void write(std::string_view record);
-  /// Replaces bytes that have reached the file, from `offset` on. Only if is_seekable().
+  /// Replaces bytes that have reached the file, beginning at `offset`. Only if is_seekable().
   void overwrite(std::size_t offset, std::string_view bytes);
-  /// Hands everything to the system.
+  /// Passes all buffered records to the system.
   void flush();
-  /// Completes the file and puts it in place, replacing what was there, safe from a power loss.
+  /// Completes the file and moves it to its destination, replacing an older file. The result
+  /// survives a power loss.
   void commit();
-  /// After a fault: cuts off what is no whole record and puts the rest in place.
+  /// After a fault: cuts off an incomplete record and moves the rest to its destination.
   void salvage();
 
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] bool is_seekable() const { return !temporary_.empty(); }
-  /// What salvage() is to keep at most: the first `size` bytes.
+  /// Limits salvage() to the first `size` bytes.
   void keep_at_most(std::size_t size) { size_ = std::min(size_, size); }
-  /// Whether it could not be put in place and stays under its temporary name, which the Failure
-  /// told.
+  /// Whether the file could not be moved to its destination. It then keeps its temporary name,
+  /// which the Failure contained.
   [[nodiscard]] bool is_elsewhere() const { return elsewhere_; }
-  /// Whole records that have been handed to the system.
+  /// Number of complete records passed to the system.
   [[nodiscard]] std::int64_t records() const { return records_; }
 
  private:
@@ -56,19 +57,20 @@ class OutputFile {
   void discard() noexcept;
   [[noreturn]] void fail(const char* what) const;
 
-  std::string path_;         // as the user wrote it
-  std::string destination_;  // with symbolic links followed
-  std::string temporary_;    // empty if written to directly, or done
+  std::string path_;         // as given by the user
+  std::string destination_;  // the path with symbolic links followed
+  // Empty if the destination is written directly, or after commit() or salvage().
+  std::string temporary_;
   std::string buffer_;
-  std::vector<std::size_t> ends_;  // of the records in buffer_
+  std::vector<std::size_t> ends_;  // ends of the records in buffer_
   std::int64_t records_ = 0;
-  std::size_t size_ = 0;  // of the records that were handed to the system
+  std::size_t size_ = 0;  // bytes of the records passed to the system
   Clock::time_point flushed_ = Clock::now();
   bool elsewhere_ = false;
   int descriptor_ = -1;
 };
 
-/// Writes a whole file; if that fails, what was there stays.
+/// Writes a whole file. If that fails, an older file stays.
 void write_file(const std::string& path, std::string_view bytes);
 
 }  // namespace sheave::command

@@ -1,8 +1,8 @@
 #pragma once
-// Scripts for gnuplot, whose language can run programs and write files. No text from outside is
-// ever a part of one: texts that a chart shows stand in a data block, which gnuplot does not
-// interpret, and the script names their places in it. The types leave no other way: code is made of
-// constants of this program and of numbers.
+// Scripts for gnuplot. Its language can run programs and write files, so no text from outside may
+// become part of a script. Texts that a chart shows stand in a data block, which gnuplot does not
+// interpret; the script refers to their lines. The types enforce this: code can be built only from
+// constants of this program and from numbers.
 
 #include <array>
 #include <concepts>
@@ -15,17 +15,18 @@ namespace sheave::command {
 
 enum class ChartFormat { png, svg, pdf };
 
-/// By the ending of a chart's name. A Failure (2) if that is none of .png, .svg, .pdf.
+/// The format that belongs to the ending of a chart's name. A Failure (2) if the ending is not
+/// .png, .svg or .pdf.
 [[nodiscard]] ChartFormat chart_format(const std::string& path);
 
 class GnuplotCode;
 
-/// A constant of this program, a number, or code that was made of such. Views of code must not
-/// outlive it: pieces are for the argument lists of GnuplotCode.
+/// A constant of this program, a number, or code built from such pieces. A piece only views its
+/// code and must not outlive it: pieces are for the argument lists of GnuplotCode.
 class GnuplotPiece {
  public:
-  // Evaluated by the compiler, so that nothing but a constant can be given.
-  // NOLINTBEGIN(google-explicit-constructor): lists of pieces are to read like text.
+  // consteval admits only constants.
+  // NOLINTBEGIN(google-explicit-constructor): lists of pieces shall read like text.
   consteval GnuplotPiece(const char* constant) : constant_(constant) {}
   GnuplotPiece(double number);
   template <std::integral Number>
@@ -40,7 +41,7 @@ class GnuplotPiece {
  private:
   std::string_view constant_;
   std::array<char, 32> digits_{};
-  std::size_t length_ = 0;  ///< of the digits; 0: it is no number
+  std::size_t length_ = 0;  ///< number of digits; 0: this piece is no number
 };
 
 /// A part of a script.
@@ -62,7 +63,7 @@ class GnuplotCode {
 class ChartRows {
  public:
   void add(std::initializer_list<double> numbers);
-  /// Breaks a line that is drawn through the points.
+  /// Adds a gap: gnuplot interrupts a line through the points there.
   void add_gap() { lines_.add({"\n"}); }
   [[nodiscard]] bool empty() const { return lines_.empty(); }
   [[nodiscard]] const GnuplotCode& lines() const { return lines_; }
@@ -71,33 +72,33 @@ class ChartRows {
   GnuplotCode lines_;
 };
 
-/// A whole script, which writes one picture of 1000 x `height` pixels to standard output.
+/// A complete script that writes one picture of 1000 x `height` pixels to standard output.
 class GnuplotScript {
  public:
   GnuplotScript(ChartFormat format, int height) : format_(format), height_(height) {}
 
-  /// A text to be shown, as one_line() has it: code for it as a string.
+  /// Stores a text in the form of one_line() and returns code for it as a string.
   [[nodiscard]] GnuplotCode shown(std::string_view text);
-  /// The same as the name of a place on an axis, for the list of `set xtics (...)`. There, and only
-  /// there, gnuplot takes a text for a format of numbers, in which a percent sign is written twice.
+  /// The same for the name of a tic, for the list of `set xtics (...)`. Only there gnuplot treats a
+  /// text as a number format, so a percent sign must be doubled.
   [[nodiscard]] GnuplotCode tic(std::string_view text, double place);
-  /// A text that belongs to a point: a number for its row, ...
+  /// Stores a text that belongs to a point and returns its line number for the point's row.
   [[nodiscard]] double shown_number(std::string_view text);
-  /// ... and code for the texts whose numbers are in a column, as `using` takes it.
+  /// Code for the texts whose line numbers are in a column, for `using`.
   [[nodiscard]] static GnuplotCode shown_of_column(int column);
-  /// The name of a new data block with these rows. Never without a row: gnuplot refuses to plot
-  /// nothing.
+  /// Stores the rows as a data block and returns its name. `rows` must not be empty: gnuplot
+  /// refuses to plot an empty block.
   [[nodiscard]] GnuplotCode block(const ChartRows& rows);
-  /// Appends code, which comes behind all blocks.
+  /// Appends code. All code follows the data blocks.
   void add(std::initializer_list<GnuplotPiece> pieces) { body_.add(pieces); }
 
   [[nodiscard]] ChartFormat format() const { return format_; }
   [[nodiscard]] std::string text() const;
 
  private:
-  /// Code for a line of the data block of texts as a string.
+  /// Code for one line of the data block of texts, as a string.
   [[nodiscard]] static GnuplotCode string_of(double number);
-  /// The number of a new line there.
+  /// Appends a line to the data block of texts and returns its number.
   double add_text(std::string_view line);
 
   ChartFormat format_;

@@ -1,5 +1,5 @@
 #pragma once
-// A logarithmic axis of a chart, with whole decades round everything that is drawn.
+// A logarithmic axis of a chart whose range consists of whole decades around all values.
 
 #include <limits>
 #include <string>
@@ -13,13 +13,14 @@ namespace sheave::command {
 
 class LogAxis {
  public:
-  /// A third of a decade beside a value stays free, so that no point lies on the frame. A
-  /// logarithmic axis has no zero: what is not above it, or not finite, is left out.
+  /// Extends the range to a value. A third of a decade beside it stays free, so that no point lies
+  /// on the frame. A value that is not positive or not finite is ignored: a logarithmic axis has no
+  /// place for it.
   void add(double value);
   [[nodiscard]] bool empty() const { return !(lowest_ <= highest_); }
   [[nodiscard]] double lower() const;
   [[nodiscard]] double upper() const;
-  /// Sets range and tics of an axis: 'x' or 'y', which must not be empty.
+  /// Sets range and tics of axis 'x' or 'y'. The axis must have a value.
   void set(char axis, GnuplotScript& script) const;
 
  private:

@@ -11,16 +11,16 @@ namespace sheave::command {
 
 class OutputFile;
 
-/// What is left of a table after a fault.
+/// The remainder of a table after a fault.
 struct Salvage {
-  std::int64_t rows = 0;  ///< that are under its name
-  std::string message;    ///< what is left, for people; empty if the fault has told
+  std::int64_t rows = 0;  ///< rows under the table's final name
+  std::string message;    ///< description of the remainder; empty if the fault has described it
 };
-/// Keeps what `file` has if that is `rows` whole rows.
+/// Keeps the contents of `file` if they are `rows` complete rows.
 [[nodiscard]] Salvage salvage_rows(OutputFile& file, std::int64_t rows);
 
-/// One file of one table; it appears when finish() is called. Throws a Failure (74) if the disk is
-/// full and alike; then salvage() keeps what is there.
+/// The file of one table. It appears when finish() is called. Throws a Failure (74), for instance
+/// if the disk is full; then salvage() saves the rows written so far.
 class TableWriter {
  public:
   virtual ~TableWriter() = default;
@@ -30,15 +30,15 @@ class TableWriter {
   /// One value per column; NaN is a missing value.
   virtual void write_row(std::span<const double> values) = 0;
   virtual void finish() = 0;
-  /// After a fault: puts the whole rows that were written in place, as a table of their own.
+  /// After a fault: moves the complete rows to the destination, as a valid table.
   virtual Salvage salvage() = 0;
 
  protected:
   TableWriter() = default;
 };
 
-/// A writer for a path that ends in .csv or .npy, or for CSV on standard output ("-"); a Failure
-/// (2) for any other.
+/// A writer for a path that ends in .csv or .npy, or for CSV on standard output ("-"). A Failure
+/// (2) for another ending.
 [[nodiscard]] std::unique_ptr<TableWriter> open_table(const std::string& path,
                                                       const std::vector<std::string>& columns);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What charts of runs are drawn from: columns of tables, or quantities of a simulation.
+// The data of charts of runs: columns of tables, or observables of a simulation.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,40 +11,42 @@
 
 namespace sheave::command {
 
-/// Something that happened at a moment of a run.
+/// An event of a run.
 struct PlotEvent {
   double time = 0.0;  ///< [s]
   std::string text;   ///< e.g. "rope break"
 };
 
-/// What is drawn of one run.
+/// The data of one run in a chart.
 struct PlotRun {
   std::string label;
-  std::vector<std::string> names;           ///< the horizontal quantity, then the vertical ones
-  std::vector<std::vector<double>> values;  ///< of each; as many of all, NaN where there is none
+  std::vector<std::string> names;  ///< the horizontal quantity, then the vertical ones
+  /// One list per name; all of equal length, NaN for a missing value.
+  std::vector<std::vector<double>> values;
   std::vector<PlotEvent> events;
 };
 
-/// What is drawn over what.
+/// The horizontal and the vertical quantities of a chart.
 struct PlotChoice {
   std::string x = "t";
   std::vector<std::string> patterns;  ///< names, or patterns with * ? [...]
 };
 
-/// The columns of a .csv or .npy file as `sheave run --out` writes them; of a CSV file, whose first
-/// line has the names, also of others. Cables and joints whose column "cut" or "broken" becomes 1
-/// are events. A Failure: 65 with the place of what is wrong, 2 if a name is in no column, 66, 74.
+/// The columns of a .csv or .npy file from `sheave run --out`. Other CSV files also work if their
+/// first line has the names. A cable or joint whose column "cut" or "broken" becomes 1 gives an
+/// event. A Failure: 65 with the position of the fault, 2 if no column has a name of the choice,
+/// 66, 74.
 [[nodiscard]] PlotRun read_plot_table(const std::string& path, const PlotChoice& choice);
 
-/// Records quantities of a simulation as it goes, thinned out so that no more than some thousand
-/// moments are kept.
+/// Records observables during a simulation. The samples are thinned out so that only some thousand
+/// are stored.
 class PlotRecorder {
  public:
-  /// A Failure (2) if a name is that of no quantity.
+  /// A Failure (2) if no observable has a name of the choice.
   PlotRecorder(const Simulation& simulation, const PlotChoice& choice);
   /// To be called at the start and after every step.
   void observe(const Simulation& simulation);
-  /// What was recorded, with what happened until now.
+  /// The record with all events up to now.
   [[nodiscard]] PlotRun run(const std::string& label, const Simulation& simulation) const;
 
  private:
@@ -53,16 +55,16 @@ class PlotRecorder {
   ObservableSet observables_;
   std::vector<int> columns_;
   std::vector<double> sample_;
-  std::vector<std::vector<double>> values_;  // of each column
+  std::vector<std::vector<double>> values_;  // samples of each column
   std::int64_t observed_ = 0;
   std::int64_t stride_ = 1;
 };
 
-/// The chart of runs for gnuplot, one panel for each unit; in colours that the colour-blind tell
-/// apart, runs by dashes.
+/// The gnuplot chart of runs, one panel for each unit. The colours differ for colour-blind readers,
+/// too; the dashes distinguish runs.
 [[nodiscard]] GnuplotScript plot_script(const std::vector<PlotRun>& runs, const std::string& title,
                                         ChartFormat format);
-/// The same in numbers: what is drawn, with the extremes of each line.
+/// The drawn lines as numbers, with the extremes of each line.
 [[nodiscard]] std::string plot_json(const std::vector<PlotRun>& runs, const std::string& file);
 
 }  // namespace sheave::command

@@ -1,5 +1,5 @@
 #pragma once
-// What is decided about the pictures of a run before the first one is drawn.
+// Choices about the pictures of a run that must be made before the first one is drawn.
 
 #include <span>
 #include <string>
@@ -12,26 +12,26 @@
 
 namespace sheave::command {
 
-/// What is known about the whole run.
+/// Properties of the whole run.
 struct Look {
   render::ViewBuilder builder;
   render::Camera camera;
   double tension_max = 0.0;                         ///< [N], at the top of the colour scale
-  PictureFormat format = PictureFormat::landscape;  ///< not best
+  PictureFormat format = PictureFormat::landscape;  ///< never `best`
 };
 
-/// What a run is to be surveyed for.
+/// The part of a run to survey.
 struct SurveyOptions {
   const PictureOptions& pictures;
   std::string load_state;  ///< empty: from the scene's start
   double begin = 0.0;      ///< [s]
 };
 
-/// The options with width and height as the format, which is not best, has them.
+/// The options with the width and height of `format`, which must not be `best`.
 [[nodiscard]] PictureOptions sized(PictureOptions options, PictureFormat format);
 
-/// Plays the scene once, to frame it and to give every tension the same colour in every picture of
-/// the run.
+/// Plays the scene once to find the camera and one colour scale of tensions for all pictures of the
+/// run.
 [[nodiscard]] Look survey(const Scene& scene, const SurveyOptions& options,
                           std::span<const Moment> moments, Progress& progress);
 

@@ -1,5 +1,5 @@
 #pragma once
-// When pictures of a run are taken.
+// The times at which pictures of a run are taken.
 
 #include <span>
 #include <vector>
@@ -9,23 +9,23 @@
 
 namespace sheave::command {
 
-/// A moment at which the run is looked at.
+/// A time at which the run is inspected.
 struct Moment {
   double time = 0.0;   ///< [s]
-  bool frame = false;  ///< of the film
-  bool still = false;  ///< the picture that is asked for
+  bool frame = false;  ///< a frame of the film
+  bool still = false;  ///< the requested still
   bool scale = false;  ///< its tensions count for the colour scale
 };
 
-/// The frames and the still of a run that begins at `begin` [s], in order. Frames are those of a run
-/// from the start as far as they lie behind it, so that films of two parts fit together. Between
-/// them, if `interval` [s] is not 0, moments for trails, at ends of steps at most so far apart. A
-/// Failure (2) if there is no such moment.
+/// The frames and the still of a run that begins at `begin` [s], in ascending order. Frames lie on
+/// the grid of a run from the scene's start, so that films of two parts fit together. If `interval`
+/// [s] is not 0, moments for trails are added at ends of steps, at most `interval` apart. A Failure
+/// (2) if there is no such moment.
 [[nodiscard]] std::vector<Moment> choose_moments(const Scene& scene, const PictureOptions& options,
                                                  double begin, double interval);
 
-/// Moments spread over the whole run, whatever is drawn of it, so that all pictures of it get one
-/// scale.
+/// Moments spread over the whole run, independent of the drawn part, so that all pictures of the
+/// run have the same colour scale.
 [[nodiscard]] std::vector<Moment> scale_moments(const Scene& scene, double begin);
 
 /// Both lists in one, in order.

@@ -1,5 +1,6 @@
 #pragma once
-// Where the pictures of a run go: a video, a folder of PNG files, a still. All from one simulation.
+// The picture outputs of a run: a video, a folder of PNG files, a still. One simulation feeds all
+// of them.
 
 #include <optional>
 #include <string>
@@ -11,15 +12,15 @@
 
 namespace sheave::command {
 
-/// How width and height are used.
+/// Orientation of a picture.
 enum class PictureFormat {
-  landscape,  ///< as they are
-  portrait,   ///< the other way round
-  square,     ///< as many pixels, as high as wide
-  best,       ///< whichever of these shows the scene largest
+  landscape,  ///< width and height as given
+  portrait,   ///< width and height exchanged
+  square,     ///< same number of pixels, equal sides
+  best,       ///< the format of these that shows the scene largest
 };
 
-/// Options of `sheave render` as the user wrote them.
+/// Options of `sheave render` as given by the user.
 struct PictureOptions {
   std::string video;         ///< file; empty: none
   std::string png;           ///< folder; empty: none
@@ -30,39 +31,38 @@ struct PictureOptions {
   int height = 720;          ///< [pixels]
   double fps = 60.0;         ///< frames per second of the video and of glTF
   double speed = 1.0;        ///< simulated seconds per second of the video
-  bool labels = false;       ///< write the tensions beside the cables
-  int threads = 0;           ///< that draw; 0: one for each core, at most 8
+  bool labels = false;       ///< write tensions beside the cables
+  int threads = 0;           ///< drawing threads; 0: one for each core, at most 8
   PictureFormat format = PictureFormat::landscape;
-  std::optional<double> tension_max;  ///< at the top of the colour scale [N]; default: the scene's
-  std::vector<std::string> trails;    ///< NAME:SECONDS[:X,Y,Z], see command/render/trails.h
+  std::optional<double> tension_max;  ///< top of the colour scale [N]; default: the scene's
+  std::vector<std::string> trails;    ///< NAME:SECONDS[:X,Y,Z], see tools/render_trails.h
 
   [[nodiscard]] bool has_frames() const { return !video.empty() || !png.empty() || !glb.empty(); }
 };
 
-/// Opens what the options name, draws into it, and puts it in place. An output that cannot be
-/// written is given up and told in faults(), the others go on.
+/// Opens the outputs that the options name, draws into them, and moves them to their destinations.
+/// An output that cannot be written is given up and reported in faults(); the others continue.
 class PictureOutputs {
  public:
-  /// Throws a Failure at once if a folder cannot be written to, ffmpeg is missing (74) or there is
-  /// no GL and no thread (70).
+  /// Throws a Failure at once if a folder cannot be written to, if ffmpeg is missing (74), or if
+  /// there is no GL or no thread (70).
   explicit PictureOutputs(const PictureOptions& options);
 
-  /// Begins to draw one frame of the video and the folder, as far as they are still written, and
-  /// writes those before it that are done. A Failure (70) if nothing can be drawn.
+  /// Starts drawing one frame of the video and the folder, if they are still written, and writes
+  /// earlier frames that are complete. A Failure (70) if drawing is impossible.
   void add_frame(render::DrawList list, const render::Camera& camera);
   /// Draws the still, in higher quality.
   void add_still(const render::DrawList& list, const render::Camera& camera);
-  /// Writes the frames that are still being drawn and completes the video; without any frame there
-  /// is none.
+  /// Writes the frames still being drawn and completes the video. Without frames there is no video.
   void finish();
 
-  /// Whether anything is still to be drawn for.
+  /// Whether any output still needs drawings.
   [[nodiscard]] bool any_left() const;
   [[nodiscard]] OutputFaults& faults() { return faults_; }
 
   [[nodiscard]] bool has_video() const { return video_done_; }
-  /// Frames that were written, and those of them that are in the folder. Some more are under way
-  /// until finish() has returned.
+  /// Number of written frames, and number of those in the folder. Until finish() has returned some
+  /// frames may be pending.
   [[nodiscard]] long frames() const { return frames_; }
   [[nodiscard]] long png_frames() const { return png_frames_; }
   [[nodiscard]] bool has_still() const { return has_still_; }
@@ -71,7 +71,7 @@ class PictureOutputs {
   [[nodiscard]] bool frames_wanted() const {
     return video_ || (!options_.png.empty() && png_well_);
   }
-  /// Waits for the oldest frame that is under way and writes it.
+  /// Waits for the oldest pending frame and writes it.
   void write_oldest();
   [[nodiscard]] render::FrameLine::Frame take_oldest();
   [[nodiscard]] std::string frame_path(long frame) const;
@@ -84,8 +84,8 @@ class PictureOutputs {
   bool png_well_ = true;
   bool still_well_ = true;
   bool video_done_ = false;
-  long frames_ = 0;      // that were written
-  long png_frames_ = 0;  // of them in the folder
+  long frames_ = 0;      // written frames
+  long png_frames_ = 0;  // written frames in the folder
   bool has_still_ = false;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The ways that bodies have come, as lines that fade.
+// The paths of bodies, as lines that fade.
 
 #include <deque>
 #include <string>
@@ -13,15 +13,15 @@ namespace sheave::command {
 
 class Trails {
  public:
-  /// Each as NAME:SECONDS, of the body's origin, or NAME:SECONDS:X,Y,Z, of a point in its frame [m].
-  /// A Failure (2) if one is not.
+  /// Each trail is NAME:SECONDS for the body's origin, or NAME:SECONDS:X,Y,Z for a point in its
+  /// frame [m]. A Failure (2) for another form.
   Trails(const Scene& scene, const std::vector<std::string>& trails);
 
-  /// How far moments may be apart for the lines to be smooth [s]; 0 if there are no trails.
+  /// Largest interval between moments that gives smooth lines [s]; 0 if there are no trails.
   [[nodiscard]] double longest_interval() const;
-  /// Takes note of where the bodies are now; moments must come in order.
+  /// Records the positions of the bodies. Calls must be in the order of time.
   void observe(const World& world);
-  /// Adds the lines up to the last moment; cable_radius: what cables are drawn with [m].
+  /// Adds the lines up to the last recorded moment; cable_radius: the drawn radius of cables [m].
   void add_to(render::DrawList& list, double cable_radius) const;
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What `sheave run --estimate-error` tells people.
+// The text that `sheave run --estimate-error` prints.
 
 #include <string>
 
@@ -7,11 +7,11 @@
 
 namespace sheave::command {
 
-/// A table of what differs most, worst first, and the conclusion.
+/// A table of the largest errors, worst first, and the conclusion.
 [[nodiscard]] std::string error_estimate_text(const measure::ErrorEstimate& estimate);
 
-/// One line without a line break: how wrong positions and tensions are by the step alone, or why
-/// nobody can tell.
+/// One line without a line break: the errors of positions and tensions that are due to the step, or
+/// the reason why they are unknown.
 [[nodiscard]] std::string error_estimate_conclusion(const measure::ErrorEstimate& estimate);
 
 }  // namespace sheave::command

@@ -1,5 +1,5 @@
 #pragma once
-// The files of a run. One that fails does not take the others with it.
+// The files of a run. One failing file does not prevent the others.
 
 #include <optional>
 #include <set>
@@ -15,16 +15,15 @@ namespace sheave::command {
 
 class RunFiles {
  public:
-  /// Creates the tables and the state file (`state_path` empty: none); a Failure if one cannot be
-  /// created. `other_output`: whether a run is of use even if all tables fail.
+  /// Creates the tables and the state file (`state_path` empty: none). A Failure if one cannot be
+  /// created. `other_output`: whether a run is useful even if all tables fail.
   RunFiles(const RecordOptions& tables, const std::string& state_path, bool other_output,
            const Simulation& simulation);
 
-  /// To be called at the start and after every step. False if there is nothing left that a further
-  /// step would be for.
+  /// To be called at the start and after every step. False if no output needs a further step.
   bool observe(const Simulation& simulation, Progress& progress);
 
-  /// Runs `action`; what has been recorded is kept if it throws.
+  /// Runs `action`. If it throws, the data recorded so far is saved.
   template <class Action>
   auto keep_on_throw(const Action& action) {
     try {
@@ -35,15 +34,15 @@ class RunFiles {
     }
   }
 
-  /// Puts everything in place, the state where the run stopped unless that means nothing.
+  /// Moves all files to their destinations. The state is written unless it is meaningless.
   void finish(const State& state, RunStatus status);
 
-  /// What became of them, after finish().
+  /// The outcome of each file; valid after finish().
   [[nodiscard]] const std::vector<OutputSummary>& summary() const { return outputs_; }
   [[nodiscard]] OutputFaults& faults() { return faults_; }
 
  private:
-  StateOrigin origin_;  // found while there are no files yet that could be left behind
+  StateOrigin origin_;  // determined before any file exists that a fault could leave behind
   Recorder recorder_;
   std::optional<OutputFile> state_;
   bool other_output_;

@@ -1,5 +1,5 @@
 #pragma once
-// Plays a scene and shows it at given moments, which need not be those of its steps.
+// Plays a scene and shows it at given times, which need not be ends of steps.
 
 #include <functional>
 #include <span>
@@ -10,21 +10,21 @@
 
 namespace sheave::command {
 
-/// The simulation of a scene that has been loaded, which always builds.
+/// The simulation of a scene that has been loaded, and therefore always builds.
 [[nodiscard]] Simulation make_simulation(const Scene& scene);
 
-/// Simulates `scene` and calls `show(k, simulation)` for every time k of `times`
-/// [s], which are in order. A moment between two steps shows bodies and cables half way between
-/// them. `show` may return false to end the play. Playing the same scene twice shows the same. Ends
-/// after the last of `times`, or early (see RunOutcome); then moments that were not reached are not
-/// shown. `start` is a state file to begin with; empty: the scene's start.
+/// Simulates `scene` and calls `show(k, simulation)` for every time k of `times` [s], which are in
+/// ascending order. At a time between two steps the shown bodies and cables are interpolated.
+/// `show` returns false to end the play. Playing the same scene twice shows the same states. The
+/// play ends after the last of `times`, or early (see RunOutcome); times that were not reached are
+/// not shown. `start` is a state file to begin with; empty: the scene's start.
 RunOutcome play(const Scene& scene, const std::string& start, std::span<const double> times,
                 Progress& progress,
                 const std::function<bool(std::size_t, const Simulation&)>& show);
 
-/// The cables of a simulation that plays `scene`, for a picture. At the scene's start no tension has
-/// been computed, and a taut cable would look slack; so there the tensions of a first step from that
-/// state are shown. A state that has tensions, such as a rest found by statics, is shown with them.
+/// The cables of a simulation of `scene`, for a picture. At the scene's start no tension has been
+/// computed, and a taut cable would look slack, so the tensions of one step from that state are
+/// used. A state that has tensions, such as an equilibrium from statics, is shown with them.
 [[nodiscard]] std::vector<CableReport> reports_to_show(const Scene& scene,
                                                        const Simulation& simulation);
 

@@ -1,6 +1,6 @@
 #pragma once
-// What to change about the settings of a run that went wrong. It never names what is in use
-// already.
+// Advice which settings of a failed run to change. Settings that are already in use are not
+// advised.
 
 #include <string>
 
@@ -8,14 +8,14 @@
 
 namespace sheave::command {
 
-/// What was wrong.
+/// The cause of the failure.
 enum class StepFault {
-  unconverged,  ///< the solver left constraints open
+  unconverged,  ///< the solver left residuals
   long_step,    ///< motion was damped or distorted by the integrator
-  either,       ///< one of the two, nobody knows which
+  either,       ///< one of the two; the cause is unknown
 };
 
-/// "more iterations or the direct solver (--solver direct)", for these settings.
+/// The advice for these settings, e.g. "more iterations or the direct solver (--solver direct)".
 [[nodiscard]] std::string remedy(const StepSettings& step, StepFault fault);
 
 }  // namespace sheave::command

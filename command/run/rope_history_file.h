@@ -1,5 +1,5 @@
 #pragma once
-// What a run does to its ropes, as a JSON file (docs/explanation/ropes.md).
+// The load history of the ropes of a run, as a JSON file (docs/ropes.md).
 
 #include <optional>
 #include <string>
@@ -8,21 +8,21 @@
 
 namespace sheave::command {
 
-/// Options of `sheave run` as the user wrote them.
+/// Options of `sheave run` as given by the user.
 struct RopeHistoryOptions {
   std::string path;  ///< empty: no history is kept
   int sections = 100;
-  std::optional<double> diameter;  ///< of the ropes, for D/d [m]
+  std::optional<double> diameter;  ///< of the ropes, for the ratio D/d [m]
 };
 
-/// What is to watch the run; nothing if no history is kept.
+/// The observer of the run; nullopt if no history is kept.
 [[nodiscard]] inline std::optional<measure::RopeHistory> watch_ropes(
     const RopeHistoryOptions& options) {
   if (options.path.empty()) return {};
   return measure::RopeHistory(options.sections);
 }
 
-/// Writes the file in one piece; a Failure (74) if it cannot be written.
+/// Writes the whole file at once; a Failure (74) if it cannot be written.
 void write_rope_history(const RopeHistoryOptions& options, const measure::RopeHistory& history);
 
 }  // namespace sheave::command

@@ -1,5 +1,5 @@
 #pragma once
-// What a run says at its end.
+// The summary at the end of a run.
 
 #include <cstdint>
 #include <optional>
@@ -18,32 +18,32 @@
 
 namespace sheave::command {
 
-/// Something that happened at a moment.
+/// An event of a run.
 struct RunEvent {
-  /// What it happened to.
+  /// The kind of the affected entity.
   enum class Source { cable, joint, trigger };
   double time = 0.0;  ///< [s]
   Source source = Source::cable;
   std::string subject;    ///< name of the cable, joint or trigger
-  int link = -1;          ///< of the cable; -1: none, and for others
-  std::string body;       ///< that the cable met; empty: the world, or none
+  int link = -1;          ///< index in the cable; -1: none, or no cable
+  std::string body;       ///< the body that the cable met; empty: the world, or none
   std::string_view kind;  ///< "break" of a joint; as in cable_event_names, trigger_action_names
 };
 
-/// What cables and joints went through and triggers did last, in the order of time.
+/// The events of cables and joints, and the last event of each trigger, in the order of time.
 [[nodiscard]] std::vector<RunEvent> collect_events(const Simulation& simulation,
                                                    const std::vector<JointReport>& joints);
 
-/// What became of a file of the run.
+/// The outcome of one file of the run.
 struct OutputSummary {
   enum class Kind { table, state };
   Kind kind;
   std::string path;
-  std::int64_t rows;  ///< of a table that are under its name
-  std::string fault;  ///< why it is not complete; empty if it is
+  std::int64_t rows;  ///< rows of a table under its final name
+  std::string fault;  ///< why the file is incomplete; empty if it is complete
 };
 
-/// All that a summary is made of. The references must outlive it.
+/// The data of a summary. The references must outlive it.
 struct RunSummary {
   std::string_view scene_path;
   const Scene& scene;
@@ -53,46 +53,45 @@ struct RunSummary {
   std::vector<JointReport> joints;  ///< at the end
   std::vector<RunEvent> events;
   std::vector<Warning> warnings;
-  bool checked = false;  ///< whether checks were asked for
+  bool checked = false;  ///< whether checks were requested
   std::vector<CheckResult> checks;
-  std::optional<measure::ErrorEstimate> error_estimate;  ///< if it was asked for
-  double trust = default_trust;  ///< figures of the certificate above it make the run doubtful
+  std::optional<measure::ErrorEstimate> error_estimate;  ///< set if it was requested
+  double trust = default_trust;  ///< a certificate figure above it makes the run doubtful
   std::vector<OutputSummary> outputs{};
 
   [[nodiscard]] bool checks_passed() const;
-  /// Whether the run was done and its own numbers contradict each other.
+  /// Whether the run was completed but its certificate is not clean.
   [[nodiscard]] bool doubtful() const;
   /// "done", "doubtful", "diverged", "interrupted", "time limit".
   [[nodiscard]] std::string_view status() const;
 };
 
-/// Warnings about a scene and the course of its run: spans that had no tangent, wraps that found no
-/// place, drives that stalled for want of cable, rigid cables that do not keep
-/// their length, vibrations that the step damps, steps too short for the digits of positions,
-/// substeps that the direct solver or rattle left to the other one, energy that nothing has put
-/// into the scene.
+/// Warnings about a scene and its run: spans without a tangent, wraps that found no place, drives
+/// that stalled for lack of cable, rigid cables that do not keep their length, vibrations that the
+/// step damps, steps too short for the digits of positions, substeps that the direct solver or
+/// rattle left to the other method, energy without a source.
 [[nodiscard]] std::vector<Warning> collect_warnings(const Scene& scene,
                                                     const Simulation& simulation,
                                                     const RunStatistics& statistics,
                                                     const RunMonitor& monitor);
 
-/// Numbers of a scene that the engine does not vouch for (scenes/magnitude.h).
+/// Warnings about numbers outside the range that the engine vouches for (scenes/magnitude.h).
 [[nodiscard]] std::vector<Warning> magnitude_warnings(const Scene& scene);
-/// Warnings about a scene that can be run but may not be what was meant: such numbers, windings
-/// that look as if they were entered the wrong way round.
+/// Warnings about a scene that is valid but perhaps not intended: numbers as above, and windings
+/// that look reversed.
 [[nodiscard]] std::vector<Warning> scene_warnings(const CableSystem& cables);
 [[nodiscard]] std::vector<Warning> scene_warnings(const Scene& scene);
 
-/// One JSON object in one line, keys as in the documentation. Numbers that are not finite or not
-/// known are null.
+/// One JSON object in one line, with the keys of the documentation. Numbers that are not finite or
+/// unknown are null.
 [[nodiscard]] std::string to_json(const RunSummary& summary);
 
-/// The same for people.
+/// The summary as text for people.
 [[nodiscard]] std::string to_text(const RunSummary& summary);
 /// The checks alone, one per line.
 [[nodiscard]] std::string checks_text(const std::vector<CheckResult>& checks);
 
-/// Wall time per complete step [s]; NaN without any.
+/// Wall time per complete step [s]; NaN if there is none.
 [[nodiscard]] double time_per_step(const RunOutcome& outcome);
 
 }  // namespace sheave::command

@@ -1,5 +1,5 @@
 #pragma once
-// What `sheave statics` finds, as text and as JSON.
+// The results of `sheave statics` as text and as JSON.
 
 #include <memory>
 #include <string>
@@ -14,7 +14,7 @@ namespace sheave::command {
 
 /// One load case.
 struct StaticsCase {
-  std::string name;  ///< empty: the scene as it is
+  std::string name;  ///< empty: the scene without changes
   SceneOptions scene;
 };
 
@@ -24,19 +24,20 @@ struct StaticsResult {
   Equilibrium rest;
   State state;
   std::vector<std::string> bodies;
-  std::shared_ptr<const Simulation> simulation;  ///< at rest; reports refer to its names
+  std::shared_ptr<const Simulation> simulation;  ///< at the equilibrium; reports refer to its names
   std::vector<CableReport> cables;
   std::vector<JointReport> joints;
   std::vector<SupportReaction> supports;
   std::vector<std::string> quantities;
-  std::vector<double> values;   ///< of these; NaN where statics does not tell
+  /// Values of the quantities; NaN where statics does not determine one.
+  std::vector<double> values;
   bool cable_friction = false;  ///< a cable has links with friction
 };
 
-/// Loads the scene and finds its rest. A Failure (2) if a quantity does not exist.
+/// Loads the scene and finds its equilibrium. A Failure (2) if a quantity does not exist.
 [[nodiscard]] StaticsResult find_rest(const StaticsCase& one, const EquilibriumSettings& settings,
                                       const std::vector<std::string>& quantities);
-/// One rest in full, with its quantities if they were asked for, or a table of cases.
+/// One equilibrium in full, with its quantities if requested, or a table of cases.
 [[nodiscard]] std::string statics_text(const std::vector<StaticsResult>& results, bool quantities);
 [[nodiscard]] std::string statics_json(const std::string& path,
                                        const std::vector<StaticsResult>& results);

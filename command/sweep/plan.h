@@ -1,5 +1,5 @@
 #pragma once
-// Which runs a sweep consists of: what is varied, and the values of every run.
+// The runs of a sweep: the varied settings and the values of every run.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,57 +9,57 @@
 
 namespace sheave::command {
 
-/// How the values of several axes make runs.
+/// How the values of several axes are combined to runs.
 enum class SweepDesign {
-  grid,    ///< every value with every other; the last axis changes fastest
-  list,    ///< the first values of all axes, then the second ones, ...
-  random,  ///< each value drawn on its own, evenly from its range or list
-  /// Latin hypercube (McKay, Beckman, Conover 1979): each range is cut into as many equal parts as
-  /// there are runs, and each part has one run
+  grid,    ///< all combinations; the last axis changes fastest
+  list,    ///< run k takes value k of every axis
+  random,  ///< independent uniform draws from each range or list
+  /// Latin hypercube (McKay, Beckman, Conover 1979): each range is divided into as many equal parts
+  /// as there are runs, and each part is used by exactly one run
   latin_hypercube,
 };
 
-/// What --vary says: one setting or parameter, and where its values come from.
+/// One --vary option: a setting or parameter, and the source of its values.
 struct SweepAxis {
   std::string name;  ///< "/json/pointer" of a setting, or the name of a parameter of the scene
-  std::vector<std::string> values{};  ///< each JSON or a bare word; empty: a range to draw from
-  double low = 0.0;                   ///< the range
+  std::vector<std::string> values{};  ///< JSON values or bare words; empty: a range to draw from
+  double low = 0.0;                   ///< lower end of the range
   double high = 0.0;
-  bool logarithmic = false;  ///< the range is even in the logarithm
+  bool logarithmic = false;  ///< even spacing in the logarithm
 
   [[nodiscard]] bool is_setting() const { return name.starts_with('/'); }
 };
 
-/// "NAME=VALUES" with VALUES one of "1,2,4" (a list), "50:500:10" (10 values from 50 to 500, both
-/// included), "50:500" (a range to draw from); ":log" behind either of the latter makes it even in
-/// the logarithm. A Failure (2) says what is wrong.
+/// Parses "NAME=VALUES". VALUES is "1,2,4" (a list), "50:500:10" (10 values from 50 to 500, both
+/// included) or "50:500" (a range to draw from). ":log" behind one of the last two gives even
+/// spacing in the logarithm. A Failure (2) names the fault.
 [[nodiscard]] SweepAxis parse_axis(const std::string& text);
 
 struct SweepPlan {
   std::vector<SweepAxis> axes;
   SweepDesign design = SweepDesign::grid;
-  std::size_t samples = 0;  ///< runs of random and latin_hypercube
-  std::uint64_t seed = 1;   ///< of both; the same seed gives the same runs everywhere
+  std::size_t samples = 0;  ///< number of runs of random and latin_hypercube
+  std::uint64_t seed = 1;   ///< for both; equal seeds give equal runs on every machine
 };
 
-/// More runs than this are a slip of the pen.
+/// A larger number of runs is taken for a typing error.
 inline constexpr std::size_t most_sweep_runs = 1'000'000;
 
-/// How many runs the plan has. A Failure (2) if it has none, or too many, or if axes do not fit the
-/// design.
+/// The number of runs of the plan. A Failure (2) if there is no run, if there are too many, or if
+/// the axes do not fit the design.
 [[nodiscard]] std::size_t count_runs(const SweepPlan& plan);
 
 /// The values of every run, one per axis.
 [[nodiscard]] std::vector<std::vector<std::string>> sweep_points(const SweepPlan& plan);
 
-/// Which part of a sweep is done here: the runs with number % count == index - 1.
+/// The part of a sweep that this process does: the runs with number % count == index - 1.
 struct SweepShard {
   std::size_t index = 1;  ///< from 1
   std::size_t count = 1;
 
   [[nodiscard]] bool has(std::size_t run) const { return run % count == index - 1; }
 };
-/// "2/8". A Failure (2) if it is no such thing.
+/// Parses "2/8". A Failure (2) for another form.
 [[nodiscard]] SweepShard parse_shard(const std::string& text);
 
 }  // namespace sheave::command

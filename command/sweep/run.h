@@ -1,5 +1,5 @@
 #pragma once
-// sheave sweep: running.
+// sheave sweep: running the plan.
 
 #include <cstdint>
 #include <optional>
@@ -17,16 +17,16 @@ struct SweepOptions {
   SweepPlan plan;
   std::vector<SweepMeasure> measures;
   SweepShard shard;
-  std::string journal;                 ///< of --resume; empty: nothing is kept
-  int threads = 0;                     ///< 0: one per core
-  double trust = default_trust;        ///< as of `sheave run`
-  std::optional<double> time_limit{};  ///< of one run [s of wall time]
+  std::string journal;                 ///< file of --resume; empty: no journal
+  int threads = 0;                     ///< number of threads; 0: one per core
+  double trust = default_trust;        ///< as in `sheave run`
+  std::optional<double> time_limit{};  ///< wall time of one run [s]
   bool quiet = false;
 };
 
-/// Runs what the journal does not have, over the cores. What a row says depends on its values
-/// alone. A Failure: 2 or 65 if no run can be begun or nothing measures what is asked for, 130 on a
-/// signal; what has ended then is in the journal.
+/// Runs all rows that are missing in the journal, on all cores. A row depends only on its values. A
+/// Failure: 2 or 65 if no run can be started or a measure does not exist, 130 on a signal; rows
+/// completed by then are in the journal.
 [[nodiscard]] SweepTable run_sweep(SweepOptions options);
 
 }  // namespace sheave::command

@@ -13,22 +13,23 @@
 
 namespace sheave::command {
 
-/// A number that is taken from every run.
+/// A number measured in every run.
 struct SweepMeasure {
   std::string name;  ///< as the user wrote it, e.g. "max:rope.0.tension"
   std::string unit;  ///< empty: a pure number
-  CheckDef course;   ///< quantity, statistic and window; checks nothing
+  CheckDef course;   ///< quantity, statistic and window; without a bound to check
 };
 
-/// "STATISTIC:QUANTITY" or, for the value at the end, "QUANTITY"; "@TIME" or "@FROM:TO" behind it
-/// tell when. Statistics are those of checks, and min and max. A Failure (2) says what is wrong.
+/// Parses "STATISTIC:QUANTITY", or "QUANTITY" for the value at the end. "@TIME" or "@FROM:TO"
+/// behind it restricts the time. The statistics are those of checks, and min and max. A Failure (2)
+/// names the fault.
 [[nodiscard]] SweepMeasure parse_measure(const std::string& text);
 
-/// How a run of a sweep ended.
+/// The outcome of a run of a sweep.
 enum class SweepStatus {
   done,
-  doubtful,    ///< its own numbers contradict each other (docs/explanation/certificate.md)
-  diverged,    ///< the simulation stopped at a state that means nothing
+  doubtful,    ///< the certificate is not clean (docs/certificate.md)
+  diverged,    ///< the simulation stopped at a meaningless state
   invalid,     ///< the values make no valid scene
   time_limit,  ///< took longer than --time-limit
 };
@@ -36,43 +37,43 @@ inline constexpr std::array<std::string_view, 5> sweep_status_names{"done", "dou
                                                                     "invalid", "time-limit"};
 
 struct SweepRow {
-  std::size_t run = 0;              ///< its number, from 0
+  std::size_t run = 0;              ///< number of the run, from 0
   std::vector<std::string> values;  ///< one per axis
   SweepStatus status = SweepStatus::done;
-  /// One per measure; NaN where there is none: always of a run that did not reach its end.
+  /// One per measure; NaN for a missing value, and always for a run that did not reach its end.
   std::vector<double> measured;
-  double end = 0.0;       ///< time that was reached [s]
-  double doubt = 0.0;     ///< the certificate's worst figure, relative to its scale; NaN: none
-  std::string doubt_of;   ///< which kind of figure that is; empty: none
-  std::string message{};  ///< why it is not done, in one line; or what could not be measured
+  double end = 0.0;  ///< time reached [s]
+  /// The certificate's worst figure relative to its scale; NaN: no certificate.
+  double doubt = 0.0;
+  std::string doubt_of;   ///< kind of that figure; empty: none
+  std::string message{};  ///< why the run is not done, in one line; or the measures that failed
 
   [[nodiscard]] bool usable() const {
     return status == SweepStatus::done || status == SweepStatus::doubtful;
   }
 };
 
-/// What all runs of a sweep have in common.
+/// Common data of all runs of a sweep.
 struct SweepHead {
-  std::string key;    ///< a hash of the scene, the plan, the measures and the program
-  std::string scene;  ///< path, for people
+  std::string key;    ///< hash of the scene, the plan, the measures and the program
+  std::string scene;  ///< path of the scene, for people
   std::vector<std::string> axes;
   std::vector<SweepMeasure> measures;
-  std::size_t runs = 0;  ///< of all shards
+  std::size_t runs = 0;  ///< runs of all shards together
   SweepShard shard;
 };
 
 struct SweepTable {
   SweepHead head;
-  std::vector<SweepRow> rows;  ///< in the order of their numbers; not all of them in a shard
+  std::vector<SweepRow> rows;  ///< in the order of their numbers; a shard has only its own
 };
 
-/// The answer in words and, if they are few, the rows.
+/// The results as text, with all rows if they are few.
 [[nodiscard]] std::string sweep_text(const SweepTable& table);
 [[nodiscard]] std::string sweep_json(const SweepTable& table);
-/// One line per run. Nothing in it depends on the machine, its cores or shards.
+/// One line per run. The text is independent of the machine, its cores and shards.
 [[nodiscard]] std::string sweep_csv(const SweepTable& table);
-/// Measures over what is varied: lines over one axis, heat maps over two, clouds of points over
-/// more.
+/// Measures over the varied axes: lines over one axis, heat maps over two, scatter plots over more.
 [[nodiscard]] GnuplotScript sweep_chart_script(const SweepTable& table, ChartFormat format);
 
 }  // namespace sheave::command

@@ -1,5 +1,5 @@
 #pragma once
-// Texts from outside, such as names in scenes and of files, as pictures and pages can hold them.
+// Makes texts from outside, such as names in scenes and of files, safe for pictures and pages.
 
 #include <cstddef>
 #include <string>
@@ -7,17 +7,18 @@
 
 namespace sheave::command {
 
-/// `text` as one line of UTF-8 that everything can show. Tabs and line breaks become spaces. What
-/// is no UTF-8, no character of XML, a control character or turns the direction of writing becomes
-/// U+FFFD, one for each byte or character. Of more than `most` characters the last is "…", and the
-/// rest is left out: no picture has room for it.
+/// `text` as one line of UTF-8 that every program can show. Tabs and line breaks become spaces.
+/// Invalid UTF-8, characters that XML does not allow, control characters, and characters that
+/// change the direction of writing become U+FFFD, one for each byte or character. A text of more
+/// than `most` characters is cut, and its last character becomes "…", because no picture has room
+/// for more.
 [[nodiscard]] std::string one_line(std::string_view text, std::size_t most = 300);
 
-/// one_line(), of any length, for a page in Markdown: what would begin a link, code, an HTML
-/// element, a character reference or a cell of a table stands for itself.
+/// one_line() of any length for a page in Markdown: characters that would begin a link, code, an
+/// HTML element, a character reference or a table cell are escaped.
 [[nodiscard]] std::string markdown_text(std::string_view text);
 
-/// Lines between fences that nothing in them ends. The last line must have its line break.
+/// `text` between fences that no line of `text` ends. The last line must have its line break.
 [[nodiscard]] std::string markdown_code(std::string_view text);
 
 }  // namespace sheave::command

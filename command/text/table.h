@@ -6,15 +6,15 @@
 
 namespace sheave::command {
 
-/// A small table for people: columns as wide as their widest cell, text on the left, numbers on the
+/// A small text table: each column is as wide as its widest cell. Text is aligned left, numbers
 /// right.
 class TextTable {
  public:
   /// The first `text_columns` columns hold text.
   TextTable(std::vector<std::string> head, std::size_t text_columns);
-  /// A row of as many cells as the head has.
+  /// Adds a row. It must have as many cells as the head.
   void add(std::vector<std::string> cells);
-  /// Lines with line breaks; each begins with two blanks.
+  /// The lines with line breaks; each begins with two blanks.
   [[nodiscard]] std::string text() const;
 
  private:
@@ -22,7 +22,7 @@ class TextTable {
   std::size_t text_columns_;
 };
 
-/// Six digits: enough for people.
+/// Six significant digits.
 [[nodiscard]] std::string short_number(double value);
 
 }  // namespace sheave::command

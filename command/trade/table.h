@@ -1,6 +1,6 @@
 #pragma once
-// Speed against accuracy of one scene, as data: what `sheave trade` measures, prints and chooses
-// from.
+// Speed against accuracy of one scene, as data: the results that `sheave trade` measures, prints
+// and selects from.
 
 #include <array>
 #include <cstdint>
@@ -19,21 +19,21 @@
 
 namespace sheave::command {
 
-/// What is varied: every combination that differs in what it does is run. Lists must not be empty.
+/// The varied settings. Combinations with equal effect are run once. No list may be empty.
 struct TradeGrid {
   std::vector<int> substeps{1, 2, 4, 8, 16, 32};
   std::vector<int> iterations{1, 10,
                               100};  ///< of Gauss-Seidel; the direct solver keeps the scene's
   std::vector<SolverKind> solvers{SolverKind::gauss_seidel, SolverKind::direct};
   std::vector<IntegratorKind> integrators{IntegratorKind::xpbd, IntegratorKind::rattle};
-  /// Of all cables; of no meaning for a scene without.
+  /// For all cables; without effect in a scene without cables.
   std::vector<TangentUpdate> tangents{TangentUpdate::iteration, TangentUpdate::substep};
 };
 
-/// One way to run the scene.
+/// One combination of settings for the scene.
 struct TradeSetting {
   StepSettings step;
-  std::optional<TangentUpdate> tangents;  ///< nothing: the scene has no cables
+  std::optional<TangentUpdate> tangents;  ///< nullopt: the scene has no cables
 
   /// "gauss-seidel 4 x 10, rattle, tangents per substep".
   [[nodiscard]] std::string name() const;
@@ -47,81 +47,81 @@ struct TradeSetting {
 struct TradeRow {
   TradeSetting setting;
   std::string fault;    ///< why there are no numbers; empty if there are
-  std::string skipped;  ///< why it was not run: it takes more time than there was; empty if it was
-  double expected_seconds = 0.0;  ///< CPU time of a run, about, from the first frames
-  double run_seconds = 0.0;       ///< CPU time of the run that the error is from
-  /// CPU time per simulated second. One sample where more cannot bring the setting to the front.
+  std::string skipped;  ///< why it was not run (not enough time left); empty if it was run
+  double expected_seconds = 0.0;  ///< CPU time of a run, predicted from the first frames
+  double run_seconds = 0.0;       ///< CPU time of the run that gave the error
+  /// CPU time per simulated second. One sample only if more cannot bring the setting to the front.
   measure::Spread seconds;
-  /// Whether the time was taken with nothing else running; otherwise it is that of the run that the
-  /// error is from.
+  /// Whether the time was measured with nothing else running. Otherwise it is the time of the run
+  /// that gave the error.
   bool timed_alone = false;
-  /// Of positions and tensions within TradeTable::compared_seconds, tensions NaN without cables; of
-  /// the energy in the whole run, NaN if that of the reference is rounding.
+  /// Positions and tensions: within TradeTable::compared_seconds; tensions are NaN without cables.
+  /// Energy: over the whole run; NaN if the reference's energy is rounding.
   measure::RunError error;
   double stretch = 0.0;        ///< measure::Trajectory::stretch
   double length_error = 0.0;   ///< measure::Trajectory::length_error
   double row_solves = 0.0;     ///< per simulated second
   std::int64_t fallbacks = 0;  ///< measure::Trajectory::fallbacks
-  bool on_front = false;       ///< nothing is faster and as accurate
+  bool on_front = false;       ///< no other row is both faster and as accurate
 
   [[nodiscard]] bool measured() const { return fault.empty() && skipped.empty(); }
 };
 
-/// What one change of the model loses and saves.
+/// Error and saved time of one change of the model.
 struct LadderRow {
   std::string name, things, change;  ///< those of the measure::ModelRung
-  int changed = 0;                   ///< things
-  std::string fault;  ///< why there are no numbers: no valid scene, diverged; empty if there are
-  /// From the scene as written with the same setting, as long as positions are compared.
+  int changed = 0;                   ///< number of changed things
+  std::string fault;  ///< why there are no numbers (no valid scene, diverged); empty if there are
+  /// Difference from the scene as written with the same setting, within the compared time.
   measure::ModelDifference difference{};
   measure::Spread seconds{};  ///< CPU time per simulated second
   double row_solves = 0.0;    ///< per simulated second
 };
 
-/// The same scene with one effect after the other changed, all with one setting.
+/// The scene with one effect at a time changed, all with one setting.
 struct TradeLadder {
   TradeSetting setting;
   double setting_error = 0.0;  ///< bound of its position error in the scene as written
   measure::Spread seconds;     ///< of the scene as written
   double row_solves = 0.0;     ///< of the scene as written
   std::vector<LadderRow> rows;
-  std::vector<std::string> absent;  ///< names of the rungs of which the scene has nothing to change
+  std::vector<std::string> absent;  ///< names of the rungs that change nothing in this scene
   std::string skipped;              ///< why there are no rows; empty if there are
 };
 
-/// How the error of one solver and integrator falls with the step.
+/// Convergence of one solver and integrator with the step.
 struct TradeFamily {
   std::string name;
   std::optional<measure::FittedOrder> fit;
 };
 
 struct TradeTable {
-  std::string scene;  ///< its name, or the file's
+  std::string scene;  ///< name of the scene, or of its file
   double dt = 0.0;    ///< time of a frame [s]
   double simulated_seconds = 0.0;
-  /// Positions and tensions are compared up to here [s]: less than the whole run if the reference
-  /// does not know what comes later.
+  /// Positions and tensions are compared up to this time [s]. It is less than the whole run if the
+  /// reference is not valid later.
   double compared_seconds = 0.0;
   measure::Reference reference;      ///< without its frames
-  measure::RunError doubt;           ///< the reference's own error in what is compared
-  double motion = 0.0;               ///< measure::motion_of the reference in what is compared
+  measure::RunError doubt;           ///< the reference's own error within the compared time
+  double motion = 0.0;               ///< measure::motion_of the reference within the compared time
   std::optional<double> chaos_rate;  ///< measure::ErrorGrowth::rate
   std::vector<TradeRow> rows;
   std::vector<TradeFamily> families;
-  std::optional<TradeLadder> ladder;  ///< nothing: not wanted
-  std::vector<std::string> limits;    ///< what the time did not suffice for, a line each
+  std::optional<TradeLadder> ladder;  ///< nullopt: not requested
+  std::vector<std::string> limits;    ///< work omitted for lack of time, one line each
   MachineInfo machine;
   std::string version;
   int repetitions = 0;
-  double most_minutes = 0.0;  ///< that the command was given
+  double most_minutes = 0.0;  ///< time budget given to the command
 
-  /// Whether the reference knows tensions to a tenth of their mean: where bodies are hit it does not,
-  /// for a tension of a substep grows there as the substep shrinks. Without cables it does.
+  /// Whether the reference's tensions are known to a tenth of their mean. They are not where bodies
+  /// collide: the tension of a substep grows there as the substep shrinks. True without cables.
   [[nodiscard]] bool tensions_known() const;
-  // What errors are at most: those of the row and of the reference together.
+  // Upper bounds of the errors: the row's error plus the reference's.
   [[nodiscard]] double position_bound(const TradeRow& row) const;
   [[nodiscard]] double tension_bound(const TradeRow& row) const;  ///< 0 without cables
-  /// The larger of both; of positions alone where tensions are not known.
+  /// The larger of both bounds; the position bound alone if tensions are not known.
   [[nodiscard]] double bound(const TradeRow& row) const;
   /// Cost in seconds per simulated second and bound() of each row.
   [[nodiscard]] std::vector<measure::WorkPoint> points() const;
@@ -130,11 +130,12 @@ struct TradeTable {
 struct TradeOptions {
   TradeGrid grid;
   int repetitions = 5;
-  double reference_seconds = 30.0;  ///< CPU time of one reference, about
-  double minutes = 5.0;  ///< wall time of everything, about; what does not fit is skipped and said
-  int threads = 0;       ///< that measure errors; 0: one per core
-  bool ladder = true;    ///< whether rungs of the model are measured
-  std::string resume;  ///< file that keeps what is measured (command/trade/journal.h); empty: none
+  double reference_seconds = 30.0;  ///< CPU time of one reference, approximately
+  /// Wall time of everything, approximately; runs that do not fit are skipped and reported.
+  double minutes = 5.0;
+  int threads = 0;     ///< threads that measure errors; 0: one per core
+  bool ladder = true;  ///< whether rungs of the model are measured
+  std::string resume;  ///< journal of the results (tools/trade_journal.h); empty: none
   bool quiet = false;  ///< no progress bar
   measure::Clock clock;
 };
@@ -142,19 +143,19 @@ struct TradeOptions {
 /// Measures the scene. A Failure if there is no reference (75) or if a signal came (130).
 [[nodiscard]] TradeTable measure_trade(const Scene& scene, const TradeOptions& options);
 
-/// Fills in families and front from the rows.
+/// Fills in families and front of the table from its rows.
 void judge(TradeTable& table);
 
 /// A motion below this part of the scene's size makes errors relative to the size look small; the
-/// report says so.
+/// report mentions such a motion.
 inline constexpr double little_motion = 0.1;
 
 /// The levels that the report names a setting for: 1 %, 0.1 %, 0.01 %.
 inline constexpr std::array<double, 3> trade_levels{1e-2, 1e-3, 1e-4};
 
-/// For people.
+/// The report for people.
 [[nodiscard]] std::string trade_text(const TradeTable& table);
-/// The model ladder, as part of the text and of the Markdown; empty if there is none.
+/// The text of the model ladder, also part of the Markdown; empty if there is no ladder.
 [[nodiscard]] std::string ladder_text(const TradeTable& table);
 [[nodiscard]] std::string ladder_markdown(const TradeTable& table);
 [[nodiscard]] std::string trade_markdown(const TradeTable& table);
@@ -162,15 +163,16 @@ inline constexpr std::array<double, 3> trade_levels{1e-2, 1e-3, 1e-4};
 [[nodiscard]] std::string trade_json(const TradeTable& table);
 /// A line of names, then one line per row (RFC 4180).
 [[nodiscard]] std::string trade_csv(const TradeTable& table);
-/// What gnuplot is told to draw the work-precision chart.
+/// The gnuplot script of the work-precision chart.
 [[nodiscard]] GnuplotScript trade_chart_script(const TradeTable& table, ChartFormat format);
 
-/// What a user asks for: a time, or errors.
+/// A user's requirement: a time, or errors.
 struct TradeQuestion {
-  std::optional<double> seconds_per_frame{};  ///< at most this time [s]: the most accurate
-  /// At most this error of positions, and of tensions where these are known: the cheapest.
+  /// Largest time per frame [s]; the most accurate row answers.
+  std::optional<double> seconds_per_frame{};
+  /// Largest error of positions, and of tensions if these are known; the cheapest row answers.
   std::optional<double> error{};
-  /// At most this error of tensions instead, whether they are known or not.
+  /// Largest error of tensions instead, whether or not these are known.
   std::optional<double> tension_error{};
 
   [[nodiscard]] bool asks_for_errors() const { return error || tension_error; }
@@ -179,9 +181,9 @@ struct TradeQuestion {
 [[nodiscard]] double budget_seconds(const std::string& text);
 /// "0.1%", "1e-3"; a Failure (2) for anything else, which names `option`.
 [[nodiscard]] double error_share(const std::string& text, const std::string& option = "--error");
-/// "position error 1.0e-03, tension error 2.0e-02", the second if there are cables.
+/// "position error 1.0e-03, tension error 2.0e-02". The second only if there are cables.
 [[nodiscard]] std::string errors_text(const TradeTable& table, const TradeRow& row);
-/// The row that answers; nothing if none does.
+/// The row that answers; nullopt if none does.
 [[nodiscard]] std::optional<std::size_t> answer(const TradeTable& table,
                                                 const TradeQuestion& question);
 

@@ -1,22 +1,23 @@
 #pragma once
-// The page that `sheave view` fills: built from web/ by npm, beside the command or installed with
-// it.
+// The page that `sheave view` fills. npm builds it from web/. The page is beside the command in the
+// build tree, or installed with it.
 
 #include <string>
 
 namespace sheave::command {
 
-/// The text of the page. A Failure that says how to get it if it is not there.
+/// The text of the page. If the page is missing, a Failure says how to build it.
 [[nodiscard]] std::string read_page();
 
-/// The page with `recording` (base64) in it. A Failure if that is no page of ours.
+/// The page with `recording` (base64) in it. A Failure if `page` is not a page of this program.
 [[nodiscard]] std::string filled_page(const std::string& page, const std::string& recording);
 
-/// The page with the engine inside, and that with the text of a scene in it. Failures likewise.
+/// The page with the engine inside, and that page with the text of a scene in it. Failures as
+/// above.
 [[nodiscard]] std::string read_live_page();
 [[nodiscard]] std::string filled_live_page(const std::string& page, const std::string& scene);
 
-/// Lets the user's browser open a file; a note if that does not work.
+/// Opens a file in the user's browser; prints a note if that fails.
 void open_in_browser(const std::string& path);
 
 }  // namespace sheave::command
