@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t first_column = 30;
 constexpr std::size_t text_width = 100 - first_column;
 
-/// `text` with line breaks so that no line is longer than `width`, unless a word is.
+/// `text` with line breaks so that no line is longer than `width`, except for a single longer word.
 std::string wrapped(const std::string& text, std::size_t width) {
   std::string result;
   std::size_t column = 0;
@@ -45,7 +45,7 @@ class WrappedFormatter final : public CLI::Formatter {
   }
 };
 
-/// The command that the error is about: the innermost subcommand that was chosen.
+/// The command to which an error belongs: the innermost selected subcommand.
 const CLI::App* innermost(const CLI::App& app, std::string& name) {
   const CLI::App* chosen = &app;
   name = app.get_name();
@@ -56,11 +56,11 @@ const CLI::App* innermost(const CLI::App& app, std::string& name) {
   return chosen;
 }
 
-/// What to say about arguments that no option took.
+/// The message about arguments that no option took.
 std::string unexpected(const CLI::App& app, const CLI::App& chosen) {
   const std::vector<std::string> rest = app.remaining(true);
   if (rest.empty()) return "unexpected arguments";
-  // CLI11 does not know which words were meant as values of an unknown option.
+  // CLI11 cannot tell which words were meant as values of an unknown option.
   const auto option = std::find_if(rest.begin(), rest.end(),
                                    [](const std::string& word) { return word.starts_with("-"); });
   const std::string word = option != rest.end() ? *option : rest.front();
@@ -130,7 +130,7 @@ CLI::Validator number_between(double low, double high) {
   return {[=](const std::string& text) {
             double value = 0.0;
             const bool number = CLI::detail::lexical_cast(text, value);
-            // Written so that NaN is refused.
+            // This form of the condition refuses NaN.
             if (number && value >= low && value <= high) return std::string();
             return fmt::format("{} is not {}", text, allowed);
           },

@@ -1,5 +1,5 @@
-// sheave completion: scripts that let a shell complete subcommands, options and files. They are made
-// from the same tree of options that the command line is read with.
+// sheave completion: scripts with which a shell completes subcommands, options and files. The
+// scripts are made from the tree of options that also parses the command line.
 
 #include <memory>
 #include <string>
@@ -15,9 +15,9 @@
 namespace sheave::command {
 namespace {
 
-/// One word sequence after `sheave` and what may follow it.
+/// A sequence of words after `sheave` and the words that may follow it.
 struct Level {
-  std::vector<std::string> path;  ///< names of subcommands; empty: of `sheave` itself
+  std::vector<std::string> path;  ///< names of subcommands; empty: `sheave` itself
   const CLI::App* app = nullptr;
 };
 
@@ -39,7 +39,7 @@ void collect(const CLI::App& app, const std::vector<std::string>& path,
   }
 }
 
-/// All that may follow `sheave`, in the order of the help.
+/// The levels below `sheave`, in the order of the help.
 std::vector<Level> levels_of(const CLI::App& app) {
   std::vector<Level> levels;
   collect(app, {}, levels);
@@ -114,7 +114,7 @@ complete -o filenames -F _sheave sheave
                      cases);
 }
 
-/// A description as zsh's _describe reads it: colons end a name there.
+/// A description for zsh's _describe, in which an unescaped colon would end the name.
 std::string zsh_item(const std::string& name, const std::string& meaning) {
   std::string escaped;
   for (const char c : name) {
@@ -170,7 +170,7 @@ fi
                      fmt::join(paths, " | "), cases);
 }
 
-/// fish's condition for standing right after the subcommands of `path`.
+/// fish's condition that the cursor is directly after the subcommands of `path`.
 std::string fish_condition(const Level& level) {
   if (level.path.empty()) return "__fish_use_subcommand";
   std::vector<std::string> seen;
@@ -206,7 +206,7 @@ std::string fish_script(const CLI::App& app) {
   return text;
 }
 
-/// A shell, and how its script is made.
+/// A shell and the function that makes its script.
 struct Shell {
   const char* name;
   std::string (*script)(const CLI::App& app);

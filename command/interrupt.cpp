@@ -8,7 +8,7 @@
 namespace sheave::command {
 namespace {
 
-/// Signals that counted.
+/// Number of accepted signals.
 std::atomic<int>& signals() {
   static std::atomic<int> count{0};
   return count;
@@ -27,7 +27,7 @@ std::int64_t now() {
 }
 
 void raise_flag(int signal) {
-  // `timeout` and some shells send a signal to the process and again to its group.
+  // `timeout` and some shells send one signal twice: to the process and to its group.
   if (signals() > 0 && now() - last_time() < 500'000'000) return;
   last_time() = now();
   if (++signals() <= 2) return;
@@ -41,7 +41,7 @@ void catch_signal(int signal) {
   struct sigaction action {};
   action.sa_handler = raise_flag;
   sigemptyset(&action.sa_mask);
-  // No SA_RESTART: a write that waits for a slow reader must notice.
+  // No SA_RESTART: a signal must interrupt a write that waits for a slow reader.
   action.sa_flags = 0;
   ::sigaction(signal, &action, nullptr);
 }

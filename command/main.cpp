@@ -31,7 +31,7 @@ void print_internal_error(const char* what) {
   }
 }
 
-/// Every way to end leads through here.
+/// The only way in which the command ends.
 ExitCode run_command_line(int argc, char** argv) {
   try {
     return dispatch(argc, argv);
@@ -46,8 +46,8 @@ ExitCode run_command_line(int argc, char** argv) {
   return ExitCode::internal;
 }
 
-/// An exception that a destructor or another function must not throw: libraries allocate in some.
-/// The way back is lost, the reason is not.
+/// Ends the process after an exception that left a destructor or a noexcept function, as lack of
+/// memory may in libraries. Stack unwinding is impossible then, but the message is still printed.
 [[noreturn]] void end_at_once() noexcept {
   try {
     if (const std::exception_ptr failure = std::current_exception()) {
@@ -68,9 +68,9 @@ ExitCode run_command_line(int argc, char** argv) {
 }  // namespace sheave::command
 
 int main(int argc, char** argv) {
-  sheave::command::turn_signals_into_errors();
-  // Mesa's software renderer starts a thread per core for each picture line of ours, and waits for
-  // ever for those that the system does not allow. Without them pictures are the same.
+  sheave::tools::turn_signals_into_errors();
+  // Mesa's software renderer starts one thread per core for each of its contexts, and waits for
+  // ever for threads that the system refuses. Without threads the pictures are the same.
   ::setenv("LP_NUM_THREADS", "0", 0);
   std::set_terminate(sheave::command::end_at_once);
   return static_cast<int>(sheave::command::run_command_line(argc, argv));

@@ -23,7 +23,7 @@ int core_count() {
 void run_parallel(std::size_t count, int threads, const std::function<void(std::size_t)>& work,
                   const std::function<void()>& poll) {
   std::atomic<std::size_t> next = 0;
-  std::mutex mutex;  // of the two below
+  std::mutex mutex;  // guards the next two variables
   std::condition_variable changed;
   std::exception_ptr failure;
   std::size_t ended = 0;
@@ -51,7 +51,7 @@ void run_parallel(std::size_t count, int threads, const std::function<void(std::
     lock.lock();
   }
   lock.unlock();
-  pool.clear();  // waits
+  pool.clear();  // joins the threads
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -14,7 +14,7 @@
 namespace sheave::command {
 namespace {
 
-// What is over sooner needs no bar; redrawing faster than one can read only costs time.
+// A short run needs no bar, and redrawing faster than people read only costs time.
 constexpr std::chrono::milliseconds first_after{400};
 constexpr std::chrono::milliseconds redraw_interval{100};
 
@@ -25,7 +25,7 @@ std::size_t terminal_width() {
 }
 
 void write_raw(const std::string& text) {
-  // A bar that cannot be drawn is no reason to stop.
+  // A bar that cannot be drawn must not stop the run.
   [[maybe_unused]] const ssize_t count = ::write(STDERR_FILENO, text.data(), text.size());
 }
 
@@ -69,7 +69,7 @@ void Progress::update(double now, const std::string& text) {
     width += cells + 2;
   }
   line += tail;
-  if (width > columns) {  // a narrow terminal would wrap and scroll
+  if (width > columns) {  // a narrow terminal would wrap the line and scroll
     line = tail.substr(0, columns);
     width = line.size();
   }

@@ -17,7 +17,7 @@
 namespace sheave::command {
 namespace {
 
-/// An option of its own for a setting that is changed often.
+/// A dedicated option for a frequently changed setting.
 struct Shortcut {
   const char* option;
   const char* pointer;
@@ -48,13 +48,13 @@ std::string choices(const Shortcut& shortcut) {
   return text;
 }
 
-/// A number as JSON has it: ".5" and "+5" are numbers on a command line, but not there.
+/// A number in JSON notation: ".5" and "+5" are allowed on a command line, but not in JSON.
 std::string json_number(const std::string& text) {
   return number_text(std::strtod(text.c_str(), nullptr));
 }
 
 std::string standard_input() {
-  // What is longer is no scene; one byte more is enough for the loader to see it.
+  // The loader refuses longer texts; one byte more than the limit lets it notice.
   const std::size_t most = json::Limits{}.bytes + 1;
   std::string text;
   std::vector<char> block(std::size_t{1} << 16U);
@@ -67,7 +67,7 @@ std::string standard_input() {
   return text;
 }
 
-/// The override that "/json/pointer=value" means.
+/// Parses the override "/json/pointer=value".
 Override parse_setting(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || text.front() != '/') {
@@ -166,7 +166,7 @@ Scene load(const SceneOptions& options) {
                    : load_file_or_stdin(options.path, overrides(options), jsonnet);
   if (result) return std::move(*result.scene);
   const ExitCode code = exit_code(result);
-  // One fault speaks for itself; a list begins in a line of its own.
+  // A single error is printed in the same line; a list begins in a new line.
   std::string text = to_text(result);
   if (result.errors.size() > 1) text = fmt::format("{} faults\n{}", result.errors.size(), text);
   throw Failure(code, text);
@@ -192,7 +192,7 @@ ExitCode exit_code(const SceneResult& result) {
 std::string to_text(const SceneResult& result) {
   std::string text;
   for (SceneError error : result.errors) {
-    // An option is its own place.
+    // The option itself is the position of an error in its value.
     if (error.file.starts_with("--")) {
       error.line = 0;
       if (error.file.ends_with(error.pointer) || !error.file.starts_with("--set")) {
@@ -206,7 +206,7 @@ std::string to_text(const SceneResult& result) {
 }
 
 std::int64_t step_count(const Scene& scene) {
-  // Beyond this a double no longer counts steps one by one, and nobody waits for the end.
+  // Above this bound a double cannot count single steps, and no run would end.
   constexpr double most = 9e15;
   const double steps = std::round(scene.duration / scene.model.step.dt);
   return static_cast<std::int64_t>(std::clamp(steps, 1.0, most));

@@ -37,11 +37,11 @@ void say_allocating(std::string_view kind, const char* color, std::string_view t
   }
   message += printable(text);
   if (!message.ends_with('\n')) message += '\n';
-  // If nobody can hear it there is nobody to tell.
+  // If standard error is closed, no channel for a message remains.
   static_cast<void>(write_all(STDERR_FILENO, message));
 }
 
-/// Says something even where there is no memory left to say it well.
+/// Writes a message even without memory to format it.
 void say(std::string_view kind, const char* color, std::string_view text) {
   try {
     say_allocating(kind, color, text);
@@ -50,7 +50,7 @@ void say(std::string_view kind, const char* color, std::string_view text) {
          {std::string_view("sheave: "), kind, std::string_view(": ")}) {
       static_cast<void>(write_all(STDERR_FILENO, part));
     }
-    // Character by character, because a copy without what would disturb a terminal needs memory.
+    // Writes single characters, because a printable copy of the text would need memory.
     for (const char c : text) {
       const bool plain = c == '\n' || (c >= ' ' && c < 0x7f);
       static_cast<void>(write_all(STDERR_FILENO, plain ? std::string_view(&c, 1) : "?"));
@@ -67,7 +67,7 @@ std::string printable(std::string_view text) {
     const std::size_t length = json::character_length(text);
     const auto first = static_cast<unsigned char>(text.front());
     const bool control = first < 0x20 ? first != '\n' && first != '\t' : first == 0x7f;
-    // U+0080 to U+009F are control characters too, and some terminals act on them.
+    // U+0080 to U+009F are control characters, too, and some terminals act on them.
     const bool high_control =
         length == 2 && first == 0xc2 && static_cast<unsigned char>(text[1]) < 0xa0;
     if (length == 0 || control || high_control) {

@@ -13,7 +13,7 @@
 namespace sheave::command {
 namespace {
 
-/// Rows that get one colour.
+/// Rows with the same colour.
 struct Series {
   const char* title;
   GnuplotPiece colour;
@@ -41,12 +41,12 @@ std::vector<std::string> scene_names(const BenchTable& table) {
   return names;
 }
 
-/// Where a scene stands on the horizontal axis.
+/// Position of a scene on the horizontal axis.
 double place_of(const std::vector<std::string>& names, const std::string& scene) {
   return static_cast<double>(std::find(names.begin(), names.end(), scene) - names.begin());
 }
 
-/// The panel of times and that of errors, as they come together.
+/// The chart with the panel of times and the panel of errors.
 class BenchChart {
  public:
   BenchChart(const BenchTable& table, ChartFormat format)
@@ -65,7 +65,7 @@ class BenchChart {
     script_.add({"set multiplot layout 2,1\nset key outside top center horizontal\n"});
     if (!times_.empty()) times_.set('y', script_);
     script_.add({"set ylabel 'time of a frame [ms]'\nplot ", time_plots_, "\n"});
-    script_.add({"set ytics autofreq\n"});  // forgets the names of the first panel
+    script_.add({"set ytics autofreq\n"});  // removes the tic names of the first panel
     if (!errors_.empty()) errors_.set('y', script_);
     script_.add({"set ylabel 'error [scene size]'\nplot ", error_plots_, "\nunset multiplot\n"});
     return script_;
@@ -97,10 +97,10 @@ class BenchChart {
     std::string last;
     for (const BenchRow& row : table_.rows) {
       if (!row.measured() || !series.contains(row)) continue;
-      // Two settings of one scene and series stand side by side.
+      // Two settings of one scene and series are drawn side by side.
       const double aside = row.scene == last ? 0.07 : 0.0;
       last = row.scene;
-      // A logarithmic axis has no zero; what is below 1e-16 is none.
+      // A logarithmic axis has no zero, so errors below 1e-16 are drawn at 1e-16.
       const double error = std::max(row.error.position, 1e-16);
       rows.add({place_of(names_, row.scene) - 0.12 + 0.18 * static_cast<double>(s) + aside,
                 1e3 * row.seconds.median, 1e3 * row.seconds.lower, 1e3 * row.seconds.upper, error});

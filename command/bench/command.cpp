@@ -26,11 +26,11 @@ struct BenchArguments {
   double allow = 1.1;
 };
 
-/// Refuses what would only be found wrong after minutes of measuring.
+/// Checks the arguments before minutes of measuring.
 void check_arguments(const BenchArguments& arguments) {
   if (!arguments.chart.empty()) static_cast<void>(chart_format(arguments.chart));
   if (!arguments.compare.empty()) {
-    // An empty table has nothing to compare, but the file is read.
+    // Reads and checks the baseline; the empty table compares nothing.
     static_cast<void>(compare_with_baseline({}, arguments.compare, arguments.allow));
   }
 }
@@ -69,7 +69,7 @@ ExitCode bench(const BenchArguments& arguments) {
                               comparison.other_machine));
   }
   const std::string text = comparison_text(comparison);
-  // Standard output has one object and nothing else.
+  // Standard output must contain exactly one object.
   if (arguments.json) {
     print_note(text);
   } else {

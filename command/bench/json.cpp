@@ -1,4 +1,4 @@
-// sheave bench: the table as JSON, and comparing with one that was kept.
+// sheave bench: the table as JSON, and the comparison with a stored one.
 
 #include <cmath>
 #include <limits>
@@ -71,7 +71,7 @@ BenchJson row_json(const BenchRow& row) {
 JsonRule baseline_row() {
   constexpr double largest = std::numeric_limits<double>::max();
   constexpr std::int64_t most = std::int64_t{1} << 53U;
-  // What JSON has no number for was written as null.
+  // Non-finite numbers were written as null.
   const JsonRule number = json_optional(json_number(-largest, largest));
   const JsonRule time = json_number(0.0, largest);
   const JsonRule error = json_object(

@@ -1,4 +1,5 @@
-// sheave bench: measuring. Errors first, scene by scene; then the times of all rows, interleaved.
+// sheave bench: measuring. The errors are measured first, scene by scene, then the times of all
+// rows, interleaved.
 
 #include <algorithm>
 #include <cctype>
@@ -24,7 +25,7 @@
 namespace sheave::command {
 namespace {
 
-/// A reference is good if its error is at most this share of every error that is measured with it.
+/// A reference is good if its error is at most this share of every error measured with it.
 constexpr double reference_share = 0.1;
 
 [[noreturn]] void stop_by_signal() { throw Failure(ExitCode::interrupted, "interrupted"); }
@@ -47,7 +48,7 @@ BenchRow row_for(const measure::PaperRow& paper, const StepSettings& settings) {
   return row;
 }
 
-/// The paper's settings, and behind the last one of a scene the direct solver's.
+/// The paper's settings; the direct solver's setting follows the last setting of each scene.
 std::vector<BenchRow> wanted_rows(const std::string& filter) {
   std::vector<BenchRow> rows;
   const auto table = measure::paper_table();
@@ -68,7 +69,7 @@ std::vector<BenchRow> wanted_rows(const std::string& filter) {
   return rows;
 }
 
-/// A row of a table with what it runs.
+/// A row of the table and the scene that it runs.
 struct Entry {
   BenchRow row;
   std::optional<measure::Contender> contender;
@@ -107,7 +108,7 @@ class Measurement {
   }
 
  private:
-  /// A scene of the folder in frames as the paper has them; says in `fault` why there is none.
+  /// A scene of the folder with the paper's frame time; on failure `fault` gets the reason.
   std::optional<Scene> loaded(const std::string& file, std::string& fault) const {
     const std::string path = options_.folder + "/" + file;
     SceneResult scene = load_scene(path);
@@ -142,7 +143,7 @@ class Measurement {
     }
   }
 
-  /// What this row's run did; says in the row why there is none.
+  /// The trajectory of this row's run; on failure the row gets the reason.
   std::optional<measure::Trajectory> recorded(const Scene& scene, BenchRow& row) {
     Progress progress(row.name(), 0.0, static_cast<double>(measure::frame_count(scene)), false);
     Result<measure::Trajectory> run =
@@ -165,7 +166,7 @@ class Measurement {
     return std::move(run).value();
   }
 
-  /// Fills in the errors; returns why there are none.
+  /// Fills in the errors; returns the reason if there are none.
   std::string compare(const Scene& truth, std::vector<BenchRow>& rows,
                       const std::vector<std::optional<measure::Trajectory>>& runs) {
     const bool modelled_twice = !rows.front().cable_file.empty();

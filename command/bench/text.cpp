@@ -49,7 +49,7 @@ std::string machine_text(const BenchTable& table) {
       table.machine.assertions ? "; built WITH ASSERTIONS: the times mean nothing" : "");
 }
 
-/// What there is to say beside the numbers, one line each.
+/// Remarks beside the numbers, one line each.
 std::vector<std::string> bench_remarks(const BenchTable& table) {
   std::vector<std::string> lines;
   for (const BenchRow& row : table.rows) {

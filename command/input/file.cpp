@@ -14,7 +14,7 @@
 namespace sheave::command {
 namespace {
 
-/// A file that is closed whatever happens.
+/// Closes its file on every way out.
 class InputDescriptor {
  public:
   explicit InputDescriptor(const std::string& path)

@@ -46,7 +46,7 @@ void check_unknown_keys(const JsonCheck& check, NodeId node, const std::vector<J
   }
 }
 
-/// Of another version, or of no file of ours at all.
+/// Reports a text of another version, or a text that is not a file of this program at all.
 void check_format(const JsonCheck& check, const std::string& name, std::string_view format) {
   const NodeId root = check.document.root();
   const NodeId node =

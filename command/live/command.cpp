@@ -1,4 +1,4 @@
-// sheave live: holds a world for a program that talks to it in lines.
+// sheave live: holds a world and serves another program by lines on standard input and output.
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@
 namespace sheave::command {
 namespace {
 
-constexpr double idle = 0.1;  // [s]; a signal may come just before a wait begins
+constexpr double idle = 0.1;  // [s]; short, because a signal just before a wait does not end it
 
 struct LiveOptions {
   SceneOptions scene;
@@ -42,7 +42,7 @@ struct LiveOptions {
   bool reference = false;
 };
 
-/// The requests of a session, in a file that can be given to another one.
+/// The requests of a session, in a file that another session can replay.
 class RequestLog {
  public:
   RequestLog(const std::string& path, OutputFaults& faults) : faults_(faults) {
@@ -122,7 +122,7 @@ class LiveServer {
     return hooks;
   }
 
-  /// Answers what has come, waits for more, and steps a world that runs.
+  /// Answers pending requests, waits for more, and steps a running world.
   void turn() {
     const std::optional<LineReader::Line> line = reader_.next();
     has_lines_ = line.has_value();
@@ -144,14 +144,14 @@ class LiveServer {
   void wait_for_input(double seconds) {
     const short wanted = writer_.has_pending() ? POLLOUT : 0;
     std::array<pollfd, 2> files{{{STDIN_FILENO, POLLIN, 0}, {STDOUT_FILENO, wanted, 0}}};
-    // A time that is not over yet must not become none.
+    // A positive time must not be rounded down to 0.
     const int milliseconds = seconds > 0.0 ? static_cast<int>(1e3 * seconds) + 1 : 0;
     if (::poll(files.data(), files.size(), milliseconds) <= 0) return;
     if (files[0].revents != 0) {
       reader_.read();
-      has_lines_ = true;  // perhaps
+      has_lines_ = true;  // the bytes read may complete a line
     }
-    // A program that has ended has closed both.
+    // A program that has ended has closed both pipes.
     const bool broken = (files[1].revents & (POLLERR | POLLNVAL)) != 0;
     if (broken && !reader_.at_end()) writer_.break_off();
     if (files[1].revents != 0) writer_.wait(0.0);
@@ -162,8 +162,8 @@ class LiveServer {
   RequestLog log_;
   LineWriter writer_;
   LineReader reader_;
-  Pacer step_pacer_;  // of requests to step
-  Pacer run_pacer_;   // of a world that runs by itself
+  Pacer step_pacer_;  // for requests to step
+  Pacer run_pacer_;   // for a world that runs by itself
   double step_;
   bool has_lines_ = true;
   live::Session session_;

@@ -30,7 +30,7 @@ std::optional<LineReader::Line> LineReader::next() {
 }
 
 void LineReader::read() {
-  // Into the buffer itself: a stack may have no room for all that a pipe has.
+  // Reads into the heap buffer: a small stack may have no room for a block.
   constexpr std::size_t block = 65536;
   const std::size_t before = buffer_.size();
   buffer_.resize(before + block);

@@ -18,13 +18,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// What a reader may have to take before lines that can be done without are left out, and before
-/// others wait.
+/// Pending bytes above which optional lines are dropped, and above which other lines wait.
 constexpr std::size_t most_for_offers = std::size_t{1} << 18U;
 constexpr std::size_t most_for_lines = std::size_t{1} << 20U;
-/// A pipe that is ready takes so much without waiting (PIPE_BUF).
+/// A pipe that is ready accepts this many bytes without blocking (PIPE_BUF).
 constexpr std::size_t piece = 4096;
-constexpr int tick = 100;  // [ms]; a signal may come just before a wait begins
+constexpr int tick = 100;  // [ms]; short, because a signal just before a wait does not end it
 
 }  // namespace
 
@@ -36,7 +35,7 @@ LineWriter::LineWriter(int descriptor, std::function<std::string(std::int64_t)> 
 
 bool LineWriter::is_ready(int milliseconds) const {
   pollfd wanted{descriptor_, POLLOUT, 0};
-  // What is wrong with it the write will tell.
+  // The next write reports an error of the descriptor.
   return ::poll(&wanted, 1, milliseconds) > 0;
 }
 

@@ -18,7 +18,7 @@ double Pacer::until(double time) {
     return (time - start_->time) / *pace_ - passed;
   };
   if (!start_) start_ = {now, time - step_};
-  // The world may have been put into another state.
+  // The world may have been set to another state.
   if (wait() > 1.5 * step_ / *pace_) start_ = {now, time - step_};
   if (wait() < -most_late) start_ = {now, time};
   return std::max(wait(), 0.0);

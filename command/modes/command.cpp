@@ -1,4 +1,4 @@
-// sheave modes: how a scene vibrates about where it rests.
+// sheave modes: vibration modes of a scene about its equilibrium.
 
 #include <cmath>
 #include <memory>
@@ -50,7 +50,7 @@ int body_index(const Scene& scene, const std::string& name, const std::string& o
                                      "coordinates drive:JOINT.COORDINATE");
 }
 
-/// Of "drive:ram", or "drive:guide.travel"; nothing if no joint has that name.
+/// The input of "drive:ram" or "drive:guide.travel"; nullopt if no joint has that name.
 std::optional<ModeInput> joint_drive_input(const Scene& scene, const World& world,
                                            const std::string& name, const std::string& option) {
   const auto& joints = scene.model.joints;
@@ -78,7 +78,7 @@ std::optional<ModeInput> joint_drive_input(const Scene& scene, const World& worl
   return {};
 }
 
-/// "force:load.x", "torque:hook.z", "drive:drum", "drive:ram".
+/// Parses "force:load.x", "torque:hook.z", "drive:drum", "drive:ram".
 ModeInput parse_input(const Scene& scene, const World& world, const std::string& text) {
   const std::string option = "--input " + text;
   const std::size_t colon = text.find(':');
@@ -108,7 +108,7 @@ ModeInput parse_input(const Scene& scene, const World& world, const std::string&
   return input;
 }
 
-/// Moves the simulation to the state about which it is linearised.
+/// Moves the simulation to the state of linearisation.
 void go_to_state(const ModesOptions& options, Simulation& simulation, ModesFound& found) {
   if (!options.load_state.empty()) load_state(simulation, options.load_state);
   if (options.at) {

@@ -17,7 +17,7 @@ namespace {
 
 using ModesJson = nlohmann::ordered_json;
 
-/// More than this of the largest load without balance is no rest.
+/// An unbalanced load above this part of the largest load means that the state is no equilibrium.
 constexpr double rests = 1e-6;
 
 std::string notes(const ModesFound& found) {
@@ -118,7 +118,7 @@ void take_outputs(Simulation& simulation, const std::vector<std::string>& names,
   };
   constexpr double step = 1e-4;
   for (Eigen::Index i = 0; i < states; ++i) {
-    // Steps that move the largest part by 1e-4 m or rad.
+    // The step moves the largest component by 1e-4 m or rad.
     const double size = i < 2 * k ? modes.motions.col(i % k).cwiseAbs().maxCoeff() : 1.0;
     const double by = size > 0.0 ? step / size : step;
     found.output_matrix.col(i) = (sample(by, i) - sample(-by, i)) / (2.0 * by);

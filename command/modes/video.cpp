@@ -25,7 +25,7 @@ constexpr int film_frames = 120;
 constexpr double film_rate = 30.0;  // [1/s]
 constexpr int film_periods = 2;
 
-/// What the shape is multiplied by so that nothing moves farther than `amplitude` of the scene.
+/// The factor of the mode shape for which no part moves farther than `amplitude` of the scene.
 double scale_of(const Simulation& simulation, const Mode& mode, double amplitude) {
   const BodySet& bodies = simulation.world.bodies();
   double farthest = 0.0;
@@ -36,7 +36,7 @@ double scale_of(const Simulation& simulation, const Mode& mode, double amplitude
                                                         : 3;
     for (int k = 0; k < size_of(freedom.kind); ++k) {
       const double part = std::abs(mode.shape[freedom.first - 1 + k]);
-      // A turn of 1 rad is large, of a wheel on an axle it is not.
+      // A rotation of 1 rad is large, except for a wheel on an axle.
       constexpr double of_wheels = 0.1;
       const double size = k < linear                       ? part / bodies.scale()
                           : freedom.kind == Freedom::angle ? of_wheels * part
@@ -47,7 +47,7 @@ double scale_of(const Simulation& simulation, const Mode& mode, double amplitude
   return farthest > 0.0 ? amplitude / farthest : 0.0;
 }
 
-/// How the film looks: as the scene's, without the time.
+/// The view of the film: the scene's own, without the time.
 render::ViewOptions view_of(const Scene& scene, const Mode& mode, int number,
                             const render::ViewSurvey& survey) {
   render::ViewOptions view;

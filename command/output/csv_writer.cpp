@@ -11,7 +11,7 @@ namespace {
 class CsvWriter final : public TableWriter {
  public:
   CsvWriter(const std::string& path, const std::vector<std::string>& columns) : file_(path) {
-    // Names of entities have no commas, quotes or line breaks (scenes/format.h), so none is quoted.
+    // Names of entities have no commas, quotes or line breaks (scenes/format.h): no quoting needed.
     for (const std::string& column : columns) {
       if (!line_.empty()) line_ += ',';
       line_ += column;
@@ -31,7 +31,7 @@ class CsvWriter final : public TableWriter {
 
   void finish() override { file_.commit(); }
 
-  // The first record is the line of names.
+  // The first record is the line of column names.
   Salvage salvage() override { return salvage_rows(file_, file_.records() - 1); }
 
  private:

@@ -38,14 +38,14 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
     if (descriptor_ < 0) fail("cannot write");
     return;
   }
-  // A rename would replace a file that its owner protected.
+  // A rename would replace a file whose owner has made it read-only.
   if (exists && ::access(destination_.c_str(), W_OK) != 0) fail("cannot write");
   create_temporary();
 }
 
 void OutputFile::create_temporary() {
   const std::string folder = render::folder_part(destination_);
-  // Names have a limit (255 bytes nearly everywhere) that the addition must not exceed.
+  // The temporary name must not exceed the limit of 255 bytes of most file systems.
   std::string name = folder + "." + destination_.substr(folder.size(), 200) + ".XXXXXX";
   descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
   if (descriptor_ < 0) fail("cannot create it");
@@ -70,7 +70,7 @@ OutputFile::~OutputFile() { discard(); }
 void OutputFile::write(std::string_view record) {
   buffer_.append(record);
   ends_.push_back(buffer_.size());
-  // Whoever kills the process loses no more than this.
+  // Limits the loss if the process is killed.
   if (buffer_.size() >= buffer_size || Clock::now() - flushed_ >= longest_wait) flush();
 }
 
@@ -106,7 +106,7 @@ void OutputFile::overwrite(std::size_t offset, std::string_view bytes) {
 
 void OutputFile::commit() {
   flush();
-  // Some file systems report a full disk only here.
+  // Some file systems report a full disk only when synchronising.
   if (!temporary_.empty() && !render::synchronise(descriptor_)) fail("cannot write");
   if (::close(std::exchange(descriptor_, -1)) != 0) fail("cannot write");
   put_in_place();
@@ -124,7 +124,7 @@ void OutputFile::salvage() {
   if (temporary_.empty()) return;
   if (descriptor_ >= 0) {
     cut_to_whole_records();
-    // What is left is worth having even where nobody promises that it outlives a power loss.
+    // The records are worth keeping even if the file system cannot make them durable.
     static_cast<void>(render::synchronise(descriptor_));
     ::close(std::exchange(descriptor_, -1));
   }
@@ -135,7 +135,7 @@ void OutputFile::put_in_place() {
   if (temporary_.empty()) return;
   if (::rename(temporary_.c_str(), destination_.c_str()) != 0) {
     const int reason = errno;
-    // The work of hours may be in it.
+    // Keeps the temporary file: it may hold the results of hours.
     const std::string left = std::exchange(temporary_, {});
     elsewhere_ = true;
     errno = reason;

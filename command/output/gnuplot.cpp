@@ -19,7 +19,8 @@ namespace sheave::command {
 
 namespace {
 
-/// Whether a picture ends as one of its format does: gnuplot may end with success and half of one.
+/// Whether a picture has the end that its format requires: gnuplot may report success after writing
+/// half a picture.
 bool is_whole_picture(const std::vector<std::uint8_t>& bytes, ChartFormat format) {
   constexpr std::ptrdiff_t longest = 16;
   const auto size = static_cast<std::ptrdiff_t>(bytes.size());
@@ -33,13 +34,13 @@ bool is_whole_picture(const std::vector<std::uint8_t>& bytes, ChartFormat format
   throw Failure(ExitCode::io, path + ": " + why);
 }
 
-/// The picture that a script makes.
+/// Runs a script and returns its picture.
 std::vector<std::uint8_t> drawn(const std::string& path, const GnuplotScript& script) {
-  // The first signal may have ended the run that is to be drawn; then the chart is still wanted.
+  // A first signal may have ended the run to be drawn; its chart is still wanted.
   const bool already = interrupted();
   const auto unwanted = [already] { return already ? hurried() : interrupted(); };
-  // -d: without gnuplotrc and ~/.gnuplot. GNUTERM and GNUPLOT_... choose terminals, drivers, fonts
-  // and folders of scripts, FIT_..., PAGER and SHELL files and programs.
+  // -d: without gnuplotrc and ~/.gnuplot. GNUTERM and GNUPLOT_... select terminals, drivers, fonts
+  // and folders of scripts; FIT_..., PAGER and SHELL select files and programs.
   Result<render::ChildProcess> gnuplot = render::ChildProcess::start(
       {"gnuplot", "-d", "-"},
       {.abandon = unwanted,
@@ -63,11 +64,11 @@ std::vector<std::uint8_t> drawn(const std::string& path, const GnuplotScript& sc
 }  // namespace
 
 void draw_with_gnuplot(const std::string& path, const GnuplotScript& script) {
-  // Otherwise a signal would end us, and leave a gnuplot that hangs to itself.
+  // Without handlers a signal would end this process and leave a hanging gnuplot behind.
   catch_interrupts();
   Result<render::OutputFile> file = render::OutputFile::create(path);
   if (!file) throw Failure(ExitCode::io, to_text(file.errors()));
-  // Written by us and not by gnuplot, which does not tell of a full disk.
+  // This process writes the file, because gnuplot does not report a full disk.
   Errors errors = file->write(drawn(path, script));
   if (errors.empty()) errors = file->commit();
   if (!errors.empty()) throw Failure(ExitCode::io, to_text(errors));

@@ -57,8 +57,8 @@ GnuplotCode GnuplotScript::shown_of_column(int column) {
 
 GnuplotCode GnuplotScript::block(const ChartRows& rows) {
   GnuplotCode name{"$data", ++block_count_};
-  // A line of numbers begins with a digit, a sign or NaN, one of texts with a bar: none ends a
-  // block.
+  // A line of numbers begins with a digit, a sign or NaN, a line of texts with a bar, so no line
+  // can end a block.
   blocks_.add({name, " << end\n", rows.lines()});
   if (rows.empty()) blocks_.add({"NaN NaN NaN NaN\n"});
   blocks_.add({"end\n"});

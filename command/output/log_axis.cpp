@@ -39,8 +39,8 @@ void LogAxis::set(char axis, GnuplotScript& script) const {
     if (!named.empty()) named.add({", "});
     named.add({script.tic(power_of_ten(i), std::pow(10.0, i))});
   }
-  // gnuplot places the tics and we name them: its own way to write powers would need enhanced text,
-  // in which names mean more than they say.
+  // The tics have explicit names: gnuplot's own notation of powers needs enhanced text, which would
+  // interpret special characters in names.
   script.add({"set logscale ", name, "\nset ", name, "range [", lower(), ":", upper(),
               "]\nset format ", name, " ''\nset ", name, "tics add (", named, ")\n"});
 }

@@ -1,6 +1,6 @@
-// NumPy's .npy format: magic, version, length of a header, the header (a Python dictionary, padded
-// with blanks so that the data is aligned), the data. The header keeps room for any number of rows
-// and tells those that are there, also while the file is being written.
+// NumPy's .npy format: magic, version, length of the header, the header (a Python dictionary,
+// padded with blanks so that the data is aligned), the data. The header has room for any number of
+// rows and always holds the number of rows in the file, even during writing.
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t alignment = 64;
 constexpr std::size_t max_short_header = 65535;    // of version 1.0
-constexpr std::size_t max_default_header = 10000;  // that numpy.load accepts without being told to
+constexpr std::size_t max_default_header = 10000;  // limit of numpy.load without max_header_size
 
 /// Low byte first.
 std::string little_endian(std::size_t value, int bytes) {
@@ -38,11 +38,11 @@ std::string description(const std::vector<std::string>& columns) {
   return text + "]";
 }
 
-/// What follows the bracket of the shape; always as long. Until the table is complete the number is
-/// at the right, so that only digits change; then it is as NumPy writes it.
+/// Length of the text behind the opening bracket of the shape. During writing the number stands at
+/// its right end, so that only digits change; in the completed table the text has NumPy's own form.
 constexpr std::size_t rows_size = 25;
 using RowsText = std::array<char, rows_size>;
-/// Without allocating: it must also be told where memory has run out.
+/// Does not allocate: the number must be written even after memory has run out.
 RowsText rows_text(std::int64_t rows, bool complete) {
   constexpr std::string_view end = ",), }";
   RowsText text;
@@ -58,7 +58,7 @@ RowsText rows_text(std::int64_t rows, bool complete) {
 
 struct Header {
   std::string text;
-  std::size_t rows_at = 0;  // where rows_text() is
+  std::size_t rows_at = 0;  // offset of rows_text()
 };
 
 Header header(const std::string& descriptor) {
@@ -67,7 +67,8 @@ Header header(const std::string& descriptor) {
   const std::size_t longest = text.size() + shape.size() + rows_size + 1 + 12 + 2 * alignment;
   const bool short_length = longest <= max_short_header;
   const std::size_t before = short_length ? 10 : 12;
-  // Within one page, for whoever kills the process may do so between the pages of a write.
+  // The text lies within one page of the file: if the process is killed, a write may be cut between
+  // two pages.
   constexpr std::size_t page = 4096;
   const std::size_t place = before + text.size() + shape.size();
   if (place / page != (place + rows_size - 1) / page) text += std::string(rows_size, ' ');
@@ -105,7 +106,7 @@ class NpyWriter final : public TableWriter {
     bytes_.resize(values.size_bytes());
     std::memcpy(bytes_.data(), values.data(), values.size_bytes());
     file_.write(bytes_);
-    // Rows first, then their number: so it never promises what is not there.
+    // Writes the rows before their number, so that the number never exceeds the rows in the file.
     if (written() != told_) tell_rows(false);
   }
 
@@ -119,7 +120,7 @@ class NpyWriter final : public TableWriter {
     try {
       tell_rows(true);
     } catch (const Failure&) {
-      // Then the number told before still holds.
+      // The file keeps the rows that the last number counts.
       file_.keep_at_most(header_size_ + static_cast<std::size_t>(told_) * bytes_.size());
     }
     return salvage_rows(file_, told_);
@@ -152,7 +153,7 @@ std::unique_ptr<TableWriter> open_npy(const std::string& path,
 Salvage salvage_rows(OutputFile& file, std::int64_t rows) {
   if (file.path() == "-")
     return {rows, fmt::format("it has taken {} rows", std::max<std::int64_t>(rows, 0))};
-  // The fault has told where it is.
+  // The fault has already named the temporary file.
   if (file.is_elsewhere()) return {};
   if (rows <= 0) return {0, "nothing of it is kept"};
   file.salvage();

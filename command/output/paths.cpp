@@ -14,8 +14,8 @@
 namespace sheave::command {
 namespace {
 
-/// What makes two names one file: device and inode, of the file or, where there is none yet, of its
-/// folder with the name in it.
+/// The key by which two names are recognised as one file: device and inode of the file, or, for a
+/// file that does not exist yet, those of its folder together with the name in it.
 struct Identity {
   dev_t device = 0;
   ino_t inode = 0;
@@ -24,7 +24,7 @@ struct Identity {
 };
 
 std::optional<Identity> identity_of(const struct stat& status) {
-  // Only of files is there one content that could be lost.
+  // Only a regular file has contents that could be lost.
   if (!S_ISREG(status.st_mode)) return {};
   return Identity{status.st_dev, status.st_ino, ""};
 }

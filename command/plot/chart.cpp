@@ -17,11 +17,11 @@ namespace {
 
 using PlotJson = nlohmann::ordered_json;
 
-/// Colours that the colour-blind tell apart (Okabe and Ito 2008), without the yellow, which is too
-/// light for a line.
+/// Colours that colour-blind readers can distinguish (Okabe and Ito 2008), without the yellow,
+/// which is too light for a line.
 constexpr std::array<GnuplotPiece, 7> plot_colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                                    "#E69F00", "#56B4E9", "#000000"};
-/// More events than this are marked without words.
+/// With more events than this the marks have no text.
 constexpr std::size_t most_worded_events = 12;
 
 std::string axis_label(const std::string& name) {
@@ -29,7 +29,7 @@ std::string axis_label(const std::string& name) {
   return unit.empty() ? name : name + " [" + unit + "]";
 }
 
-/// What is drawn in one panel: quantities with one unit, of all runs.
+/// One panel: the quantities with one unit, of all runs.
 struct PlotPanel {
   std::string unit;
   std::vector<std::string> names;
@@ -53,7 +53,7 @@ std::vector<PlotPanel> panels_of(const std::vector<PlotRun>& runs) {
 
 std::string panel_label(const PlotPanel& panel) {
   if (panel.names.size() == 1) return axis_label(panel.names.front());
-  // What all names end in, if they all do: "tension [N]".
+  // The common last part of all names, if there is one: "tension [N]".
   std::string last = panel.names.front().substr(panel.names.front().rfind('.') + 1);
   for (const std::string& name : panel.names) {
     if (!name.ends_with("." + last)) last.clear();
@@ -62,7 +62,7 @@ std::string panel_label(const PlotPanel& panel) {
   return last.empty() ? "[" + panel.unit + "]" : last + " [" + panel.unit + "]";
 }
 
-/// One quantity of a run over the horizontal one.
+/// One quantity of a run against the horizontal quantity.
 ChartRows plotted_rows(const PlotRun& run, std::size_t quantity) {
   const std::vector<double>& x = run.values[0];
   const std::vector<double>& y = run.values[quantity];
@@ -71,13 +71,14 @@ ChartRows plotted_rows(const PlotRun& run, std::size_t quantity) {
     if (std::isfinite(x[i]) && std::isfinite(y[i])) {
       rows.add({x[i], y[i]});
     } else if (!rows.empty()) {
-      rows.add_gap();  // as in the first row of forces: breaks the line
+      // A missing value, such as a force before the first step, interrupts the line.
+      rows.add_gap();
     }
   }
   return rows;
 }
 
-/// Lines at the moments when something happened, the same in all panels; words in the first.
+/// Lines at the times of events, in all panels; texts only in the first panel.
 void mark_events(const std::vector<PlotRun>& runs, bool worded, GnuplotScript& script) {
   std::map<double, std::string> events;
   for (const PlotRun& run : runs) {
@@ -97,7 +98,7 @@ void mark_events(const std::vector<PlotRun>& runs, bool worded, GnuplotScript& s
   }
 }
 
-/// Whether a panel has a point; gnuplot finds no range for axes without any.
+/// Whether a panel has a point; gnuplot finds no axis range without points.
 bool has_points(const std::vector<PlotRun>& runs, const PlotPanel& panel) {
   for (const PlotRun& run : runs) {
     for (std::size_t q = 1; q < run.names.size(); ++q) {
@@ -110,7 +111,7 @@ bool has_points(const std::vector<PlotRun>& runs, const PlotPanel& panel) {
   return false;
 }
 
-/// What the plot command of a panel draws.
+/// The plot command of a panel.
 GnuplotCode panel_plots(const std::vector<PlotRun>& runs, const PlotPanel& panel,
                         GnuplotScript& script) {
   GnuplotCode plots;
@@ -119,7 +120,8 @@ GnuplotCode panel_plots(const std::vector<PlotRun>& runs, const PlotPanel& panel
       const auto found = std::find(panel.names.begin(), panel.names.end(), runs[r].names[q]);
       if (found == panel.names.end()) continue;
       const auto place = static_cast<std::size_t>(found - panel.names.begin());
-      // Colours tell quantities apart and dashes runs; of one quantity, both tell runs apart.
+      // Colours distinguish quantities and dashes distinguish runs. If there is one quantity, both
+      // distinguish runs.
       const std::size_t colour = panel.names.size() == 1 ? r : place;
       std::string label = runs[r].names[q];
       if (runs.size() > 1) label += ", " + runs[r].label;
@@ -146,7 +148,7 @@ GnuplotScript plot_script(const std::vector<PlotRun>& runs, const std::string& t
   GnuplotScript script(format, height);
   script.add({"set grid lc rgb '#dddddd'\nset key outside right top spacing 1.2\n"});
   script.add({"set multiplot layout ", panels.size(), ",1 title ", script.shown(title), "\n"});
-  script.add({"set lmargin 12\nset rmargin 30\n"});  // one below the other
+  script.add({"set lmargin 12\nset rmargin 30\n"});  // equal margins align the panels
   for (std::size_t p = 0; p < panels.size(); ++p) {
     mark_events(runs, p == 0, script);
     if (has_points(runs, panels[p])) {

@@ -25,7 +25,7 @@ namespace {
 
 struct PlotArguments {
   std::vector<std::string> inputs;
-  SceneOptions scene;  ///< what is changed in those that are scenes
+  SceneOptions scene;  ///< overrides for the inputs that are scenes
   PlotChoice choice;
   std::vector<std::string> labels;
   std::string out, title;
@@ -35,7 +35,7 @@ struct PlotArguments {
 
 bool is_table(const std::string& path) { return path.ends_with(".csv") || path.ends_with(".npy"); }
 
-/// Runs a scene to its end, or to where it has to stop, which is told.
+/// Runs a scene to its end, or to an early stop, which is reported.
 PlotRun plot_of_scene(const PlotArguments& arguments, const std::string& path) {
   SceneOptions options = arguments.scene;
   options.path = path;

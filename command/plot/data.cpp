@@ -24,10 +24,10 @@ namespace {
 
 constexpr double missing_value = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t most_table_bytes = std::size_t{512} << 20U;
-/// Moments that a recorder keeps: more than a picture has columns.
+/// Number of stored samples: more than a picture has pixel columns.
 constexpr std::size_t most_moments = 8000;
 
-/// Indices of what the choice means, the horizontal one first.
+/// Indices of the columns of the choice, the horizontal one first.
 std::vector<int> chosen_columns(const PlotChoice& choice, const std::vector<std::string>& names,
                                 const std::function<std::string(const std::string&)>& missing) {
   std::vector<int> columns;
@@ -57,7 +57,7 @@ std::string no_column(const std::string& path, const std::vector<std::string>& n
   return fmt::format("{}: there is no column \"{}\"{}", path, wanted, suggestion.question());
 }
 
-/// A column "rope.cut" or "joint.broken" that tells of an event.
+/// Whether a column such as "rope.cut" or "joint.broken" indicates an event.
 bool tells_event(const std::string& name) {
   return name.ends_with(".cut") || name.ends_with(".broken");
 }
@@ -68,7 +68,7 @@ void add_event(const std::string& name, double before, double now, double time, 
   run.events.push_back({time, name.substr(0, dot) + " " + name.substr(dot + 1)});
 }
 
-/// The cells of a line; what stands in quotes may have commas.
+/// The cells of a line; quoted cells may contain commas.
 std::vector<std::string> csv_cells(std::string_view line) {
   std::vector<std::string> cells(1);
   bool quoted = false;
@@ -146,10 +146,10 @@ PlotRun read_csv(const std::string& text, const std::string& path, const PlotCho
   return run;
 }
 
-/// The header of a .npy file that has a number per column.
+/// The header of a .npy file with one number per column and row.
 struct NpyHeader {
   std::vector<std::string> names;
-  std::size_t data = 0;  ///< where the numbers begin
+  std::size_t data = 0;  ///< offset of the data
 };
 
 [[noreturn]] void bad_npy(const std::string& path, const std::string& what) {
@@ -227,7 +227,7 @@ PlotRun read_plot_table(const std::string& path, const PlotChoice& choice) {
   const std::string text = read_input(path, most_table_bytes);
   PlotRun run =
       path.ends_with(".npy") ? read_npy(text, path, choice) : read_csv(text, path, choice);
-  // Over anything but time, moments have no place.
+  // The events can be placed only on an axis of time.
   if (run.names.front() != "t") run.events.clear();
   std::stable_sort(run.events.begin(), run.events.end(),
                    [](const PlotEvent& a, const PlotEvent& b) { return a.time < b.time; });

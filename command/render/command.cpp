@@ -43,7 +43,7 @@ struct RenderOptions {
   bool quiet = false;
 };
 
-/// The run as glTF, if that is asked for.
+/// Writes the run as glTF, if requested.
 class GlbOutput {
  public:
   GlbOutput(const PictureOptions& options, const Look& look)
@@ -89,7 +89,7 @@ ExitCode report(const RunOutcome& outcome, const PictureOutputs& outputs, long g
     text += frames > 0 ? fmt::format("\n{}: partial, {} frames", path, frames)
                        : fmt::format("\n{}: no frame was drawn", path);
   };
-  // What is at fault is told with its fault.
+  // An output that failed is reported with its fault.
   if (outputs.has_video() || outputs.frames() == 0) tell(options.video, outputs.frames());
   tell(options.png, outputs.png_frames());
   tell(options.glb, glb_frames);
@@ -127,7 +127,7 @@ ExitCode draw(const Scene& scene, const RenderOptions& options, std::span<const 
   try {
     outcome = play(scene, options.load_state, times_of(moments), progress, show);
   } catch (...) {
-    outputs.finish();  // keeps what has been drawn
+    outputs.finish();  // completes the outputs with the frames drawn so far
     throw;
   }
   progress.clear();
@@ -151,7 +151,7 @@ ExitCode render_scene(const RenderOptions& options) {
   double begin = 0.0;
   if (!options.load_state.empty()) {
     Simulation loaded = make_simulation(scene);
-    load_state(loaded, options.load_state, false);  // it is loaded once more
+    load_state(loaded, options.load_state, false);  // no warnings: the state is loaded again later
     begin = loaded.world.state().time;
   }
   Trails trails(scene, pictures.trails);
@@ -159,7 +159,7 @@ ExitCode render_scene(const RenderOptions& options) {
       choose_moments(scene, pictures, begin, trails.longest_interval());
   catch_interrupts();
   std::optional<PictureOutputs> outputs;
-  // What cannot be written is told before anything is simulated, if the size is known.
+  // If the size is known, faults of the outputs are reported before the simulation.
   if (pictures.format != PictureFormat::best) outputs.emplace(sized(pictures, pictures.format));
   const auto steps = static_cast<double>(step_count(scene));
   Progress survey_progress("survey", 0.0, steps, options.quiet);

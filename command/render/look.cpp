@@ -13,7 +13,7 @@
 namespace sheave::command {
 namespace {
 
-/// A camera for one format, and how large it shows the middle of what is in the picture.
+/// A camera for one format, and its scale in the middle of the picture.
 struct Framing {
   render::Camera camera;
   double scale = 0.0;  // [pixels/m]
@@ -30,7 +30,7 @@ Framing frame(const Scene& scene, const std::vector<CableReport>& cables,
   return framing;
 }
 
-/// Another format must show the scene so many times larger to be worth it.
+/// Another format is chosen only if it shows the scene larger by this factor.
 constexpr double worth = 1.15;
 
 std::pair<PictureFormat, render::Camera> choose_format(const Scene& scene,
@@ -41,7 +41,7 @@ std::pair<PictureFormat, render::Camera> choose_format(const Scene& scene,
   const auto framed = [&](PictureFormat format) {
     return frame(scene, cables, box, typical, sized(options, format));
   };
-  // A camera that the scene places by hand is meant for the usual one.
+  // A camera that the scene places explicitly is meant for the default format.
   const bool placed = scene.camera && scene.camera->position;
   if (options.format != PictureFormat::best) {
     return {options.format, framed(options.format).camera};
@@ -64,7 +64,7 @@ PictureOptions sized(PictureOptions options, PictureFormat format) {
   if (format == PictureFormat::portrait) std::swap(options.width, options.height);
   if (format == PictureFormat::square) {
     const double pixels = static_cast<double>(options.width) * options.height;
-    // Even, for the encoder.
+    // The encoder needs an even size.
     options.width = options.height = 2 * static_cast<int>(std::lround(0.5 * std::sqrt(pixels)));
   }
   return options;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double most_frames = 1e7;
 
-/// A span of time and how far moments may be off [s].
+/// An interval of time, and the tolerance of moments [s].
 struct Period {
   double begin = 0.0;
   double end = 0.0;
@@ -58,7 +58,7 @@ void add_still(const PictureOptions& options, const Period& period, std::vector<
   moments.push_back({.time = std::clamp(at, period.begin, period.end), .still = true});
 }
 
-/// Ends of every so many steps up to a time.
+/// Adds ends of steps up to a time, at most `interval` apart.
 void add_steps(const Scene& scene, double begin, double end, double interval,
                std::vector<Moment>& moments) {
   const double dt = scene.model.step.dt;
@@ -95,8 +95,7 @@ std::vector<Moment> choose_moments(const Scene& scene, const PictureOptions& opt
 }
 
 std::vector<Moment> scale_moments(const Scene& scene, double begin) {
-  // Enough for 98 % of the tensions to be known well; at the ends of steps, where nothing has to be
-  // computed between.
+  // This number determines the 98 % quantile of tensions well. Ends of steps need no interpolation.
   constexpr double count = 240.0;
   const Period period = period_of(scene, begin);
   std::vector<Moment> moments;

@@ -22,7 +22,7 @@
 namespace sheave::command {
 namespace {
 
-// Edges of a still are averaged over this many pixels in each direction.
+// Each pixel of a still is the average of this many samples in each direction.
 constexpr int still_supersample = 2;
 
 template <class T>
@@ -35,7 +35,7 @@ void check(const Errors& errors, ExitCode code) {
   if (!errors.empty()) throw Failure(code, to_text(errors));
 }
 
-/// A file can be made there; nothing is left behind.
+/// Checks that a file can be created there; leaves no file behind.
 void check_writable(const std::string& path) {
   value_or_fail(render::OutputFile::create(path), ExitCode::io);
 }
@@ -46,8 +46,9 @@ void make_folder(const std::string& path) {
   if (code) throw Failure(ExitCode::io, path + ": cannot make this folder: " + code.message());
 }
 
-/// Mesa fills the pixels of all contexts with the same threads, one for each core; what runs beside
-/// it is the rest of a frame. More contexts would only cost memory.
+/// One context per core, at most 8. Mesa rasterises for all contexts with the same threads, one per
+/// core; only the remaining work on a frame runs in parallel, and further contexts would only cost
+/// memory.
 int default_threads() { return std::min(core_count(), 8); }
 
 }  // namespace
@@ -86,20 +87,20 @@ render::FrameLine::Frame PictureOutputs::take_oldest() {
   try {
     return value_or_fail(line_->take(), ExitCode::internal);
   } catch (...) {
-    line_.reset();  // a frame is missing, so none may come after it
+    line_.reset();  // after a lost frame no later frame may be written
     throw;
   }
 }
 
 void PictureOutputs::write_oldest() {
   const render::FrameLine::Frame frame = take_oldest();
-  // Without an encoder that takes all frames there is no video at all.
+  // A video with missing frames is of no use, so the first fault of the encoder ends it.
   if (video_ && !faults_.attempt([&] { check(video_->add(frame.image), ExitCode::io); })) {
     video_.reset();
   }
   if (!options_.png.empty() && png_well_) {
     const std::string path = frame_path(frames_);
-    // Waiting for the disk after each frame would take longer than drawing it.
+    // Synchronising each file with the disk would take longer than drawing the frame.
     png_well_ = faults_.attempt([&] {
       check(render::write_file(path, frame.png, render::Durability::process), ExitCode::io);
     });
@@ -109,7 +110,7 @@ void PictureOutputs::write_oldest() {
 }
 
 void PictureOutputs::add_still(const render::DrawList& list, const render::Camera& camera) {
-  // Only now: until then its memory is not needed.
+  // The still's renderer is created late, because its memory is not needed earlier.
   const bool svg = options_.still.ends_with(".svg");
   render::Renderer renderer =
       value_or_fail(render::Renderer::create(options_.width, options_.height,
@@ -144,7 +145,7 @@ void PictureOutputs::finish() {
     video_done_ = faults_.attempt([&] { check(video_->finish(), ExitCode::io); });
   }
   if (options_.png.empty() || png_frames_ == 0) return;
-  // One wait for the disk instead of one for each frame.
+  // Synchronises all frames with the disk at once.
   render::synchronise_files_beside(frame_path(0));
   if (png_well_) warn_of_old_frames();
 }

@@ -19,7 +19,7 @@ namespace {
 
 constexpr render::Color fresh = render::rgb(0x2f6f8f);
 constexpr render::Color faded = render::rgb(0xdfe6ec);
-constexpr double pieces = 120.0;  // of a trail, at least
+constexpr double pieces = 120.0;  // smallest number of pieces of a trail
 
 [[noreturn]] void refuse(const std::string& trail, const std::string& what) {
   throw Failure(
@@ -36,7 +36,7 @@ double number(const std::string& trail, std::string_view text) {
   return value;
 }
 
-/// Text in front of the last separator and behind it; nothing if there is none.
+/// The text before and behind the last separator; nullopt if there is none.
 std::optional<std::pair<std::string, std::string>> split_last(const std::string& text, char at) {
   const std::size_t place = text.rfind(at);
   if (place == std::string::npos) return std::nullopt;

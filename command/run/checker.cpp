@@ -9,8 +9,7 @@ namespace {
 
 using Kind = CertificateItem::Kind;
 
-/// The one of these kinds that is relatively farthest off; null if there was nothing of them to
-/// check.
+/// The item of these kinds with the largest relative value; null if no such item was checked.
 const CertificateItem* worst_of(const Certificate& certificate, std::initializer_list<Kind> kinds) {
   const CertificateItem* worst = nullptr;
   for (const Kind kind : kinds) {
@@ -20,7 +19,7 @@ const CertificateItem* worst_of(const Certificate& certificate, std::initializer
   return worst;
 }
 
-/// Of -0 as 0.
+/// Adding 0.0 turns -0 into 0.
 std::string certificate_share(double relative) { return fmt::format("{:.1g}", relative + 0.0); }
 
 }  // namespace

@@ -86,7 +86,7 @@ ExitCode exit_code(const RunSummary& summary, bool strict) {
   return strict && summary.doubtful() ? ExitCode::doubtful : ExitCode::done;
 }
 
-/// Says on standard error why a run ended early, and what is left of its output.
+/// Reports on standard error why a run ended early, and which output remains.
 void explain_early_end(const RunOptions& options, const RunSummary& summary) {
   if (summary.outcome.status == RunStatus::done) return;
   std::string text = summary.outcome.divergence
@@ -118,7 +118,7 @@ bool is_summarised(const RunOptions& options) {
   return !options.json && !options.quiet && !writes_to_stdout(options);
 }
 
-/// Whether a run is of use even if all its tables fail.
+/// Whether a run is useful even if all its tables fail.
 bool has_other_output(const RunOptions& options) {
   return options.json || options.check || is_summarised(options) || !options.save_state.empty() ||
          !options.plot.patterns.empty();
@@ -138,7 +138,7 @@ void report(const RunOptions& options, const RunSummary& summary) {
   if (summarised) print(printable(to_text(summary)));
 }
 
-/// The runs with shorter substeps that this one is compared with.
+/// The runs with shorter substeps for the comparison with this run.
 std::optional<measure::ErrorEstimator> make_estimator(const RunOptions& options, const Scene& scene,
                                                       const State& start) {
   if (!options.estimate_error) return {};
@@ -148,7 +148,7 @@ std::optional<measure::ErrorEstimator> make_estimator(const RunOptions& options,
   return std::move(estimator).value();
 }
 
-/// Whether the time since now is over; empty without a limit.
+/// Whether the time limit, counted from now, is over; empty without a limit.
 StopRequest limit_of(const RunOptions& options) {
   if (!options.time_limit) return {};
   using Clock = std::chrono::steady_clock;
@@ -157,7 +157,7 @@ StopRequest limit_of(const RunOptions& options) {
   };
 }
 
-/// Positions and speeds may be finite where their products are not.
+/// Reports an infinite energy: positions and speeds may be finite although their products are not.
 void tell_infinite_energy(const Simulation& simulation, RunOutcome& outcome) {
   const double time = simulation.world.state().time;
   outcome.status = RunStatus::diverged;
@@ -181,7 +181,7 @@ void check_run_paths(const RunOptions& options) {
               options.json || is_summarised(options));
 }
 
-/// What the chart is called.
+/// The title of the chart.
 std::string scene_title(const RunSummary& summary) {
   return summary.scene.name.empty() ? std::string(summary.scene_path) : summary.scene.name;
 }

@@ -16,8 +16,8 @@ using measure::StepDifference;
 using measure::StepErrorKind;
 
 constexpr std::size_t max_quantities = 12;
-/// Where bodies move by less than this part of the scene's size, errors are told relative to the
-/// motion, too.
+/// If bodies move by less than this part of the scene's size, errors are also given relative to the
+/// motion.
 constexpr double small_motion = 0.1;
 
 std::string share_text(double share) { return fmt::format("{:.2g} %", 100.0 * share); }
@@ -71,7 +71,7 @@ std::string estimate_table(const ErrorEstimate& estimate) {
                                     all.size() - max_quantities);
 }
 
-/// Why there is no order.
+/// The reason why no order of convergence is known.
 std::string missing_order_reason(const ErrorEstimate& estimate, StepErrorKind kind) {
   switch (kind) {
     case StepErrorKind::rounding:
@@ -94,7 +94,7 @@ std::string missing_order_reason(const ErrorEstimate& estimate, StepErrorKind ki
   return "";
 }
 
-/// "positions are off by ...", without a reason if there is no order.
+/// "positions are off by ...", without a reason if the order is unknown.
 std::string estimate_clause(const char* what, const StepDifference& difference, StepErrorKind kind,
                             const std::string& of) {
   if (kind == StepErrorKind::rounding) {
@@ -114,7 +114,7 @@ std::string estimate_clause(const char* what, const StepDifference& difference, 
       share_text(error / std::exp2(*difference.order)));
 }
 
-/// What a run does at the end of the substep in which it happens.
+/// The events that a run places at the end of the substep in which they happen.
 std::string sudden_text(const ErrorEstimate& estimate) {
   const std::size_t count = estimate.changes.sudden;
   return fmt::format(
@@ -124,7 +124,7 @@ std::string sudden_text(const ErrorEstimate& estimate) {
       count == 1 ? "it acts" : "they act");
 }
 
-/// What errors of positions are told as parts of.
+/// The length to which errors of positions are relative.
 std::string size_text(const ErrorEstimate& estimate) {
   const double size = estimate.position.scale;
   const double error = estimate.position.error();

@@ -16,7 +16,7 @@ RunFiles::RunFiles(const RecordOptions& tables, const std::string& state_path, b
 bool RunFiles::observe(const Simulation& simulation, Progress& progress) {
   if (recorder_.observe(simulation)) return true;
   progress.clear();
-  // At once, for there may be hours to go.
+  // Reports a fault immediately: the run may take hours.
   for (const RecordedTable& table : recorder_.tables()) {
     if (!table.complete() && told_.insert(&table).second) print_warning(table.fault);
   }

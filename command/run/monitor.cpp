@@ -33,11 +33,11 @@ void RunMonitor::observe(const Simulation& simulation, const RunStatistics& stat
 
 void RunMonitor::finish(const Simulation& simulation, bool conservative) {
   integrator_loss_ = std::max({0.0, loss_.taken(), vibration_loss_});
-  // No more can have been taken than is missing, where nothing puts any in.
+  // Without an energy source the integrator cannot have removed more energy than is missing.
   if (conservative) {
     integrator_loss_ = std::min(integrator_loss_, initial_.total() - min_energy_);
   }
-  // After a divergence the state is one that no step reported.
+  // After a divergence the final state has no report of a step.
   final_ = simulation.world.energy();
   max_drift_ = std::max(max_drift_, std::abs(final_.total() - initial_.total()));
   observe_cables(simulation);
@@ -50,7 +50,7 @@ void RunMonitor::observe_joints(const Simulation& simulation) {
   joints_.resize(reports.size());
   for (std::size_t i = 0; i < reports.size(); ++i) {
     JointCourse& course = joints_[i];
-    // Written so that NaN counts as large.
+    // This form of the condition counts NaN as large.
     if (!(reports[i].error <= course.error)) {
       course.error = reports[i].error;
       course.error_time = time;
@@ -59,10 +59,10 @@ void RunMonitor::observe_joints(const Simulation& simulation) {
       course.angle_error = reports[i].angle_error;
       course.angle_error_time = time;
     }
-    // Before the first step nothing has been driven.
+    // Drives act in steps only.
     if (observed_ == 0) continue;
     for (const JointCoordinateReport& coordinate : reports[i].coordinates) {
-      // Of a brake, which asks for nothing but rest, any rounding would be much.
+      // A brake demands 0, so rounding must not count as a relative error.
       const double rounding = 1e-12 * (coordinate.angle ? 1.0 : simulation.world.bodies().scale());
       const double error = std::abs(coordinate.drive_error);
       if (!(error <= rounding)) course.drive_error += error;
@@ -84,7 +84,7 @@ void RunMonitor::observe_cables(const Simulation& simulation) {
   for (std::size_t i = 0; i < gauges_.size(); ++i) {
     const CableGauge& gauge = gauges_[i];
     CableCourse& course = cables_[i];
-    // Written so that NaN counts as large.
+    // This form of the condition counts NaN as large.
     if (!(std::abs(gauge.length_error) <= std::abs(course.length_error))) {
       course.length_error = gauge.length_error;
     }

@@ -13,8 +13,8 @@
 namespace sheave::command {
 namespace {
 
-/// The state at the fraction `f` of the way from `a` to `b`, two states of one world. For pictures
-/// only: it is no solution of anything.
+/// The interpolation at the fraction `f` between `a` and `b`, two states of one world. For pictures
+/// only: the interpolated state satisfies no equations.
 State between(const State& a, const State& b, double f) {
   State state = a;
   const auto mix = [f](const auto& from, const auto& to) { return from + f * (to - from); };
@@ -37,15 +37,15 @@ State between(const State& a, const State& b, double f) {
   return state;
 }
 
-/// Shows the moments that a simulation passes.
+/// Shows the requested times as the simulation passes them.
 class Shutter {
  public:
   Shutter(const Scene& scene, std::span<const double> times,
           const std::function<bool(std::size_t, const Simulation&)>& show)
       : scene_(scene), times_(times), show_(show), tolerance_(1e-6 * scene.model.step.dt) {}
 
-  /// To be called at the start and after every step; false once all moments have been shown or no
-  /// more are wanted.
+  /// To be called at the start and after every step. False once all times have been shown or `show`
+  /// has ended the play.
   bool observe(const Simulation& simulation) {
     const State& now = simulation.world.state();
     for (; next_ < times_.size() && times_[next_] <= now.time + tolerance_; ++next_) {
@@ -53,7 +53,7 @@ class Shutter {
       if (!(exact ? show_(next_, simulation) : show_between(now))) return false;
     }
     if (next_ == times_.size()) return false;
-    // The next step need be remembered only if a moment lies within it.
+    // The state is needed later only if a requested time lies within the next step.
     const double step_end = now.time + scene_.model.step.dt - tolerance_;
     if (times_[next_] < step_end) {
       before_ = now;
@@ -65,7 +65,7 @@ class Shutter {
 
  private:
   bool show_between(const State& now) {
-    // A simulation of its own: the one that runs must not be disturbed.
+    // A separate simulation shows the interpolated state, so that the running one is not disturbed.
     if (!shown_) shown_.emplace(make_simulation(scene_));
     const double f = (times_[next_] - before_->time) / (now.time - before_->time);
     const Errors errors = shown_->world.restore(between(*before_, now, f));
@@ -78,8 +78,8 @@ class Shutter {
   const std::function<bool(std::size_t, const Simulation&)>& show_;
   double tolerance_;
   std::size_t next_ = 0;
-  std::optional<State> before_;      // at the start of the step, if a moment lies within it
-  std::optional<Simulation> shown_;  // made when first needed
+  std::optional<State> before_;      // at the start of the step, if a requested time lies within it
+  std::optional<Simulation> shown_;  // created at first use
 };
 
 }  // namespace
@@ -108,7 +108,7 @@ std::vector<CableReport> reports_to_show(const Scene& scene, const Simulation& s
            std::any_of(report.wraps.begin(), report.wraps.end(),
                        [](const WrapReport& wrap) { return wrap.span.tension > 0.0; });
   };
-  // A state that has been computed, by steps or by statics, has its tensions.
+  // A state computed by steps or by statics has tensions.
   const bool known =
       simulation.world.state().time > 0.0 || std::any_of(reports.begin(), reports.end(), pulls);
   if (reports.empty() || known) return reports;

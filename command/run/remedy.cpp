@@ -8,7 +8,7 @@ std::string remedy(const StepSettings& step, StepFault fault) {
   const bool sweeps = step.solver == SolverKind::gauss_seidel;
   const bool solver = fault != StepFault::long_step;
   std::vector<std::string> changes;
-  // Sweeps make errors that shorter substeps only spread over more of them.
+  // The residual of sweeps does not shrink with shorter substeps, which only distribute it.
   if (!(sweeps && fault == StepFault::unconverged)) changes.emplace_back("more substeps");
   if (sweeps && solver) {
     changes.emplace_back("more iterations");

@@ -8,7 +8,7 @@
 namespace sheave::command {
 namespace {
 
-/// A world of a million bodies with everything that features carry has a tenth of that.
+/// The state of a million bodies with all features takes a tenth of this.
 constexpr std::size_t most_state_bytes = std::size_t{256} << 20U;
 
 }  // namespace

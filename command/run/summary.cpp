@@ -32,8 +32,8 @@ std::string_view RunSummary::status() const {
 
 namespace {
 
-/// Joints that have not held. Rigid ones are as exact as the solver: open by more than a thousandth
-/// of the scene, or a hundredth of a radian, they have not.
+/// Warns of joints that did not hold. A rigid joint is as exact as the solver; an opening of more
+/// than a thousandth of the scene's size, or of 0.01 rad, is a failure.
 void append_joint_warnings(const Simulation& simulation, const RunStatistics& statistics,
                            const RunMonitor& monitor, std::vector<Warning>& warnings) {
   const double most_open = 1e-3 * simulation.world.bodies().scale();
@@ -76,13 +76,13 @@ void append_joint_warnings(const Simulation& simulation, const RunStatistics& st
   }
 }
 
-/// A rigid cable that is much longer than it can be at the end puts bodies in the wrong place.
-///
-/// One whose length changes by much of the way that things move does not hold them: the solver has
-/// not converged, and accelerations and tensions are wrong by about that share. A sag that stays
-/// what it was is none: there the forces are right. Sweeps that do not converge act like a spring,
-/// so that the excess may well come and go. Changes by less than 1e-7 of the cable are of no
-/// interest.
+/// Warns of rigid cables that did not keep their length.
+/// A cable that is much too long at the end has wrong positions of bodies.
+/// A cable whose length changes by a considerable part of the path of its bodies does not hold
+/// them: the solver has not converged, and accelerations and tensions are wrong by about that
+/// share. A constant excess is harmless, because the forces are right. Unconverged sweeps act like
+/// a spring, so the excess may increase and decrease. Changes below 1e-7 of the cable's length are
+/// ignored.
 void append_stretch_warnings(const Simulation& simulation, const RunStatistics& statistics,
                              const RunMonitor& monitor, std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.05;
@@ -95,8 +95,8 @@ void append_stretch_warnings(const Simulation& simulation, const RunStatistics& 
     const CableCourse& course = monitor.cables()[i];
     if (course.excess > length_limit * course.length) {
       std::string name(reports[i].name);
-      // No solver can help where nothing gives way: the warnings "impossible" and "dead_end" have
-      // what it is.
+      // If the constraints leave no motion, no solver can help: the warnings "impossible" and
+      // "dead_end" give the details.
       const std::string cause =
           statistics.impossible + statistics.dead_ends > 0
               ? "what moves as it is told has drawn it apart, or the solver did not converge"
@@ -112,8 +112,8 @@ void append_stretch_warnings(const Simulation& simulation, const RunStatistics& 
     };
     const double stretching = course.stretching[0] + course.stretching[1];
     const double way = course.way[0] + course.way[1];
-    // What gives way only at first matters if things go on moving: else it is a sag, and nothing
-    // else has moved.
+    // Stretching in the first half matters only if the motion goes on in the second half. Otherwise
+    // the cable only sagged into place, and no other motion was wrong.
     const bool moves_on = course.way[1] > stretching;
     if (!gives_way(course.stretching[1], course.way[1]) &&
         !(moves_on && gives_way(stretching, way))) {
@@ -129,10 +129,10 @@ void append_stretch_warnings(const Simulation& simulation, const RunStatistics& 
   }
 }
 
-/// xpbd damps vibrations by half of w^2 h, with the frequency w; rattle does not.
+/// xpbd damps a vibration of angular frequency w at the rate w^2 h / 2; rattle does not damp.
 void append_damping_warning(const StepSettings& step, const RunStatistics& statistics,
                             const RunMonitor& monitor, std::vector<Warning>& warnings) {
-  constexpr double share_limit = 0.1;  // of energy: 5 % of speeds
+  constexpr double share_limit = 0.1;  // of the energy, i.e. 5 % of the speeds
   const double energy = monitor.most_vivid_energy();
   if (!(statistics.numerical_damping > share_limit * energy)) return;
   std::string message = fmt::format(
@@ -142,7 +142,7 @@ void append_damping_warning(const StepSettings& step, const RunStatistics& stati
   warnings.push_back({"damped_vibration", "", std::move(message)});
 }
 
-/// xpbd takes energy from every motion that is not straight and uniform
+/// xpbd removes energy from every motion that is not straight and uniform
 /// (cable/certificate/integrator_loss.h).
 void append_loss_warning(const StepSettings& step, const RunMonitor& monitor,
                          std::vector<Warning>& warnings) {
@@ -154,7 +154,7 @@ void append_loss_warning(const StepSettings& step, const RunMonitor& monitor,
   const double loss = monitor.integrator_loss();
   const double flow = monitor.energy_flow();
   const double least = rounding * std::abs(monitor.initial_energy().potential);
-  // Of energies beyond the range of numbers there are no shares.
+  // If an energy overflows, the share is NaN, and the condition is false.
   if (said || !(loss > share_limit * flow + least)) return;
   std::string message = fmt::format(
       "xpbd took about {:.3g} J from the motion, {:.2g} % of what there was at most and what came "
@@ -163,10 +163,10 @@ void append_loss_warning(const StepSettings& step, const RunMonitor& monitor,
   warnings.push_back({"integrator_loss", "", std::move(message)});
 }
 
-/// Where nothing puts energy into a scene, there is never more than at first. Steps too long for
-/// what swings or spins in them do make energy: a light weight on a taut cable, pulled round a
-/// wheel; the gyroscopic motion of long bodies. So do springs that are stretched without a force,
-/// because sweeps have not got to it.
+/// Without a source the energy never exceeds its initial value. Two errors create energy: a step
+/// that is too long for a swinging or spinning body (a light weight on a taut cable, pulled round a
+/// wheel; the gyroscopic motion of long bodies), and unconverged sweeps that leave springs
+/// stretched without a force.
 void append_energy_warning(const Scene& scene, const Simulation& simulation,
                            const RunMonitor& monitor, std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.1;
@@ -174,8 +174,8 @@ void append_energy_warning(const Scene& scene, const Simulation& simulation,
   if (!measure::is_conservative(scene)) return;
   const double size = monitor.most_vivid_energy();
   const double gain = monitor.max_energy_gain();
-  // Of the heights that weights could have in the scene, and not of those that they have: these may
-  // be 0.
+  // Rounding is relative to the potential energy at heights of the scene's size: the energy at the
+  // present heights may be 0.
   const BodySet& bodies = simulation.world.bodies();
   double potential = std::abs(monitor.initial_energy().potential);
   for (int i = 0; i < bodies.count(); ++i) {
@@ -191,8 +191,8 @@ void append_energy_warning(const Scene& scene, const Simulation& simulation,
   warnings.push_back({"energy_gain", "", std::move(message)});
 }
 
-/// The last digit of a position [m] in the direction in which the body is accelerated most, over
-/// what that acceleration moves it by in a substep; 0 without acceleration.
+/// The spacing of doubles at a position [m] along the axis of the largest acceleration, divided by
+/// a h^2, the displacement by that acceleration in a substep; 0 without acceleration.
 double rounding_of_motion(const World& world, int body) {
   const BodySet& bodies = world.bodies();
   const BodyProperties& properties = bodies[body];
@@ -210,8 +210,9 @@ double rounding_of_motion(const World& world, int body) {
   return digit / (most * h * h);
 }
 
-/// Velocities are differences of positions, which loads change by a h^2 per substep. Where the last
-/// digit of a position is no small share of that, half of it is what accelerations are wrong by.
+/// Velocities are differences of positions, which loads change by a h^2 per substep. A position is
+/// rounded by up to half the spacing of doubles, so accelerations have a relative error of half the
+/// ratio of that spacing to a h^2.
 void append_rounding_warning(const World& world, std::vector<Warning>& warnings) {
   constexpr double share_limit = 0.1;
   for (int i = 0; i < world.bodies().count(); ++i) {
@@ -223,7 +224,7 @@ void append_rounding_warning(const World& world, std::vector<Warning>& warnings)
         "rounding of its position, {:.2g} of it, so that its velocity is wrong by about that share",
         name, share);
     warnings.push_back({"rounding", name, std::move(message)});
-    return;  // others will be alike
+    return;  // the other bodies probably have the same problem
   }
 }
 
@@ -244,7 +245,7 @@ void append_control_warning(const Simulation& simulation, std::vector<Warning>& 
                    refusals)});
 }
 
-/// What of a run's steps together a single step tells, too.
+/// The part of a run's statistics that single steps have, too.
 StepStatistics step_statistics(const RunStatistics& run) {
   StepStatistics statistics;
   statistics.solver_fallbacks = run.solver_fallbacks;
@@ -292,7 +293,8 @@ std::vector<Warning> scene_warnings(const Scene& scene) {
   const auto& windings = simulation->cables->winding_warnings();
   std::vector<Warning> of_cables = scene_warnings(*simulation->cables);
   for (std::size_t i = 0; i < of_cables.size(); ++i) {
-    // One for each, in this order. Whoever corrects the scene wants to know where.
+    // There is one warning per winding, in the same order. The warning gets the position in the
+    // scene.
     const auto cable =
         std::find_if(scene.cables.begin(), scene.cables.end(),
                      [&](const CableDef& own) { return own.name == windings[i].cable; });

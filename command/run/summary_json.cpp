@@ -10,7 +10,7 @@
 namespace sheave::command {
 namespace {
 
-// Keeps the keys in the order in which people expect them. NaN and infinity become null.
+// Keeps the keys in order. NaN and infinity become null.
 using RunJson = nlohmann::ordered_json;
 
 RunJson run_json(const Vector3& v) { return RunJson::array({v.x(), v.y(), v.z()}); }
@@ -74,7 +74,7 @@ RunJson run_json(const LinkReport& link) {
 
 RunJson cables(const RunSummary& summary) {
   RunJson list = RunJson::array();
-  // Before the first step nobody knows the tensions.
+  // Tensions are unknown before the first step.
   const bool known = summary.simulation.world.state().steps > 0;
   const std::vector<CableReport> reports = summary.simulation.cable_reports();
   for (std::size_t i = 0; i < reports.size(); ++i) {
@@ -106,7 +106,7 @@ RunJson cables(const RunSummary& summary) {
 
 RunJson joints(const RunSummary& summary) {
   RunJson list = RunJson::array();
-  // Before the first step nobody knows the forces.
+  // Forces are unknown before the first step.
   const bool known = summary.simulation.world.state().steps > 0;
   for (const JointReport& joint : summary.joints) {
     RunJson coordinates = RunJson::array();
@@ -214,7 +214,7 @@ RunJson checks(const std::vector<CheckResult>& results) {
 }
 
 RunJson divergence(const Divergence& divergence, const World& world) {
-  // Bodies may all be well where a feature is not.
+  // The divergence may be of a feature while all bodies are finite.
   const bool of_body = !divergence.body.is_world();
   return {{"body", of_body ? RunJson(world.bodies().name(divergence.body.index)) : RunJson()},
           {"feature", of_body ? RunJson() : RunJson(divergence.feature)},
@@ -328,7 +328,7 @@ std::string to_json(const RunSummary& summary) {
     object["error_estimate"] = error_estimate(*summary.error_estimate, world);
   }
   if (outcome.divergence) object["divergence"] = divergence(*outcome.divergence, world);
-  // As text: JSON numbers of this size lose digits in most programs.
+  // As text, because most programs read JSON numbers as doubles and would lose digits.
   object["state_hash"] = fmt::format("{:016x}", hash(world.state()));
   // File names need not be UTF-8.
   return object.dump(-1, ' ', false, RunJson::error_handler_t::replace) + "\n";

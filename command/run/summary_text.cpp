@@ -12,7 +12,7 @@
 namespace sheave::command {
 namespace {
 
-// Longer lists are for programs.
+// Longer lists are left to the JSON output.
 constexpr std::size_t max_rows = 24;
 constexpr std::size_t max_events = 10;
 
@@ -21,11 +21,11 @@ std::string omitted(std::size_t count, const char* what, std::size_t shown = max
   return fmt::format("  ... and {} more {}; --json tells all\n", count - shown, what);
 }
 
-/// How the direct solver fared; nothing of the other solver, whose work is known beforehand.
+/// The work of the direct solver; empty for gauss-seidel, whose work is fixed by the settings.
 std::string direct_solver(const RunSummary& summary) {
   const RunOutcome& outcome = summary.outcome;
   const StepSettings& step = summary.scene.model.step;
-  // Of a step that diverged nobody knows how many substeps it had.
+  // The number of substeps in a diverged step is unknown.
   if (step.solver != SolverKind::direct || outcome.steps == 0 || outcome.divergence) return "";
   const RunStatistics& statistics = outcome.statistics;
   const double substeps = static_cast<double>(outcome.steps) * step.substeps;
@@ -93,7 +93,7 @@ std::string cable_lines(const RunSummary& summary) {
     std::size_t wrap = 0;
     for (std::size_t k = 0; k < report.spans.size(); ++k) {
       add(fmt::format("{}.{}", report.name, k), report.spans[k]);
-      // Spans that begin at a wrap.
+      // The spans that begin at a wrap.
       for (; wrap < report.wraps.size() && report.wraps[wrap].after == static_cast<int>(k);
            ++wrap) {
         const WrapReport& on = report.wraps[wrap];
@@ -165,7 +165,7 @@ std::string invariants(const RunSummary& summary) {
   TextTable lengths({"cable", "length [m]", "relative error", "largest stretch"}, 1);
   for (std::size_t i = 0; i < std::min(reports.size(), max_rows); ++i) {
     const auto& cable = monitor.cables()[i];
-    // One of both: of a rigid cable it is an error, of an elastic one its strain.
+    // The column for a rigid cable is its error, for an elastic one its strain.
     lengths.add({std::string(reports[i].name), short_number(reports[i].total_length),
                  short_number(cable.length_error),
                  short_number(std::max(cable.max_stretch, cable.max_strain))});

@@ -15,7 +15,7 @@
 namespace sheave::command {
 namespace {
 
-/// The options of one kind as the user wrote them.
+/// The options of one kind as given by the user.
 struct KindOptions {
   std::string_view kind;
   std::vector<std::string> values;  // one per field of the kind; empty: not given

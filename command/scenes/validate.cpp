@@ -20,12 +20,12 @@ namespace {
 
 struct ValidateOptions {
   std::vector<std::string> paths;
-  SceneOptions jsonnet;  ///< parameters and imports of those in Jsonnet
+  SceneOptions jsonnet;  ///< parameters and imports of the scenes in Jsonnet
   bool json = false;
   bool made = false;
 };
 
-// Keeps the keys in the order in which people expect them.
+// Keeps the keys in order.
 using ValidateJson = nlohmann::ordered_json;
 
 ValidateJson text_or_null(const std::string& text) {
@@ -48,7 +48,8 @@ ValidateJson faults_json(const std::vector<SceneError>& errors) {
   return list;
 }
 
-/// Of a warning's setting, where it is in the file; standard input is gone.
+/// The document in which a warning's setting is located; nullopt for standard input, which cannot
+/// be read twice.
 std::optional<json::Document> document_of(const std::string& path) {
   if (path == "-") return {};
   json::Faults faults;
@@ -89,7 +90,7 @@ ValidateJson warnings_json(const std::string& path, const std::vector<Warning>& 
   return list;
 }
 
-/// One scene, for programs.
+/// The result for one scene as JSON.
 ValidateJson scene_json(const std::string& path, const SceneResult& result) {
   return {{"path", path},
           {"valid", static_cast<bool>(result)},
@@ -113,7 +114,7 @@ ExitCode validate_json(const ValidateOptions& options) {
   return code;
 }
 
-/// Prints the JSON that the programs make, whether it is a valid scene or not.
+/// Prints the scenes that Jsonnet programs generate, whether or not they are valid.
 ExitCode print_made(const ValidateOptions& options) {
   ExitCode code = ExitCode::done;
   for (const std::string& path : options.paths) {
@@ -145,7 +146,7 @@ ExitCode validate(const ValidateOptions& options) {
       continue;
     }
     print_error(to_text(result));
-    // Of several faults, what is wrong with a scene is what was asked for.
+    // A fault of a scene takes precedence over a file that could not be read.
     if (code != ExitCode::bad_scene) code = exit_code(result);
   }
   return code;

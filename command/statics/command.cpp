@@ -1,4 +1,4 @@
-// sheave statics: where a scene rests.
+// sheave statics: the equilibrium of a scene.
 
 #include <memory>
 
@@ -23,7 +23,7 @@ struct StaticsOptions {
   bool json = false;
 };
 
-/// "NAME:/pointer=value;/pointer=value", as the scene with these settings, too.
+/// Parses "NAME:/pointer=value;/pointer=value": the scene with these additional settings.
 StaticsCase make_case(const StaticsOptions& options, const std::string& text) {
   const std::size_t colon = text.find(':');
   if (colon == 0 || colon == std::string::npos || colon + 1 == text.size()) {

@@ -15,13 +15,14 @@ namespace {
 
 using measure::StressKind;
 
-/// Errors shown by colour, as powers of ten; all that is outside is shown as the nearest.
+/// The range of errors shown by colour, as powers of ten. Errors outside get the nearest colour.
 constexpr double least_power = -12.0;
 constexpr double most_power = 2.0;
-constexpr double dark_power = -0.5;  ///< above it the colours are so dark that text is white
+/// Above this power the colours are so dark that the text is white.
+constexpr double dark_power = -0.5;
 
-/// What stands in a cell, so that nobody needs to tell colours apart: the power of ten of its
-/// error, or the letter of what it failed by.
+/// The mark in a cell, which makes the map readable without colours: the power of ten of the error,
+/// or the letter of the kind of failure.
 std::string mark_of(const StressOutcome& outcome) {
   constexpr std::array<const char*, 7> letters{"", "W", "r", "D", "E", "S", "L"};
   const StressKind kind = outcome.verdict.kind;
@@ -56,11 +57,11 @@ GnuplotCode tics(const std::vector<double>& values, GnuplotScript& script) {
   return list;
 }
 
-/// The cells: where each is, the power of ten of its error, and its mark.
+/// The data of the cells: positions, powers of ten of the errors, and marks.
 struct StressRows {
   ChartRows errors;
-  ChartRows on_dark;   ///< marks that are white, for the colour is dark
-  ChartRows on_light;  ///< black ones
+  ChartRows on_dark;   ///< white marks, for dark cells
+  ChartRows on_light;  ///< black marks, for light cells
 };
 
 StressRows stress_rows(const StressResult& result, GnuplotScript& script) {
@@ -72,7 +73,7 @@ StressRows stress_rows(const StressResult& result, GnuplotScript& script) {
     const double power = std::isfinite(error) ? std::clamp(std::log10(std::max(error, 1e-300)),
                                                            least_power, most_power)
                                               : most_power;
-    // What was refused has no colour.
+    // A refused cell has no colour.
     const bool refused = outcome.verdict.kind == StressKind::refused;
     const auto x = static_cast<double>(i % columns);
     const auto y = static_cast<double>(i / columns);
@@ -80,14 +81,14 @@ StressRows stress_rows(const StressResult& result, GnuplotScript& script) {
     const bool dark = !refused && power > dark_power;
     (dark ? rows.on_dark : rows.on_light).add({x, y, script.shown_number(mark_of(outcome))});
   }
-  // Off the map, because gnuplot refuses to plot nothing.
+  // A point outside the map: gnuplot refuses to plot an empty block.
   for (ChartRows* marks : {&rows.on_dark, &rows.on_light}) {
     marks->add({-9.0, -9.0, script.shown_number(".")});
   }
   return rows;
 }
 
-/// What colours mean.
+/// The colour scale.
 void set_palette(GnuplotScript& script) {
   GnuplotCode powers;
   for (int i = static_cast<int>(least_power); i <= static_cast<int>(most_power); i += 2) {
@@ -96,8 +97,8 @@ void set_palette(GnuplotScript& script) {
   }
   script.add({"set cbrange [", least_power, ":", most_power, "]\nset cbtics (", powers,
               ")\nset cblabel 'relative error'\n"});
-  // From white to blue up to a tenth, from orange to brown above: told apart by all kinds of colour
-  // vision, and in grey.
+  // White to blue up to an error of 0.1, orange to brown above. People with any kind of colour
+  // vision, and grey prints, can distinguish the two ranges.
   script.add(
       {"set palette defined (-12 '#ffffff', -6 '#deebf7', -3 '#c6dbef', -1.01 '#9ecae1', "
        "-1 '#fdae6b', 0 '#e6550d', 2 '#7f2704')\n"});

@@ -1,4 +1,4 @@
-// sheave stress: where the numbers of a machine go too far, as maps.
+// sheave stress: maps of the range of numbers in which a machine is computed well.
 
 #include <array>
 #include <filesystem>
@@ -29,7 +29,7 @@ struct StressArguments {
   bool only_failed = false;
 };
 
-/// The enumeration's values whose names fit; "" fits all. A Failure (2) if none does.
+/// The values of an enumeration whose names match; "" matches all. A Failure (2) if none matches.
 template <class Kind, std::size_t n>
 std::vector<Kind> chosen(const char* option, const std::string& name,
                          const std::array<std::string_view, n>& names) {
@@ -47,7 +47,7 @@ bool is_drawn(const StressArguments& arguments, const StressResult& result) {
   return !arguments.chart.empty() && (!arguments.only_failed || result.failed() > 0);
 }
 
-/// The path of a result's picture from the page.
+/// The path of a result's picture relative to the page.
 std::string picture_of(const StressArguments& arguments, const StressResult& result) {
   if (!is_drawn(arguments, result)) return "";
   const auto page = std::filesystem::absolute(arguments.markdown).parent_path();
@@ -56,7 +56,7 @@ std::string picture_of(const StressArguments& arguments, const StressResult& res
   return picture.lexically_relative(page).generic_string();
 }
 
-/// Each map as .png and .svg in the folder, which is made if need be.
+/// Draws each map as .png and .svg in the folder, which is created if necessary.
 void draw_maps(const std::vector<StressResult>& results, const StressArguments& arguments) {
   const std::string& folder = arguments.chart;
   std::error_code error;
@@ -72,7 +72,7 @@ void draw_maps(const std::vector<StressResult>& results, const StressArguments& 
   }
 }
 
-/// Prints the text of a scene that is part of the program.
+/// Prints the text of a built-in scene.
 ExitCode print_scene(const std::string& name) {
   if (const auto text = measure::stress_scene(name)) {
     print(std::string(*text));

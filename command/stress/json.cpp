@@ -19,7 +19,7 @@ StressJson cell_json(const StressResult& result, std::size_t i) {
   return {{"x", cell.x},
           {"y", cell.y},
           {"outcome", measure::stress_kind_names[static_cast<std::size_t>(outcome.verdict.kind)]},
-          // JSON has no infinity.
+          // JSON cannot express infinity.
           {"error",
            std::isfinite(outcome.verdict.error) ? StressJson(outcome.verdict.error) : StressJson()},
           {"detail", outcome.verdict.detail},
@@ -47,7 +47,7 @@ std::string stress_json(const std::vector<StressResult>& results) {
   }
   const StressJson object{
       {"format", "sheave-stress/1"}, {"version", version_string}, {"maps", std::move(maps)}};
-  // Texts come from scenes' names; what is no UTF-8 must not end the program.
+  // Names of scenes may contain invalid UTF-8, which must not end the program.
   return object.dump(-1, ' ', false, StressJson::error_handler_t::replace) + "\n";
 }
 

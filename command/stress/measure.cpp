@@ -21,7 +21,7 @@ namespace {
 using measure::StressKind;
 using measure::StressVerdict;
 
-/// Takes the error from the run that this one must be similar to.
+/// Computes the error against the run to which this run must be similar.
 void compare(const measure::StressCell& cell, const StressSettings& settings, const Scene& scene,
              StressVerdict& verdict) {
   const SceneResult original = cell.original(settings.solver, settings.integrator);
@@ -36,7 +36,7 @@ void compare(const measure::StressCell& cell, const StressSettings& settings, co
   }
 }
 
-/// What `sheave run` does with the cell's scene, and what it says.
+/// Runs the cell's scene as `sheave run` does, and collects its messages.
 StressOutcome run_cell(const measure::StressCell& cell, const StressSettings& settings) {
   const SceneResult scene = cell.scene(settings.solver, settings.integrator);
   if (!scene) {
@@ -69,7 +69,7 @@ StressOutcome run_cell(const measure::StressCell& cell, const StressSettings& se
   return outcome;
 }
 
-/// How bad an outcome is, for sorting: silent ones first, then by error.
+/// Sort key of outcomes: silent failures first, then by error.
 double badness(const StressOutcome& outcome) {
   const double error = outcome.verdict.error;
   const double size = std::isfinite(error) ? std::log10(std::clamp(error, 1e-20, 1e20)) : 21.0;

@@ -15,11 +15,11 @@ namespace {
 
 using measure::StressKind;
 
-constexpr std::size_t commands_shown = 1;  // of each map and setting
+constexpr std::size_t commands_shown = 1;  // per map and setting
 
 std::string count_text(int count) { return count == 0 ? "-" : fmt::format("{}", count); }
 
-/// "1e-5", "wrong 3e+01", "diverged", with "!" behind what nobody is warned of.
+/// "1e-5", "wrong 3e+01", "diverged"; "!" is appended to a silent failure.
 std::string cell_text(const StressOutcome& outcome) {
   const measure::StressVerdict& verdict = outcome.verdict;
   std::string text;
@@ -52,7 +52,7 @@ std::vector<std::string> summary_cells(const StressResult& result) {
           count_text(result.silent())};
 }
 
-/// What failed worst, and how to run it again.
+/// The worst failures with commands that reproduce them.
 std::string worst_text(const StressResult& result, std::string_view bullet) {
   std::string text;
   for (const std::size_t i : result.worst(commands_shown)) {
@@ -90,7 +90,7 @@ std::string map_table(const StressResult& result) {
   return text;
 }
 
-/// What the maps say, in words, and what they do not.
+/// The conclusions from the maps, and their limits.
 std::string conclusion_text(const std::vector<StressResult>& results) {
   std::size_t cells = 0;
   int failed = 0;

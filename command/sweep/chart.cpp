@@ -1,4 +1,4 @@
-// sheave sweep: its outcome as a picture, drawn by gnuplot.
+// sheave sweep: the results as a picture, drawn by gnuplot.
 
 #include <algorithm>
 #include <cmath>
@@ -14,29 +14,29 @@ namespace sheave::command {
 namespace {
 
 constexpr int panel_height = 420;
-constexpr int most_height = 32'000;  // of a picture that Cairo draws
-/// A heat map with more cells than this is a cloud of points.
+constexpr int most_height = 32'000;  // limit of Cairo [pixels]
+/// Results with more cells than this are drawn as a scatter plot instead of a heat map.
 constexpr std::size_t most_cells = 10'000;
-/// Numbers stand in the cells of a map of at most so many columns.
+/// Numbers are written into the cells of a map with at most this many columns.
 constexpr std::size_t most_written = 12;
-/// Names at an axis of words, and of a map.
+/// Largest number of names at an axis of words, and at an axis of a map.
 constexpr std::size_t most_words = 100;
 constexpr std::size_t most_map_names = 16;
 
-/// One varied thing as an axis of a chart: numbers where they are, words side by side.
+/// One varied quantity as an axis: numbers at their values, words at equal distances.
 struct ChartAxis {
   std::string name;
   bool numeric = true;
   bool logarithmic = false;
-  std::vector<std::string> values;  ///< the different ones, in order
+  std::vector<std::string> values;  ///< the distinct values, in order
   std::vector<double> places;       ///< of each row
 
-  /// Of a value among `values`, from 0.
+  /// Index of a value in `values`.
   [[nodiscard]] std::size_t index_of(const std::string& value) const {
     return static_cast<std::size_t>(std::find(values.begin(), values.end(), value) -
                                     values.begin());
   }
-  /// Not more names than `most`, evenly.
+  /// At most `most` names, evenly distributed.
   [[nodiscard]] GnuplotCode tics(std::size_t most, GnuplotScript& script) const {
     GnuplotCode list;
     for (std::size_t i = 0; i < values.size(); i += 1 + values.size() / most) {
@@ -80,7 +80,8 @@ ChartAxis chart_axis(const SweepTable& table, std::size_t a) {
     const double low = std::strtod(axis.values.front().c_str(), nullptr);
     const double high = std::strtod(axis.values.back().c_str(), nullptr);
     const double middle = std::strtod(axis.values[axis.values.size() / 2].c_str(), nullptr);
-    // Values that are even in the logarithm, over more than a decade and a half.
+    // Uses a logarithmic axis if the values are evenly spaced in the logarithm over more than 1.5
+    // decades.
     axis.logarithmic = low > 0.0 && high > 30.0 * low && middle < 0.25 * (low + high);
   }
   return axis;
@@ -90,7 +91,7 @@ std::string measure_label(const SweepMeasure& measure) {
   return measure.unit.empty() ? measure.name : measure.name + " [" + measure.unit + "]";
 }
 
-/// Where an axis of things side by side ends; of none there is still an axis.
+/// The end of an axis of words or cells. An axis without values has a positive length, too.
 double end_of(const ChartAxis& axis) {
   return static_cast<double>(std::max<std::size_t>(axis.values.size(), 1)) - 0.5;
 }
@@ -126,7 +127,7 @@ class SweepChart {
   [[nodiscard]] bool is_map() const {
     if (axes_.size() != 2) return false;
     const std::size_t cells = axes_[0].values.size() * axes_[1].values.size();
-    // Drawn values are all different: a map of them would be empty.
+    // Randomly drawn values are all distinct, so a map of them would be nearly empty.
     return cells <= most_cells && cells <= 2 * table_.rows.size();
   }
 
@@ -138,7 +139,7 @@ class SweepChart {
     return text;
   }
 
-  /// The least value of a measure; 0 without any.
+  /// The smallest value of a measure; 0 without values.
   [[nodiscard]] double least_of(std::size_t m) const {
     double least = std::numeric_limits<double>::infinity();
     for (const SweepRow& row : table_.rows) {
@@ -147,7 +148,7 @@ class SweepChart {
     return std::isfinite(least) ? least : 0.0;
   }
 
-  /// The measure over one axis: a line if that is all that is varied.
+  /// The measure against one axis; connected by a line if no other axis is varied.
   void draw_cloud(std::size_t m, const ChartAxis& axis) {
     std::vector<std::size_t> order(table_.rows.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -155,7 +156,7 @@ class SweepChart {
                      [&](std::size_t x, std::size_t y) { return axis.places[x] < axis.places[y]; });
     ChartRows data;
     ChartRows failed;
-    const double bottom = least_of(m);  // what has no height stands there
+    const double bottom = least_of(m);  // place of points without a value
     for (const std::size_t i : order) {
       const double value = table_.rows[i].measured[m];
       if (std::isfinite(value)) {
@@ -192,13 +193,13 @@ class SweepChart {
     script_.add({"plot ", plots, "\n"});
   }
 
-  /// Two axes side by side with the measure as colour.
+  /// A map of two axes with the measure as colour.
   void draw_map(std::size_t m) {
     const ChartAxis& x = axes_[0];
     const ChartAxis& y = axes_[1];
     ChartRows cells;
     ChartRows failed;
-    failed.add({-9.0, -9.0});  // never empty: gnuplot plots no nothing
+    failed.add({-9.0, -9.0});  // never empty: gnuplot refuses to plot an empty block
     double low = least_of(m);
     double high = low;
     for (const SweepRow& row : table_.rows) {
@@ -218,11 +219,11 @@ class SweepChart {
     script_.add({"set xrange [-0.5:", end_of(x), "]\nset yrange [-0.5:", end_of(y), "]\n"});
     script_.add({"set xlabel ", script_.shown(x.name), "\nset ylabel ", script_.shown(y.name),
                  "\nset cblabel ", script_.shown(measure_label(table_.head.measures[m])), "\n"});
-    // A range that is none, to the digits that gnuplot is told, has no colours.
+    // A range that vanishes in the digits written for gnuplot gives no colour scale.
     const double size = std::max(std::abs(low), std::abs(high));
     const double room = high - low > 1e-9 * size ? 0.0 : (size > 0.0 ? 0.1 * size : 1.0);
     script_.add({"set cbrange [", low - room, ":", high + room, "]\n"});
-    // Cividis (Nuñez, Anderton, Renslow 2018): the same to the eyes of the colour-blind.
+    // Cividis (Nuñez, Anderton, Renslow 2018): looks the same with and without colour blindness.
     script_.add(
         {"set palette defined (0 '#00224e', 1 '#123570', 2 '#3b496c', 3 '#575d6d', 4 '#707173', "
          "5 '#8a8678', 6 '#a59c74', 7 '#c3b369', 8 '#e1cc55', 9 '#fee838')\n"

@@ -1,4 +1,4 @@
-// sheave sweep and sheave merge: many runs of one scene, and what came of them.
+// sheave sweep and sheave merge: many runs of one scene and their results.
 
 #include <algorithm>
 #include <memory>
@@ -21,7 +21,7 @@
 namespace sheave::command {
 namespace {
 
-/// Where a table goes.
+/// The destination of a table.
 struct SweepOutputs {
   std::string csv, chart;
   bool json = false;
@@ -92,7 +92,7 @@ ExitCode run_and_tell(const SweepArguments& arguments) {
   return write_outputs(arguments.outputs, run_sweep(std::move(options)));
 }
 
-/// All rows of all shards; a Failure (65) if they are not of one sweep, or not all there.
+/// The rows of all shards. A Failure (65) if the shards are of different sweeps or incomplete.
 SweepTable merged(const std::vector<std::string>& paths) {
   SweepTable all = read_sweep_journal(paths.front());
   all.head.shard = {};

@@ -1,4 +1,4 @@
-// sheave sweep: what is measured of every run.
+// sheave sweep: the measures of a run.
 
 #include <charconv>
 #include <cmath>

@@ -15,7 +15,7 @@
 namespace sheave::command {
 namespace {
 
-/// Bits of the generator itself, not of a distribution: those differ from library to library.
+/// Uses the generator's bits directly, because the distributions of standard libraries differ.
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : generator_(seed) {}
@@ -41,7 +41,7 @@ class Draw {
 std::vector<std::string> pieces(const std::string& text, char separator) {
   std::vector<std::string> list;
   std::size_t begin = 0;
-  // A comma within brackets, braces or quotes belongs to a JSON value.
+  // A comma within brackets, braces or quotes is part of a JSON value.
   int depth = 0;
   bool quoted = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -70,7 +70,7 @@ std::optional<double> finite_number_of(std::string_view text) {
   return value;
 }
 
-/// The value at `share` of the way from low to high.
+/// The value at the fraction `share` between low and high.
 double value_between(const SweepAxis& axis, double share) {
   if (share <= 0.0) return axis.low;
   if (share >= 1.0) return axis.high;
@@ -78,7 +78,7 @@ double value_between(const SweepAxis& axis, double share) {
   return axis.low + share * (axis.high - axis.low);
 }
 
-/// Fills in low, high, logarithmic, and the values if their number is told.
+/// Fills in low, high and logarithmic, and the values if their number is given.
 void read_range(const std::string& text, std::vector<std::string> parts, SweepAxis& axis) {
   if (parts.back() == "log") {
     axis.logarithmic = true;
@@ -112,7 +112,7 @@ void read_range(const std::string& text, std::vector<std::string> parts, SweepAx
   }
 }
 
-/// The value of an axis for a share in [0, 1) of its range or list.
+/// The value of an axis that belongs to a share in [0, 1) of its range or list.
 std::string drawn_value(const SweepAxis& axis, double share) {
   if (axis.values.empty()) return number_text(value_between(axis, share));
   const auto count = static_cast<double>(axis.values.size());
@@ -137,7 +137,7 @@ Points grid_points(const SweepPlan& plan, std::size_t count) {
   return points;
 }
 
-/// Axis by axis, so that a further axis does not change those before it.
+/// Draws axis by axis, so that an additional axis does not change the values of earlier ones.
 Points drawn_points(const SweepPlan& plan, std::size_t count) {
   Points points(count);
   Draw draw(plan.seed);
@@ -180,7 +180,7 @@ SweepAxis parse_axis(const std::string& text) {
   for (const std::string& value : list) {
     if (value.empty()) bad_axis(text, "a value is empty");
     const std::optional<double> number = finite_number_of(value);
-    // ".5" and "+5" are numbers on a command line, but not in JSON.
+    // JSON does not allow ".5" and "+5", so the number is written anew.
     axis.values.push_back(number ? number_text(*number) : value);
   }
   return axis;

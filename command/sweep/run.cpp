@@ -44,12 +44,12 @@ SceneOptions with_values(const SweepOptions& options, const std::vector<std::str
   return own;
 }
 
-/// Runs one row; what is wrong with it stands in it.
+/// Runs one row; a fault is stored in the row.
 class RowRun {
  public:
   RowRun(const SweepOptions& options, std::atomic<double>& done) : options_(options), done_(done) {}
 
-  /// False if a signal has ended it.
+  /// False if a signal ended the run.
   bool run(SweepRow& row) {
     row.measured.assign(options_.measures.size(), no_number);
     row.doubt = no_number;
@@ -65,7 +65,7 @@ class RowRun {
     try {
       scene = load(with_values(options_, row.values));
     } catch (const Failure& failure) {
-      // A file that cannot be read is no fault of these values.
+      // An unreadable file is not a fault of these values, so the sweep ends.
       if (failure.code() != ExitCode::bad_scene && failure.code() != ExitCode::usage) throw;
       row.status = SweepStatus::invalid;
       row.message = one_line(failure.what());
@@ -105,7 +105,7 @@ class RowRun {
     if (outcome.status == RunStatus::time_limit) {
       row.status = SweepStatus::time_limit;
       row.message = "took longer than --time-limit";
-      row.end = 0.0;  // how far it came depends on the machine
+      row.end = 0.0;  // the time reached within a time limit depends on the machine
       return;
     }
     if (outcome.status == RunStatus::diverged) {
@@ -146,7 +146,7 @@ std::string key_of(const SweepOptions& options, const std::vector<std::vector<st
   hash.add(sweep_journal_format);
   hash.add_program();
   hash.add(*options.scene.text);
-  // Settings that come on the command line, from this file's place on.
+  // Includes the settings of the command line, which the scene file does not contain.
   for (const std::string& text :
        {options.scene.dt, options.scene.substeps, options.scene.iterations, options.scene.solver,
         options.scene.integrator, options.scene.duration}) {
@@ -154,7 +154,7 @@ std::string key_of(const SweepOptions& options, const std::vector<std::vector<st
   }
   for (const std::string& setting : options.scene.settings) hash.add(setting);
   for (const std::string& parameter : options.scene.parameters) hash.add(parameter);
-  // What the scene imports shows in what it makes.
+  // The hash is of the resulting scenes, so that it covers imports.
   for (const std::string& scene : scenes) hash.add(scene);
   for (const SweepAxis& axis : options.plan.axes) hash.add(axis.name);
   for (const SweepMeasure& measure : options.measures) hash.add(measure.name);
@@ -172,8 +172,8 @@ std::string unit_of(const CheckDef& course) {
   return unit;
 }
 
-/// Fails early, before hours of runs, if what is measured is nowhere to be found: neither in the
-/// first nor in the last run. Fills in the units. The scenes of these two, written.
+/// Fails before hours of runs if a measure exists neither in the first nor in the last run. Fills
+/// in the units. Returns the texts of these two scenes.
 std::vector<std::string> find_measures(SweepOptions& options,
                                        const std::vector<std::vector<std::string>>& points) {
   std::vector<std::string> faults(options.measures.size());
@@ -245,7 +245,7 @@ SweepTable run_sweep(SweepOptions options) {
 
   std::atomic<double> done = 0.0;
   std::atomic<std::size_t> ended = table.rows.size();
-  std::mutex mutex;  // of the journal and the rows
+  std::mutex mutex;  // guards the journal and the rows
   {
     Progress progress("sweep", 0.0, static_cast<double>(runs.size()), options.quiet);
     run_parallel(

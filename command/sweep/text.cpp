@@ -1,4 +1,4 @@
-// sheave sweep: its outcome in words, as CSV and as JSON.
+// sheave sweep: the results as text, CSV and JSON.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// More rows than this are for files.
+/// Longer tables are left to files.
 constexpr std::size_t most_shown = 40;
 
 std::string with_unit(const SweepMeasure& measure) {
@@ -87,7 +87,7 @@ std::string rows_text(const SweepTable& table) {
   return text.text();
 }
 
-/// Messages of runs that are not done; of many, the first few.
+/// Messages of runs that are not done; if there are many, the first few.
 std::string faults_text(const SweepTable& table) {
   constexpr std::size_t most_told = 5;
   std::string text;
@@ -104,7 +104,7 @@ std::string faults_text(const SweepTable& table) {
   return text.empty() ? "" : "\n" + text;
 }
 
-/// As CSV has it (RFC 4180).
+/// A cell in CSV notation (RFC 4180).
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -116,7 +116,7 @@ std::string number_cell(double value) { return std::isfinite(value) ? number_tex
 
 Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
-/// A value of an axis as what it is in JSON; a bare word is a string.
+/// A value of an axis as its JSON value; a bare word becomes a string.
 Json axis_value(const std::string& text) {
   Json value = Json::parse(text, nullptr, false);
   return value.is_discarded() ? Json(text) : value;

@@ -11,7 +11,7 @@ namespace {
 constexpr std::string_view no_character = "\xEF\xBF\xBD";  // U+FFFD
 constexpr std::string_view ellipsis = "\xE2\x80\xA6";
 
-/// The number of a well-formed character.
+/// The code point of a well-formed character.
 std::uint32_t code_point(std::string_view character) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
   constexpr std::uint32_t low_six = 0x3f;
@@ -30,7 +30,7 @@ bool cannot_be_shown(std::uint32_t code) {
   const bool control = code < 0x20 || (code >= 0x7f && code < 0xa0);
   const bool turns = code == 0x061c || code == 0x200e || code == 0x200f ||
                      (code >= 0x202a && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069);
-  // XML has no U+FFFE and U+FFFF; the last two of every plane are no characters either.
+  // XML excludes U+FFFE and U+FFFF; the last two code points of every plane are no characters.
   return control || turns || (code & 0xfffeU) == 0xfffeU;
 }
 
@@ -39,7 +39,7 @@ bool cannot_be_shown(std::uint32_t code) {
 std::string one_line(std::string_view text, std::size_t most) {
   std::string line;
   std::size_t shown = 0;
-  std::size_t last = 0;  // where the last character begins
+  std::size_t last = 0;  // start of the last character
   while (!text.empty()) {
     if (shown == most) {
       line.replace(last, std::string::npos, ellipsis);

@@ -31,7 +31,7 @@ std::string TextTable::text() const {
 }
 
 std::string short_number(double value) {
-  // Minus zero is of no interest to people.
+  // Prints -0 as 0.
   return fmt::format("{:.6g}", value == 0.0 ? 0.0 : value);
 }
 

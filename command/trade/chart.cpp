@@ -12,18 +12,18 @@
 namespace sheave::command {
 namespace {
 
-/// How the rows of one solver and integrator look. Colours that the colour-blind tell apart (Okabe
-/// and Ito 2008), and different shapes for print without any.
+/// The style of one solver and integrator. Colour-blind readers can distinguish the colours (Okabe
+/// and Ito 2008); the shapes differ for print without colour.
 struct SeriesStyle {
   GnuplotPiece colour;
-  int filled;  ///< gnuplot's point type: tangents in every iteration
-  int hollow;  ///< tangents once per substep
+  int filled;  ///< gnuplot's point type for tangents in every iteration
+  int hollow;  ///< gnuplot's point type for tangents once per substep
 };
 constexpr std::array<std::array<SeriesStyle, 2>, 2> series_styles{
     {{{{"#D55E00", 7, 6}, {"#E69F00", 9, 8}}},
      {{{"#0072B2", 5, 4}, {"#009E73", 13, 12}}}}};  // [solver][integrator]
 
-/// The chart, piece by piece.
+/// Builds the chart in parts.
 class TradeChart {
  public:
   TradeChart(const TradeTable& table, ChartFormat format)
@@ -40,7 +40,7 @@ class TradeChart {
     for (const TradeRow& row : table_.rows) {
       if (!row.fault.empty()) times_.add(expected(row));
     }
-    // Without anything measured there are still axes.
+    // A chart without measured rows needs a range for its axes.
     if (errors_.empty()) errors_.add(1.0);
     if (times_.empty()) times_.add(1.0);
   }
@@ -67,12 +67,12 @@ class TradeChart {
   }
 
  private:
-  /// Errors end where the reference knows no more.
+  /// The drawn error of a row; the resolution of the reference is its lower bound.
   [[nodiscard]] double error_of(const TradeRow& row) const {
     const double tension = table_.tensions_known() ? row.error.tension : 0.0;
     return std::max({row.error.position, std::isnan(tension) ? 0.0 : tension, least_});
   }
-  /// Per simulated second, of a run that has no time.
+  /// Predicted time per simulated second, for a run that was not timed.
   [[nodiscard]] double expected(const TradeRow& row) const {
     return row.expected_seconds / std::max(table_.simulated_seconds, table_.dt);
   }
@@ -108,7 +108,7 @@ class TradeChart {
     }
   }
 
-  /// ", order 1.98", or nothing if there is no order.
+  /// ", order 1.98"; empty if the order is unknown.
   [[nodiscard]] std::string order_text(std::size_t solver, std::size_t integrator) const {
     for (const TradeFamily& family : table_.families) {
       const bool same = family.name.starts_with(solver_names[solver]) &&
@@ -128,7 +128,7 @@ class TradeChart {
           " using 1:2 with lines lw 2 lc rgb '#444444' title 'nothing is faster and better'"});
   }
 
-  /// At the upper edge, where they were expected to be in time.
+  /// Marks failed rows at the upper edge, at their predicted time.
   void add_failures() {
     ChartRows rows;
     for (const TradeRow& row : table_.rows) {
@@ -140,7 +140,7 @@ class TradeChart {
           " using 1:2 with points pt 2 ps 1.3 lw 2 lc rgb '#000000' title 'failed'"});
   }
 
-  /// Dashed lines at the errors that settings are named for, and at that of the reference.
+  /// Dashed lines at the error levels of the report and at the reference's error.
   void add_levels() {
     for (const double level : trade_levels) {
       if (level <= errors_.lower() || level >= errors_.upper()) continue;

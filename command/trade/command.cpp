@@ -1,5 +1,5 @@
-// sheave trade: what accuracy costs in the user's own scene, and the setting that answers a
-// question.
+// sheave trade: the cost of accuracy in the user's own scene, and the setting that meets a
+// requirement.
 
 #include <algorithm>
 #include <filesystem>
@@ -41,7 +41,7 @@ struct TradeArguments {
   bool apply = false;
 };
 
-/// Words of a closed list as values; all of them if there are no words.
+/// The values for words of a closed list; all values if no words are given.
 template <class Kind, std::size_t Count>
 std::vector<Kind> chosen(const std::vector<std::string>& words,
                          const std::array<std::string_view, Count>& names) {
@@ -63,7 +63,7 @@ void no_doubles(std::vector<int>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-/// Refuses what would only be found wrong after minutes of measuring.
+/// Checks the arguments before minutes of measuring.
 TradeQuestion check_trade_arguments(const TradeArguments& arguments) {
   if (!arguments.chart.empty()) static_cast<void>(chart_format(arguments.chart));
   TradeQuestion question;
@@ -86,7 +86,7 @@ TradeQuestion check_trade_arguments(const TradeArguments& arguments) {
   return question;
 }
 
-/// Writes the setting into the scene's file; everything else in it stays as it is.
+/// Writes the setting into the scene's file; the rest of the file stays unchanged.
 void apply_setting(const std::string& path, const TradeSetting& setting) {
   std::string text = read_input(path, json::Limits{}.bytes);
   const SceneResult from = load_scene_text(text, path);
@@ -110,7 +110,7 @@ std::string question_text(const TradeArguments& arguments) {
   return text + (text.empty() ? "" : " ") + "--tension-error " + arguments.tension_error;
 }
 
-/// Why no setting answers, as far as it is known.
+/// Why no setting meets the requirement, as far as known.
 std::string missing_answer(const TradeTable& table, const TradeQuestion& question) {
   const std::string none = ": none of these settings";
   if (question.error && !question.tension_error &&
@@ -123,7 +123,8 @@ std::string missing_answer(const TradeTable& table, const TradeQuestion& questio
   return none + "; finer ones: --substeps, --iterations";
 }
 
-/// Says which setting answers, and applies it if that is wanted. Whether there is one.
+/// Reports the setting that meets the requirement, and applies it on request. Returns whether there
+/// is one.
 bool answer_question(const TradeArguments& arguments, const TradeTable& table,
                      const TradeQuestion& question) {
   const std::string asked = question_text(arguments);
@@ -136,7 +137,7 @@ bool answer_question(const TradeArguments& arguments, const TradeTable& table,
   const std::string line =
       fmt::format("{}: {} ({:.3g} ms per frame, {})", asked, row.setting.name(),
                   1e3 * table.dt * row.seconds.median, errors_text(table, row));
-  // Standard output has one object and nothing else.
+  // Standard output must contain exactly one object.
   if (arguments.json) {
     print_note(line);
   } else {
@@ -190,7 +191,7 @@ ExitCode trade(TradeArguments& arguments) {
   OutputFaults faults;
   const bool asked = arguments.asks();
   bool answered = !asked;
-  // The answer first: the table behind it may be long.
+  // The answer comes before the table, which may be long.
   if (asked) faults.attempt([&] { answered = answer_question(arguments, table, question); });
   faults.attempt([&] { print(arguments.json ? trade_json(table) : printable(trade_text(table))); });
   if (table.machine.assertions) print_warning("built with assertions: the times mean nothing");

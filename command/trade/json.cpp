@@ -98,7 +98,7 @@ TradeJson ladder_json(const TradeTable& table) {
   return object;
 }
 
-/// Quoted where a comma or a quote asks for it.
+/// A cell in CSV notation, quoted if it contains a comma or a quote.
 std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string cell = "\"";

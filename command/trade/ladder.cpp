@@ -1,6 +1,6 @@
-// sheave trade: the model ladder. The scene and its rungs are run with one setting, so that the
-// model is all that differs; what a step and a tolerance do wrong is about the same in both and
-// cancels from the difference.
+// sheave trade: the model ladder. The scene and its rungs are run with one setting, so that only
+// the model differs. The errors due to the step and the tolerance are about equal in both runs and
+// cancel in the difference.
 
 #include <algorithm>
 #include <atomic>
@@ -19,11 +19,11 @@
 namespace sheave::command {
 namespace {
 
-/// Beyond this error of the scene as written, what a rung changes is not told from what the setting
-/// does wrong.
+/// If the error of the scene as written exceeds this bound, the effect of a rung cannot be
+/// distinguished from the errors of the setting.
 constexpr double useless_setting = 0.1;
 
-/// The cheapest for 0.1 %, or the most accurate one.
+/// The cheapest setting with an error of 0.1 %, or the most accurate setting.
 std::optional<std::size_t> ladder_setting(const TradeTable& table) {
   constexpr double wanted = 1e-3;
   if (const auto cheapest = answer(table, {.error = wanted})) return cheapest;
@@ -32,7 +32,7 @@ std::optional<std::size_t> ladder_setting(const TradeTable& table) {
   return front.empty() ? std::nullopt : std::optional(front.back());
 }
 
-/// A scene of the ladder: the one that is written, or a rung.
+/// A scene of the ladder: the scene as written, or a rung.
 struct Variant {
   LadderRow row;
   Scene scene;
@@ -120,14 +120,15 @@ class Ladder {
     }
   }
 
-  /// As many interleaved samples as there is time for; `expected`: CPU time of one of each.
+  /// Takes as many interleaved samples as the time allows; `expected`: CPU time of one sample of
+  /// each.
   void time_all(double expected) {
     std::erase_if(valid_, [](const Variant* variant) { return !variant->run; });
     std::vector<measure::Contender> contenders;
     for (const Variant* variant : valid_) {
       Result<measure::Contender> contender =
           measure::scene_contender(variant->row.name, variant->scene, interrupted);
-      // It has been run: so it can be made.
+      // The scene has been run before, so a failure here is an internal error.
       if (!contender) throw Failure(ExitCode::internal, to_text(contender.errors()));
       contenders.push_back(std::move(contender).value());
     }

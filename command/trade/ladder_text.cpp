@@ -1,4 +1,4 @@
-// sheave trade: what the model ladder says, for people.
+// sheave trade: the text of the model ladder.
 
 #include <cmath>
 
@@ -15,11 +15,11 @@ const std::vector<std::string> ladder_head{
     "change of the model", "changed",    "position",    "tension", "ms / s",
     "quartiles",           "time saved", "solves saved"};
 
-/// Differences of runs with one setting have no reference whose error could blur them; only
-/// rounding has to be told apart.
+/// Both runs have the same setting, so there is no reference error to account for. Only rounding
+/// must be recognised.
 std::string difference_text(double difference) { return error_text(difference, 0.0); }
 
-/// "12 %", "-340 %": of what it was. Nothing if it was nothing.
+/// "12 %", "-340 %": the saving relative to `before`. Empty if `before` is 0.
 std::string saved_text(double now, double before) {
   if (!(before > 0.0)) return "-";
   return fmt::format("{:.0f} %", 100.0 * (1.0 - now / before) + 0.0);
@@ -62,7 +62,7 @@ std::string explanation(const TradeTable& table) {
       ladder.setting.name(), ladder.setting_error, table.compared_seconds);
 }
 
-/// What the table has no numbers for.
+/// Remarks without a place in the table.
 std::vector<std::string> ladder_remarks(const TradeLadder& ladder) {
   std::vector<std::string> lines;
   for (const LadderRow& row : ladder.rows) {

@@ -1,6 +1,6 @@
-// sheave trade: measuring. What runs cost, the reference, then the error of every setting, the
-// times of all, interleaved, and the rungs of the model. (Reference: command/trade/reference.cpp;
-// ladder: command/trade/ladder.cpp.)
+// sheave trade: measuring. The stages: predicted costs, the reference, the error of every setting,
+// the times of all settings (interleaved), and the rungs of the model. (Reference:
+// tools/trade_reference.cpp; ladder: tools/trade_ladder.cpp.)
 
 #include "command/trade/measure.h"
 
@@ -25,21 +25,20 @@
 namespace sheave::command {
 namespace {
 
-/// An energy that the reference itself does not know to this has nothing to be compared with:
-/// nothing moves.
+/// If the relative error of the reference's energy exceeds this bound, nothing moves, and energies
+/// are not compared.
 constexpr double known_energy = 0.1;
-/// A setting that costs as many times more than one that is at least as accurate gets no second
-/// sample: its time would have to be wrong by that factor to bring it to the front.
+/// A setting that costs this factor more than another one of at least its accuracy gets no second
+/// sample: its time would have to be wrong by this factor to bring it to the front.
 constexpr double out_of_reach = 2.0;
-/// CPU time of a run [s] from which on that of the run which the error is from will do for such a
-/// setting.
+/// For such a setting with a CPU time [s] above this bound the time of the run that gave the error
+/// is used.
 constexpr double long_run = 0.1;
-/// Parts of the time that is left which the errors, and then the times, may take; the ladder has
-/// the rest.
+/// Shares of the remaining time for the errors, and then for the times; the rest is for the ladder.
 constexpr double errors_share = 0.55;
 constexpr double times_share = 0.7;
 
-/// What a run came to, in the row.
+/// Stores the outcome of a run in its row.
 void judge_run(const TradeRun& run, const measure::Trajectory& own, TradeRow& row) {
   const TradeTable& table = run.table;
   row.error = measure::error_of(own, run.truth);
@@ -58,18 +57,19 @@ void judge_run(const TradeRun& run, const measure::Trajectory& own, TradeRow& ro
   row.fallbacks = own.fallbacks;
 }
 
-/// Runs of settings side by side, of each solver with each integrator the cheapest first.
+/// Runs settings in parallel. For each pair of solver and integrator the cheapest setting comes
+/// first.
 class ErrorStage {
   struct Family {
     std::vector<TradeRow*> rows;
     std::size_t next = 0;
-    double spent = 0.0;  // on those before it, about
+    double spent = 0.0;  // approximate time spent on the earlier settings of this pair
   };
 
  public:
   explicit ErrorStage(TradeRun& run) : run_(run), limit_(run.limit.part(errors_share)) {
-    // Each solver with each integrator gets its share, or all the time would go to what is merely
-    // cheap.
+    // Each pair of solver and integrator gets its share. Otherwise the cheap pairs would use all
+    // the time.
     std::map<std::pair<SolverKind, IntegratorKind>, Family> families;
     for (TradeRow& row : run.table.rows) {
       if (!row.measured() || run.journal.restore(row)) continue;
@@ -172,15 +172,15 @@ class ErrorStage {
   std::atomic<double> done_ = 0.0;
   std::atomic<std::size_t> ended_ = 0;
   std::mutex mutex_;
-  std::vector<TradeRow*> fresh_;  // measured, not yet kept
+  std::vector<TradeRow*> fresh_;  // measured, but not yet in the journal
 };
 
-/// Samples of times, in rounds that give every contender one.
+/// Takes samples of times in rounds; each round samples every contender once.
 class TimeStage {
  public:
   explicit TimeStage(TradeRun& run) : run_(run), limit_(run.limit.part(times_share)) {}
 
-  /// Whether everything was timed as often as wanted.
+  /// Returns whether all settings were timed as often as requested.
   bool measure() {
     choose_rows();
     create_contenders();
@@ -225,13 +225,14 @@ class TimeStage {
     for (TradeRow& row : run_.table.rows) {
       if (!row.measured()) continue;
       const bool far = is_out_of_reach(row);
-      if (far && row.run_seconds > long_run) continue;  // timed by the run that the error is from
+      // Keeps the time of the run that gave the error.
+      if (far && row.run_seconds > long_run) continue;
       sampled_.push_back({&row, far ? 1 : run_.options.repetitions});
       once += cost(row);
     }
     const double left = limit_.left();
     if (once <= left) return;
-    // No time for one sample of each: the long runs have been timed already.
+    // There is no time for one sample of each. The long runs have a time from their error run.
     run_.table.limits.push_back(
         fmt::format("times: one sample of each takes about {}; those of more than {} s of CPU time "
                     "are the runs "

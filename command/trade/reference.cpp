@@ -1,4 +1,4 @@
-// sheave trade: what runs will cost, and the reference that all errors are against.
+// sheave trade: the predicted costs of runs, and the reference for all errors.
 
 #include <algorithm>
 #include <array>
@@ -20,26 +20,26 @@
 namespace sheave::command {
 namespace {
 
-/// A reference is good enough if its error is a hundredth of the smallest that settings are named
-/// for.
+/// A reference is good enough if its error is a hundredth of the smallest error level of the
+/// report.
 constexpr double reference_goal = 1e-6;
-/// One that is worse than a tenth of the largest cannot judge the whole run...
+/// A reference with an error above a tenth of the largest level cannot judge the whole run.
 constexpr double useless_reference = 1e-3;
-/// ...but as long as it is known to this.
+/// Such a reference judges the frames up to which its error is below this bound.
 constexpr double trusted_level = 1e-4;
-/// How often the reference's step is halved beyond the finest setting, at most.
+/// Largest number of halvings of the reference's step beyond the finest setting.
 constexpr int most_doublings = 6;
 
-/// Share of the time for everything after which no finer run is begun, and after which one that is
-/// running is given up.
+/// Shares of the total time after which no finer run is begun, and after which a running one is
+/// given up.
 constexpr double reference_share = 0.2;
 constexpr double reference_end = 0.4;
-/// Share of the time for everything that one look at what a run costs may take.
+/// Share of the total time for one prediction of a run's cost.
 constexpr double pilot_share = 0.002;
-/// How many times fewer substeps a reference gets if it was not done in time.
+/// Factor by which the substeps of a reference are reduced if it was not completed in time.
 constexpr int coarser = 4;
 
-/// CPU time of a whole run [s], from its first frames; 0 if it cannot be run.
+/// CPU time of a whole run [s], predicted from its first frames; 0 if the run fails.
 double pilot_seconds(const TradeSetting& setting, const Scene& scene, double enough,
                      const measure::Clock& clock) {
   const Result<measure::Contender> contender =
@@ -57,11 +57,11 @@ double pilot_seconds(const TradeSetting& setting, const Scene& scene, double eno
   return seconds * static_cast<double>(contender->frames) / static_cast<double>(frames);
 }
 
-/// What runs cost: a part per substep and one per sweep of gauss-seidel, for each solver,
+/// The cost of runs: one part per substep and, for gauss-seidel, one per sweep; for each solver,
 /// integrator and tangent update.
 class CostModel {
  public:
-  /// `enough`: CPU time for a look [s], one frame at least.
+  /// `enough`: CPU time for one prediction [s]; at least one frame is run.
   CostModel(const Scene& scene, double enough, const measure::Clock& clock)
       : scene_(scene), enough_(enough), clock_(clock) {}
 
@@ -96,15 +96,16 @@ class CostModel {
   std::map<Key, std::array<double, 2>> parts_;
 };
 
-/// Frames in which a reference can judge.
+/// Number of frames in which a reference can judge.
 std::size_t known_frames(const measure::Reference& reference, double dt) {
   if (reference.estimate.position <= useless_reference) return reference.differences.size();
   return measure::error_growth(reference.differences, dt, trusted_level).trusted_frames;
 }
 
-/// That of `rattle`; if it is not good, that of `xpbd` if it is known for longer, or better all the
-/// time. (In a chaotic scene the estimate at the end tells nothing: there it is the smaller the
-/// more the integrator damps.)
+/// Selects the reference of `rattle` if it is good. Otherwise the reference of `xpbd` is selected
+/// if it is valid for longer, or if both are valid equally long and its error is smaller. (In a
+/// chaotic scene the estimate at the end has no meaning: more damping by the integrator makes it
+/// smaller.)
 measure::Reference choose(Result<measure::Reference>& second_order,
                           Result<measure::Reference>& first_order, double dt) {
   if (second_order && second_order->good) return std::move(second_order).value();
@@ -121,8 +122,8 @@ measure::Reference choose(Result<measure::Reference>& second_order,
   return better ? std::move(first_order).value() : std::move(second_order).value();
 }
 
-/// Both references side by side; that of `xpbd` is given up if that of `rattle` is good. Nothing if
-/// the time was too short.
+/// Computes both references in parallel; the one of `xpbd` is given up if the one of `rattle` is
+/// good. nullopt if the time was too short.
 std::optional<measure::Reference> both_references(TradeRun& run) {
   const double limit =
       std::min(run.options.reference_seconds, reference_share * run.limit.seconds());
@@ -167,8 +168,8 @@ measure::Reference new_reference(TradeRun& run) {
                             run.options.minutes));
 }
 
-/// To the time up to which the reference is known. If it knows nothing but time 0 the whole run is
-/// compared, and the reference's error says that it tells nothing.
+/// Limits the comparison to the time in which the reference is valid. If that is time 0 only, the
+/// whole run is compared, and the reference's error shows that the comparison has no meaning.
 void limit_comparison(TradeRun& run) {
   TradeTable& table = run.table;
   const std::vector<double>& differences = table.reference.differences;
@@ -183,7 +184,7 @@ void limit_comparison(TradeRun& run) {
   table.doubt.position_end = differences[run.frames - 1];
 }
 
-/// The finest run again, of a reference that was made before.
+/// Repeats the finest run of a reference from the journal.
 void repeat_reference(TradeRun& run) {
   TradeSetting setting;
   const measure::Reference& known = run.table.reference;
@@ -220,11 +221,11 @@ void plan_trade(TradeRun& run) {
     if (interrupted()) stop_interrupted();
     row.expected_seconds = model.seconds(row.setting);
   }
-  // Two runs of the reference, at least, with s and 2 s substeps, should fit into its share.
+  // At least two runs of the reference, with s and 2 s substeps, should fit into its share.
   const std::vector<int>& substeps = run.options.grid.substeps;
   run.first_substeps = *std::max_element(substeps.begin(), substeps.end());
   TradeSetting finest = run.table.rows.front().setting;
-  double expected = 0.0;  // of one substep, of the cheaper integrator
+  double expected = 0.0;  // of one substep with the cheaper integrator
   for (const IntegratorKind integrator : {IntegratorKind::rattle, IntegratorKind::xpbd}) {
     finest.step = {run.table.dt, 1, measure::ReferenceOptions{}.rounds, SolverKind::direct,
                    integrator};

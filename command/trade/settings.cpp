@@ -1,4 +1,4 @@
-// sheave trade: which settings there are, and which of them answers a question.
+// sheave trade: the settings, and the selection of one that meets a requirement.
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@
 namespace sheave::command {
 namespace {
 
-/// A positive number at the beginning of `text`, which is shortened by it.
+/// Parses a positive number at the beginning of `text` and removes it from `text`.
 std::optional<double> leading_number(std::string_view& text) {
   double value = 0.0;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -47,8 +47,8 @@ std::vector<TradeSetting> trade_settings(const TradeGrid& grid, const Scene& sce
   if (scene.cables.empty()) tangents = {std::nullopt};
   std::vector<TradeSetting> settings;
   for (const SolverKind solver : grid.solvers) {
-    // The direct solver stops when the constraints are met: its iterations are a limit, not a
-    // choice.
+    // The direct solver stops when the constraints are met. Its iterations are only a limit, so
+    // they are not varied.
     const std::vector<int> own{scene.model.step.iterations};
     const bool direct = solver == SolverKind::direct;
     for (const IntegratorKind integrator : grid.integrators) {
@@ -74,7 +74,7 @@ bool TradeTable::tensions_known() const {
 }
 
 double TradeTable::position_bound(const TradeRow& row) const {
-  // Rounding is not told apart: what is below it counts as equally good.
+  // Errors below rounding count as equal.
   return std::max(row.error.position + doubt.position, rounding_error);
 }
 
@@ -108,8 +108,8 @@ void judge(TradeTable& table) {
     if (row.setting.step.solver != SolverKind::gauss_seidel) continue;
     most_iterations = std::max(most_iterations, row.setting.step.iterations);
   }
-  // Only what leaves the step as the one thing that is wrong: the most iterations, tangents as
-  // accurate as measured.
+  // The order of convergence is fitted to rows whose error is due to the step alone: the most
+  // iterations, and the most accurate measured tangents.
   std::map<std::string, std::vector<measure::StepError>> families;
   std::vector<std::string> order;
   for (const TradeRow& row : table.rows) {
@@ -168,7 +168,7 @@ std::optional<std::size_t> answer(const TradeTable& table, const TradeQuestion& 
   if (!question.asks_for_errors()) {
     return measure::best_within(table.points(), *question.seconds_per_frame / table.dt);
   }
-  // As shares of what is allowed.
+  // The errors as shares of their allowed values.
   std::vector<measure::WorkPoint> points;
   for (const TradeRow& row : table.rows) {
     measure::WorkPoint& point = points.emplace_back();

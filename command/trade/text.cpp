@@ -50,7 +50,7 @@ std::string reference_line(const TradeTable& table) {
   return line;
 }
 
-/// What is to be known about times after which the reference knows nothing.
+/// Remarks about the time after which the reference is not valid.
 std::vector<std::string> span_lines(const TradeTable& table) {
   std::vector<std::string> lines;
   if (table.compared_seconds < table.simulated_seconds) {
@@ -97,7 +97,7 @@ std::string choice_text(const TradeTable& table, std::size_t index) {
                      milliseconds_text(row.seconds.median), errors_text(table, row));
 }
 
-/// What most people ask, one line each.
+/// Answers to the most common questions, one line each.
 std::vector<std::string> trade_answers(const TradeTable& table) {
   std::vector<std::string> lines;
   for (const double level : trade_levels) {
@@ -108,7 +108,7 @@ std::vector<std::string> trade_answers(const TradeTable& table) {
   return lines;
 }
 
-/// What else follows from the rows, one line each.
+/// Further conclusions from the rows, one line each.
 std::vector<std::string> trade_remarks(const TradeTable& table) {
   std::vector<std::string> lines;
   for (const TradeFamily& family : table.families) {
@@ -133,7 +133,7 @@ std::vector<std::string> trade_remarks(const TradeTable& table) {
   return lines;
 }
 
-/// What was not run for want of time, cheapest first.
+/// Settings not run for lack of time, cheapest first.
 std::vector<std::string> skipped_lines(const TradeTable& table) {
   std::vector<const TradeRow*> skipped;
   double seconds = 0.0;

@@ -35,17 +35,17 @@ struct ViewOptions {
   std::optional<std::int64_t> every;
   double size = 5.0;  // [MB]
   bool open = false;
-  bool live = false;  // the engine instead of a recording
+  bool live = false;  // the page contains the engine instead of a recording
   bool quiet = false;
 };
 
-/// The name of the scene's file with another ending, in the folder that one is in.
+/// The file name of the scene with another ending, in the current folder.
 std::string default_out(const std::string& scene) {
   if (scene == "-") return "scene.html";
   return std::filesystem::path(scene).filename().replace_extension(".html").string();
 }
 
-/// The recording as text of at most so many bytes, with as many frames as fit.
+/// The recording as text of at most `most` bytes, with as many frames as fit.
 std::string packed(const view::Json& machine, RecordedRun& run, double most) {
   constexpr std::size_t fewest_frames = 100;
   int halved = 0;
@@ -66,7 +66,8 @@ std::string packed(const view::Json& machine, RecordedRun& run, double most) {
   return text;
 }
 
-/// The scene as its file has it, with its comments; with other settings, as it then is.
+/// The text of the scene's file with its comments; if settings were overridden, the text of the
+/// resulting scene.
 std::string text_of(const Scene& scene, const SceneOptions& options) {
   const bool as_it_is = options.path != "-" && options.dt.empty() && options.substeps.empty() &&
                         options.iterations.empty() && options.solver.empty() &&

@@ -25,11 +25,11 @@ std::filesystem::path command_folder() {
   return std::filesystem::read_symlink("/proc/self/exe", code).parent_path();
 }
 
-/// The page of this name; `remedy` is told where there is none.
+/// Reads the page of this name; if it is missing, the Failure contains `remedy`.
 std::string read_page_file(const std::string& name, const std::string& remedy) {
   const std::filesystem::path folder = command_folder();
   std::error_code code;
-  // In a build tree; installed.
+  // The locations in a build tree and in an installation.
   for (const char* place : {"../web", "../share/sheave"}) {
     const std::filesystem::path path = (folder / place / name).lexically_normal();
     if (std::filesystem::exists(path, code)) return read_input(path.string(), longest_page);
@@ -75,7 +75,7 @@ std::string filled_page(const std::string& page, const std::string& recording) {
 }
 
 std::string filled_live_page(const std::string& page, const std::string& scene) {
-  // As JSON, in which no "<" ends the script that holds it.
+  // A JSON string without "<" cannot end the script element that holds it.
   std::string text =
       nlohmann::json(scene).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at)) {
@@ -86,8 +86,8 @@ std::string filled_live_page(const std::string& page, const std::string& scene) 
 }
 
 void open_in_browser(const std::string& path) {
-  // A whole path begins with a slash: what else a name may begin with is no option of xdg-open, and
-  // no address of a page somewhere else.
+  // An absolute path begins with a slash, so xdg-open can take it neither for an option nor for the
+  // address of another page.
   const std::string whole = std::filesystem::absolute(path).string();
   Result<render::ChildProcess> opener =
       render::ChildProcess::start({"xdg-open", whole}, {.leaves_programs = true});
