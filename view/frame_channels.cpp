@@ -21,7 +21,7 @@ ChannelKind kind_of(std::string_view unit) {
   return ChannelKind::other;
 }
 
-/// Units by the last part of a name, and by whole names for the coordinates of joints.
+/// Units by the last part of a name; for coordinates of joints by the whole name.
 std::unordered_map<std::string, std::string> units_of(const Model& model) {
   std::unordered_map<std::string, std::string> units;
   for (const QuantityGroup& group : quantity_groups()) {
@@ -115,7 +115,7 @@ void FrameChannels::add_columns(const Model& model) {
     FrameChannel channel{name, name == "t" ? "s" : "", ChannelKind::other, false};
     if (unit != units.end()) channel.unit = unit->second;
     channel.kind = kind_of(channel.unit);
-    // Parts of quaternions.
+    // Components of quaternions.
     if (last.size() == 2 && last[0] == 'q') channel.kind = ChannelKind::angle;
     channels_.push_back(std::move(channel));
   }

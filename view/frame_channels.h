@@ -1,7 +1,7 @@
 #pragma once
-// What a frame of a run consists of: for each channel a number. The first channels are the columns
-// of `sheave run --out`; hidden ones follow, which only a picture needs. A page finds them by their
-// names (web/src/machine_state.ts).
+// The channels of a recorded frame; each channel has one number per frame. The first channels are
+// the columns of `sheave run --out`. Hidden channels follow, which only a picture needs. A page
+// finds channels by their names (web/src/machine_state.ts).
 //
 //   FrameChannels channels(simulation, reports);
 //   for each moment: if (!channels.fits(reports)) channels.extend(reports);
@@ -17,52 +17,53 @@
 
 namespace sheave::view {
 
-/// What values of a channel are, for the accuracy that they are kept with.
+/// The kind of a channel's values, which determines the accuracy of their storage.
 enum class ChannelKind { length, angle, force, other };
 
 struct FrameChannel {
   std::string name;  ///< e.g. "rope.1.tension"
-  std::string unit;  ///< "N"; empty: a pure number
+  std::string unit;  ///< "N"; empty: dimensionless
   ChannelKind kind = ChannelKind::other;
-  bool hidden = false;  ///< no column of a table
+  bool hidden = false;  ///< not a column of a table
 };
 
 class FrameChannels {
  public:
-  /// The channels of a simulation; `reports` are of one of its states.
+  /// The channels of a simulation; `reports` belong to any of its states.
   FrameChannels(const Simulation& simulation, const std::vector<CableReport>& reports);
 
   [[nodiscard]] const std::vector<FrameChannel>& channels() const { return channels_; }
-  /// How many wraps on bodies that are no link of the list a cable may have.
+  /// Number of wraps, on bodies outside its list of links, that a cable may have.
   [[nodiscard]] int wrap_slots(std::size_t cable) const {
     return static_cast<int>(cables_[cable].wraps.size());
   }
 
-  /// Whether there is a channel for all that the cables now have: wraps, corners of outlines.
+  /// Whether every wrap and outline corner of the present cables has a channel.
   [[nodiscard]] bool fits(const std::vector<CableReport>& reports) const;
-  /// Makes room for it. Channels that are there keep their places; new ones follow them. Their
-  /// value in frames before means nothing, for nothing counts them.
+  /// Adds the missing channels. Existing channels keep their indices; the new ones follow. The
+  /// values of new channels in earlier frames are meaningless and unused, because the counts in
+  /// those frames exclude them.
   void extend(const std::vector<CableReport>& reports);
 
-  /// One value per channel; NaN is not known, as forces before the first step are. `reports` are of
-  /// the simulation's state, and fit.
+  /// One value per channel; NaN if unknown, such as a force before the first step. `reports` belong
+  /// to the simulation's state and must fit.
   void sample(const Simulation& simulation, const std::vector<CableReport>& reports,
               std::vector<double>& values) const;
 
  private:
-  /// Where the values of a link or wrap are.
+  /// The channel indices of a link or wrap.
   struct LinkSlot {
     std::string prefix;  ///< "rope.link2."
-    int first = 0;       ///< of those that all have
+    int first = 0;       ///< first of the channels that all links have
     int path_count = -1;
-    std::vector<int> corners;  ///< x of each corner of its path
+    std::vector<int> corners;  ///< channel of x of each corner of its path
   };
   struct CableSlots {
     std::string name;
     std::vector<LinkSlot> links;
     std::vector<LinkSlot> wraps;
-    std::vector<int> spans;  ///< start x of each
-    int wrap_count = 0;      ///< two pieces follow it
+    std::vector<int> spans;  ///< channel of the start's x of each span
+    int wrap_count = 0;      ///< channel of the number of wraps; two channels follow it
   };
 
   int add(const std::string& name, const char* unit, ChannelKind kind);

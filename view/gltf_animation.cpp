@@ -16,10 +16,10 @@ namespace {
 
 constexpr int facets = 48;
 constexpr int line_facets = 10;
-/// Of the colour map; between them colours are blended.
+/// Number of stops of the colour map. Colours between two stops are blended.
 constexpr std::size_t stops = 9;
 
-/// Values of a node at all moments, or its place where they never change.
+/// The values of a node in all frames; a single value if they are constant.
 struct Course {
   std::vector<double> values;
   std::size_t width;
@@ -32,7 +32,8 @@ struct Course {
     return true;
   }
   void add(const Vector3& v) { values.insert(values.end(), {v.x(), v.y(), v.z()}); }
-  /// x, y, z, w, of the two quaternions of a turn the one that is nearer to the last.
+  /// Adds a rotation as x, y, z, w. Of the two equivalent quaternions the one closer to the last
+  /// value is used, so that interpolation takes the short way.
   void add(const Quaternion& q) {
     Eigen::Vector4d next = q.normalized().coeffs();
     if (!values.empty()) {
@@ -55,7 +56,7 @@ class AnimationWriter {
     }
   }
 
-  /// All else hangs on it: it turns the machine's up to glTF's.
+  /// Adds the root node, which rotates the machine's up direction to glTF's.
   void add_root(const std::string& name, const Vector3& up) {
     NodePlace place;
     place.rotation = Quaternion(
@@ -96,7 +97,7 @@ class AnimationWriter {
     return gltf_.node(name, holder(bar.body), plain_line(bar.color), place);
   }
 
-  /// From a moment on it is not there.
+  /// Hides a node from a frame on.
   void hide_from(int node, const Vector3& scale, std::size_t first) {
     if (first >= moments_) return;
     Course course{{}, 3};
@@ -160,7 +161,7 @@ class AnimationWriter {
         middle = 0.5 * (now[piece] + now[piece + 1]);
         length = along.norm();
         if (length > 0.0) {
-          // On from the last turn, so that it does not spin about itself.
+          // Continues from the last rotation, so that the cylinder does not spin about its axis.
           turn = (Quaternion(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d(direction),
                                                                 Eigen::Vector3d(along / length))) *
                   turn)
@@ -184,7 +185,7 @@ class AnimationWriter {
     return node;
   }
 
-  /// Of the stops on both sides of the tension; none of slack cable.
+  /// Weights of the two stops around the tension; all 0 for slack cable.
   void add_weights(double tension, Course& weights) const {
     std::vector<double> row(stops, 0.0);
     if (tension > 1e-6 * tension_max_) {

@@ -1,8 +1,8 @@
 #pragma once
-// A run as animated glTF 2.0: a node for each body with its shapes, cables, strings and springs as
-// straight cylinders that are placed, turned and stretched. Colours of cables are their tensions:
-// their meshes have a colour per stop of the colour map, which weights blend (programs that leave
-// out weights of colours show slack cable). Up is +y, as glTF has it.
+// A run as animated glTF 2.0. Each body is a node with its shapes. Cables, strings and springs are
+// straight cylinders that are moved, rotated and scaled. The colour of a cable shows its tension:
+// its meshes have one colour per stop of the colour map, and weights blend these colours (programs
+// that do not support colour weights show slack cable). The up direction is +y, as glTF requires.
 
 #include <optional>
 #include <span>
@@ -18,15 +18,15 @@ namespace sheave::view {
 
 class GltfAnimation {
  public:
-  /// `builder` says how the machine looks and must outlive this; `tension_max` [N] is the top of
-  /// the colour map, > 0.
+  /// `builder` defines the appearance of the machine and must outlive this; `tension_max` [N] is
+  /// the top of the colour map, > 0.
   GltfAnimation(const render::ViewBuilder& builder, double tension_max);
 
-  /// A moment of the animation [s], later than all before.
+  /// Adds a frame at a time [s], which must be later than all earlier ones.
   void add(double time, const World& world, std::span<const CableReport> cables);
 
   [[nodiscard]] std::size_t frames() const { return times_.size(); }
-  /// The file (.glb) of the moments so far, at least one; ends the animation.
+  /// The file (.glb) with all frames added, at least one; ends the animation.
   [[nodiscard]] std::string finish(const Model& model);
 
  private:
@@ -35,7 +35,7 @@ class GltfAnimation {
     Quaternion orientation;
   };
 
-  /// A point of a cable that is fixed to a body.
+  /// A point of a cable fixed to a body.
   struct Knot {
     BodyId body;
     Vector3 position;  ///< [m], frame of the body
@@ -48,10 +48,10 @@ class GltfAnimation {
   const render::ViewBuilder& builder_;
   double tension_max_;
   std::vector<double> times_;
-  std::vector<std::vector<Pose>> poses_;  ///< by body, then moment
+  std::vector<std::vector<Pose>> poses_;  ///< by body, then frame
   std::vector<Knot> knots_;
   LineTracks lines_;
-  std::vector<std::optional<std::size_t>> broken_;  ///< by joint: the first moment without it
+  std::vector<std::optional<std::size_t>> broken_;  ///< by joint: the first frame without it
 };
 
 }  // namespace sheave::view

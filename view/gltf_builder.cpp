@@ -14,7 +14,7 @@ namespace {
 
 using LinearColor = std::array<double, 3>;
 
-/// glTF's colours are linear.
+/// glTF uses linear colours.
 double linear(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
 LinearColor linear(const render::Color& c) {
   return {linear(static_cast<double>(c.r)), linear(static_cast<double>(c.g)),
@@ -79,7 +79,7 @@ struct GltfBuilder::Content {
     }
   }
 
-  /// Of a mesh.
+  /// Appends data of a mesh.
   int corners(const std::vector<float>& values, int type, bool range) {
     const int place =
         view(values.data(), values.size() * sizeof(float), TINYGLTF_TARGET_ARRAY_BUFFER);
@@ -89,7 +89,8 @@ struct GltfBuilder::Content {
     return made;
   }
 
-  /// Of animation: its bytes follow those of meshes in a view of their own, made at the end.
+  /// Appends data of an animation. Its bytes are collected separately and follow the meshes in a
+  /// view of their own.
   int moving(const std::vector<double>& values, int type, bool range) {
     std::vector<float> numbers(values.begin(), values.end());
     const std::size_t offset = motion.size();
@@ -153,8 +154,8 @@ int GltfBuilder::mesh(const std::string& name, const render::Mesh& mesh, int mat
   const bool painted = std::any_of(mesh.vertices.begin(), mesh.vertices.end(),
                                    [](const auto& v) { return v.paint != render::plain_paint; });
   if (painted) {
-    // Multiplies the material's colour, so that an accent is what takes that to it, as far as a
-    // factor of at most 1 can.
+    // glTF multiplies the vertex colour by the material's colour. The factor of an accent is
+    // therefore the quotient of both, limited to 1.
     const auto& base = content_->model.materials[static_cast<std::size_t>(material)]
                            .pbrMetallicRoughness.baseColorFactor;
     const LinearColor wanted = linear(accent);
@@ -184,7 +185,8 @@ int GltfBuilder::blended_mesh(const std::string& name, const render::Mesh& mesh,
   };
   const LinearColor from = linear(base);
   primitive.attributes["COLOR_0"] = everywhere(from);
-  // Blender does not blend colours, and opens only targets that move points: these by nothing.
+  // Blender does not blend colours, and it opens only morph targets with positions; their
+  // displacements are 0.
   const int still =
       content_->corners(std::vector<float>(3 * mesh.vertices.size()), TINYGLTF_TYPE_VEC3, true);
   for (const render::Color& blend : blends) {
@@ -254,7 +256,7 @@ void GltfBuilder::animate(int node, NodePath path, int track) {
 
 std::string GltfBuilder::bytes() {
   tinygltf::Model& model = content_->model;
-  // An animation of nothing is none.
+  // glTF does not allow an animation without channels.
   if (!model.animations.empty() && model.animations.back().channels.empty()) {
     model.animations.clear();
   }

@@ -1,5 +1,5 @@
 #pragma once
-// Builds a glTF 2.0 file piece by piece; knows its format and nothing of machines.
+// Builds a glTF 2.0 file step by step. Knows the file format, but nothing about machines.
 
 #include <array>
 #include <cstdint>
@@ -13,14 +13,14 @@
 
 namespace sheave::view {
 
-/// Place, turn and size of a node within its parent.
+/// Position, rotation and scale of a node relative to its parent.
 struct NodePlace {
   Vector3 translation = Vector3::Zero();
   Quaternion rotation = Quaternion::Identity();
   Vector3 scale = Vector3::Ones();
 };
 
-/// What of a node moves.
+/// The animated property of a node.
 enum class NodePath { translation, rotation, scale, weights };
 
 class GltfBuilder {
@@ -30,24 +30,25 @@ class GltfBuilder {
   GltfBuilder(const GltfBuilder&) = delete;
   GltfBuilder& operator=(const GltfBuilder&) = delete;
 
-  /// Index of a material; equal colours share one.
+  /// Index of a material; equal colours share one material.
   int material(const render::Color& color);
-  /// A mesh with the paints of its corners; -1 if it has no triangles.
+  /// A mesh with the paints of its vertices; -1 if it has no triangles.
   int mesh(const std::string& name, const render::Mesh& mesh, int material,
            const render::Color& accent);
-  /// A mesh whose colour is `base` and, by weights of its nodes, those of `blends`.
+  /// A mesh in the colour `base`, blended with the colours `blends` by the weights of its nodes.
   int blended_mesh(const std::string& name, const render::Mesh& mesh, const render::Color& base,
                    const std::vector<render::Color>& blends);
 
-  /// A node; parent -1: at the top. mesh -1: none.
+  /// A node. parent -1: no parent. mesh -1: no mesh.
   int node(const std::string& name, int parent, int mesh, const NodePlace& place);
-  /// Weights of the colours of a node that does not change them.
+  /// Sets constant colour weights of a node.
   void set_weights(int node, const std::vector<double>& weights);
 
-  /// The moments of all animation [s], increasing.
+  /// Sets the times of all animations [s], ascending.
   void set_times(const std::vector<double>& times);
-  /// Numbers of all moments one after another, for one or more nodes: 3, 4 (x, y, z, w) or as many
-  /// as there are weights for each. `steps`: holds each until the next.
+  /// Adds an animation track for one or more nodes and returns its index. `values` has the numbers
+  /// of all frames in order: 3, 4 (x, y, z, w) or the number of weights per frame. `steps`: each
+  /// value holds until the next one.
   int track(NodePath path, const std::vector<double>& values, bool steps = false);
   void animate(int node, NodePath path, int track);
 

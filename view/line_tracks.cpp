@@ -6,8 +6,8 @@
 namespace sheave::view {
 namespace {
 
-/// Points of a drawn line to a piece: round a wheel they stand 0.1 rad apart, and a chord of 0.3
-/// rad is off its arc by 1 % of the radius.
+/// Number of points of a drawn line per piece. On a wheel the points are 0.1 rad apart, and a chord
+/// of 0.3 rad deviates from its arc by 1 % of the radius.
 constexpr std::size_t points_per_piece = 3;
 constexpr std::size_t most_pieces = 64;
 

@@ -1,6 +1,6 @@
 #pragma once
-// Lines of a machine that change from frame to frame, cut into straight pieces of which each frame
-// has the same number: what an animation of solids needs.
+// Lines of a machine that change from frame to frame, divided into straight pieces. The number of
+// pieces of a line is the same in all frames, as an animation of solids requires.
 
 #include <cstddef>
 #include <map>
@@ -17,23 +17,25 @@ namespace sheave::view {
 struct LineTrack {
   std::string name;
   double radius = 0.01;                     ///< [m]
-  std::optional<render::Color> color;       ///< nothing: by its tension
-  std::vector<std::vector<Vector3>> lines;  ///< [m]; empty: not there in that frame
+  std::optional<render::Color> color;       ///< nullopt: coloured by its tension
+  std::vector<std::vector<Vector3>> lines;  ///< [m]; empty: absent in that frame
   std::vector<double> tensions;             ///< [N]
 
-  /// How many straight pieces show it well in all frames; 0 if it is never there.
+  /// Number of straight pieces that approximates the line well in all frames; 0 if it is never
+  /// present.
   [[nodiscard]] std::size_t piece_count() const;
-  /// The ends of the pieces of a frame, one more than pieces, evenly along the line.
+  /// The ends of the pieces in a frame (one more than pieces), evenly spaced along the line.
   [[nodiscard]] std::vector<Vector3> piece_ends(std::size_t frame, std::size_t pieces) const;
 };
 
 class LineTracks {
  public:
   void begin_frame() { ++frames_; }
-  /// A line of this frame. Lines of one name belong together and are put once a frame at most.
+  /// Sets a line in the present frame. Lines with one name form a track; each name may occur once
+  /// per frame.
   void put(const std::string& name, double radius, const std::optional<render::Color>& color,
            std::vector<Vector3> line, double tension);
-  /// In the order in which they were first put; each has all frames.
+  /// The tracks in the order of their first appearance; each has all frames.
   [[nodiscard]] std::vector<LineTrack> finish();
 
  private:

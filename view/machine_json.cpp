@@ -64,7 +64,7 @@ Json json(const render::JointLine& line) {
           {"length", line.length}};
 }
 
-// A template finds only what has been declared before it.
+// list() below finds only functions that are declared before it.
 Json json(const render::JointView::Piece& piece);
 
 template <class T>

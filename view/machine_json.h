@@ -1,5 +1,5 @@
 #pragma once
-// The looks of a machine for a page: JSON that web/src/machine.ts describes.
+// The appearance of a machine for a page, as the JSON that web/src/machine.ts describes.
 
 #include <optional>
 #include <string>
@@ -16,19 +16,19 @@ namespace sheave::view {
 
 using Json = nlohmann::ordered_json;
 
-/// What is known of how a run is seen.
+/// Properties of the view of a run.
 struct MachineLook {
   const render::ViewBuilder& builder;
   render::Camera camera;
-  Eigen::AlignedBox3d bounds;  ///< of all that the run shows [m]; may be empty
+  Eigen::AlignedBox3d bounds;  ///< of everything that the run shows [m]; may be empty
   double tension_max = 1.0;    ///< the top of the colour scale [N], > 0
 };
 
-/// `reports` are of a state of the scene's simulation.
+/// `reports` belong to a state of the scene's simulation.
 [[nodiscard]] Json machine_json(const Scene& scene, const std::vector<CableReport>& reports,
                                 const FrameChannels& channels, const MachineLook& look);
 
-/// Name, unit, hidden.
+/// Name, unit and hidden flag.
 [[nodiscard]] Json channel_json(const FrameChannel& channel);
 
 /// "#rrggbb".

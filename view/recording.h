@@ -1,5 +1,5 @@
 #pragma once
-// The course of a run: the values of all channels at chosen moments.
+// The course of a run: the values of all channels at selected times.
 
 #include <cstdint>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace sheave::view {
 
-/// Something that happened at a moment.
+/// An event of the run.
 struct RecordedEvent {
   double time = 0.0;  ///< [s]
   std::string kind;   ///< "leave", "cut", "broken", "diverged", ...
@@ -20,18 +20,18 @@ class Recording {
  public:
   explicit Recording(const Simulation& simulation);
 
-  /// Takes down the state of the simulation, which is later than all before.
+  /// Records the state of the simulation, which must be later than all recorded ones.
   void add(const Simulation& simulation);
   void add(RecordedEvent event) { events_.push_back(std::move(event)); }
-  /// Leaves out every second frame but the first and the last.
+  /// Removes every second frame, but keeps the first and the last.
   void halve();
-  /// The largest amount by which halve() would change a length [m] at a moment that it leaves out,
-  /// where then a straight line between its neighbours is shown.
+  /// The largest error of a length [m] that halve() would cause: at a removed time the page shows
+  /// the linear interpolation between the neighbouring frames.
   [[nodiscard]] double halving_error() const;
 
   [[nodiscard]] const FrameChannels& channels() const { return channels_; }
   [[nodiscard]] const std::vector<double>& times() const { return times_; }  ///< [s]
-  /// By channel, one value per time.
+  /// One list per channel, with one value per time.
   [[nodiscard]] const std::vector<std::vector<double>>& columns() const { return columns_; }
   /// In the order of time.
   [[nodiscard]] std::vector<RecordedEvent> events() const;
@@ -41,7 +41,7 @@ class Recording {
   std::vector<double> times_;
   std::vector<std::vector<double>> columns_;
   std::vector<RecordedEvent> events_;
-  std::vector<double> values_;  // of a frame
+  std::vector<double> values_;  // of one frame
 };
 
 }  // namespace sheave::view

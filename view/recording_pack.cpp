@@ -16,7 +16,7 @@ namespace {
 constexpr double tolerance = 1e-6;
 constexpr int most_order = 3;
 
-/// Eight bytes, the least first, on every machine.
+/// Appends eight bytes, least significant first, on every machine.
 void append_double(double value, std::string& out) {
   std::uint64_t bits = 0;
   static_assert(sizeof bits == sizeof value);
@@ -24,7 +24,7 @@ void append_double(double value, std::string& out) {
   for (int i = 0; i < 8; ++i) out += static_cast<char>((bits >> (8U * i)) & 0xFFU);
 }
 
-/// Seven bits a byte, the sign last.
+/// Appends seven bits per byte, the sign last.
 void append_integer(std::int64_t value, std::string& out) {
   const auto u = static_cast<std::uint64_t>(value);
   std::uint64_t zigzag = (u << 1U) ^ (value < 0 ? ~std::uint64_t{0} : 0);
@@ -32,7 +32,7 @@ void append_integer(std::int64_t value, std::string& out) {
   out += static_cast<char>(zigzag);
 }
 
-/// The differences of the next order, the first to nothing.
+/// Replaces the values by their differences; the first value is its difference to 0.
 void differentiate(std::vector<std::int64_t>& values) {
   for (std::size_t k = values.size(); k-- > 1;) values[k] -= values[k - 1];
 }
@@ -63,7 +63,7 @@ class Packer {
     }
   }
 
-  /// The head of a channel; its values go to the stream.
+  /// The head of a channel; its values are appended to the stream.
   Json pack(std::size_t index) {
     const FrameChannel& channel = recording_.channels().channels()[index];
     const std::vector<double>& values = recording_.columns()[index];
@@ -129,7 +129,7 @@ class Packer {
 std::string compressed(const std::string& bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string out(size, '\0');
-  // Fails only for want of memory, which is an exception everywhere else, too.
+  // compress2 fails only for lack of memory, which throws everywhere else, too.
   if (compress2(reinterpret_cast<Bytef*>(out.data()), &size,
                 reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()),
                 Z_DEFAULT_COMPRESSION) != Z_OK) {

@@ -14,7 +14,7 @@
 namespace sheave::view {
 namespace {
 
-/// Of DejaVu Sans, from ascent to descent, in its em.
+/// Height of DejaVu Sans from ascent to descent, relative to the em.
 constexpr double face_height = 1.164;
 constexpr std::string_view replacement = "\xEF\xBF\xBD";  // U+FFFD
 
@@ -25,13 +25,14 @@ std::string hex(const render::Color& color) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte(color.r), byte(color.g), byte(color.b));
 }
 
-/// Well-formed UTF-8 that XML can hold but for control characters: what is not is replaced.
+/// `text` with everything replaced that is invalid UTF-8 or not allowed in XML, except control
+/// characters.
 std::string valid_text(std::string_view text) {
   using Json = nlohmann::json;
   const std::string quoted =
       Json(std::string(text)).dump(-1, ' ', false, Json::error_handler_t::replace);
   std::string valid = Json::parse(quoted).get<std::string>();
-  // U+FFFE and U+FFFF are UTF-8, but no characters of XML.
+  // U+FFFE and U+FFFF are valid UTF-8, but XML does not allow them.
   for (const std::string_view stranger : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) {
     for (std::size_t at = 0; (at = valid.find(stranger, at)) != std::string::npos;) {
       valid.replace(at, stranger.size(), replacement);

@@ -1,5 +1,5 @@
 #pragma once
-// Drawing as SVG: lines and texts that stay such, over a picture of pixels.
+// Drawing as SVG: lines and texts stay vector graphics, over a picture of pixels.
 
 #include <string>
 
@@ -18,12 +18,12 @@ class SvgCanvas final : public render::Canvas {
             double alpha) override;
   void line(double x0, double y0, double x1, double y1, double width, const render::Color& color,
             double alpha) override;
-  /// As wide as the built-in face would be, whatever the reader's is.
+  /// The text is as wide as in the built-in face, even if the reader's program uses another font.
   void text(double x, double y, std::string_view text, double pixels, const render::Color& color,
             double halo) override;
 
-  /// The file: what has been drawn over a picture, which are the bytes of a PNG file of any number
-  /// of pixels. Bytes that are no UTF-8, and characters that XML cannot hold, show as U+FFFD.
+  /// The SVG file: the drawing over the picture `png`, the bytes of a PNG file of any size. Invalid
+  /// UTF-8 and characters that XML does not allow are shown as U+FFFD.
   [[nodiscard]] std::string document(const std::string& png, const std::string& title) const;
 
  private:

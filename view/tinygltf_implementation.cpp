@@ -1,3 +1,3 @@
-// The body of tinygltf, which is one header.
+// Compiles the implementation of tinygltf, a header-only library.
 #define TINYGLTF_IMPLEMENTATION
 #include <tiny_gltf.h>
