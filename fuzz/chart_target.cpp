@@ -9,7 +9,7 @@
 namespace sheave::fuzz {
 namespace {
 
-/// Texts of lengths that the bytes tell, each with a mark by which it is found again.
+/// Texts whose lengths the bytes determine. Each contains a mark by which it is recognised.
 std::vector<std::string> texts_of(Bytes bytes, const std::string& mark) {
   std::vector<std::string> texts;
   while (!bytes.empty()) {

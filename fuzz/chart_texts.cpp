@@ -17,7 +17,7 @@
 namespace sheave::fuzz {
 namespace {
 
-/// The texts, one after the other, from the first again behind the last.
+/// Returns the texts in turn, cyclically.
 class InTurn {
  public:
   explicit InTurn(const std::vector<std::string>& texts) : texts_(texts) {}
@@ -110,7 +110,7 @@ bool only_of(std::string_view text, std::string_view allowed) {
   return text.find_first_not_of(allowed) == std::string_view::npos;
 }
 
-/// A line of the block of texts: gnuplot keeps it as it is, up to its end.
+/// Checks a line of the data block of texts: gnuplot stores such a line unchanged up to its end.
 void require_text(std::string_view line) {
   require(line.starts_with('|'), "a text does not begin with the bar that keeps it a text");
   constexpr std::size_t most = 4 * 300 + 1;
@@ -126,7 +126,7 @@ void require_text(std::string_view line) {
   }
 }
 
-/// A line of commands without what stands in single quotes, in which nothing has a meaning.
+/// A line of commands without the contents of single quotes, which gnuplot does not interpret.
 std::string without_constants(std::string_view line) {
   std::string code;
   bool quoted = false;
@@ -151,7 +151,7 @@ void require_command(std::string_view line) {
   for (const std::string_view word : forbidden) {
     require(code.find(word) == std::string::npos, "a command may do more than draw: " + code);
   }
-  // "<" begins the output of a program where the name of a file may stand.
+  // In place of a file name, "<" reads the output of a program.
   for (std::size_t at = code.find('<'); at != std::string::npos; at = code.find('<', at + 1)) {
     require(at >= 3 && code.compare(at - 3, 5, "$3 < ") == 0,
             "a command may read from a program: " + code);
@@ -181,7 +181,7 @@ void require_harmless(const std::string& script, const std::string& mark) {
       require(line.find(mark) == std::string_view::npos, "a text from outside is part of a script");
     }
     if (place != Place::commands) {
-      // gnuplot ends a block at a line that only begins so.
+      // gnuplot ends a block at a line that only begins with its name.
       if (line.starts_with("end")) {
         require(line == "end", "a block is ended by what stands in it");
         place = Place::commands;

@@ -1,5 +1,5 @@
 #pragma once
-// Charts of every kind with texts from outside in every place where they can have one.
+// Charts of every kind with hostile texts in every place that accepts a text.
 
 #include <string>
 #include <vector>
@@ -8,14 +8,14 @@
 
 namespace sheave::fuzz {
 
-/// A chart of a run, of a sweep (over one axis, a map, clouds), of a trade, of a stress map and of
-/// a bench, which take the texts in turn.
-[[nodiscard]] std::vector<command::GnuplotScript> charts_with(const std::vector<std::string>& texts,
-                                                              command::ChartFormat format);
+/// One chart each of a run, of sweeps (over one axis, a map, scatter plots), of a trade, of a
+/// stress map and of a bench. The charts use the texts in turn.
+[[nodiscard]] std::vector<tools::GnuplotScript> charts_with(const std::vector<std::string>& texts,
+                                                            tools::ChartFormat format);
 
-/// Reads a script as gnuplot does, by rules that share no code with what writes them: throws a
-/// BrokenPromise unless all of it is commands that only draw, numbers, and texts that gnuplot does
-/// not interpret; `mark`, which texts from outside have in them, may stand in the latter only.
+/// Parses a script by gnuplot's rules; shares no code with the writer. Throws a BrokenPromise
+/// unless the script consists of drawing commands, numbers, and texts that gnuplot does not
+/// interpret. The string `mark`, which all hostile texts contain, may occur only in the latter.
 void require_harmless(const std::string& script, const std::string& mark);
 
 }  // namespace sheave::fuzz

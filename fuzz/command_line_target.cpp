@@ -26,7 +26,7 @@ std::vector<std::string> words_of(Bytes bytes) {
   return words;
 }
 
-/// What --set does with a word.
+/// Tries a word as the value of --set.
 void try_override(const std::string& word) {
   const std::size_t equals = word.find('=');
   if (equals == std::string::npos || word.front() != '/') return;

@@ -1,6 +1,6 @@
-// Prints a dictionary for libFuzzer: the words of scenes, from the field tables, with the argument
-// "live" those of a live session's requests, or with "command_line" those of the command line, from
-// its options.
+// Prints a dictionary for libFuzzer: the words of scenes, from the field tables. The argument
+// "live" selects the words of live requests, and "command_line" those of the command line, from its
+// options.
 
 #include <algorithm>
 #include <cstdio>

@@ -41,7 +41,7 @@ EditModel::Cable* EditModel::running(int cable, bool may_be_cut) {
 bool EditModel::has_span(const Cable& cable, int span) {
   const int count = static_cast<int>(cable.links.size());
   if (span < 0 || span >= count || cable.links[at(span)].lifted) return false;
-  // It ends at the next link that the cable touches.
+  // The span ends at the next link that the cable touches.
   return cable.closed || std::any_of(cable.links.begin() + span + 1, cable.links.end(),
                                      [](const Link& link) { return !link.lifted; });
 }
@@ -143,7 +143,8 @@ void EditModel::remove_link(int cable, int link) {
 }
 
 void EditModel::run_off(Cable& cable) {
-  // Up to the first link that holds without help: an attachment, or the drum at the other end.
+  // Removes links up to the first one that holds without tension: an attachment, or the drum at the
+  // other end.
   while (cable.loose[0] && !cable.links.empty() && cable.links.front().kind != Kind::attachment &&
          (cable.links.size() > 1 || cable.loose[1])) {
     cable.links.erase(cable.links.begin());

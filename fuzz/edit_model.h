@@ -1,7 +1,7 @@
 #pragma once
-// What cable/edit.h says of cables, told once more and as topology alone: which links a cable has,
-// which of its ends are loose, what can be done to it and what comes of that. It shares no code with
-// the library, which must accept and refuse the same.
+// A second, purely topological implementation of the rules in cable/edit.h: the links of a cable,
+// its loose ends, the legal edits and their results. The model shares no code with the library, and
+// both must accept and refuse the same edits.
 
 #include <array>
 #include <set>
@@ -12,23 +12,23 @@
 
 namespace sheave::fuzz {
 
-/// Any number of things that an edit can refer to are told by their places in these lists, for ever.
+/// Entities are identified by their indices in these lists. Indices are never reused.
 class EditModel {
  public:
   enum class Kind { attachment, rolling, pinhole, spool };
   struct Link {
     Kind kind = Kind::attachment;
-    int body = -1;        ///< place among the bodies; -1: the world
-    bool fresh = false;   ///< it has been inserted by this edit
-    bool lifted = false;  ///< the cable has left it: only steps do that
+    int body = -1;        ///< index of the body; -1: the world
+    bool fresh = false;   ///< inserted by this edit
+    bool lifted = false;  ///< the cable has left it; happens only in steps
   };
   struct Cable {
     std::vector<Link> links;
     std::array<bool, 2> loose{};
     bool closed = false;
     bool there = true;
-    bool added = false;    ///< by this edit
-    bool changed = false;  ///< by this edit: what steps have made of others is as it is
+    bool added = false;    ///< added by this edit
+    bool changed = false;  ///< changed by this edit; unchanged cables keep the result of the steps
     bool cut = false;
     int cut_span = 0;
     [[nodiscard]] bool pulls() const { return there && links.size() >= 2; }
@@ -40,17 +40,17 @@ class EditModel {
   };
 
   std::vector<Cable> cables;
-  std::vector<char> bodies;  ///< whether each is there
+  std::vector<char> bodies;  ///< whether each body exists
   std::vector<Joint> joints;
 
-  // What an edit can ask for. What cannot be makes it illegal, and changes nothing else.
+  // The operations of an edit. An impossible operation makes the edit illegal and changes nothing.
   void add_body() { bodies.push_back(1); }
   void remove_body(int body);
   void add_joint(int body_a, int body_b);
   void remove_joint(int joint);
   void add_cable(Cable cable);
   void remove_cable(int cable);
-  /// Becomes the last cable, if it can be.
+  /// The second part becomes the last cable, if the split is possible.
   void split(int cable, int span);
   void open(int cable, int span);
   void join(int cable, int next);
@@ -60,19 +60,19 @@ class EditModel {
   void insert(int cable, int span, Link link);
   void remove_link(int cable, int link);
 
-  /// At the end of an edit: loose ends run off, and all that is referred to must be there.
+  /// Ends the edit: cable runs off at loose ends, and all referenced entities must exist.
   void finish();
-  /// Why it cannot be; empty if it can.
+  /// Why the edit is illegal; empty if it is legal.
   [[nodiscard]] const std::string& fault() const { return fault_; }
 
  private:
   void fail(const char* why) {
     if (fault_.empty()) fault_ = why;
   }
-  /// One that can be changed now; null, and a fault, if it cannot.
+  /// A cable that can be changed now; otherwise null and a fault.
   Cable* running(int cable, bool may_be_cut = false);
   [[nodiscard]] static bool has_span(const Cable& cable, int span);
-  /// Where the cable can come apart; -1, and a fault, if it cannot there.
+  /// The link index at which the cable can be divided; otherwise -1 and a fault.
   int place_to_part(const Cable& cable, int span);
   void run_off(Cable& cable);
   void check(const Cable& cable);

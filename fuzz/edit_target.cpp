@@ -17,7 +17,7 @@ namespace {
 
 using Kind = EditModel::Kind;
 
-/// Why an edit that the model knows nothing against may yet be refused: where things are.
+/// Whether a refusal is due to geometry, which the model does not contain.
 bool is_of_geometry(const std::string& fault) {
   constexpr std::array reasons{"would run through a wheel", "would need a negative rest length",
                                "too little for the inserted link", "m too short for that"};
@@ -25,8 +25,9 @@ bool is_of_geometry(const std::string& fault) {
                      [&](const char* reason) { return fault.find(reason) != std::string::npos; });
 }
 
-/// A drum, three wheels, two lumps and two posts; a rope from the drum over a wheel to a lump, one
-/// through an eyelet, and a belt. All elastic, so that none is too short for anything.
+/// A drum, three wheels, two masses and two posts. A rope runs from the drum over a wheel to a
+/// mass, another one through an eyelet, and there is a belt. All cables are elastic, so that none
+/// is too short for an edit.
 test::Machine machine() {
   test::Machine made;
   made.model.gravity = test::down;
@@ -143,7 +144,7 @@ class EditTrial {
     go_back();
   }
 
-  /// A state that there is can be gone back to.
+  /// Restores the present state, which must succeed.
   void go_back() {
     const std::uint64_t before = hash(world_.state());
     const Errors errors = world_.restore(world_.snapshot());
@@ -286,7 +287,7 @@ class EditTrial {
     cables_.push_back(edit.add(rope));
   }
 
-  /// A body that is no more is a fault of the edit as soon as it is named.
+  /// Using a removed body is a fault of the edit from its first mention.
   BodyId id(Edit& edit, EditModel& next, int body) {
     if (body < 0) return BodyId::world();
     if (next.bodies[at(body)] == 0) next.remove_body(body);  // the same fault
@@ -300,7 +301,7 @@ class EditTrial {
     return {0.05 * pick(5) - 0.1, 0.1, 0.0};
   }
 
-  /// Only steps lift cables off wheels, and cut them.
+  /// Only steps lift cables off wheels and cut them.
   void step(int count) {
     for (int i = 0; i < count && goes_on_; ++i) {
       const LiveReport report = world_.step();
@@ -339,7 +340,7 @@ class EditTrial {
     }
   }
 
-  /// At the next step it breaks if it pulls at all.
+  /// Breaks a cable by a tiny breaking tension in one step, if it has any tension.
   void cut(int cable) {
     const EditModel::Cable& own = model_.cables[at(cable)];
     const Errors errors = world_.set_breaking_tension(cables_[at(cable)], 1e-300);
@@ -395,7 +396,7 @@ class EditTrial {
   Bytes bytes_;
   EditModel model_;
   LiveWorld world_;
-  std::vector<BodyHandle> bodies_;  // in the order of the model
+  std::vector<BodyHandle> bodies_;  // same indices as in the model
   std::vector<JointHandle> joints_;
   std::vector<CableHandle> cables_;
   bool goes_on_ = true;

@@ -1,4 +1,4 @@
-// What libFuzzer's main program calls.
+// The entry point that libFuzzer's main program calls.
 
 #include "fuzz/target.h"
 

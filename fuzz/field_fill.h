@@ -1,6 +1,6 @@
 #pragma once
-// Values for fields, drawn by their tables: what a field may be, its bounds, and what it may not
-// be.
+// Random values for fields, drawn from the field tables: valid values, values at the bounds, and
+// invalid ones.
 
 #include <cmath>
 #include <limits>
@@ -13,7 +13,7 @@ namespace sheave::fuzz {
 /// Draws a value for a slot of any type.
 class FieldFill {
  public:
-  /// `bodies`: how many there are to refer to.
+  /// `bodies`: number of bodies for references.
   FieldFill(test::Random& random, const Field& field, int bodies)
       : random_(random), field_(field), bodies_(bodies) {}
 
@@ -71,7 +71,7 @@ class FieldFill {
 
  private:
   [[nodiscard]] bool absent() const { return random_.chance(0.2); }
-  /// Mostly within the range and of an ordinary size.
+  /// Mostly a number in the allowed range and of ordinary size.
   [[nodiscard]] double number() const {
     const Range& range = field_.range;
     const bool whole = std::isfinite(range.minimum) && std::isfinite(range.maximum);
@@ -115,7 +115,7 @@ class FieldFill {
     if (random_.chance(0.7)) return random_.vector(1.0);
     return {number(), number(), number()};
   }
-  /// The world, a body, or hardly ever one that does not exist.
+  /// The world or a body; rarely a body that does not exist.
   [[nodiscard]] BodyId body() const {
     if (random_.chance(0.03)) return {random_.below(2) == 0 ? bodies_ : -2};
     return {random_.below(bodies_ + 1) - 1};

@@ -43,7 +43,7 @@ class HeapMaker {
   }
 
  private:
-  /// Keeps a change that makes a machine.
+  /// Keeps a change if the resulting machine is valid.
   template <class Make>
   void attempt(const Make& change) {
     Machine larger = machine_;

@@ -5,9 +5,9 @@
 
 namespace sheave::fuzz {
 
-/// Bodies of all shapes and mobilities that lie on, lean against and fall onto each other, a floor
-/// or a slope, some joined, some in a plane, with or without a cable; a machine that
-/// Simulation::create accepts.
+/// A heap of bodies of all shapes and mobilities that lie on, lean against and fall onto each
+/// other, a floor or a slope. Some are joined, some are planar, and there may be a cable.
+/// Simulation::create accepts the machine.
 [[nodiscard]] test::Machine heap(test::Random& random);
 
 }  // namespace sheave::fuzz

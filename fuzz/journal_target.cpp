@@ -14,7 +14,7 @@
 namespace sheave::fuzz {
 namespace {
 
-/// A file of these bytes without a place on any disk.
+/// A file in memory with these bytes.
 class MemoryFile {
  public:
   explicit MemoryFile(const std::string& text) : file_(memfd_create("fuzzed", 0)) {
@@ -31,7 +31,7 @@ class MemoryFile {
   int file_;
 };
 
-/// Whether `read` takes the file; a refusal must be one of its contents.
+/// Whether `read` accepts the file; a refusal must concern its contents.
 template <class Read>
 bool is_taken(const Read& read) {
   try {
@@ -44,7 +44,7 @@ bool is_taken(const Read& read) {
   }
 }
 
-/// Everything that is asked of a journal which was taken.
+/// Uses an accepted journal in every way that the program does.
 void use(const std::string& text) {
   const nlohmann::json data = nlohmann::json::parse(text, nullptr, false, true);
   const MemoryFile file(text);

@@ -30,7 +30,7 @@ void try_line(live::Session& session, std::string_view line) {
   const bool ok = answer.value("ok", false);
   require(ok != answer.contains("errors"), "neither done nor refused: " + text);
   require(ok || hash_of(session) == before, "refused, and yet changed: " + text);
-  // And whatever has been asked for, there is no state that could not be gone back to.
+  // After any requests the present state can be restored.
   LiveWorld& world = session.state().world;
   const std::uint64_t now = hash_of(session);
   const Errors errors = world.restore(world.snapshot());

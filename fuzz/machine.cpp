@@ -41,8 +41,7 @@ void choose_steps(Random& frame, StepSettings& step) {
   step.dt = lengths[static_cast<std::size_t>(frame.below(lengths.size()))];
 }
 
-/// The work of a run has to end: what is asked for in larger numbers takes the same ways through
-/// the code.
+/// Bounds the work of a run. Larger numbers would execute the same code.
 void bound_work(StepSettings& step) {
   step.substeps = std::min(step.substeps, 4);
   step.iterations = std::min(step.iterations, 30);

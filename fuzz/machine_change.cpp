@@ -15,7 +15,7 @@ Element* any_of(Random& random, std::vector<Element>& list) {
   return &list[static_cast<std::size_t>(random.below(static_cast<int>(list.size())))];
 }
 
-/// Changes one thing of a machine.
+/// Changes one entity of a machine.
 class Change {
  public:
   Change(Random& random, Machine& machine) : random_(random), machine_(machine) {}
@@ -62,8 +62,7 @@ class Change {
     std::visit(FieldFill(random_, field, bodies), field.slot(object));
   }
 
-  /// The same thing as an object of its own, with another value in one field: of `common`, or of
-  /// its type.
+  /// A copy of the entity with another value in one field of `common` or of its own type.
   template <class Base>
   std::shared_ptr<const Base> changed(const Base& old, std::span<const TypeEntry<Base>> types,
                                       std::span<const Field> common) {

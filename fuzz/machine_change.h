@@ -5,8 +5,8 @@
 
 namespace sheave::fuzz {
 
-/// Gives one field of one thing of the machine another value, by the field tables, or repeats or
-/// removes a thing.
+/// Changes one field of one entity of the machine by the field tables, or duplicates or removes an
+/// entity.
 void change_field(test::Random& random, test::Machine& machine);
 
 }  // namespace sheave::fuzz

@@ -16,7 +16,7 @@
 namespace sheave::fuzz {
 namespace {
 
-/// Certificate::clean() and what two ways to measure the same may differ by.
+/// Certificate::clean() plus the difference between two ways of measuring the same quantity.
 constexpr double trust = 0.011;
 
 bool drives(const JointDef& joint) {
@@ -37,7 +37,7 @@ bool feeds(const LinkDef& link) {
   return point != nullptr && point->feed_speed.value_or(0.0) != 0.0;
 }
 
-/// Whether anything may do work that World::energy() knows nothing of.
+/// Whether work may be done that World::energy() does not include.
 bool is_driven(const Model& model, const std::vector<CableDef>& cables) {
   const bool by_body = std::any_of(model.bodies.begin(), model.bodies.end(), [](const BodyDef& b) {
     return b.drive != DriveKind::none || b.mobility == Mobility::kinematic || !b.torque.isZero() ||
@@ -49,7 +49,7 @@ bool is_driven(const Model& model, const std::vector<CableDef>& cables) {
     return std::any_of(cable.links.begin(), cable.links.end(),
                        [](const auto& link) { return feeds(*link); });
   });
-  // Bodies that overlap when they come to touch have the energy of a spring at once.
+  // Overlapping bodies that begin to touch have the energy of a compressed spring at once.
   const bool by_contact = std::any_of(model.colliders.begin(), model.colliders.end(),
                                       [](const auto& c) { return c.compliance > 0.0; });
   return by_body || by_joint || by_cable || by_contact;
@@ -61,7 +61,7 @@ bool is_finite(const BodyState& body) {
          std::isfinite(body.angle);
 }
 
-/// The longest of all lengths of a cable [m], and the shortest.
+/// The largest and the smallest of all lengths of a cable [m].
 struct Lengths {
   double longest = 0.0;
   double shortest = 0.0;
@@ -80,7 +80,7 @@ struct Lengths {
   }
 };
 
-/// At most how far a point of a body goes in a substep [m].
+/// Upper bound of the displacement of a point of a body in a substep [m].
 double motion(const World& world) {
   double fastest = 0.0;
   for (const BodyState& body : world.state().bodies) {
@@ -90,8 +90,8 @@ double motion(const World& world) {
   return fastest * world.model().step.dt / world.model().step.substeps;
 }
 
-/// What drums that turn by w h take more, or give, since their radius grows by the pitch with each
-/// turn, pitch (w h)^2 / 4 pi [m].
+/// Additional cable that drums take up or release when they turn by w h, because their radius grows
+/// by the pitch per turn: pitch (w h)^2 / 4 pi [m].
 double layered_motion(const CableDef& cable, const World& world) {
   double turn = 0.0;
   for (const BodyState& body : world.state().bodies) {
@@ -111,7 +111,7 @@ bool is_rigid(const CableDef& cable) {
          cable.tangent_update == TangentUpdate::iteration;
 }
 
-/// Everything that reports say, so that every one of them is made.
+/// Reads all reports, so that the code of each is executed.
 void read_reports(const Simulation& simulation) {
   const World& world = simulation.world;
   for (int i = -1; i < world.bodies().count(); ++i) {
@@ -136,7 +136,7 @@ void read_reports(const Simulation& simulation) {
   }
 }
 
-/// What an angle of a joint is small beside [rad]: that of a gear is of the body that turns faster.
+/// Scale of the angles of a joint [rad]. For a gear it is the angle of the faster body.
 double turns_of(const World& world, const std::string& name) {
   for (const auto& joint : world.model().joints) {
     const auto* gear = dynamic_cast<const GearJoint*>(joint.get());
@@ -145,7 +145,7 @@ double turns_of(const World& world, const std::string& name) {
   return 1.0;
 }
 
-/// The sum of all forces that reports tell [N]; torques count at the size of the scene.
+/// The sum of all reported forces [N]; a torque is divided by the size of the scene.
 double reported_forces(const Simulation& simulation) {
   const double size = simulation.world.bodies().scale();
   double forces = 0.0;
@@ -204,8 +204,8 @@ void StepCheck::check(const Simulation& simulation) {
 }
 
 // Lengths are multiples of a power of two of about 1e-15 of the cable (cable/cable_system.h), so
-// their sum is exact as long as none of them is beyond some times the cable; each of the some 16
-// sums of a substep then rounds by eps of the longest.
+// their sum is exact as long as no length exceeds some multiple of the cable. Beyond that each of
+// the about 16 sums of a substep rounds by eps of the longest length.
 void StepCheck::check_cables(const Simulation& simulation, bool clean) {
   const std::vector<CableReport> cables = simulation.cable_reports();
   const std::size_t events = simulation.cables == nullptr ? 0 : simulation.cables->events().size();
@@ -263,13 +263,13 @@ void StepCheck::check_contacts(const Simulation& simulation) const {
 
 namespace {
 
-/// How a body moves otherwise after a substep.
+/// The change of a body's motion in a substep.
 struct MotionChange {
   Vector3 center = Vector3::Zero();
   double velocity = 0.0;  ///< [m/s]
-  double spin = 0.0;      ///< [rad/s]; what turns changes velocities by h w^2 without any force
+  double spin = 0.0;      ///< [rad/s]; a rotation changes velocities by h w^2 without a force
 
-  /// Of the velocity of a point of it, at most [m/s].
+  /// Upper bound of the velocity change of a point of the body [m/s].
   [[nodiscard]] double at(const Vector3& point) const {
     return velocity + spin * (point - center).norm();
   }
@@ -288,7 +288,7 @@ std::vector<MotionChange> changes_of(const World& world, const LastSubstep& last
   return changes;
 }
 
-/// Sum of the impulses of tensions times the changes of the velocities at which they act [J].
+/// Sum of the impulses of tensions times the velocity changes at their points of action [J].
 double turned_by_tensions(const Simulation& simulation, const std::vector<MotionChange>& changes,
                           double h) {
   double sum = 0.0;
@@ -309,8 +309,8 @@ double turned_by_tensions(const Simulation& simulation, const std::vector<Motion
   return sum;
 }
 
-/// Work of contacts that move bodies out of what they have cut into [J]: what a bounce leaves of an
-/// overlap, the next substeps undo, and by how much is a figure of its own, `contact`.
+/// Work of contacts that push overlapping bodies apart [J]. The substeps after a bounce remove the
+/// remaining overlap; the certificate's figure `contact` measures that removal separately.
 double moved_out(const World& before, const World& now) {
   double sum = 0.0;
   const std::vector<ContactReport> old = before.contacts();
@@ -331,23 +331,24 @@ double moved_out(const World& before, const World& now) {
 
 }  // namespace
 
-// A certificate is clean if in all no more work than a hundredth of what flows is done by nothing,
-// or of a millionth of what energy and weights there are (cable/certificate/energy.cpp): a gap that
-// closes while all is as good as at rest. What flows is at most every force times the fastest
-// point.
+// A certificate is clean if the work from no source is at most a hundredth of the energy flow
+// (cable/certificate/energy.cpp). The flow counts as at least a millionth of the present energies
+// and weights, because a gap may close while the machine is nearly at rest. The flow is at most the
+// sum of all forces times the speed of the fastest point.
 //
-// What it does not see is the error of the time step, which is of second order: of an impulse P
-// that changes a velocity by dv the energy depends, by P dv, on the way between both ends, and so
-// it does where another impulse changes it: of a light wheel between two ropes, whose own m dv is
-// little, by the tensions.
+// The certificate does not include the error of the time step, which is of second order: the work
+// of an impulse P that changes a velocity by dv depends by P dv on the velocity between both ends.
+// The same holds if another impulse changes the velocity at P's point. An example is a light wheel
+// between two ropes: its own m dv is small, but the tensions are not.
 //
-// And positions are rounded: every force does that much work, and so does what a body's motion
-// makes of it within the substep, m v / h.
+// Positions are rounded, too. Every force does work on the rounding, and so does the inertial force
+// m v / h of a body's motion within a substep.
 void StepCheck::check_energy(const Simulation& simulation) {
   const std::optional<LastSubstep> last = simulation.world.last_substep();
-  // What a body has cut into when a cable comes to touch it is taken in by the substep after.
+  // When a cable begins to touch a body that has moved into it, the next substep removes the
+  // penetration.
   if (driven_ || quiet_ < 2 || !last || !before_.world.restore(last->start).empty()) return;
-  // Where a span has no tangent the run tells that its numbers mean little.
+  // For a span without tangent the run itself warns that its numbers are unreliable.
   for (const CableReport& cable : simulation.cable_reports()) {
     const auto lost = [](const SpanReport& span) { return !span.has_tangent; };
     if (std::any_of(cable.spans.begin(), cable.spans.end(), lost)) return;

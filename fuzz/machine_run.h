@@ -1,15 +1,14 @@
 #pragma once
-// What holds of every run, whatever the machine is.
+// Properties that must hold for every run of every machine.
 
 #include "cable/simulation.h"
 
 namespace sheave::fuzz {
 
-/// What is wrong with the state that a step has left, or with what is reported of it: a
-/// BrokenPromise.
+/// Checks the state after a step and its reports; a violation is a BrokenPromise.
 class StepCheck {
  public:
-  /// For runs of `simulation`. `ordinary`: a machine of ordinary sizes, whose energy is a number.
+  /// For runs of `simulation`. `ordinary`: the machine has ordinary sizes, so its energy is finite.
   StepCheck(const Simulation& simulation, bool ordinary);
 
   /// To be called after every step that does not diverge.
@@ -22,12 +21,12 @@ class StepCheck {
   void check_energy(const Simulation& simulation);
 
   bool ordinary_;
-  bool driven_;        ///< something does work on the machine, or takes energy from nowhere
-  Simulation before_;  ///< another of the same, put into states of this run
+  bool driven_;        ///< some part does work on the machine that its energy does not include
+  Simulation before_;  ///< a second simulation, which is set to states of this run
   std::vector<double>
-      rounding_;  ///< per cable, what the sum of its lengths may be off by, relative
+      rounding_;  ///< per cable: bound of the relative rounding error of its total length
   std::size_t events_ = 0;
-  int quiet_ = 2;  ///< steps since the course of a cable has changed
+  int quiet_ = 2;  ///< steps since the last event of a cable
 };
 
 }  // namespace sheave::fuzz

@@ -11,8 +11,8 @@ void check_refusal(const Errors& errors) {
   for (const Error& error : errors) require(!error.message.empty(), "a fault without a message");
 }
 
-/// A run ends early when it has solved so many rows, counting every round and every try of an
-/// active set: a rope that takes all the rounds it may has nothing new to tell in the tenth step.
+/// Largest number of row solves of a run, counting every round and every trial of an active set. A
+/// rope that uses all allowed rounds shows nothing new after some steps.
 constexpr std::int64_t most_work = 100'000;
 
 std::int64_t work_of(const StepStatistics& step) {
@@ -23,11 +23,11 @@ std::int64_t work_of(const StepStatistics& step) {
 struct Course {
   State middle;
   State end;
-  int steps = 0;  ///< that it was run
+  int steps = 0;  ///< number of completed steps
   bool diverged = false;
 };
 
-/// One step, watched.
+/// One step with checks.
 StepReport advance(Simulation& simulation) {
   StepReport report = simulation.world.step();
   if (!report.ok()) require(!report.divergence->message.empty(), "a divergence without a message");
@@ -50,7 +50,7 @@ Course first_run(const Trial& trial, Simulation& simulation) {
   return course;
 }
 
-/// The same once more, from a state that was written and read on the way.
+/// Repeats the run from a state that is written and read at the pause.
 void second_run(const Trial& trial, const Course& course) {
   Simulation again = test::start(trial.machine);
   bool going = true;

@@ -1,5 +1,5 @@
-// What fuzzing has found once is tried in every build: fuzz/regressions/TARGET/ has the inputs that
-// broke a promise, fuzz/corpus/ TARGET/ a few that reach most of the code.
+// Replays fuzzing results in every build. fuzz/regressions/TARGET/ has the inputs that broke a
+// promise, and fuzz/corpus/TARGET/ a few inputs that reach most of the code.
 
 #include <algorithm>
 #include <array>
@@ -69,7 +69,7 @@ std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
   return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
 }
 
-/// The scene of a machine whose run broke a promise, for a look at it.
+/// Saves the scene of a machine whose run broke a promise, for inspection.
 void keep_scene(Bytes bytes, std::uint64_t seed) {
   const char* folder = std::getenv("SHEAVE_FAULTS");
   if (folder == nullptr) return;
@@ -77,8 +77,8 @@ void keep_scene(Bytes bytes, std::uint64_t seed) {
       << test::scene_of(trial_from(bytes).machine);
 }
 
-// SHEAVE_CASES machines that follow from the seeds from SHEAVE_SEED on: `dev/fuzz random`.
-// Scenes of those that break a promise are written to the folder SHEAVE_FAULTS.
+// SHEAVE_CASES machines from consecutive seeds beginning at SHEAVE_SEED: `tools/fuzz random`.
+// Scenes that break a promise are written to the folder SHEAVE_FAULTS.
 TEST(RandomMachines, keep_every_promise) {
   const std::uint64_t cases = from_environment("SHEAVE_CASES", 10);
   const std::uint64_t first = from_environment("SHEAVE_SEED", 1);
@@ -96,7 +96,7 @@ TEST(RandomMachines, keep_every_promise) {
   }
 }
 
-// The same for edits, of random bytes.
+// The same for edits from random bytes.
 TEST(RandomEdits, keep_every_promise) {
   const std::uint64_t cases = from_environment("SHEAVE_CASES", 100);
   const std::uint64_t first = from_environment("SHEAVE_SEED", 1);
@@ -120,8 +120,8 @@ std::vector<std::string> some_texts(std::uint64_t first, std::uint64_t count) {
 
 constexpr std::uint64_t texts_of_a_chart = 100;
 
-// SHEAVE_CASES texts that follow from the seeds from SHEAVE_SEED on, a hundred into the charts of
-// all kinds at a time.
+// SHEAVE_CASES texts from consecutive seeds beginning at SHEAVE_SEED. A hundred at a time are put
+// into charts of all kinds.
 TEST(HostileTexts, StayTexts) {
   const std::uint64_t first = from_environment("SHEAVE_SEED", 1);
   const std::uint64_t end = first + from_environment("SHEAVE_CASES", 2000);
@@ -140,7 +140,7 @@ bool has_gnuplot() {
   return found;
 }
 
-/// What gnuplot prints of the texts of a script that shows them.
+/// The texts of a script as gnuplot prints them.
 std::string read_back(const std::vector<std::string>& texts) {
   command::GnuplotScript script(command::ChartFormat::svg, 100);
   script.add({"set print '-'\n"});
@@ -153,7 +153,7 @@ std::string read_back(const std::vector<std::string>& texts) {
   return {output.begin(), output.end()};
 }
 
-// The judge is gnuplot itself.
+// gnuplot itself is the reference.
 TEST(HostileTexts, AreReadBackByGnuplot) {
   if (!has_gnuplot()) GTEST_SKIP() << "no gnuplot";
   const std::uint64_t first = from_environment("SHEAVE_SEED", 1);
@@ -167,7 +167,7 @@ TEST(HostileTexts, AreReadBackByGnuplot) {
   }
 }
 
-/// A folder to draw in, while every program that is started tells its name.
+/// A folder for pictures in which every started program records its name.
 class Drawing {
  public:
   Drawing() : before_(fs::current_path()) {
@@ -192,7 +192,7 @@ class Drawing {
   Drawing& operator=(const Drawing&) = delete;
 
   [[nodiscard]] bool is_empty() const { return fs::is_empty(folder_); }
-  /// Names of the programs so far.
+  /// Names of the programs started so far.
   [[nodiscard]] std::vector<std::string> programs() const {
     std::ifstream file(programs_);
     std::vector<std::string> names;
@@ -206,8 +206,8 @@ class Drawing {
   std::string programs_;
 };
 
-// One text in 200 of SHEAVE_CASES, at least one hundred: nothing but the pictures appears, and
-// nothing but gnuplot starts.
+// One text in 200 of SHEAVE_CASES, at least one hundred: only the pictures appear, and only gnuplot
+// is started.
 TEST(HostileTexts, AreDrawn) {
   if (!has_gnuplot()) GTEST_SKIP() << "no gnuplot";
   const std::uint64_t first = from_environment("SHEAVE_SEED", 1);

@@ -8,7 +8,7 @@
 namespace sheave::fuzz {
 namespace {
 
-/// The bytes of each line of a text, which end as the loader's lines do.
+/// The bytes of each line of a text, divided by the loader's rules for line ends.
 std::vector<std::string_view> lines_of(std::string_view text) {
   std::vector<std::string_view> lines;
   while (true) {
@@ -25,7 +25,7 @@ void check_place(const SceneError& error, const std::vector<std::string_view>& l
   require(error.line >= 1 && error.column >= 1, "a fault without a place: " + told);
   const auto line = static_cast<std::size_t>(error.line);
   require(line <= lines.size(), "a fault behind the last line: " + told);
-  // Behind the last character is where something is missing.
+  // A missing part is reported behind the last character.
   require(static_cast<std::size_t>(error.column) <= lines[line - 1].size() + 1,
           "a fault behind the end of its line: " + told);
 }

@@ -22,15 +22,15 @@ Simulation start(const Scene& scene) {
   return std::move(*simulation);
 }
 
-/// Its state when it has settled for some steps.
+/// The state of a scene after some steps of settling.
 State settled(const Scene& scene) {
   Simulation simulation = start(scene);
   for (int i = 0; i < 3; ++i) require(simulation.step().ok(), "the fixed scene diverges");
   return simulation.world.state();
 }
 
-/// A scene and such a state, as versions without a checksum wrote it: what is damaged is read, and
-/// has to be seen otherwise.
+/// A scene and its settled state in the format of versions without a checksum: damage is not
+/// detected by the checksum, and other checks must find it.
 struct Settled {
   explicit Settled(const char* path)
       : scene(fixed_scene(path)), written(test::without_checksum(to_bytes(settled(scene)))) {}
@@ -38,7 +38,8 @@ struct Settled {
   std::string written;
 };
 
-/// A state's bytes with some words changed, as each six bytes say: which word, how, and a number.
+/// A state's bytes with some words changed. Six bytes describe each change: the word, the kind of
+/// change, and a number.
 std::string damaged(std::string state, Bytes bytes) {
   while (bytes.size() >= 6) {
     const std::size_t words = state.size() / 8;
@@ -77,7 +78,7 @@ std::string damaged(std::string state, Bytes bytes) {
   return state;
 }
 
-/// A state that was taken is gone on from: whatever numbers it has, nothing breaks.
+/// Continues from an accepted state: no numbers in it may cause a failure.
 void go_on(Simulation& simulation) {
   if (const auto* own = dynamic_cast<const SceneSupervisor*>(simulation.supervisor.get())) {
     require(own->refusals(simulation.world.state()) >= 0,
@@ -97,7 +98,7 @@ void go_on(Simulation& simulation) {
 
 void try_state(Bytes bytes) {
   if (bytes.empty()) return;
-  // One with features of all kinds, and one whose triggers remember.
+  // One scene with features of all kinds, and one whose triggers have memory.
   static const Settled everything("/tests/scenes/corpus/v1/everything.json");
   static const Settled steered("/scenes/machines/brake-failure.json");
   const auto& [scene, written] = bytes.front() < 128 ? everything : steered;

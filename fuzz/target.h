@@ -1,7 +1,7 @@
 #pragma once
-// What fuzzing tries. Each target takes any bytes, makes of them what a part of the program reads,
-// and throws a BrokenPromise if that part does not do what it promises. Faults of memory and
-// undefined behaviour are for the sanitizers to see.
+// The fuzz targets. Each target accepts any bytes, makes an input for a part of the program from
+// them, and throws a BrokenPromise if that part violates its contract. Memory errors and undefined
+// behaviour are detected by the sanitizers.
 
 #include <array>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace sheave::fuzz {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// What ought to hold does not.
+/// A required property does not hold.
 class BrokenPromise : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -28,35 +28,35 @@ inline void require(bool holds, const std::string& promise) {
   if (!holds) throw BrokenPromise(promise);
 }
 
-/// The text of a scene: it loads, and is the same when written and loaded again, or has faults at
-/// places within it.
+/// The text of a scene. Either it loads and stays the same when it is written and loaded again, or
+/// it has faults with positions within the text.
 void try_scene_text(Bytes bytes);
-/// A machine with all that there is, and what its step settings are (machine.h): it is refused with
-/// a message, or runs 20 steps in which nothing is silently wrong (machine_run.h).
+/// A machine with all its entities and step settings (machine.h). Either it is refused with a
+/// message, or it runs 20 steps without a silent error (machine_run.h).
 void try_machine(Bytes bytes);
-/// A state file, damaged, for a fixed scene: it is refused with a message, or the scene goes on
-/// from it.
+/// A damaged state file for a fixed scene. Either it is refused with a message, or the scene
+/// continues from it.
 void try_state(Bytes bytes);
 /// A journal of `sheave trade` or a baseline of `sheave bench`: read, or refused with a message.
 void try_journal(Bytes bytes);
-/// Words of a command line, separated by line breaks: accepted, or refused with a message. Nothing
-/// is run.
+/// Words of a command line, separated by line breaks: accepted, or refused with a message. No
+/// command is executed.
 void try_command_line(Bytes bytes);
-/// Requests of a live session, separated by line breaks: each is done or refused, and what is
-/// refused changes nothing; the log leads to the same state.
+/// Requests of a live session, separated by line breaks. Each is executed, or refused without a
+/// change of state. Replaying the log gives the same state.
 void try_live(Bytes bytes);
 
-/// Texts, in every place where a chart can have one: gnuplot's script has no more commands than
-/// without them (chart_texts.h). Nothing is drawn.
+/// Texts in every place of a chart that accepts one: they add no commands to gnuplot's script
+/// (chart_texts.h). No chart is drawn.
 void try_chart(Bytes bytes);
 
-/// Edits of a world, one after the other, that take cables apart and put them together, with bodies
-/// and joints that come and go and steps in between: each is accepted or refused, and leads to the
-/// topology, as a model of what cable/edit.h says (edit_model.h); what is refused changes nothing,
-/// and every state that there is can be gone back to.
+/// Successive edits of a world that divide and join cables and add and remove bodies and joints,
+/// with steps in between. Each edit is accepted or refused, and results in a topology, as the model
+/// of cable/edit.h predicts (edit_model.h). A refused edit changes nothing, and every reached state
+/// can be restored.
 void try_edit(Bytes bytes);
 
-/// A target by its name.
+/// A target with its name.
 struct Target {
   std::string_view name;
   void (*run)(Bytes bytes);
