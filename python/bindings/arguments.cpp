@@ -10,11 +10,11 @@
 namespace sheave::python {
 namespace {
 
-/// What a value looks like in a message.
+/// The appearance of a value in a message.
 std::string shown(py::handle value) {
   constexpr std::size_t longest = 80;
   std::string text = "<" + std::string(Py_TYPE(value.ptr())->tp_name) + ">";
-  // What it says of itself may be no valid Unicode, or fail.
+  // An object's repr may be invalid Unicode, or fail.
   const auto own = py::reinterpret_steal<py::object>(PyObject_Repr(value.ptr()));
   const char* const utf8 = own ? PyUnicode_AsUTF8(own.ptr()) : nullptr;
   if (utf8 != nullptr) text = utf8;
@@ -28,14 +28,14 @@ std::string shown(py::handle value) {
   return text.substr(0, end) + "...";
 }
 
-/// A number as a double; false if it is none.
+/// Reads a number as a double; false if the value is no number.
 bool read(py::handle value, double& number) {
   if (PyFloat_CheckExact(value.ptr())) {
     number = PyFloat_AS_DOUBLE(value.ptr());
     return true;
   }
   if (PyUnicode_Check(value.ptr()) || value.is_none()) return false;
-  // NumPy would take an array with a single number for that number.
+  // NumPy would convert an array with a single element to that number.
   if (py::isinstance<py::array>(value) && py::reinterpret_borrow<py::array>(value).ndim() > 0) {
     return false;
   }
@@ -45,14 +45,14 @@ bool read(py::handle value, double& number) {
   return false;
 }
 
-/// Something whose memory NumPy can take as it is: an array, a buffer, a column of pandas.
+/// Whether NumPy can use the memory of the value directly: an array, a buffer, a column of pandas.
 bool is_array(py::handle value) {
   return py::isinstance<py::array>(value) || PyObject_CheckBuffer(value.ptr()) != 0 ||
          PyObject_HasAttrString(value.ptr(), "__array__") != 0;
 }
 
-/// The items of a sequence that is no array. NumPy would read a list while its items, as they make
-/// themselves numbers, may empty it; nothing changes a tuple.
+/// The items of a sequence other than an array. Converting an item to a number may run Python code
+/// that empties a list while NumPy reads it; a tuple cannot change.
 std::optional<py::tuple> items_of(py::handle value) {
   if (is_array(value) || PyUnicode_Check(value.ptr()) || PySequence_Check(value.ptr()) == 0) {
     return {};
@@ -65,14 +65,14 @@ std::optional<py::tuple> items_of(py::handle value) {
   return py::reinterpret_borrow<py::tuple>(items);
 }
 
-/// Python's own or NumPy's.
+/// A truth value of Python or NumPy.
 std::optional<bool> truth_value(py::handle item) {
   if (PyBool_Check(item.ptr())) return item.ptr() == Py_True;
   if (std::string_view(Py_TYPE(item.ptr())->tp_name) != "numpy.bool_") return {};
   return PyObject_IsTrue(item.ptr()) == 1;
 }
 
-/// So many finite numbers.
+/// Exactly `Count` finite numbers.
 template <std::size_t Count>
 std::array<double, Count> components(py::handle value, const char* name, const char* allowed) {
   std::array<double, Count> read_ones{};
@@ -85,7 +85,7 @@ std::array<double, Count> components(py::handle value, const char* name, const c
     refuse(name, value, allowed);
   }
   for (std::size_t i = 0; i < Count; ++i) {
-    // An item that makes itself a number may change the list that it is in.
+    // Converting an item to a number may run Python code that changes the list.
     if (PySequence_Fast_GET_SIZE(items.ptr()) != static_cast<Py_ssize_t>(Count)) {
       refuse(name, value, allowed);
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Reads arguments, and says of a wrong one which it is, what it was, and what is allowed.
+// Reads arguments. The error for a wrong one names the argument, its value and the allowed values.
 
 #include <cstdint>
 #include <optional>
@@ -20,13 +20,13 @@ namespace py = pybind11;
 [[noreturn]] void refuse(const char* name, py::handle value, const std::string& allowed);
 
 [[nodiscard]] double number(py::handle value, const char* name);
-/// None gives none.
+/// None gives nullopt.
 [[nodiscard]] std::optional<double> optional_number(py::handle value, const char* name);
 [[nodiscard]] std::int64_t integer(py::handle value, const char* name, std::int64_t least,
                                    std::int64_t most);
 [[nodiscard]] bool truth(py::handle value, const char* name);
 [[nodiscard]] std::string text(py::handle value, const char* name);
-/// Raises if it is neither None nor can be called.
+/// Raises if the value is neither None nor callable.
 void check_callback(py::handle value, const char* name);
 [[nodiscard]] std::vector<std::string> texts(py::handle value, const char* name);
 /// Three numbers.
@@ -35,12 +35,12 @@ void check_callback(py::handle value, const char* name);
 /// Four numbers w, x, y, z.
 [[nodiscard]] Quaternion quaternion(py::handle value, const char* name);
 [[nodiscard]] std::optional<Quaternion> optional_quaternion(py::handle value, const char* name);
-/// Where a drive is to go.
+/// The target of a drive.
 [[nodiscard]] DriveTarget target(py::handle value, py::handle over, py::handle rate);
 
-/// So many numbers, or one for all.
+/// `count` numbers, or one number for all.
 [[nodiscard]] std::vector<double> numbers(py::handle value, const char* name, std::size_t count);
-/// So many truth values; None: all.
+/// `count` truth values; None: all true.
 [[nodiscard]] std::vector<char> mask(py::handle value, const char* name, std::size_t count);
 
 [[nodiscard]] py::tuple tuple_of(const Vector3& v);

@@ -10,7 +10,7 @@
 namespace sheave::python {
 namespace {
 
-/// A world that is being made.
+/// A world under construction.
 struct Making {
   std::optional<Simulation> simulation;
   std::vector<SceneError> errors;
@@ -40,7 +40,8 @@ bool is_same(const Simulation& a, const std::vector<std::string>& names) {
   return ObservableSet(a).names() == names;
 }
 
-// Few enough that an interrupt is heard soon, many enough that one step among them costs little.
+// Small enough for a quick reaction to an interrupt, and large enough that one step with a check
+// among this many costs little.
 constexpr std::int64_t most_unseen = 63;
 
 }  // namespace
@@ -152,7 +153,7 @@ Errors Batch::set(const std::string& name, std::span<const double> values,
                   std::optional<double> over, std::span<const char> chosen) {
   const Result<const std::vector<ControlPoint>*> points = control(name);
   if (!points) return points.errors();
-  std::vector<Controls> before;  // of those that have been set
+  std::vector<Controls> before;  // of the worlds already set
   for (std::size_t i = 0; i < size(); ++i) {
     if (chosen[i] == 0) continue;
     Simulation& simulation = worlds_[i].simulation;

@@ -1,5 +1,5 @@
 #pragma once
-// Many worlds of one scene, each with settings of its own, stepped on all cores.
+// Many worlds of one scene, each with its own settings, stepped on all cores.
 
 #include <atomic>
 #include <cstdint>
@@ -19,27 +19,27 @@
 
 namespace sheave::python {
 
-/// What one world of a batch differs in.
+/// A setting that differs between the worlds of a batch.
 struct Variation {
-  std::string pointer;              ///< of a setting
-  std::vector<std::string> values;  ///< JSON, one for each world
+  std::string pointer;              ///< pointer of the setting
+  std::vector<std::string> values;  ///< JSON values, one for each world
 };
 
-/// Knows nothing of Python.
+/// Independent of Python.
 class Batch {
  public:
-  /// What is wrong with one of the worlds, or all of them.
+  /// The faults of one world, or of all of them.
   struct Faults {
     std::vector<SceneError> errors;
     std::size_t world = 0;
   };
   struct Source {
-    std::string text;  ///< of the scene, or the path of a file
-    std::string name;  ///< that errors call a text
+    std::string text;  ///< text of the scene, or path of a file
+    std::string name;  ///< the name of a text in errors
     bool is_file = false;
   };
 
-  /// Null, and `faults`, if a world cannot be made. Worlds must have the same observables.
+  /// Null, with `faults`, if a world cannot be made. All worlds must have the same observables.
   static std::unique_ptr<Batch> create(const Source& source, std::size_t count,
                                        const std::vector<Override>& overrides,
                                        const std::vector<Variation>& variations,
@@ -60,26 +60,26 @@ class Batch {
   [[nodiscard]] const live::QuantityIndex& quantities() const { return *quantities_; }
   [[nodiscard]] double duration() const { return duration_; }
 
-  /// Makes `count` steps of each world that is chosen, has not diverged and has not been stopped by
-  /// a trigger. `goes_on` is asked now and then by the calling thread; once it says false, steps
-  /// end, and worlds may be at different ones.
+  /// Makes `count` steps of each selected world that has neither diverged nor been stopped by a
+  /// trigger. The calling thread polls `goes_on` regularly; once it returns false, stepping ends,
+  /// and the worlds may have done different numbers of steps.
   void step(std::int64_t count, std::span<const char> chosen, const std::function<bool()>& goes_on);
-  /// The quantities at these indices, row by row of a world.
+  /// The observables at these indices, one row per world.
   void observe(const std::vector<int>& indices, std::span<double> values);
   /// Calls `action` with each world's index, on all threads.
   void for_each(const std::function<void(std::size_t)>& action) {
     pool_.for_each(worlds_.size(), action);
   }
-  /// What is wrong with the name of a control; empty if nothing is.
+  /// The fault in the name of a control; empty if the name is valid.
   [[nodiscard]] Errors control_fault(const std::string& name) {
     const auto found = control(name);
     return found ? Errors() : found.errors();
   }
-  /// Sets a control, or clears it if `values` is empty; the fault of the first world that has one,
-  /// and then none has been set.
+  /// Sets a control, or clears it if `values` is empty. Returns the fault of the first failing
+  /// world; then no control has been set.
   [[nodiscard]] Errors set(const std::string& name, std::span<const double> values,
                            std::optional<double> over, std::span<const char> chosen);
-  /// Back to the start, or to what mark_start() has made that.
+  /// Resets to the start, or to the state that mark_start() has stored.
   [[nodiscard]] Errors reset(std::span<const char> chosen);
   void mark_start(std::span<const char> chosen);
   [[nodiscard]] Errors restore(std::size_t index, const State& state);
@@ -88,12 +88,12 @@ class Batch {
   struct World {
     Simulation simulation;
     State start;
-    std::string divergence;  // why it goes no further
+    std::string divergence;  // why the world has stopped
     bool stopped = false;    // by a trigger
   };
   Batch(std::vector<World> worlds, double duration, std::size_t threads);
   [[nodiscard]] Result<const std::vector<ControlPoint>*> control(const std::string& name);
-  /// Puts the controls of the first worlds that are chosen back.
+  /// Restores the controls of the first selected worlds.
   void take_back(std::span<const char> chosen, const std::vector<Controls>& before);
 
   std::vector<World> worlds_;

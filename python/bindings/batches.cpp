@@ -17,10 +17,10 @@
 namespace sheave::python {
 namespace {
 
-/// A batch that one thread of Python uses at a time.
+/// A batch that only one Python thread may use at a time.
 struct SharedBatch {
   std::unique_ptr<Batch> batch;
-  bool runs = false;  // the lock of the interpreter is free meanwhile
+  bool runs = false;  // a thread works on the batch, with the interpreter lock released
 
   [[nodiscard]] Batch& get() const {
     if (runs) raise("Error", "another thread uses this batch now; wait until it is done");
@@ -28,12 +28,12 @@ struct SharedBatch {
   }
 };
 
-/// Gives the lock of the interpreter away while a batch works.
+/// Releases the interpreter lock while a batch works.
 class AtWork {
  public:
   explicit AtWork(SharedBatch& shared) : shared_(shared) {
     shared_.runs = true;
-    // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): only once that is marked
+    // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): only after `runs` is set
     thread_ = PyEval_SaveThread();
   }
   ~AtWork() {
@@ -43,7 +43,7 @@ class AtWork {
   AtWork(const AtWork&) = delete;
   AtWork& operator=(const AtWork&) = delete;
 
-  /// Whether nobody has asked for an interruption; it is raised later.
+  /// False if an interruption was requested; it is raised later.
   bool goes_on() {
     const auto now = std::chrono::steady_clock::now();
     if (now - looked_ < std::chrono::milliseconds(50)) return true;
@@ -122,7 +122,8 @@ py::array observe_batch(SharedBatch& shared, const py::object& names) {
   return values;
 }
 
-/// Numbers of each body of each world: (worlds, bodies, width), or without width if it is 1.
+/// Numbers of each body of each world: an array (worlds, bodies, width), without the last dimension
+/// if `width` is 1.
 template <class Read>
 py::array_t<double> gather(SharedBatch& shared, py::ssize_t width, const Read& read) {
   Batch& batch = shared.get();
@@ -175,7 +176,7 @@ py::list save_batch(SharedBatch& shared) {
 void restore_batch(SharedBatch& shared, const py::object& states, const py::object& where) {
   Batch& batch = shared.get();
   const std::vector<char> chosen = mask(where, "mask", batch.size());
-  // Nothing changes a tuple while its items are read.
+  // A tuple cannot change while its items are read.
   const auto items = py::reinterpret_steal<py::object>(PySequence_Tuple(states.ptr()));
   if (!items) PyErr_Clear();
   const auto list = items ? py::reinterpret_borrow<py::tuple>(items) : py::tuple();
@@ -192,7 +193,7 @@ void restore_batch(SharedBatch& shared, const py::object& states, const py::obje
     if (!py::isinstance<py::bytes>(one)) refuse("states", one, "bytes of a state");
     wanted.push_back(value_of(state_from_bytes(one.cast<std::string>()), "StateError"));
   }
-  // All of them or none.
+  // Restores all worlds or none.
   std::vector<State> before;
   for (std::size_t i = 0; i < batch.size(); ++i) {
     before.push_back(batch.world(i).world.state());

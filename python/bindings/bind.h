@@ -23,7 +23,7 @@ void bind_batch(py::module_& module);
 void bind_formats(py::module_& module);
 void bind_pictures(py::module_& module, SimulationClass& simulation);
 
-/// What a name or number refers to, that a simulation has: a body, joint or cable.
+/// The handle of a body, joint or cable of a simulation, given by name or number.
 template <class Tag>
 struct Thing {
   std::shared_ptr<Core> core;
@@ -36,7 +36,7 @@ using LiveBody = Thing<BodyTag>;
 using LiveJoint = Thing<JointTag>;
 using LiveCable = Thing<CableTag>;
 
-/// The world of a thing that is still there; raises StaleError if it is not.
+/// The world of an entity that still exists; raises StaleError if it does not.
 template <class Tag>
 LiveWorld& world_of(const Thing<Tag>& thing);
 

@@ -1,4 +1,4 @@
-// Bodies of a world that lives.
+// Bodies of a live world.
 
 #include <pybind11/stl.h>
 

@@ -1,4 +1,4 @@
-// Cables of a world that lives.
+// Cables of a live world.
 
 #include <pybind11/stl.h>
 
@@ -20,7 +20,7 @@ int place_of(const py::object& value, const char* name) {
   return static_cast<int>(integer(value, name, 0, most_links));
 }
 
-/// What is compiled of a cable that pulls; null of one that hangs loose.
+/// The compiled cable; null for a cable without tension because it hangs loose.
 const CompiledCable* compiled(const LiveCable& cable) {
   const LiveWorld& world = world_of(cable);
   const CableSystem* system = world.simulation().cables;
@@ -31,7 +31,7 @@ const CompiledCable* compiled(const LiveCable& cable) {
   return nullptr;
 }
 
-/// The rows of listed spans of a view of all spans.
+/// The rows of a cable's spans in a view of all spans.
 template <py::array Views::*View>
 py::object listed(const LiveCable& cable) {
   const CompiledCable* own = compiled(cable);
@@ -41,7 +41,7 @@ py::object listed(const LiveCable& cable) {
   return all[py::slice(first, first + count, 1)];
 }
 
-/// A control of the cable, or of one of its links.
+/// A setter for a control of the cable.
 using SetNumber = Errors (LiveWorld::*)(CableHandle, double);
 using Clear = Errors (LiveWorld::*)(CableHandle);
 

@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Requests of a program in the same process need fewer bounds than those of a stranger.
+/// A program in the same process is trusted, so its requests have wider limits.
 live::Limits wide_limits() {
   live::Limits limits;
   limits.line_bytes = std::size_t{64} << 20U;
@@ -69,7 +69,7 @@ bool Core::has_stopped() {
 }
 
 std::int64_t Core::steps_until(std::optional<double> end) {
-  constexpr double most = 9e15;  // beyond this a double does not count one by one
+  constexpr double most = 9e15;  // beyond this a double cannot count single steps
   const double dt = simulation().world.model().step.dt;
   const double steps = std::round(end.value_or(scene_.duration) / dt);
   if (end && steps > most) {
@@ -110,7 +110,7 @@ void Core::note(const LiveReport& report) {
   troubles.exhausted += step.exhausted;
 }
 
-/// Steps with the lock of the interpreter given away, but for calls into Python.
+/// Steps with the interpreter lock released; the lock is taken for calls into Python.
 class Core::Stepper {
  public:
   Stepper(Core& core, py::handle self, py::handle before_step, py::handle before_substep)
@@ -122,7 +122,7 @@ class Core::Stepper {
         outer_(core.stepper_) {
     core_.stepper_ = std::this_thread::get_id();
     core_.runs_ = true;
-    // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): only once that is marked
+    // NOLINTNEXTLINE(cppcoreguidelines-prefer-member-initializer): only after `runs_` is set
     thread_ = PyEval_SaveThread();
     if (!before_substep_.is_none()) substep_ = [this] { call(before_substep_); };
     stop_ = [this] { return fault_ || (core_.is_slow_ && looks_at_signals()); };
@@ -132,7 +132,7 @@ class Core::Stepper {
   Stepper& operator=(const Stepper&) = delete;
 
   void run(std::int64_t count);
-  /// Takes the lock back and raises what has come up.
+  /// Takes the lock again and raises pending errors.
   void finish() {
     lock();
     if (fault_) throw py::error_already_set(std::move(*fault_));
@@ -148,7 +148,7 @@ class Core::Stepper {
     core_.runs_ = false;
     core_.stepper_ = outer_;
   }
-  /// What `action` does with the lock; what it raises ends the step.
+  /// Runs `action` with the lock; an exception from it ends the step.
   template <class Action>
   void locked(const Action& action) {
     PyEval_RestoreThread(thread_);
@@ -180,7 +180,7 @@ class Core::Stepper {
   Core& core_;
   LiveWorld& world_;
   py::handle self_, before_step_, before_substep_;
-  std::thread::id outer_;  // of a step that this one is made within
+  std::thread::id outer_;  // the thread of the enclosing step, if there is one
   PyThreadState* thread_ = nullptr;
   std::function<void()> substep_;
   StopRequest stop_;
@@ -207,7 +207,7 @@ bool Core::Stepper::step() {
 }
 
 void Core::Stepper::run(std::int64_t count) {
-  // Clocks cost as much as small steps do, so only one in so many is timed.
+  // Reading a clock costs as much as a small step, so only one step in `stride` is timed.
   constexpr int stride = 16;
   constexpr std::chrono::microseconds slow(500);
   for (std::int64_t i = 0; i < count; ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// What a simulation in Python holds: a world that lives, and what is remembered beside it.
+// The data of a simulation in Python: a live world, and additional records.
 
 #include <cstdint>
 #include <deque>
@@ -19,16 +19,18 @@ namespace sheave::python {
 
 namespace py = pybind11;
 
-/// Something that happened in a step.
+/// An event of a step.
 struct Event {
   double time = 0.0;  ///< [s]
-  std::string kind;   ///< as events of cables are called, or "break" of a joint
+  std::string kind;   ///< kind of a cable event, or "break" of a joint
   std::string name;   ///< of the cable or joint
-  int link = -1;      ///< of a cable: the link; -1 for a body that no list names, and for joints
-  std::string body;   ///< of the link; empty: the world, or a joint
+  /// Index of the link in its cable; -1 for a body outside the list of links, and for joints.
+  int link = -1;
+  std::string body;  ///< body of the link; empty: the world, or a joint
 };
 
-/// NumPy arrays over the state, for as long as what the world is made of stays the same.
+/// NumPy arrays that view the state. They are valid as long as the structure of the world is
+/// unchanged.
 struct Views {
   std::shared_ptr<const void> revision;
   py::array positions, orientations, velocities, angular_velocities, angles;
@@ -37,35 +39,35 @@ struct Views {
 
 class Core : public std::enable_shared_from_this<Core> {
  public:
-  /// The most events that are kept; older ones are dropped.
+  /// Largest number of stored events; older ones are dropped.
   static constexpr std::size_t most_events = 10'000;
 
   Core(Scene scene, Simulation simulation);
-  /// Loads a scene; raises SceneError. Without the lock of the interpreter meanwhile.
+  /// Loads a scene with the interpreter lock released; raises SceneError.
   static std::shared_ptr<Core> load(const std::string& source, const std::string& name,
                                     bool is_file, const std::vector<Override>& overrides);
 
-  // All of these raise if another thread steps the world now.
+  // All of these raise if another thread is stepping the world.
   [[nodiscard]] LiveWorld& world();
   [[nodiscard]] live::SessionState& session();
   [[nodiscard]] const Simulation& simulation() { return world().simulation(); }
-  /// The answer to a request of the protocol of live sessions.
+  /// The answer to a request in the protocol of live sessions.
   [[nodiscard]] std::string answer(const std::string& request);
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
-  /// Steps without the lock of the interpreter. False if a trigger has stopped the run. Callables
-  /// may be None; they get `self`.
+  /// Steps with the interpreter lock released. False if a trigger has stopped the run. The
+  /// callables may be None; they are called with `self`.
   bool step(std::int64_t count, py::handle self, py::handle before_step, py::handle before_substep);
   /// Whether a trigger has stopped the run.
   [[nodiscard]] bool has_stopped();
-  /// How many steps are left of the scene's duration, or until `end` [s].
+  /// Number of steps left in the scene's duration, or until `end` [s].
   [[nodiscard]] std::int64_t steps_until(std::optional<double> end);
 
-  /// Those of the world as it is made now.
+  /// Views of the world's present structure.
   [[nodiscard]] Views& views();
   std::deque<Event> events;
   std::int64_t dropped_events = 0;
-  /// Of the steps that were warned of, together.
+  /// Sum of the step statistics that caused warnings.
   StepStatistics troubles;
 
  private:
@@ -75,10 +77,10 @@ class Core : public std::enable_shared_from_this<Core> {
 
   const Scene scene_;
   live::Session session_;
-  bool runs_ = false;        // a step is being made, and the lock of the interpreter is free
-  std::thread::id stepper_;  // the thread that is in step()
-  bool is_slow_ = true;      // a step takes so long that it ought to be possible to end it
-  int until_timed_ = 0;      // steps until one is timed again
+  bool runs_ = false;        // a step is running, with the interpreter lock released
+  std::thread::id stepper_;  // the thread in step()
+  bool is_slow_ = true;      // a step takes so long that signals are polled within it
+  int until_timed_ = 0;      // steps until the next timed one
   Views views_;
 };
 

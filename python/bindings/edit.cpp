@@ -1,4 +1,4 @@
-// Changes of what the world is made of, as the protocol of live sessions has them.
+// Structural changes of the world, in the protocol of live sessions.
 
 #include "python/bindings/arguments.h"
 #include "python/bindings/bind.h"

@@ -16,19 +16,19 @@ namespace py = pybind11;
 
 /// Raises sheave.<kind>(message), a class of sheave._errors.
 [[noreturn]] void raise(const char* kind, const std::string& message);
-/// Raises sheave.<kind> with the messages, and with `faults`, one for each.
+/// Raises sheave.<kind> with all messages; its `faults` has one entry per error.
 [[noreturn]] void raise(const char* kind, const Errors& errors);
 /// Raises sheave.SceneError with all faults.
 [[noreturn]] void raise_scene_error(const std::vector<SceneError>& errors);
-/// The same of faults that have no place in a text but a path in the scene.
+/// The same for faults with a path in the scene instead of a position in a text.
 [[noreturn]] void raise_scene_error(const std::string& file, const Errors& errors);
 
-/// Raises sheave.Error if there are any.
+/// Raises sheave.Error if `errors` is not empty.
 inline void check(const Errors& errors) {
   if (!errors.empty()) raise("Error", errors);
 }
 
-/// The value, or raises sheave.<kind>.
+/// The value of the result, or raises sheave.<kind>.
 template <class T>
 T value_of(Result<T> result, const char* kind = "Error") {
   if (!result) raise(kind, result.errors());

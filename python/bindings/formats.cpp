@@ -1,4 +1,4 @@
-// The tables that scenes are read with, for the classes of python/sheave/parts.py.
+// The field tables of the scene format, for the classes of python/sheave/parts.py.
 
 #include <pybind11/stl.h>
 
@@ -16,7 +16,7 @@
 namespace sheave::python {
 namespace {
 
-/// What kind of value a slot has, as Python sees it.
+/// The kind of a slot's value in Python.
 struct KindOf {
   const char* operator()(const double*) const { return "number"; }
   const char* operator()(const std::optional<double>*) const { return "number"; }
@@ -106,7 +106,7 @@ py::dict formats() {
   return all;
 }
 
-/// The scene as the library writes it.
+/// The scene in the library's own notation.
 std::string canonical(const py::object& source, const py::object& name, bool is_file,
                       const py::dict& overrides) {
   const std::vector<Override> set = overrides_of(overrides);

@@ -1,4 +1,4 @@
-// Joints of a world that lives.
+// Joints of a live world.
 
 #include <algorithm>
 

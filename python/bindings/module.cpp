@@ -1,4 +1,4 @@
-// The compiled half of the package `sheave`; python/sheave/ is the other.
+// The compiled part of the package `sheave`; python/sheave/ is the Python part.
 
 #include "python/bindings/bind.h"
 #include "sheave_version.h"

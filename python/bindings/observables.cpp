@@ -1,4 +1,4 @@
-// Quantities by their names: once, and over many steps.
+// Observables by name: once, and over many steps.
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>

@@ -9,7 +9,7 @@
 
 namespace sheave::python {
 
-/// From a dict of pointers and JSON texts, which python/sheave/_load.py makes.
+/// Overrides from a dict of pointers and JSON texts, which python/sheave/_load.py makes.
 [[nodiscard]] std::vector<Override> overrides_of(const pybind11::dict& texts);
 
 }  // namespace sheave::python

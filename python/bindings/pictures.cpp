@@ -53,8 +53,8 @@ py::bytes render_png(Core& core, const py::object& width, const py::object& heig
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Looks at what a simulation will do and puts it back, so that one camera suits all of it and
-/// colours mean the same forces from the first frame to the last.
+/// Surveys the future of a simulation and restores its state, so that one camera suits all frames
+/// and colours mean the same forces in all of them.
 render::ViewSurvey look_ahead(const py::object& self, double begin, double fps,
                               std::int64_t frames) {
   Core& core = self.cast<Core&>();
@@ -84,13 +84,13 @@ render::ViewSurvey look_ahead(const py::object& self, double begin, double fps,
   return survey;
 }
 
-/// A video that is being made of one simulation.
+/// A video of one simulation, under construction.
 class Video {
  public:
   Video(const py::object& simulation, const py::object& path, const py::object& width,
         const py::object& height, double fps, std::int64_t frames)
       : core_(simulation.cast<std::shared_ptr<Core>>()),
-        // What cannot be is told before anything is looked at.
+        // Invalid arguments are refused before the survey.
         writer_(value_of(render::VideoWriter::create(text(path, "path"), side(width, "width"),
                                                      side(height, "height"), options(fps)))),
         renderer_(
@@ -109,7 +109,7 @@ class Video {
                                    side(height, "height"));
   }
 
-  /// Appends what the simulation looks like now.
+  /// Appends the present view of the simulation.
   void add() {
     const Simulation& now = core_->simulation();
     const render::DrawList list = builder_->build(now.world, now.cable_reports());

@@ -1,4 +1,4 @@
-// Making and stepping simulations, and what concerns the whole world.
+// Creating and stepping simulations, and functions of the whole world.
 
 #include <limits>
 

@@ -1,4 +1,4 @@
-// States that are kept, hashed and saved.
+// Stored, hashed and saved states.
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 namespace sheave::python {
 namespace {
 
-/// A snapshot, and the simulation that it is of.
+/// A snapshot and its simulation.
 struct Snapshot {
   std::shared_ptr<Core> core;
   live::KeptSnapshot kept;

@@ -10,14 +10,14 @@ ThreadPool::ThreadPool(std::size_t threads) : process_(getpid()) {
   try {
     for (std::size_t i = 1; i < threads; ++i) workers_.emplace_back([this] { work(); });
   } catch (const std::system_error&) {
-    // The system gives no more: those that there are do all the work.
+    // The system refuses further threads: the existing ones do all the work.
   }
 }
 
 bool ThreadPool::is_forked() const { return getpid() != process_; }
 
 ThreadPool::~ThreadPool() {
-  if (is_forked()) {  // there is nothing to wait for
+  if (is_forked()) {  // a forked process has none of the pool's threads to wait for
     for (std::thread& worker : workers_) worker.detach();
     return;
   }

@@ -1,4 +1,4 @@
-// NumPy arrays over the numbers of the state, without copies.
+// NumPy arrays that view the numbers of the state without copies.
 
 #include <cstddef>
 
@@ -12,13 +12,13 @@
 namespace sheave::python {
 namespace {
 
-/// What keeps the memory of views alive.
+/// The owner that keeps the viewed memory alive.
 py::capsule keeper(const std::shared_ptr<const void>& revision) {
   return {new std::shared_ptr<const void>(revision),
           [](void* held) { delete static_cast<std::shared_ptr<const void>*>(held); }};
 }
 
-/// Nobody but the engine may write: what belongs together must stay so.
+/// A read-only view: only the engine may write, because dependent values must stay consistent.
 py::array read_only(const double* data, std::vector<py::ssize_t> shape,
                     std::vector<py::ssize_t> strides, const std::shared_ptr<const void>& revision) {
   py::array array(py::dtype::of<double>(), std::move(shape), std::move(strides), data,
@@ -29,7 +29,7 @@ py::array read_only(const double* data, std::vector<py::ssize_t> shape,
 
 py::array of_bodies(const State& state, std::size_t offset, py::ssize_t width,
                     const std::shared_ptr<const void>& revision) {
-  // Where the numbers lie in a body is told by their offset, since its parts are classes.
+  // Members of a body are addressed by byte offsets, because its parts are classes.
   const auto* bytes = reinterpret_cast<const std::byte*>(state.bodies.data());
   const auto* first = reinterpret_cast<const double*>(bytes + offset);
   const auto count = static_cast<py::ssize_t>(state.bodies.size());
