@@ -1,7 +1,7 @@
-// Builds the page of `sheave view` (dist/view.html), or the tests of the folders that are named.
+// Builds the page of `sheave view` (dist/view.html), or the tests of the given folders.
 //
-// The page is one file: esbuild puts three.js, uPlot and our own code into it. The licences of what
-// it contains stand at its end.
+// The page is one file: esbuild bundles three.js, uPlot and this project's code. The licences of
+// the contents are at the end of the file.
 
 import { mkdirSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -13,7 +13,7 @@ const here = dirname(fileURLToPath(import.meta.url));
 const source = join(here, 'src');
 const target = join(here, 'dist');
 
-/** The packages that end up in the page, with their licences. */
+/** The packages that the page contains, with their licences. */
 const contained = ['three', 'uplot'];
 
 export function licences() {
@@ -26,7 +26,7 @@ export function licences() {
     .join('\n----\n\n');
 }
 
-/** `more`: what esbuild is to know besides. */
+/** `more`: further options for esbuild. */
 export async function bundle(entry, more = {}) {
   const result = await build({
     entryPoints: [join(source, entry)],
@@ -41,7 +41,7 @@ export async function bundle(entry, more = {}) {
   return result.outputFiles[0].text;
 }
 
-/** What stands in a script must not end it. */
+/** Text inside a script element must not end the element. */
 export const inScript = (text) => text.replaceAll('</script', '<\\/script').replaceAll('<!--', '<\\!--');
 
 export async function style() {
@@ -55,7 +55,10 @@ export async function style() {
   return result.outputFiles[0].text;
 }
 
-/** Fills a template; as functions, because replacements have signs of their own. */
+/**
+ * Fills a template. The replacements are functions, because "$" has a meaning in a replacement
+ * text.
+ */
 export async function page(template, entry, more) {
   const script = inScript(await bundle(entry, more));
   const css = await style();
@@ -70,7 +73,7 @@ async function buildView() {
   writeFileSync(join(target, 'view.html'), await page('view.html', 'view.ts'));
 }
 
-/** Tests of one folder, each bundled with what it includes. */
+/** Builds the tests of one folder; each is bundled with its imports. */
 async function buildTests(folder) {
   const tests = readdirSync(join(here, folder)).filter((name) => name.endsWith('.test.ts'));
   await build({

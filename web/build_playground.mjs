@@ -20,13 +20,13 @@ const here = dirname(fileURLToPath(import.meta.url));
 const source = join(here, 'src');
 const target = join(here, 'dist');
 
-/** The engine's code, deflated, as text. */
+/** The engine's code, compressed, as text. */
 function packedEngine(engine) {
   const bytes = readFileSync(join(engine, 'sheave_engine.wasm'));
   return deflateSync(bytes, { level: 9 }).toString('base64');
 }
 
-/** What the engine's code is made of besides ours: header libraries, and emscripten's own. */
+/** Licences of the other parts of the engine's code: header libraries, and emscripten's runtime. */
 function engineLicences() {
   const packages = ['libeigen3-dev', 'nlohmann-json3-dev', 'libfmt-dev', 'emscripten'];
   const texts = packages.map((name) => {
@@ -37,7 +37,7 @@ function engineLicences() {
   return `<!--\nThe engine contains:\n\n${texts.join('\n----\n\n').replaceAll('--', '—')}\n-->\n`;
 }
 
-/** The first sentences of a scene, without loading it: a scene is JSON with comments. */
+/** A text of a scene, read without a JSON parser because scenes have comments. */
 function told(text, key) {
   const found = new RegExp(`^  "${key}": ("(?:[^"\\\\]|\\\\.)*")`, 'm').exec(text);
   return found ? JSON.parse(found[1]) : '';
@@ -51,7 +51,7 @@ async function buildPlayground(engine) {
   rmSync(site, { recursive: true, force: true });
   mkdirSync(join(site, 'pictures'), { recursive: true });
   const empty = await page('play.html', 'play.ts', {
-    // What emscripten's code asks Node for, and never in a browser.
+    // emscripten's code imports these modules in Node only, never in a browser.
     external: ['fs', 'path', 'crypto', 'url'],
     alias: { 'sheave-engine': join(engine, 'sheave_engine.cjs') },
   });

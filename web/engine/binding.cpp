@@ -1,7 +1,8 @@
-// What JavaScript calls: functions of C with numbers and texts. web/src/engine.ts gives them types.
+// The functions that JavaScript calls: C functions with numbers and texts. web/src/engine.ts gives
+// them types.
 //
-// Texts that are returned hold until the next call; answers are JSON. Machines are told by the
-// pointers that sheave_open() returns.
+// Returned texts are valid until the next call; answers are JSON. A machine is identified by the
+// pointer from sheave_open().
 
 #include <cstdint>
 #include <memory>
@@ -16,7 +17,8 @@ namespace {
 using sheave::web::Json;
 using sheave::web::Playground;
 
-/// The last answer: a library of C has nowhere else to put it.
+/// The last answer. It is static because the C interface has no other place for a text that
+/// outlives the call.
 std::string& answer() {
   static std::string text;
   return text;
@@ -32,7 +34,7 @@ const char* say(const sheave::Errors& errors) {
   return say(sheave::web::faults_json(errors));
 }
 
-/// Settings as the page writes them; what it leaves out stays.
+/// Reads settings as the page writes them; a missing setting stays unchanged.
 sheave::Errors read_settings(const Json& json, sheave::web::Settings& settings) {
   const auto choice = [&](const char* key, const auto& names, auto& value) -> sheave::Errors {
     if (!json.contains(key)) return {};
@@ -62,7 +64,8 @@ sheave::Errors read_settings(const Json& json, sheave::web::Settings& settings) 
 
 extern "C" {
 
-/// `overrides`: {"pointer": "JSON text", ...}. Null if there are faults, which sheave_text() tells.
+/// `overrides`: {"pointer": "JSON text", ...}. Null if there are faults; sheave_text() returns
+/// them.
 EMSCRIPTEN_KEEPALIVE Playground* sheave_open(const char* text, const char* overrides) {
   std::vector<sheave::Override> list;
   const Json wanted = Json::parse(overrides);
@@ -79,8 +82,8 @@ EMSCRIPTEN_KEEPALIVE const char* sheave_text() { return answer().c_str(); }
 EMSCRIPTEN_KEEPALIVE const char* sheave_describe(const Playground* machine) {
   return say(machine->describe());
 }
-/// 0: done, 1: diverged, 2: stopped by a trigger; with 4 added there are events or a reason in
-/// sheave_text().
+/// 0: done, 1: diverged, 2: stopped by a trigger. 4 is added if sheave_text() has events or a
+/// reason.
 EMSCRIPTEN_KEEPALIVE int sheave_step(Playground* machine) {
   const int ending = static_cast<int>(machine->step(answer()));
   return answer().empty() ? ending : ending + 4;

@@ -10,7 +10,7 @@
 namespace sheave::web {
 namespace {
 
-/// Takes those names that are controls.
+/// Collects the names that are controls.
 class Collector {
  public:
   explicit Collector(const Scene& scene) : scene_(scene) {}
@@ -42,7 +42,7 @@ std::string unit_of(DriveKind kind) {
   return kind == DriveKind::angle ? "rad" : "N m";
 }
 
-/// The numbers of a joint's field, if it has one of that name.
+/// The numbers of the joint's field `name`, if it has such a field.
 std::optional<std::vector<double>> numbers_of(const JointDef& joint, std::string_view name) {
   for (const auto& entry : joint_types()) {
     if (entry.name != joint.type()) continue;

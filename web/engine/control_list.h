@@ -1,5 +1,5 @@
 #pragma once
-// The controls of a scene that a page makes sliders of.
+// The controls of a scene for which a page shows sliders.
 
 #include <string>
 #include <vector>
@@ -10,15 +10,15 @@
 namespace sheave::web {
 
 struct SliderControl {
-  std::string name;  ///< as triggers and controllers call it, e.g. "drum.drive"
+  std::string name;  ///< name in triggers and controllers, e.g. "drum.drive"
   std::string unit;
-  double value = 0.0;    ///< that the scene begins with
-  double minimum = 0.0;  ///< of a slider; the control itself may allow more
+  double value = 0.0;    ///< at the start of the scene
+  double minimum = 0.0;  ///< range of the slider; the control itself may have a wider range
   double maximum = 1.0;
   ControlPoint point;
 };
 
-/// Drives of bodies and joints, the limits of brakes, feeds of cables, in the order of the scene.
+/// Drives of bodies and joints, limits of brakes, and feeds of cables, in the order of the scene.
 [[nodiscard]] std::vector<SliderControl> slider_controls(const Scene& scene);
 
 }  // namespace sheave::web

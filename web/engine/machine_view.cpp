@@ -23,8 +23,8 @@ render::ViewSurvey survey_of(const Scene& scene) {
   return survey;
 }
 
-/// As the scene says; otherwise across its plane, or from the side and above. The page fits the
-/// distance to its own size.
+/// The scene's camera, or a default one: perpendicular to a planar scene's plane, or from the side
+/// and above. The page adapts the distance to its own size.
 render::Camera camera_of(const Scene& scene, const std::vector<CableReport>& cables,
                          const Vector3& middle) {
   render::Camera camera;

@@ -162,7 +162,7 @@ Errors Playground::set_control(const std::string& name, double value) {
   for (const SliderControl& control : controls_) {
     if (control.name != name) continue;
     const auto set = [&](LiveWorld& world) {
-      // Drives to a position get there in a tenth of a second, as a hand at a lever does.
+      // A position drive reaches its target in 0.1 s, like a hand on a lever.
       return world.set_in_simulation(
           [&](Simulation& simulation) { return control.point.set(simulation, value, 0.1); });
     };

@@ -1,6 +1,6 @@
 #pragma once
-// A machine that a page holds: the scene's world, the pointer that drags it, and a finer world beside
-// it that tells its error.
+// The machine of a page: the scene's world, the pointer that drags bodies, and a finer reference
+// world that gives the error.
 
 #include <deque>
 #include <memory>
@@ -19,10 +19,10 @@ namespace sheave::web {
 
 using Json = nlohmann::ordered_json;
 
-/// What can be changed while a machine runs.
+/// The settings that can change while a machine runs.
 struct Settings {
-  StepSettings step;               ///< its dt does not change
-  std::optional<Vector3> gravity;  ///< default: the scene's [m/s2]
+  StepSettings step;               ///< dt cannot change
+  std::optional<Vector3> gravity;  ///< [m/s2]; default: the scene's
 };
 
 /// Faults for an editor: {"errors": [{"line", "column", "pointer", "message", "value", "allowed"}]}.
@@ -33,25 +33,26 @@ class Playground {
  public:
   enum class Ending { none, diverged, stopped };
 
-  /// Null with faults in `answer` if the text is no valid scene.
+  /// Null, with faults in `answer`, if the text is no valid scene.
   static std::unique_ptr<Playground> open(const std::string& text,
                                           const std::vector<Override>& overrides, Json& answer);
 
-  /// {"machine", "channels", "controls", "settings"}: all that a page needs to show it.
+  /// {"machine", "channels", "controls", "settings"}: everything that a page needs to show the
+  /// machine.
   [[nodiscard]] Json describe() const;
 
-  /// A step; `text` then says what happened, one event a line, or why it goes no further. A step
-  /// that diverged has not been.
+  /// Makes a step. `text` then has the events, one per line, or the reason why the run cannot
+  /// continue. A step that diverged leaves the state unchanged.
   Ending step(std::string& text);
-  /// One value per channel, of the state as it is.
+  /// One value per channel, for the present state.
   [[nodiscard]] const std::vector<double>& sample();
-  /// Whether channels have been added since describe(): a cable lies on more bodies than before.
+  /// Whether channels have been added since describe(), because a cable lies on more bodies.
   [[nodiscard]] bool has_new_channels() const { return described_ < channels_.channels().size(); }
 
-  /// Takes down where the machine is, to go back to; the oldest of more than 32 are forgotten.
+  /// Stores the present state for go_back(). Only the last 32 stored states are kept.
   void keep();
-  /// Back to the last kept state that is at least `seconds` old; the oldest if none is. False if
-  /// there is none. Returns to the start for an infinite time.
+  /// Restores the latest stored state that is at least `seconds` old, or else the oldest one. False
+  /// if no state is stored. An infinite time restores the start.
   bool go_back(double seconds);
 
   Errors set_control(const std::string& name, double value);
@@ -62,15 +63,16 @@ class Playground {
   void release();
   [[nodiscard]] const PointerSpring& pointer() const { return pointer_; }
 
-  /// Begins to run a finer world from the present state beside this one: `direct` and `rattle`
-  /// with `refinement` times the substeps. 0: none.
+  /// Begins a finer reference world from the present state, with `direct`, `rattle` and
+  /// `refinement` times the substeps. 0: no reference.
   Errors set_reference(int refinement);
-  /// A step of it; false if it has gone astray, and is no more.
+  /// A step of the reference; false if it diverged, which ends the reference.
   bool step_reference();
-  /// How far this world is from it now, as measure/run_error.h defines it for a frame; NaN without.
+  /// Difference to the reference as measure/run_error.h defines it for a frame; NaN without
+  /// reference.
   [[nodiscard]] double error() const;
 
-  /// Worst of all checked substeps since the last call with `reset`.
+  /// The worst figures of all checked substeps since the last call with `reset`.
   [[nodiscard]] Json certificate(bool reset);
   [[nodiscard]] std::string hash_text() const;
   [[nodiscard]] const LiveWorld& world() const { return world_; }

@@ -9,13 +9,13 @@ namespace sheave::web {
 namespace {
 
 constexpr double angular_frequency = 16.0;  // [rad/s], about 2.5 Hz
-/// A kinematic body comes as near to the pointer as that in a second.
+/// Rate at which a kinematic body approaches the pointer.
 constexpr double kinematic_rate = 12.0;  // [1/s]
 
 double mass_of(const World& world, int body) {
   const double mass = world.bodies()[body].mass;
   if (mass > 0.0) return mass;
-  // A rotor on a fixed axle: what its rim feels like is about half of it.
+  // A rotor on a fixed axle: the effective mass at its rim is about half of its mass.
   return 0.5 * world.model().bodies[static_cast<std::size_t>(body)].mass.value_or(1.0);
 }
 
@@ -51,7 +51,7 @@ Errors PointerSpring::grab(const LiveWorld& world, int body, const Vector3& poin
 void PointerSpring::release(LiveWorld& world) {
   if (body_ >= 0) {
     const BodyHandle body = world.body_at(body_);
-    // What cannot be cleared was not set.
+    // If the force cannot be cleared, it was never set.
     if (kinematic_) {
       const BodyState& state = world.state().bodies[static_cast<std::size_t>(body_)];
       static_cast<void>(world.set_motion(body, {.position = state.position}));

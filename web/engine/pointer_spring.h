@@ -1,5 +1,5 @@
 #pragma once
-// A pointer that drags a body: a spring with a damper from a point of the body to a place.
+// A pointer that drags a body by a spring with a damper between a point of the body and a target.
 
 #include <optional>
 
@@ -7,28 +7,28 @@
 
 namespace sheave::web {
 
-/// What is dragged, and where to. The force is that at the end of the coming substep for a body that
-/// nothing else holds, so that no stiffness makes it unstable; what is held yields less, and the
-/// spring is the softer for it.
+/// The dragged body and the target. The force is computed implicitly: its value is that at the end
+/// of the coming substep for a body without other constraints, so no stiffness can make the spring
+/// unstable. A constrained body moves less, and the spring is then softer.
 class PointerSpring {
  public:
-  /// Takes hold of body `body` at a world point [m]. The spring is as strong as the whole machine
-  /// asks for: of a mass that is its tenth, or the body's, it makes an oscillator of 2.5 Hz,
-  /// critically damped. Fails where nothing can move the body.
+  /// Grabs body `body` at a world point [m]. The stiffness is chosen for the machine: with a mass
+  /// of a tenth of all bodies, or with the body's if that is larger, the spring is a critically
+  /// damped oscillator of 2.5 Hz. Fails if the body cannot move.
   Errors grab(const LiveWorld& world, int body, const Vector3& point);
-  /// Where the point is to go [m].
+  /// Sets the target of the point [m].
   void move(const Vector3& target) { target_ = target; }
-  /// Lets go: the body is as free as it was.
+  /// Releases the body and removes the force.
   void release(LiveWorld& world);
   [[nodiscard]] bool holds() const { return body_ >= 0; }
-  /// The body that is held, -1 if none is.
+  /// The grabbed body; -1: none.
   [[nodiscard]] int body() const { return body_; }
-  /// The same grip on a world that is the same machine.
+  /// Copies the grip from a world of the same machine.
   void copy_grip(const PointerSpring& other);
 
-  /// Sets the force of a substep of `h` [s]. To be called before each.
+  /// Sets the force for a substep of `h` [s]. To be called before each substep.
   void act(LiveWorld& world, double h);
-  /// Of the last substep, in the world [N].
+  /// Force in the last substep, world frame [N].
   [[nodiscard]] const Vector3& force() const { return force_; }
 
  private:
@@ -36,7 +36,7 @@ class PointerSpring {
 
   int body_ = -1;
   bool kinematic_ = false;
-  double own_mass_ = 1.0;  // of the body [kg]
+  double own_mass_ = 1.0;  // mass of the body [kg]
   double stiffness_ = 0.0;
   double damping_ = 0.0;
   Vector3 local_ = Vector3::Zero();

@@ -1,5 +1,5 @@
-// The line along which a cable is drawn: straight or sagging spans, and the turns round its wheels;
-// the same as render/cable_path.cpp.
+// The line along which a cable is drawn: straight or sagging spans, and the turns round its wheels.
+// Same algorithm as in render/cable_path.cpp.
 
 import { catenaryPoints } from './catenary';
 import type { Color } from './color_map';
@@ -16,11 +16,11 @@ export interface CableStyle {
   dark: boolean;
 }
 
-/** A line with a colour at each point and the span that each of its pieces belongs to. */
+/** A line with a colour at each point, and the span of each of its pieces. */
 export interface Tube {
   points: Vector3[];
   colors: Color[];
-  /** Of the piece that begins at the point: the listed span, and -1 on wheels. */
+  /** For the piece that begins at the point: index of the listed span; -1 on wheels. */
   spans: number[];
   closed: boolean;
 }
@@ -45,9 +45,9 @@ export const isSlack = (span: SpanState): boolean =>
 const remainder = (a: number, b: number): number => a - b * Math.round(a / b);
 
 /**
- * The angle from where the cable meets the wheel to where it leaves it, in the direction of the
- * winding [rad]. What is left of a turn comes from the two points, so that the line meets the spans;
- * the number of whole turns from the stored length.
+ * The angle from the point where the cable meets the wheel to the point where it leaves it, in the
+ * direction of the winding [rad]. The fraction of a turn comes from the two points, so that the
+ * line meets the spans; the number of whole turns comes from the stored length.
  */
 export function woundAngle(link: LinkState, isEnd: boolean): number {
   if (isEnd) return Math.max(link.wrapAngle, 0);
@@ -61,9 +61,9 @@ function windingOf(cable: CableState, index: number, style: CableStyle): Winding
   const link = cable.links[index];
   const end = !cable.closed && (index === 0 || index + 1 === cable.links.length);
   let angle = woundAngle(link, end);
-  // Whole turns are left out, so that the ends stay where they are.
+  // Omits whole turns only, so that the ends stay in place.
   if (angle > mostTurns * turn) angle = remainder(angle, turn) + mostTurns * turn;
-  // At the start of a cable only the exit exists; the entry is that many turns before it.
+  // The first link of a cable has only an exit; the entry lies that many turns before it.
   const fromExit = end && index === 0;
   let out = subtract(fromExit ? link.exit : link.entry, link.center);
   out = addScaled(out, link.normal, -dot(link.normal, out));
@@ -75,7 +75,7 @@ function windingOf(cable: CableState, index: number, style: CableStyle): Winding
   const more = angle / turn - 1;
   let shift = 0;
   if (more > 0) {
-    // Grows from nothing, so that nothing jumps when the second turn begins.
+    // The shift begins at 0, so that the line does not jump when the second turn begins.
     const wanted = ((2.15 * style.radius * angle) / turn) * Math.min(1, 8 * more);
     shift = Math.min(wanted, Math.max(0, link.room - 2 * style.radius));
   }
@@ -161,7 +161,7 @@ class Drawing {
       );
       return;
     }
-    // Where there is no length to blend colours over, the tube is cut.
+    // If the arc is too short to blend the colours along it, the tube is divided.
     if (!(link.radius > 0) || Math.abs(w.angle) * link.radius < 2 * this.style.radius) {
       if (i === 0) this.cutAtStart = true;
       this.cut();
@@ -182,7 +182,7 @@ class Drawing {
 
 const emptyTube = (): Tube => ({ points: [], colors: [], spans: [], closed: false });
 
-/** What a cut cable leaves hanging from its ends; a cut belt has none. */
+/** The two hanging pieces of a cut cable; a cut belt has none. */
 function cutPieces(cable: CableState, style: CableStyle): Tube[] {
   if (cable.closed || !(norm(style.gravity) > 0)) return [];
   const down = normalized(style.gravity);
@@ -208,7 +208,7 @@ function cutPieces(cable: CableState, style: CableStyle): Tube[] {
   return tubes;
 }
 
-/** The whole cable. It is cut at points (attachments), where its colour jumps. */
+/** The whole cable. It is divided at attachments, where its colour jumps. */
 export function cableTubes(cable: CableState, style: CableStyle): Tube[] {
   return cable.cut ? cutPieces(cable, style) : new Drawing(cable, style).run();
 }

@@ -1,5 +1,5 @@
-// The shape of a cable of given length hanging between two points; the derivation is in
-// render/catenary.cpp, of which this is the same.
+// The shape of a cable of given length that hangs between two points. Derivation:
+// render/catenary.cpp, which has the same algorithm.
 
 import type { Vector3 } from './vector';
 import { add, addScaled, anyPerpendicular, dot, norm, scale, subtract } from './vector';
@@ -13,7 +13,7 @@ function logSinhc(q: number): number {
   return q + Math.log1p(-Math.exp(-2 * q)) - Math.log(2 * q);
 }
 
-/** Its derivative, coth(q) - 1/q. */
+/** The derivative of logSinhc: coth(q) - 1/q. */
 function logSinhcSlope(q: number): number {
   if (q < 0.1) {
     const t = q * q;
@@ -77,7 +77,8 @@ export function catenaryPoints(
     const x = radius > 0 ? radius * asinhDifference(to / radius, from / radius) : (width * s) / length;
     return add(addScaled(start, across, x), scale(up, height));
   };
-  // Half of them even in length, half even in direction: neither long arms nor bends are angular.
+  // Half of the points have equal distances along the cable, half have equal changes of direction:
+  // neither long arms nor bends look angular.
   const places: number[] = [];
   const even = Math.floor(count / 2) + 1;
   for (let k = 0; k < even; ++k) places.push((length * k) / (even - 1));

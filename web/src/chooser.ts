@@ -1,10 +1,10 @@
-// The list of all quantities, searched by words, from which the curves are chosen.
+// The list of all channels, with a search by words, from which the curves are selected.
 
 import { element } from './dom';
 import type { Frames } from './frames';
 import type { Plots } from './plots';
 
-/** More are not listed at once; a longer word finds the others. */
+/** Largest number of listed channels; a more specific search finds the others. */
 const most = 150;
 
 export class Chooser {
@@ -38,7 +38,7 @@ export class Chooser {
     const fits = this.frames.channels.filter(
       (c) => !c.hidden && words.every((word) => c.name.toLowerCase().includes(word)),
     );
-    // Those that are shown come first.
+    // Selected channels come first.
     fits.sort((a, b) => Number(this.plots.has(b.name)) - Number(this.plots.has(a.name)));
     const rows = fits.slice(0, most).map((channel) => {
       const box = element('input', {
@@ -55,7 +55,7 @@ export class Chooser {
 
 const unitText = (unit: string): HTMLElement => element('small', {}, unit ? ` ${unit}` : '');
 
-/** What is worth seeing first: tensions, else what joints do, else where the last body goes. */
+/** The initial curves: tensions, else coordinates of joints, else the path of the last body. */
 export function firstChoice(frames: Frames): string[] {
   const moves = (name: string): boolean => {
     const channel = frames.channel(name);

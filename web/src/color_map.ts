@@ -1,6 +1,6 @@
-// The colours of cables, as render/color_map.cpp has them: the lower three quarters of "plasma"
-// (van der Walt and Smith, CC0), whose lightness rises evenly, so that it can be read without
-// telling hues apart. Slack cable has a grey outside the map.
+// The colours of cables, as in render/color_map.cpp: the lower three quarters of "plasma" (van der
+// Walt and Smith, CC0). Its lightness increases evenly, so the map is readable without
+// distinguishing hues. Slack cable has a grey that is not in the map.
 
 export type Color = [number, number, number];
 
@@ -8,7 +8,10 @@ const stops: Color[] = [
   0x2b0594, 0x4f02a2, 0x7201a8, 0x920fa3, 0xb02991, 0xc8437b, 0xdb5c68, 0xeb7655, 0xf79342,
 ].map(fromHex);
 
-/** On a dark background the dark end would be lost: there the map begins lighter. */
+/**
+ * The map begins with lighter colours on a dark background, on which its dark end would be
+ * invisible.
+ */
 const darkStops: Color[] = [
   0x6f4fd8, 0x8548d6, 0x9d43cf, 0xb543bf, 0xcb4aa9, 0xdd5a90, 0xeb7076, 0xf68c5c, 0xfcac48,
 ].map(fromHex);
@@ -44,7 +47,7 @@ export function sample(t: number, dark = false): Color {
   return mix(map[index], map[index + 1], position - index);
 }
 
-/** Less than a millionth of the scale is what rounding leaves of zero. */
+/** Tensions below a millionth of the scale are rounding and count as 0. */
 export function tensionColor(tension: number, tensionMax: number, dark = false): Color {
   return tension > 1e-6 * tensionMax ? sample(tension / tensionMax, dark) : slackColor;
 }

@@ -1,8 +1,8 @@
-// Elements in few words.
+// Short functions that create elements.
 
 type Attributes = Record<string, string | boolean | ((event: never) => void)>;
 
-/** An element; attributes that are functions are listeners ("onclick"). */
+/** Creates an element; attributes that are functions become listeners ("onclick"). */
 export function element<K extends keyof HTMLElementTagNameMap>(
   tag: K,
   attributes: Attributes = {},
@@ -24,7 +24,7 @@ export function button(label: string, title: string, onclick: () => void): HTMLB
   return element('button', { type: 'button', title, 'aria-label': title, onclick }, label);
 }
 
-/** Hands a file to the user. */
+/** Offers a file to the user as a download. */
 export function download(name: string, content: Blob): void {
   const link = element('a', { href: URL.createObjectURL(content), download: name });
   document.body.append(link);

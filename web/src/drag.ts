@@ -1,4 +1,4 @@
-// The pointer takes hold of a body, or of a rope by the body at its nearer end.
+// Dragging of a body with the pointer, or of a rope by the body at its nearer end.
 
 import * as THREE from 'three';
 
@@ -9,10 +9,10 @@ import type { Vector3 } from './vector';
 
 const mouseReach = 7;
 const touchReach = 18;
-/** A press that moves no further is a tap [pixels]. */
+/** A press that moves no further than this is a tap [pixels]. */
 const tapMoves = 4;
 
-/** The body to take, and the point of it, for what is under the pointer. */
+/** The bodies to grab, and the points on them, for the object under the pointer. */
 export function gripOf(page: Page, picked: Picked): { body: number; point: Vector3 }[] {
   if (picked.kind === 'body') return [{ body: picked.index, point: picked.point }];
   if (picked.kind !== 'span') return [];
@@ -32,13 +32,13 @@ export function gripOf(page: Page, picked: Picked): { body: number; point: Vecto
 export interface DragHost {
   machine(): LiveMachine;
   page(): Page;
-  /** The machine is taken: it has to run, and to be looked at as it is now. */
+  /** A body was grabbed: the machine must run and show its present state. */
   taken(): void;
-  /** Why something cannot be taken. */
+  /** Reports why a body cannot be grabbed. */
   refused(reason: string): void;
 }
 
-/** Listens to a page's picture for as long as that is there. */
+/** Listens to a page's picture as long as the picture exists. */
 export function dragWithPointer(host: DragHost): void {
   const { scene } = host.page();
   const stage = scene?.canvas.parentElement;
@@ -46,7 +46,7 @@ export function dragWithPointer(host: DragHost): void {
   const onPlane = (event: PointerEvent, plane: THREE.Plane): THREE.Vector3 | null =>
     scene.ray(event.clientX, event.clientY).ray.intersectPlane(plane, new THREE.Vector3());
 
-  // Before the camera's controls, which listen to the canvas itself.
+  // Handles events before the camera controls, which listen to the canvas itself.
   stage.addEventListener(
     'pointerdown',
     (event) => {
@@ -61,7 +61,7 @@ export function dragWithPointer(host: DragHost): void {
         return faults.length === 0;
       });
       if (!grip) {
-        // What nothing moves turns the picture, as the ground does.
+        // Dragging an immovable body rotates the view, like dragging the background.
         if (reason) host.refused(reason);
         return;
       }

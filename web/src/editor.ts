@@ -1,9 +1,9 @@
-// The scene's text, with its faults underlined where the loader finds them.
+// The scene's text. Faults that the loader finds are underlined.
 
 import { button, element } from './dom';
 import type { Fault } from './engine';
 
-/** The text's places that a fault underlines: from its column to the end of the word or the line. */
+/** The underlined ranges of the text: from a fault's column to the end of the word or line. */
 export function underlined(text: string, faults: readonly Fault[]): [number, number][] {
   const starts = [0];
   for (let k = 0; k < text.length; ++k) if (text[k] === '\n') starts.push(k + 1);
@@ -12,7 +12,7 @@ export function underlined(text: string, faults: readonly Fault[]): [number, num
     if (fault.line < 1 || fault.line > starts.length) continue;
     const begin = starts[fault.line - 1];
     const end = fault.line < starts.length ? starts[fault.line] - 1 : text.length;
-    // Columns count characters, and some of those are two units of a string.
+    // Columns count characters, and some characters have two UTF-16 units in a string.
     const before = [...text.slice(begin, end)].slice(0, Math.max(fault.column - 1, 0)).join('').length;
     const from = Math.min(begin + before, end);
     const word = /^("([^"\\]|\\.)*"|[\w.+-]+|.)/.exec(text.slice(from, end));
@@ -34,7 +34,7 @@ export class Editor {
   private faults: readonly Fault[] = [];
   private waiting = 0;
 
-  /** `changed` is called when the text has rested for a moment. */
+  /** `changed` is called when the text has not changed for a moment. */
   constructor(private readonly changed: (text: string) => void) {
     const sheet = element('div', { class: 'sheet' }, this.marks, this.area);
     this.element.append(element('summary', {}, 'Scene'), sheet, this.list);
@@ -64,7 +64,7 @@ export class Editor {
       pieces.push(text.slice(at, from), element('u', {}, text.slice(from, to)));
       at = to;
     }
-    // A line more than the text's, so that both scroll alike.
+    // One line more than the text has, so that both elements scroll equally.
     this.marks.replaceChildren(...pieces, text.slice(at), '\n ');
     this.list.replaceChildren(
       ...faults.map((fault) => {

@@ -1,4 +1,4 @@
-// The engine in WebAssembly, with types: web/engine/binding.cpp.
+// Typed access to the engine in WebAssembly: web/engine/binding.cpp.
 
 import type { Channel, Machine, MachineEvent } from './machine';
 import type { Vector3 } from './vector';
@@ -6,14 +6,14 @@ import type { Vector3 } from './vector';
 interface Module {
   HEAPF64: Float64Array;
   ccall(name: string, result: string | null, types: string[], values: unknown[]): unknown;
-  // What is called in every step, without the detour.
+  // Functions called in every step, without the overhead of ccall.
   _sheave_step(machine: number): number;
   _sheave_sample(machine: number): number;
   _sheave_time(machine: number): number;
 }
 export type ModuleFactory = (options: { wasmBinary?: Uint8Array }) => Promise<Module>;
 
-/** A fault of a scene, where it is in the text (from 1; 0 if it has no place). */
+/** A fault of a scene with its position in the text (from 1; 0: no position). */
 export interface Fault {
   line: number;
   column: number;
@@ -33,7 +33,7 @@ export interface Settings {
   gravity: Vector3;
 }
 
-/** Something of the scene that can be set while it runs. */
+/** A control of the scene that can be set during the run. */
 export interface Control {
   name: string;
   unit: string;
@@ -59,7 +59,7 @@ export interface Certificate {
 
 export interface Step {
   ending: 'none' | 'diverged' | 'stopped';
-  /** Why it goes no further. */
+  /** Why the run cannot continue. */
   reason: string;
   events: MachineEvent[];
 }
@@ -77,7 +77,9 @@ export class Engine {
     return new Engine(await factory({ wasmBinary }));
   }
 
-  /** The machine of a scene; `overrides` are JSON texts by JSON pointers. Throws FaultyScene. */
+  /**
+   * Makes the machine of a scene; `overrides` maps JSON pointers to JSON texts. Throws FaultyScene.
+   */
   open(text: string, overrides: Record<string, string> = {}): LiveMachine {
     const handle = this.module.ccall('sheave_open', 'number', ['string', 'string'], [
       text,
@@ -121,7 +123,7 @@ export class LiveMachine {
   get time(): number {
     return this.module._sheave_time(this.open());
   }
-  /** One value per channel: a view that holds until the next call. */
+  /** One value per channel, as a view that is valid until the next call. */
   sample(count: number): Float64Array {
     const place = this.module._sheave_sample(this.open()) / 8;
     return this.module.HEAPF64.subarray(place, place + count);
@@ -158,14 +160,14 @@ export class LiveMachine {
     return this.number('sheave_pull');
   }
 
-  /** A finer world beside this one from now on; none for 0. */
+  /** Begins a finer reference world; 0: no reference. */
   reference(refinement: number): Fault[] {
     return this.faults('sheave_reference', ['number'], [refinement]);
   }
   stepReference(): boolean {
     return this.number('sheave_step_reference') !== 0;
   }
-  /** Relative to the size of the scene; NaN without a reference. */
+  /** Error relative to the size of the scene; NaN without a reference. */
   get error(): number {
     return this.number('sheave_error');
   }

@@ -1,10 +1,10 @@
-// What can be taken away from the page.
+// Files that the user can save from the page.
 
 import { sample, slackColor, toCss } from './color_map';
 import type { Frames } from './frames';
 import { numberText, timeText } from './numbers';
 
-/** Lines of comma-separated values, as `sheave run --out` writes them; all columns if none is named. */
+/** Comma-separated values in the format of `sheave run --out`; all columns if `names` is empty. */
 export function csv(frames: Frames, names: readonly string[]): string {
   const wanted =
     names.length > 0 ? [...names] : frames.channels.filter((c) => !c.hidden).map((c) => c.name);
@@ -14,13 +14,13 @@ export function csv(frames: Frames, names: readonly string[]): string {
   ];
   const lines = [['t', ...wanted.filter((name) => name !== 't')].join(',')];
   for (let k = 0; k < frames.count; ++k) {
-    // What is not known is empty.
+    // An unknown value is empty.
     lines.push(columns.map((c) => (Number.isNaN(c[k]) ? '' : String(c[k]))).join(','));
   }
   return lines.join('\n') + '\n';
 }
 
-/** The picture with the machine's name, the time and the colour scale written into it. */
+/** The picture with the machine's name, the time and the colour scale. */
 export async function annotated(
   picture: Blob,
   frames: Frames,

@@ -1,4 +1,5 @@
-// The ground, or a floor for shadows: seen from above only, with a grid that fades with distance.
+// The ground, or a floor for shadows. It is visible from above only and has a grid that fades with
+// distance.
 
 import * as THREE from 'three';
 
@@ -59,7 +60,7 @@ export class Floor {
     this.object.add(ground, shadows);
     const normal = new THREE.Vector3(...floor.normal);
     this.object.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), normal);
-    // In the plane, below the middle of the machine; the grid stays where it was.
+    // The floor moves in its plane below the middle of the machine; the grid stays in place.
     const middle = min.add(max).multiplyScalar(0.5);
     const height = middle.clone().sub(new THREE.Vector3(...floor.point)).dot(normal);
     this.object.position.copy(middle).addScaledVector(normal, -height);

@@ -1,12 +1,12 @@
-// The frames of a run: for every channel of the machine one number per frame. Where they come from,
-// a file or an engine that runs, does not matter to what shows them.
+// The frames of a run: one number per channel and frame. The code that shows frames does not depend
+// on their source, which is a file or a running engine.
 
 import type { Channel, Machine, MachineEvent } from './machine';
 
 export class Frames {
   readonly machine: Machine;
   readonly channels: readonly Channel[];
-  /** What happened, in the order of time. */
+  /** Events in the order of time. */
   readonly events: MachineEvent[] = [];
   private readonly index = new Map<string, number>();
   private times: Float64Array;
@@ -21,19 +21,21 @@ export class Frames {
     this.columns = channels.map(() => this.times);
   }
 
-  /** Frames that are there; they all have been computed. */
+  /** Number of frames. */
   get count(): number {
     return this.size;
   }
-  /** Index of a channel, -1 if there is none of that name. */
+  /** Index of a channel; -1 if no channel has that name. */
   channel(name: string): number {
     return this.index.get(name) ?? -1;
   }
-  /** Of a frame [s]. */
+  /** Time of a frame [s]. */
   time(frame: number): number {
     return this.times[frame];
   }
-  /** All times, and all values of a channel. Views: they end to grow with the next frame. */
+  /**
+   * All times, and all values of a channel. These views do not include frames that are added later.
+   */
   allTimes(): Float64Array {
     return this.times.subarray(0, this.size);
   }
@@ -41,12 +43,12 @@ export class Frames {
     return this.columns[channel].subarray(0, this.size);
   }
 
-  /** Whether a value is known; forces are not before the first step. */
+  /** Whether a value is known; forces are unknown before the first step. */
   isKnown(channel: number, frame: number): boolean {
     return Number.isFinite(this.columns[channel][frame]);
   }
 
-  /** Takes whole columns, as a file has them. */
+  /** Takes complete columns, as from a file. */
   adopt(times: Float64Array, columns: Float64Array[]): void {
     if (columns.length !== this.channels.length || columns.some((c) => c.length !== times.length)) {
       throw new Error(`a recording of ${this.channels.length} channels has other columns`);
@@ -67,12 +69,12 @@ export class Frames {
     this.size += 1;
   }
 
-  /** Forgets the frames from `count` on: a world that has gone back. */
+  /** Removes the frames from index `count` on, after the world has gone back in time. */
   truncate(count: number): void {
     this.size = Math.min(this.size, count);
   }
 
-  /** The last frame that is not later than `time`; the first if all are. */
+  /** Index of the last frame that is not later than `time`; the first frame if all are later. */
   frameAt(time: number): number {
     let low = 0;
     let high = this.size - 1;

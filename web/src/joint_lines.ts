@@ -1,4 +1,5 @@
-// Distance joints as they are now: rods, strings, springs, telescopes; as render/joint_view.cpp.
+// Distance joints in the present state: rods, strings, springs, telescopes; as in
+// render/joint_view.cpp.
 
 import { catenaryPoints } from './catenary';
 import { coilPoints } from './coil';

@@ -1,4 +1,4 @@
-// Everything by keys.
+// Keyboard control of the page.
 
 export interface KeyAction {
   keys: string[];
@@ -6,7 +6,7 @@ export interface KeyAction {
   run(event: KeyboardEvent): void;
 }
 
-/** Elements that want the keys for themselves. */
+/** Whether the element uses the keys itself. */
 function isTyping(target: EventTarget | null): boolean {
   if (!(target instanceof HTMLElement)) return false;
   if (target.isContentEditable || target instanceof HTMLTextAreaElement) return true;
@@ -17,9 +17,9 @@ function isTyping(target: EventTarget | null): boolean {
 export function listenToKeys(actions: readonly KeyAction[]): void {
   document.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || isTyping(event.target)) return;
-    // A dialog has keys of its own.
+    // A dialog handles its own keys.
     if (document.querySelector('dialog[open]')) return;
-    // A button that has the focus is pressed by the space bar as everywhere.
+    // The space bar presses a focused button, as usual.
     const focused = event.target instanceof HTMLButtonElement || event.target instanceof HTMLInputElement;
     if (focused && (event.key === ' ' || event.key === 'Enter')) return;
     const action = actions.find((a) => a.keys.includes(event.key));

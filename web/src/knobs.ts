@@ -1,4 +1,4 @@
-// What can be changed while the machine runs, and what that does to its numbers.
+// The settings that can be changed while the machine runs, and their effect on the numbers.
 
 import { button, element } from './dom';
 import type { Certificate, Control, Settings } from './engine';
@@ -30,7 +30,7 @@ interface SliderOptions {
   value: number;
   minimum: number;
   maximum: number;
-  /** Powers of 2 and whole numbers only. */
+  /** Powers of 2 and integers only. */
   powers?: boolean;
   chosen(value: number): void;
 }
@@ -132,7 +132,7 @@ export class Knobs {
       ? `✓ certificate clean: its numbers agree to ${numberText(relative, 2)}`
       : `✗ doubtful: ${sentence}`;
   }
-  /** Milliseconds per step, newtons, relative error (NaN: not known). */
+  /** `cost` [ms per step], `pull` [N], `error` relative (NaN: unknown). */
   showNumbers(cost: number, pull: number, error: number): void {
     this.cost.textContent = `${numberText(cost, 3)} ms`;
     this.pull.textContent = `${numberText(pull, 3)} N`;

@@ -1,4 +1,4 @@
-// The scale of tensions: the same for the whole run.
+// The colour scale of tensions, equal for the whole run.
 
 import { sample, slackColor, toCss } from './color_map';
 import { element } from './dom';

@@ -1,12 +1,12 @@
-// Links that hold a scene and its settings: the part of an address behind "#".
+// Links that contain a scene and its settings in the part of an address behind "#".
 
 import type { Settings } from './engine';
 import { fromBase64, inflate } from './recording';
 
 export interface LinkContent {
-  /** Path of a scene of the repository, without its ending: "paper/pulley". */
+  /** Path of a scene of the repository, without the file extension: "paper/pulley". */
   scene?: string;
-  /** A scene's text, if it is none of those. */
+  /** Text of a scene that is not in the repository. */
   text?: string;
   settings: Partial<Settings>;
 }
@@ -33,7 +33,7 @@ export async function writeLink(content: LinkContent): Promise<string> {
   return `#${parts.toString()}`;
 }
 
-/** What is not understood is left out: links are written by people, too. */
+/** Ignores parts that it does not understand, because people write links, too. */
 export async function readLink(hash: string): Promise<LinkContent> {
   const parts = new URLSearchParams(hash.replace(/^#/, ''));
   const content: LinkContent = { settings: {} };

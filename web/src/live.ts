@@ -1,4 +1,4 @@
-// A page with the engine inside: it runs what it shows.
+// A page with the engine inside, which computes the run that the page shows.
 
 import { button, element } from './dom';
 import { dragWithPointer } from './drag';
@@ -9,19 +9,19 @@ import { Knobs } from './knobs';
 import type { Page } from './page';
 import { buildPage } from './page';
 
-/** The reference has so many times the substeps. */
+/** Factor between the substeps of the reference and of the world. */
 const refinement = 8;
-/** Seconds between states that are kept to go back to. */
+/** Interval of states stored for going back [s]. */
 const keptEvery = 0.5;
-/** Numbers that are remembered; then the recording begins anew. */
+/** Largest number of stored values; then the recording starts again. */
 const mostValues = 3e7;
-/** What steps may take of a picture's 16 ms. */
+/** Time for steps within one picture of 16 ms [ms]. */
 const budget = 11;
 
 export interface LiveOptions {
   host: HTMLElement;
   engine: Engine;
-  /** Called when the scene is another one: what stands beside it has to be made again. */
+  /** Called when another scene is opened: elements beside the page must be rebuilt. */
   built(page: Page): void;
   share(): void;
 }
@@ -30,7 +30,7 @@ export class Live {
   machine!: LiveMachine;
   page!: Page;
   description!: Description;
-  /** Changed since the scene was opened. */
+  /** Settings changed since the scene was opened. */
   changed: Partial<Settings> = {};
   private knobs!: Knobs;
   private frames!: Frames;
@@ -49,7 +49,7 @@ export class Live {
     requestAnimationFrame(tick);
   }
 
-  /** Opens a scene; its faults if it has any, and then all is as it was. */
+  /** Opens a scene. Returns its faults; if there are any, nothing changes. */
   open(text: string, settings: Partial<Settings> = {}): Fault[] {
     let machine: LiveMachine;
     try {
@@ -70,7 +70,7 @@ export class Live {
     return [];
   }
 
-  /** One step of the world, taken down as a frame. False if it goes no further. */
+  /** Makes one step of the world and records a frame. False if the run cannot continue. */
   step(): boolean {
     const start = performance.now();
     const step = this.machine.step();
@@ -195,7 +195,7 @@ export class Live {
       while (this.debt >= dt && this.page.player === player) {
         this.debt -= dt;
         if (!this.step()) break;
-        // Slower than the clock: it then runs as fast as it can.
+        // The engine is slower than the clock: drops the missing time.
         if (performance.now() > end) this.debt = 0;
       }
       if (this.page.player === player) {
@@ -224,7 +224,7 @@ export class Live {
   private complain(faults: Fault[]): void {
     if (faults.length > 0) this.note(faults.map((f) => f.text).join('\n'));
   }
-  /** Something to say over the picture; null takes it away. */
+  /** Shows a message over the picture; null removes it. */
   private note(text: string | null, back = false): void {
     this.options.host.querySelector('.fault')?.remove();
     if (text === null) return;

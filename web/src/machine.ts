@@ -1,15 +1,15 @@
-// What a page knows of a machine, whatever it does: the JSON that view/machine_json.cpp writes.
-// Lengths [m], in the world frame or, where it says so, in the frame of a body.
+// The description of a machine, independent of its motion: the JSON that view/machine_json.cpp
+// writes. Lengths [m]; positions are in the world frame unless a body's frame is mentioned.
 
 import type { Quaternion, Vector3 } from './vector';
 
-/** Index of a body; -1 is the world, which does not move. */
+/** Index of a body; -1 is the world, which is at rest. */
 export type BodyIndex = number;
 
 export type Shape =
   | { type: 'box'; size: Vector3 }
   | { type: 'sphere'; radius: number }
-  /** Cylinders, capsules and sheaves stand about their z axis. */
+  /** The axis of cylinders, capsules and sheaves is z. */
   | { type: 'cylinder'; radius: number; length: number }
   | { type: 'capsule'; radius: number; length: number }
   | {
@@ -22,7 +22,7 @@ export type Shape =
     }
   | { type: 'mesh'; vertices: Vector3[]; triangles: [number, number, number][] };
 
-/** Something fixed to a body; place and turn in its frame. Colours are "#rrggbb". */
+/** A solid fixed to a body; position and orientation in the body's frame. Colours are "#rrggbb". */
 export interface Part {
   body: BodyIndex;
   shape: Shape;
@@ -31,7 +31,7 @@ export interface Part {
   color: string;
 }
 
-/** A round bar fixed to a body; ends in its frame. */
+/** A round bar fixed to a body; its ends are in the body's frame. */
 export interface Bar {
   body: BodyIndex;
   start: Vector3;
@@ -40,7 +40,7 @@ export interface Bar {
   color: string;
 }
 
-/** A line between a point of one body and one of another. */
+/** A line between points of two bodies. */
 export interface JointLine {
   kind: 'rod' | 'string' | 'spring' | 'telescope' | 'bumper';
   body_a: BodyIndex;
@@ -51,7 +51,7 @@ export interface JointLine {
   length: number;
 }
 
-/** How one joint looks, until it breaks. */
+/** The appearance of one joint until it breaks. */
 export interface JointPiece {
   joint: number;
   parts: Part[];
@@ -82,7 +82,7 @@ export interface Cable {
   closed: boolean;
   links: { type: string; body: BodyIndex; winding_room: number }[];
   spans: number;
-  /** Capacity for wraps on bodies that are no link of the list. */
+  /** Number of possible wraps on bodies outside the list of links. */
   wraps: number;
 }
 
@@ -91,9 +91,9 @@ export interface Machine {
   name: string;
   description: string;
   gravity: Vector3;
-  /** Of a step [s]. */
+  /** Duration of a step [s]. */
   dt: number;
-  /** Of the run [s]. */
+  /** Duration of the run [s]. */
   duration: number;
   bodies: { name: string; mobility: string }[];
   joints: { name: string; type: string; bodies: [BodyIndex, BodyIndex] }[];
@@ -111,9 +111,9 @@ export interface Machine {
   bounds: { min: Vector3; max: Vector3 };
 }
 
-/** A number that changes in the course of a run. */
+/** A number that changes during a run. */
 export interface Channel {
-  /** As the columns of `sheave run --out`, and some more for the picture. */
+  /** A column of `sheave run --out`, or a further channel for the picture. */
   name: string;
   unit: string;
   /** Not a column of a table: only the picture needs it. */

@@ -1,4 +1,4 @@
-// One moment of a machine: its frame's numbers as poses, links and spans.
+// The state of a machine at one time: the numbers of a frame as poses, links and spans.
 
 import type { Frames } from './frames';
 import type { BodyIndex, Machine } from './machine';
@@ -10,7 +10,7 @@ export interface Pose {
   orientation: Quaternion;
 }
 
-/** As LinkReport in cable/cable_report.h. */
+/** Same as LinkReport in cable/cable_report.h. */
 export interface LinkState {
   body: BodyIndex;
   center: Vector3;
@@ -22,22 +22,24 @@ export interface LinkState {
   path: Vector3[];
   storedLength: number;
   wrapAngle: number;
-  /** Room for windings side by side [m]. */
+  /** Width for windings side by side [m]. */
   room: number;
 }
 
-/** As SpanReport. */
+/** Same as SpanReport. */
 export interface SpanState {
   start: Vector3;
   end: Vector3;
   length: number;
   restLength: number;
   tension: number;
-  /** Index in the cable's list of spans; a wrap's has that of the listed span before it. */
+  /**
+   * Index in the cable's list of spans; a wrap's span has the index of the listed span before it.
+   */
   listed: number;
 }
 
-/** Links and spans with wraps at their places: span k begins at link k. */
+/** Links and spans with the wraps inserted: span k begins at link k. */
 export interface CableState {
   closed: boolean;
   cut: boolean;
@@ -48,7 +50,7 @@ export interface CableState {
 
 interface LinkPlaces {
   body: BodyIndex;
-  /** Channels, -1 for what is not told; points take three in a row. */
+  /** Channel indices; -1 for a missing channel. A point has three consecutive channels. */
   of: Map<string, number>;
   path: number[];
   room: number;
@@ -71,7 +73,7 @@ const linkChannels = [
   'exit_x',
   'center_x',
   'normal_x',
-  // Of wraps:
+  // Channels of wraps:
   'body',
   'after',
   'tension',
@@ -80,10 +82,10 @@ const linkChannels = [
   'end_x',
 ];
 
-/** What jumps and must not be blended between two frames. */
+/** Discrete channels, which must not be interpolated between two frames. */
 const discrete = /\.(winding|body|after|path_count|wrap_count|broken|cut|wraps)$/;
 
-/** Reads moments of a machine out of frames; a view of the moment that was last looked at. */
+/** Reads states of a machine from frames. The object describes the time of the last look(). */
 export class MachineState {
   readonly machine: Machine;
   readonly values: Float64Array;
@@ -102,7 +104,7 @@ export class MachineState {
     this.later = new Float64Array(frames.channels.length);
     this.blended = Uint8Array.from(frames.channels, (c) => (discrete.test(c.name) ? 0 : 1));
     this.bodyPlaces = machine.bodies.map((b) => this.need(`${b.name}.x`));
-    // Orientations are turned, not blended.
+    // Orientations are interpolated as rotations, not by components.
     for (const place of this.bodyPlaces) this.blended.fill(0, place + 3, place + 7);
     this.broken = machine.joints.map((j) => frames.channel(`${j.name}.broken`));
     this.cablePlaces = machine.cables.map((cable) => ({
@@ -125,7 +127,7 @@ export class MachineState {
     }));
   }
 
-  /** Looks at a moment; between two frames at what lies between. */
+  /** Sets the time; between two frames the state is interpolated. */
   look(time: number): void {
     const frames = this.frames;
     if (frames.count === 0) return;
@@ -146,7 +148,7 @@ export class MachineState {
   pose(body: BodyIndex): Pose {
     return body < 0 ? worldPose : this.poses[body];
   }
-  /** A point of a body, in the world. */
+  /** The position in the world of a point of a body. */
   place(body: BodyIndex, local: Vector3): Vector3 {
     if (body < 0) return local;
     const pose = this.poses[body];
@@ -195,7 +197,7 @@ export class MachineState {
     return state;
   }
 
-  /** Forces are not known before the first step; a picture of the start shows those of that step. */
+  /** Forces are unknown before the first step; at the start those of the first step are shown. */
   private fillStart(): void {
     if (this.frames.count < 2) return;
     this.frames.read(1, this.later);

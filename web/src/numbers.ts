@@ -1,6 +1,6 @@
-// Numbers for people.
+// Number formats for people.
 
-/** About `digits` significant digits, without noise at the end. */
+/** About `digits` significant digits, without trailing rounding noise. */
 export function numberText(value: number, digits = 5): string {
   if (!Number.isFinite(value)) return '–';
   if (value === 0 || Math.abs(value) < 1e-12) return '0';
@@ -13,7 +13,7 @@ export function quantityText(value: number, unit: string, digits = 5): string {
   return Number.isFinite(value) && unit ? `${numberText(value, digits)} ${unit}` : numberText(value, digits);
 }
 
-/** [s], with as many decimals as tell two steps of `dt` apart. */
+/** Time [s] with enough decimals to distinguish steps of `dt`. */
 export function timeText(time: number, dt: number): string {
   const decimals = Math.min(Math.max(Math.ceil(-Math.log10(dt)), 2), 6);
   return time.toFixed(decimals);

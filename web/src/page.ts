@@ -1,5 +1,5 @@
-// The page round a machine: the picture, the time line, the numbers and the curves. It shows frames
-// wherever they come from; what an engine that runs adds stands in `extras`.
+// The page of a machine: the picture, the time line, the numbers and the curves. The page shows
+// frames from any source; controls of a running engine are in `extras`.
 
 import { Chooser, firstChoice } from './chooser';
 import { button, download, element } from './dom';
@@ -24,24 +24,24 @@ export interface Page {
   timeline: Timeline;
   plots: Plots;
   readout: Readout;
-  /** Null if this browser draws nothing in three dimensions. */
+  /** Null if the browser has no 3D graphics. */
   scene: Scene3D | null;
-  /** Place for more controls, beside the curves. */
+  /** Container for further controls beside the curves. */
   extras: HTMLElement;
-  /** Draws the moment of the player anew. */
+  /** Draws the player's present time again. */
   refresh(): void;
   dispose(): void;
 }
 
-/** A tap is a press that does not move further than this [pixels]. */
+/** A press that moves no further than this is a tap [pixels]. */
 const tapMoves = 6;
 const mouseReach = 7;
 const touchReach = 18;
 
 export interface PageOptions {
-  /** More keys than the page's own. */
+  /** Keys in addition to the page's own. */
   keys?: KeyAction[];
-  /** Stands beside the name. */
+  /** Text beside the name. */
   note?: string;
 }
 

@@ -1,4 +1,4 @@
-// The page of the playground, and of `sheave view --live`: a scene that runs, and its text.
+// The page of the playground, and of `sheave view --live`: a running scene and its text.
 
 import createEngine from 'sheave-engine';
 
@@ -9,7 +9,7 @@ import { readLink, writeLink } from './link';
 import { Live } from './live';
 import { fromBase64, inflate } from './recording';
 
-/** The scene that stands in the file, if one does. */
+/** The scene inside the file, if there is one. */
 function ownScene(): string | null {
   return document.getElementById('scene')?.textContent?.trim() || null;
 }
@@ -34,7 +34,8 @@ async function start(): Promise<void> {
     if (text !== null) name = undefined;
 
     const share = async (): Promise<void> => {
-      // A scene of the repository is told by its name, any other by its text.
+      // A link refers to an unchanged scene of the repository by name, and contains any other by
+      // its text.
       const content = name !== undefined && editor.text === scene ? { scene: name } : { text: editor.text };
       const hash = await writeLink({ ...content, settings: live.changed });
       history.replaceState(null, '', hash);

@@ -1,4 +1,4 @@
-// Which moment is shown, and how it moves on.
+// The time that is shown, and its progress.
 
 export const speeds = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10];
 
@@ -7,7 +7,7 @@ export class Player {
   playing = false;
   speed = 1;
   loop = false;
-  /** Whether there is more behind the end, as where an engine runs: playing then waits for it. */
+  /** Whether the range can grow because an engine runs: at its end the player then waits. */
   endless = false;
   private begin = 0;
   private end = 0;
@@ -22,7 +22,7 @@ export class Player {
   get range(): [number, number] {
     return [this.begin, this.end];
   }
-  /** The times that there are [s]; grows while an engine runs. */
+  /** Range of the available times [s]; it grows while an engine runs. */
   setRange(begin: number, end: number): void {
     this.begin = begin;
     this.end = end;
@@ -34,7 +34,7 @@ export class Player {
     this.time = Math.min(Math.max(time, this.begin), this.end);
     this.changed();
   }
-  /** Plays; from the beginning if all has been played. */
+  /** Plays; from the beginning if the end has been reached. */
   play(): void {
     if (this.time >= this.end && !this.endless) this.time = this.begin;
     this.playing = true;
@@ -56,16 +56,16 @@ export class Player {
     this.speed = speed;
     this.changed();
   }
-  /** To the next faster (1) or slower (-1) of `speeds`. */
+  /** Selects the next faster (1) or slower (-1) of `speeds`. */
   changeSpeed(by: 1 | -1): void {
     const faster = speeds.filter((s) => (by > 0 ? s > this.speed : s < this.speed));
     const next = by > 0 ? faster[0] : faster[faster.length - 1];
     if (next !== undefined) this.setSpeed(next);
   }
 
-  /** To be called with every picture of the browser; `now` in milliseconds. */
+  /** To be called for every animation frame of the browser; `now` in milliseconds. */
   tick(now: number): void {
-    // A page that was hidden does not make up for it.
+    // The time during which the page was hidden is not made up for.
     const passed = Math.min((now - this.last) / 1000, 0.1);
     this.last = now;
     if (!this.playing) return;

@@ -1,4 +1,4 @@
-// Curves of chosen quantities, one chart per unit, in sync with the time line.
+// Curves of selected channels, one chart per unit, synchronised with the time line.
 
 import uPlot from 'uplot';
 
@@ -7,7 +7,7 @@ import type { Frames } from './frames';
 import { numberText, quantityText } from './numbers';
 import type { Player } from './player';
 
-/** Okabe and Ito's colours, which all eyes tell apart, and dashes beside them. */
+/** Okabe and Ito's colours, which colour-blind readers can distinguish, and dashes in addition. */
 const strokes = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#e69f00', '#56b4e9', '#7a7a7a'];
 const dashes: number[][] = [[], [8, 4], [2, 3], [10, 3, 2, 3]];
 const chartHeight = 170;
@@ -33,7 +33,7 @@ export class Plots {
   onChange(listener: () => void): void {
     this.listeners.push(listener);
   }
-  /** Names of the channels that are shown. */
+  /** Names of the shown channels. */
   get names(): readonly string[] {
     return this.chosen;
   }
@@ -48,7 +48,7 @@ export class Plots {
   toggle(name: string): void {
     this.choose(this.has(name) ? this.chosen.filter((n) => n !== name) : [...this.chosen, name]);
   }
-  /** New colours of axes, as the page's style now says. */
+  /** Rebuilds the charts with the axis colours of the page's present style. */
   restyle(): void {
     this.build();
   }
@@ -107,7 +107,7 @@ export class Plots {
     return chart;
   }
 
-  /** Names beside their colours, with the numbers of the moment; a press takes the curve away. */
+  /** Names beside their colours, with the present values; a press removes the curve. */
   private keys(names: string[], unit: string): HTMLElement {
     const list = element('ul', { class: 'keys' });
     names.forEach((name, k) => {
@@ -121,7 +121,7 @@ export class Plots {
   }
 
   private data(names: string[]): uPlot.AlignedData {
-    // What is not known, as forces before the first step, is a gap.
+    // Unknown values, such as forces before the first step, are gaps.
     return [
       this.frames.allTimes(),
       ...names.map((name) => {
@@ -133,7 +133,7 @@ export class Plots {
     ] as uPlot.AlignedData;
   }
 
-  /** A line where the player is. */
+  /** Draws a line at the player's time. */
   private drawNow(chart: uPlot, ink: string): void {
     const x = chart.valToPos(this.player.time, 'x', true);
     const { left, top, width, height } = chart.bbox;

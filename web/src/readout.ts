@@ -1,4 +1,5 @@
-// The numbers of what the pointer is at; a tap keeps them on the screen and in step with the time.
+// The numbers of the object under the pointer. After a tap they stay on the screen and follow the
+// time.
 
 import { button, element } from './dom';
 import type { Frames } from './frames';
@@ -7,7 +8,7 @@ import type { Plots } from './plots';
 import type { MachineState } from './machine_state';
 import type { Picked } from './scene3d';
 
-/** The names of its numbers, in the order in which they are shown. */
+/** The channels of the picked object, in the order of display. */
 export function quantitiesOf(frames: Frames, picked: Picked): string[] {
   const machine = frames.machine;
   let prefix: string;
@@ -51,7 +52,7 @@ export class Readout {
   get picked(): Picked | null {
     return this.shown;
   }
-  /** The pointer is at something, or at nothing; what was tapped stays. */
+  /** The pointer is over an object, or over none; a tapped object stays selected. */
   hover(picked: Picked | null): void {
     if (!this.kept) this.set(picked);
   }
@@ -60,7 +61,7 @@ export class Readout {
     this.set(picked);
   }
 
-  /** The numbers of the moment that is shown. */
+  /** Shows the values at the present time. */
   update(): void {
     for (const [cell, channel, unit] of this.rows) {
       cell.textContent = quantityText(this.state.values[channel], unit);

@@ -14,14 +14,14 @@ import { Segments } from './segments';
 import { geometryOf } from './shapes';
 import type { Vector3 } from './vector';
 
-/** Something of the machine that the pointer is at. */
+/** The part of the machine under the pointer. */
 export type Picked =
   | { kind: 'body'; index: number; point: Vector3 }
   | { kind: 'span'; index: number; span: number; point: Vector3 }
   | { kind: 'joint'; index: number; point: Vector3 };
 
 const highlightColor = 0xffc107;
-/** Edges sharper than this are drawn as lines [degrees]. */
+/** Smallest angle between faces whose edge is drawn as a line [degrees]. */
 const sharpest = 28;
 
 export class Scene3D {
@@ -45,7 +45,7 @@ export class Scene3D {
   private dark = false;
   private scheduled = 0;
 
-  /** Whether this browser draws in three dimensions at all. */
+  /** Whether the browser supports 3D graphics. */
   static isSupported(): boolean {
     try {
       const canvas = document.createElement('canvas');
@@ -55,13 +55,13 @@ export class Scene3D {
     }
   }
 
-  /** Shows the moment that `state` looks at, in `host`, which it fills. */
+  /** Shows the time of `state` in `host` and fills it. */
   constructor(
     private readonly host: HTMLElement,
     private readonly state: MachineState,
   ) {
     const machine = state.machine;
-    // The last picture stays readable, for its export.
+    // The last picture must stay readable for its export.
     this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.shadowMap.enabled = true;
@@ -121,7 +121,7 @@ export class Scene3D {
     this.show();
   }
 
-  /** Draws the moment that the state looks at, with the next picture of the browser. */
+  /** Draws the state in the browser's next animation frame. */
   show(): void {
     const machine = this.state.machine;
     this.bodies.forEach((group, index) => {
@@ -159,7 +159,7 @@ export class Scene3D {
     this.redraw();
   }
 
-  /** Places the camera so that the whole run is in the picture. */
+  /** Places the camera so that the whole run is visible. */
   fit(): void {
     const { camera: wanted, bounds } = this.state.machine;
     const box = new THREE.Box3(new THREE.Vector3(...bounds.min), new THREE.Vector3(...bounds.max));
@@ -200,7 +200,7 @@ export class Scene3D {
     this.redraw();
   }
 
-  /** What is at a place of the window, within `reach` pixels for thin things. */
+  /** The object at a point of the window, within `reach` pixels for thin objects. */
   pick(clientX: number, clientY: number, reach: number): Picked | null {
     const bounds = this.canvas.getBoundingClientRect();
     const x = clientX - bounds.left;
@@ -227,7 +227,7 @@ export class Scene3D {
     return null;
   }
 
-  /** From the eye through a place of the window. */
+  /** The ray from the eye through a point of the window. */
   ray(clientX: number, clientY: number): THREE.Raycaster {
     const bounds = this.canvas.getBoundingClientRect();
     const place = new THREE.Vector2(
@@ -250,7 +250,7 @@ export class Scene3D {
     this.show();
   }
 
-  /** The picture as it is, as a PNG. */
+  /** The present picture as a PNG. */
   picture(): Promise<Blob> {
     this.draw();
     return new Promise((resolve, reject) => {
@@ -288,7 +288,7 @@ export class Scene3D {
     }
   }
 
-  /** Where cables are fixed to bodies. */
+  /** Spheres where cables are fixed to bodies. */
   private makeKnots(): THREE.InstancedMesh {
     const { cables, cable_radius } = this.state.machine;
     const most = cables.reduce((sum, cable) => sum + cable.links.length, 0);
@@ -357,7 +357,7 @@ export class Scene3D {
     return Math.max(this.host.clientWidth, 1) / Math.max(this.host.clientHeight, 1);
   }
 
-  /** From above, from the side and from the front, whatever of it is up. */
+  /** Lights from above, from the side and from the front, for any up direction. */
   private placeLight(): void {
     const { camera, gravity, bounds } = this.state.machine;
     const up = new THREE.Vector3(...gravity).negate();

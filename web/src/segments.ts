@@ -1,20 +1,20 @@
-// Many straight round pieces of lines, drawn at once, and found again under the pointer.
+// Many straight round pieces of lines, drawn together, and found again under the pointer.
 
 import * as THREE from 'three';
 
 import type { Color } from './color_map';
 import type { Vector3 } from './vector';
 
-/** What a piece belongs to. */
+/** The owner of a piece. */
 export interface Tag {
   kind: 'span' | 'joint' | 'cable';
-  /** Of the cable or joint. */
+  /** Index of the cable or joint. */
   index: number;
-  /** Of the span within its cable. */
+  /** Index of the span within its cable. */
   span: number;
 }
 
-/** Unlit in part, so that the colours are those of the legend. */
+/** Share of unlit colour, so that the colours match the legend. */
 const flatness = 0.62;
 
 export class Segments {
@@ -57,7 +57,8 @@ export class Segments {
     this.ends.set(a, 6 * k);
     this.ends.set(b, 6 * k + 3);
     this.tags.push(tag);
-    // The columns of a turn that takes y to the line, scaled; any two directions across will do.
+    // The columns of a scaled rotation that turns y to the line; the two other directions are
+    // arbitrary.
     const u: Vector3 = [dx / length, dy / length, dz / length];
     const v: Vector3 = Math.abs(u[0]) < 0.7 ? [0, u[2], -u[1]] : [-u[2], 0, u[0]];
     const n = Math.hypot(v[0], v[1], v[2]);
@@ -69,7 +70,7 @@ export class Segments {
     ];
     const m = this.current.instanceMatrix.array;
     const o = 16 * k;
-    // A little longer, so that pieces meet without a gap where the line bends.
+    // Slightly longer, so that pieces meet without a gap where the line bends.
     const long = length + 0.1 * radius;
     for (let i = 0; i < 3; ++i) {
       m[o + i] = v[i] * radius;
@@ -91,8 +92,8 @@ export class Segments {
   }
 
   /**
-   * The piece nearest to a place of the picture, within `reach` of it; all in pixels. `matrix` takes
-   * world points to clip coordinates.
+   * The piece nearest to a point of the picture and within `reach` of it; all in pixels. `matrix`
+   * transforms world points to clip coordinates.
    */
   nearest(
     x: number,

@@ -1,5 +1,5 @@
-// The surfaces of shapes, with a colour per corner that multiplies the body's: the same solids as
-// render/solid_mesh.cpp and render/sheave_mesh.cpp draw.
+// The surfaces of shapes, with a colour per vertex that multiplies the body's colour: the same
+// solids as in render/solid_mesh.cpp and render/sheave_mesh.cpp.
 
 import * as THREE from 'three';
 import { mergeGeometries } from 'three/examples/jsm/utils/BufferGeometryUtils.js';
@@ -12,7 +12,7 @@ type Profile = [radius: number, z: number][];
 const white = new THREE.Color(1, 1, 1);
 const groove = new THREE.Color(0xcdd0d6);
 const pin = new THREE.Color(0x5a5c62);
-/** Of the spoke by which turning shows, whatever the wheel's colour. */
+/** Colour of the spoke that makes rotation visible on a wheel of any colour. */
 const accent = new THREE.Color(0x2c3a4c);
 
 export function geometryOf(shape: Shape): THREE.BufferGeometry {
@@ -32,7 +32,7 @@ export function geometryOf(shape: Shape): THREE.BufferGeometry {
   }
 }
 
-/** three.js has its cylinders about y; ours stand about z. */
+/** The axis of three.js cylinders is y; here it is z. */
 function upright(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
   return geometry.rotateX(Math.PI / 2);
 }
@@ -59,7 +59,7 @@ function meshGeometry(
   return flat;
 }
 
-/** A line of cross-section turned about z; each of its straight pieces is shaded by itself. */
+/** A profile rotated about z; each of its straight pieces is shaded separately. */
 function revolved(profile: Profile, segments: number, color: THREE.Color): THREE.BufferGeometry {
   const pieces: THREE.BufferGeometry[] = [];
   for (let k = 0; k + 1 < profile.length; ++k) {

@@ -1,4 +1,4 @@
-// What emscripten makes of web/engine; build.mjs knows where it is.
+// The module that emscripten makes from web/engine; build_playground.mjs sets its path.
 
 declare module 'sheave-engine' {
   import type { ModuleFactory } from './engine';

@@ -1,4 +1,4 @@
-// Dark or light: as the system has it, until the user says otherwise.
+// Dark or light theme: the system's setting until the user selects one.
 
 const listeners: ((dark: boolean) => void)[] = [];
 let chosen: boolean | null = null;

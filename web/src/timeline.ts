@@ -1,4 +1,4 @@
-// The time line: where the player is, what happens when, and the knobs to move it.
+// The time line: the player's position, the events, and the controls of the player.
 
 import { button, element } from './dom';
 import type { Frames } from './frames';
@@ -7,7 +7,7 @@ import { timeText } from './numbers';
 import type { Player } from './player';
 import { speeds } from './player';
 
-/** Marks that would stand closer than this share of the line are one. */
+/** Marks closer than this share of the line are merged. */
 const closest = 0.004;
 
 export class Timeline {
@@ -65,11 +65,11 @@ export class Timeline {
     this.update();
   }
 
-  /** By so many frames, from the one that is shown. */
+  /** Moves by a number of frames from the shown one. */
   step(by: number): void {
     this.player.pause();
     const now = this.frames.frameAt(this.player.time);
-    // Back from between two frames is to the earlier of them.
+    // A step back from a time between two frames goes to the earlier frame.
     const between = this.player.time > this.frames.time(now) && by < 0 ? 1 : 0;
     this.jump(now + by + between);
   }
@@ -93,7 +93,7 @@ export class Timeline {
     this.playButton.setAttribute('aria-label', this.playButton.title);
     this.loopButton.setAttribute('aria-pressed', String(loop));
     this.speedChoice.value = String(speed);
-    // Marks move when the end does, or when more has happened.
+    // Marks move when the end moves or events are added.
     const key = this.frames.events.length + end;
     if (key !== this.marked) this.mark(begin, end);
     this.marked = key;

@@ -24,13 +24,13 @@ export const cross = (a: Vector3, b: Vector3): Vector3 => [
   a[0] * b[1] - a[1] * b[0],
 ];
 export const norm = (a: Vector3): number => Math.hypot(a[0], a[1], a[2]);
-/** Zero stays zero. */
+/** The zero vector stays zero. */
 export const normalized = (a: Vector3): Vector3 => {
   const length = norm(a);
   return length > 0 ? scale(a, 1 / length) : [0, 0, 0];
 };
 
-/** A unit vector across `a`, which is not zero. */
+/** A unit vector perpendicular to `a`, which must not be zero. */
 export function anyPerpendicular(a: Vector3): Vector3 {
   const size = a.map(Math.abs);
   const least = size.indexOf(Math.min(...size));
@@ -52,7 +52,7 @@ export const multiply = (a: Quaternion, b: Quaternion): Quaternion => [
   a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0],
 ];
 
-/** The turn a fraction t of the way from a to b, by the shorter way. */
+/** The rotation at the fraction t between a and b, on the shorter way. */
 export function slerp(a: Quaternion, b: Quaternion, t: number): Quaternion {
   let cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
   const sign = cosine < 0 ? -1 : 1;

@@ -1,4 +1,4 @@
-// The page of `sheave view`: a recording that stands in the file itself.
+// The page of `sheave view`: a recording inside the file.
 
 import { button, element } from './dom';
 import { buildPage } from './page';
