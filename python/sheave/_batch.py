@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def whole_number(value: Any, name: str, least: int) -> int:
-    """The value as an integer, at least so much."""
+    """The value as an integer >= `least`; raises ArgumentError otherwise."""
     try:
         number = operator.index(value)
     except Exception:
@@ -30,7 +30,7 @@ def whole_number(value: Any, name: str, least: int) -> int:
 
 
 def list_of(values: Any, most: int) -> Optional[List[Any]]:
-    """The items of what has items and is no text, one more than `most` if there are more."""
+    """The first `most` + 1 items of an iterable; None for a text, a mapping or no iterable."""
     if isinstance(values, (str, bytes, Mapping)):
         return None
     try:
@@ -43,9 +43,9 @@ def list_of(values: Any, most: int) -> Optional[List[Any]]:
 class Batch(_sheave.Batch):
     """n worlds of one scene, stepped on all cores; results are arrays of n rows.
 
-    `vary` gives settings by their JSON pointers, each with one value per world:
-    {"/bodies/drum/mass": array}. The number of threads changes nothing but the time it takes. A
-    world that diverges is marked in `diverged` and steps no more; the others go on.
+    `vary` maps JSON pointers of settings to arrays with one value per world:
+    {"/bodies/drum/mass": array}. The results do not depend on the number of threads. A world that
+    diverges is marked in `diverged` and is not stepped any more; the others continue.
     """
 
     __slots__ = ()
@@ -68,11 +68,11 @@ class Batch(_sheave.Batch):
         super().__init__(*source_of(scene), n, overrides_of(set), varied, threads)
 
     def run(self, until: Optional[float] = None) -> None:
-        """Steps all worlds until this time [s], or for the scene's duration."""
+        """Steps all worlds until the time `until` [s]; None: the scene's duration."""
         end = self.duration if until is None else until
         if isinstance(end, bool) or not isinstance(end, (int, float)) or not math.isfinite(end):
             raise ArgumentError(f"until: must be a finite number [s], or None, was {shown(until)}")
-        if end / self.dt > 9e15:  # where a double no longer counts one by one
+        if end / self.dt > 9e15:  # a double cannot count single steps
             raise ArgumentError(f"until: must be at most 9e15 steps away, {9e15 * self.dt:g} s, was {end!r}")
         steps = round(max(end / self.dt, 0.0))
         while True:
@@ -86,7 +86,10 @@ class Batch(_sheave.Batch):
 
     def record(self, names: "list[str]", steps: Optional[int] = None,
                every: int = 1) -> "npt.NDArray[np.float64]":
-        """Steps, and keeps quantities: (n, rows, names), at the start and every `every` steps."""
+        """Steps and records observables: at the start and after every `every` steps.
+
+        Returns an array of the shape (n, rows, names).
+        """
         every = whole_number(every, "every", 1)
         if steps is not None:
             steps = whole_number(steps, "steps", 0)

@@ -1,4 +1,4 @@
-"""Edits of worlds that live."""
+"""Edits of live worlds."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from ._part import Part, to_plain
 
 
 class Edit(Changes):
-    """A list of changes, which are made together at the end of the `with`, or not at all."""
+    """A list of changes: at the end of the `with` all of them are made, or none."""
 
     def __init__(self, make: Callable[[str], Dict[str, Any]]):
         self._make = make
         self._changes: List[Dict[str, Any]] = []
         self.report: Optional[Dict[str, Any]] = None
-        """What it did: by how much there is more energy [J], and which cables are longer [m]."""
+        """The effects of the edit: the change of the energy [J] and of cable lengths [m]."""
 
     def _add(self, kind: str, settings: Dict[str, Any]) -> None:
         if self.report is not None:
@@ -27,13 +27,13 @@ class Edit(Changes):
         for name, value in settings.items():
             if name == "self" or value is None:
                 continue
-            # The part that a change adds is told whole; one that it refers to by its name.
+            # An added part is written in full; a part that the change refers to, by its name.
             is_whole = isinstance(value, Part) and kind == "add_" + name
             change[name.rstrip("_")] = value.to_dict() if is_whole else to_plain(value)
         self._changes.append(change)
 
     def make(self) -> None:
-        """Makes the changes now; `with` does it at its end."""
+        """Makes the changes now; a `with` statement calls this at its end."""
         if self.report is not None:
             raise Error("this edit has been made; begin another one")
         self.report = self._make(json_text(self._changes, "changes"))

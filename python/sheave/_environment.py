@@ -1,4 +1,4 @@
-"""A batch as learning loops want it."""
+"""A batch with the interface of vector environments for reinforcement learning."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ if TYPE_CHECKING:
 
 
 class Bounds(NamedTuple):
-    """Between what the entries of a row lie."""
+    """Lower and upper bounds of the entries of a row."""
 
     low: Any
     high: Any
 
     @property
     def shape(self) -> Tuple[int, ...]:
-        """Of a row."""
+        """Shape of a row."""
         return tuple(self.low.shape)
 
     def sample(self, count: int, random: np.random.Generator) -> "Array":
-        """Rows between the bounds, which must be finite."""
+        """Uniform random rows within the bounds, which must be finite."""
         return random.uniform(self.low, self.high, (count, *self.shape))
 
 
@@ -83,7 +83,7 @@ class VectorEnvironment:
 
     def reset(self, *, seed: Optional[int] = None,
               mask: Optional["Flags"] = None) -> Tuple["Array", Dict[str, Any]]:
-        """All worlds, or those of the mask, begin anew."""
+        """Resets all worlds, or those selected by the mask."""
         if seed is not None:
             self._random = np.random.default_rng(seed)
         chosen = np.ones(self.num_envs, bool) if mask is None else np.asarray(mask)
@@ -97,7 +97,7 @@ class VectorEnvironment:
     def step(
         self, actions: Any
     ) -> Tuple["Array", "Array", "Flags", "Flags", Dict[str, Any]]:
-        """Observations, rewards, which have terminated, which are truncated, and more."""
+        """Applies actions. Returns observations, rewards, terminated, truncated and infos."""
         given = np.asarray(actions, float)
         if given.shape != (self.num_envs, len(self.actions)):
             raise ArgumentError(f"actions: must have the shape {(self.num_envs, len(self.actions))}"

@@ -1,4 +1,4 @@
-"""What is raised, and what it tells."""
+"""The exceptions of sheave and the faults that they contain."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from typing import Any, Iterable, Mapping, Optional, Tuple
 
 @dataclass(frozen=True)
 class Fault:
-    """One thing that is wrong."""
+    """A single fault."""
 
     file: str = ""
-    """Of the scene, or the option that has set the value."""
+    """The scene's file, or the option that set the value."""
     line: int = 0
-    """From 1; 0: it has no place in a text."""
+    """From 1; 0: the fault has no position in a text."""
     column: int = 0
     """From 1, in characters."""
     pointer: str = ""
@@ -22,9 +22,9 @@ class Fault:
     """Kind of the fault (docs/explanation/errors.md)."""
     message: str = ""
     value: str = ""
-    """As it stands in the text, shortened."""
+    """The value as written in the text, shortened."""
     allowed: str = ""
-    """What would be right, if the message does not say it."""
+    """The allowed values, if the message does not name them."""
 
     def __str__(self) -> str:
         place = self.file
@@ -37,7 +37,7 @@ class Fault:
 
 
 class Error(Exception):
-    """Something that was asked for cannot be; nothing has changed."""
+    """A request was refused; nothing has changed."""
 
     faults: Tuple[Fault, ...]
 
@@ -50,35 +50,35 @@ class Error(Exception):
 
 
 class SceneError(Error, ValueError):
-    """A scene that cannot be simulated; `faults` has all that is wrong with it."""
+    """A scene cannot be simulated; `faults` lists all its faults."""
 
 
 class EditError(Error, ValueError):
-    """An edit that cannot be; `faults` has all that is wrong, with pointers into its changes."""
+    """An edit was refused; `faults` lists all its faults, with pointers into its changes."""
 
 
 class ArgumentError(Error, TypeError, ValueError):
-    """An argument that is not what is allowed."""
+    """An argument has a value that is not allowed."""
 
 
 class UnknownNameError(Error, KeyError):
-    """There is no body, joint, cable, quantity or control of this name."""
+    """There is no body, joint, cable, observable or control with this name."""
 
 
 class StaleError(Error, ReferenceError):
-    """What a handle refers to is no more."""
+    """The body, joint or cable of a handle has been removed."""
 
 
 class StateError(Error, ValueError):
-    """A state that does not belong to this world, or is none."""
+    """The data is no state, or a state of another world."""
 
 
 class DivergenceError(Error, ArithmeticError):
-    """A step has come to no state that means anything; the world is as it was before it."""
+    """A step diverged; the world is in the state before that step."""
 
 
 def shown(value: Any) -> str:
-    """For a message, however it looks."""
+    """A short text of any value, for a message."""
     try:
         return repr(value)[:80]
     except Exception:

@@ -25,7 +25,7 @@ TYPES = {
     "vectors": "Sequence[Sequence[float]]",
     "texts": "Sequence[str]",
 }
-# What a class of a type is called behind its own name.
+# Suffix of the class names of each kind.
 SUFFIXES = {"joint": "Joint", "controller": "Controller", "shape": "", "link": "Link"}
 BASES = {"joint": "Joint", "controller": "Controller", "shape": "Shape", "link": "Link"}
 PLAIN = ["step", "body", "cable", "collider", "ground", "trigger", "camera", "paint", "check",
@@ -38,17 +38,17 @@ def camel(words: str) -> str:
 
 
 def class_name(kind: str, variant: str) -> str:
-    """Of a type of a registry, as in C++."""
+    """Class name of a registered type, as in C++."""
     return camel(variant) + SUFFIXES[kind]
 
 
 def identifier(name: str) -> str:
-    """`from` and the like cannot be names of arguments."""
+    """The argument name of a key; Python keywords such as `from` get an underscore."""
     return name + "_" if keyword.iskeyword(name) else name
 
 
 def type_of_member(member: Dict[str, Any]) -> str:
-    """What a member may be given as."""
+    """The Python type of a member."""
     name = member["format"]
     own = {"body change": "Mapping[str, Any]", "step change": "Mapping[str, Any]"}.get(name)
     own = own or f"Union[{camel(name)}, Mapping[str, Any]]"
@@ -56,14 +56,14 @@ def type_of_member(member: Dict[str, Any]) -> str:
 
 
 def type_of_field(field: Dict[str, Any]) -> str:
-    """What a field may be given as."""
+    """The Python type of a field."""
     if field["kind"] == "choice":
         return "Literal[" + ", ".join(f'"{choice}"' for choice in field["choices"]) + "]"
     return TYPES[field["kind"]]
 
 
 def description(field: Dict[str, Any]) -> str:
-    """What a field means, what it may be, and what it is if it is not given."""
+    """The meaning of a field, its allowed values and its default."""
     text = f"{field['meaning']} ({field['allowed']}"
     if field["required"]:
         text += "; required"
@@ -73,7 +73,7 @@ def description(field: Dict[str, Any]) -> str:
 
 
 def wrapped(text: str, indent: str, hanging: str = "") -> List[str]:
-    """Lines of at most 100 characters."""
+    """The text in lines of at most 100 characters."""
     return textwrap.wrap(text, 100, initial_indent=indent, subsequent_indent=indent + hanging,
                          break_on_hyphens=False, break_long_words=False)
 
@@ -90,7 +90,7 @@ class Setting:
 
 
 def settings_of(table: Dict[str, Any]) -> List[Setting]:
-    """The keys of a format or of a variant, those that are required first."""
+    """The keys of a format or of a variant, required ones first."""
     fields = [Setting(f["name"], type_of_field(f), description(f), f["required"])
               for f in table["fields"]]
     members = [Setting(m["name"], type_of_member(m), m["meaning"], m["required"])
@@ -99,7 +99,7 @@ def settings_of(table: Dict[str, Any]) -> List[Setting]:
 
 
 def documented(settings: List[Setting], indent: str) -> List[str]:
-    """Lines of a docstring."""
+    """The lines of a docstring that describe the settings."""
     lines: List[str] = []
     for setting in settings:
         lines += wrapped(f"{setting.python_name}: {setting.text}", indent, "    ")
@@ -107,7 +107,7 @@ def documented(settings: List[Setting], indent: str) -> List[str]:
 
 
 def arguments(settings: List[Setting], indent: str) -> List[str]:
-    """Of a function; those that may be left out can only be given by name."""
+    """The arguments of a function; optional ones are keyword-only."""
     lines = [f"{indent}{s.python_name}: {s.type_name}," for s in settings if s.required]
     optional = [s for s in settings if not s.required]
     if optional:
@@ -146,7 +146,7 @@ from typing import Any, {typing}
 
 
 def parts_text() -> str:
-    """The classes of which a model is made."""
+    """The source of parts.py: the classes of a model's parts."""
     formats = _sheave.formats()
     lines = [HEADER.format(what="The parts of a model: bodies, shapes, joints, cables, links.",
                            typing="Literal, Mapping, Optional, Sequence, Union"),
@@ -171,7 +171,7 @@ def parts_text() -> str:
 
 
 def changes_text() -> str:
-    """The methods of an edit."""
+    """The source of _changes.py: the methods of an edit."""
     change = _sheave.formats()["change"]
     used = sorted({camel(m["format"]) for v in change["variants"] for m in v["members"]
                    if not m["format"].endswith(" change")})

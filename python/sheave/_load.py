@@ -10,7 +10,7 @@ from typing import Any, Dict, Mapping, NamedTuple, Optional, Protocol, Union
 from ._errors import ArgumentError, SceneError
 
 class HasDict(Protocol):
-    """What has the scene that it stands for as a dict."""
+    """An object that can return its scene as a dict."""
 
     def to_dict(self) -> Dict[str, Any]:
         """The scene as a dict."""
@@ -21,7 +21,7 @@ SceneLike = Union[str, "os.PathLike[str]", Mapping[str, Any], HasDict]
 
 
 class Source(NamedTuple):
-    """What the compiled half is told."""
+    """A scene for the compiled module."""
 
     text: str
     name: str
@@ -29,7 +29,7 @@ class Source(NamedTuple):
 
 
 def plain(value: Any) -> Any:
-    """What json cannot write, as what it can: NumPy's arrays and numbers."""
+    """Converts NumPy arrays and numbers, and models, to types that json can write."""
     if hasattr(value, "tolist"):
         return value.tolist()
     if hasattr(value, "to_dict"):
@@ -42,7 +42,7 @@ def plain(value: Any) -> Any:
 
 
 def json_text(value: Any, name: str = "scene") -> str:
-    """The value as JSON; numbers that are not finite are refused by name."""
+    """The value as JSON; the error for a non-finite number contains `name`."""
     try:
         return json.dumps(value, default=plain, allow_nan=False)
     except (TypeError, ValueError, RecursionError) as error:
@@ -50,7 +50,7 @@ def json_text(value: Any, name: str = "scene") -> str:
 
 
 def source_of(scene: SceneLike) -> Source:
-    """A scene as its text, or where it is."""
+    """The text of a scene, or the path of its file."""
     if isinstance(scene, Mapping) or (hasattr(scene, "to_dict") and not isinstance(scene, type)):
         return Source(json_text(scene), "<dict>", False)
     if isinstance(scene, os.PathLike):
@@ -65,7 +65,7 @@ def source_of(scene: SceneLike) -> Source:
 
 
 def overrides_of(settings: Optional[Mapping[str, Any]]) -> Dict[str, str]:
-    """Settings by their JSON pointers, as JSON."""
+    """The values as JSON texts, by JSON pointers of settings."""
     if settings is None:
         return {}
     if not isinstance(settings, Mapping):
@@ -76,7 +76,7 @@ def overrides_of(settings: Optional[Mapping[str, Any]]) -> Dict[str, str]:
 
 
 def read_text(path: Union[str, Path]) -> str:
-    """A file of the user's, or SceneError."""
+    """The text of a user's file; raises SceneError if it cannot be read."""
     try:
         return Path(path).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:

@@ -1,4 +1,4 @@
-"""Models that are built in Python."""
+"""Models built in Python."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class Model:
         object.__setattr__(self, name, value)
 
     def add(self, part: A) -> A:
-        """Appends a body, joint, cable, controller, trigger, collider, paint or check; gives it."""
+        """Adds a body, joint, cable, controller, trigger, collider, paint or check; returns it."""
         given: Any = part
         for name, own in LISTS.items():
             if isinstance(given, own):
@@ -97,7 +97,7 @@ class Model:
         return scene
 
     def to_json(self, indent: Optional[int] = None) -> str:
-        """The scene as a text, with so many spaces for each level, or in one line."""
+        """The scene as a text with `indent` spaces per level; None: in one line."""
         if indent is not None and (isinstance(indent, bool) or not isinstance(indent, int)
                                    or not 0 <= indent <= 100):
             raise ArgumentError(f"indent: must be an integer from 0 to 100, or None, was {indent!r}"[:300])
@@ -109,7 +109,7 @@ class Model:
 
     @classmethod
     def from_dict(cls, scene: Mapping[str, Any]) -> "Model":
-        """The model that a scene tells."""
+        """The model of a scene."""
         model = cls(scene.get("gravity", (0.0, 0.0, 0.0)), scene.get("duration", 1.0))
         for key, value in scene.items():
             if key in LISTS:
@@ -124,11 +124,11 @@ class Model:
 
     @classmethod
     def load(cls, scene: SceneLike, set: Optional[Mapping[str, Any]] = None) -> "Model":
-        """The model of a file, a text or a dict, checked; SceneError tells what is wrong."""
+        """The checked model of a file, a text or a dict; raises SceneError with all faults."""
         return cls.from_dict(json.loads(_sheave.canonical(*source_of(scene), overrides_of(set))))
 
     def simulation(self, set: Optional[Mapping[str, Any]] = None) -> Simulation:
-        """The world of the model; SceneError tells what is wrong."""
+        """The simulation of the model; raises SceneError with all faults."""
         return Simulation(self, set)
 
     def __eq__(self, other: object) -> bool:
@@ -144,5 +144,5 @@ class Model:
 
 
 def whole(part: Any) -> Any:
-    """A part that is a scene's own, not one that is referred to."""
+    """A part of the scene itself, written in full, not a reference to one."""
     return part.to_dict() if isinstance(part, Part) else to_plain(part)

@@ -1,4 +1,4 @@
-"""What the parts of a model have in common."""
+"""The base class of the parts of a model."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ P = TypeVar("P", bound="Part")
 
 
 def keys(names: str) -> Dict[str, str]:
-    """The keys that names of attributes stand for: `from_` is "from"."""
+    """The JSON keys of attribute names: `from_` is "from"."""
     return {name: name.rstrip("_") for name in names.split()}
 
 
 class Part:
-    """An object of a scene: attributes by the names of its keys, kept as they were given.
+    """An object of a scene. Its attributes have the names of its keys and keep the given values.
 
-    What is not given is left to the defaults of the format. Values are checked when the model is
-    loaded, all at once.
+    An attribute without a value has the default of the format. All values are checked together
+    when the model is loaded.
     """
 
     _kind: ClassVar[str] = ""
@@ -59,7 +59,7 @@ class Part:
         return f"{cls.__name__} has no setting {name!r}{hint}"
 
     def to_dict(self) -> Dict[str, Any]:
-        """As it stands in a scene."""
+        """The part as an object of a scene."""
         values: Dict[str, Any] = {"type": self._type} if self._type else {}
         for key, value in self.__dict__["_values"].items():
             values[key] = to_plain(value)
@@ -67,7 +67,7 @@ class Part:
 
     @classmethod
     def from_dict(cls: Type[P], values: Mapping[str, Any]) -> P:
-        """The part that a dict of a scene tells; of a class like Joint its "type" chooses."""
+        """The part of a scene's dict; for a base class such as Joint, "type" selects the class."""
         chosen = cls._class_of(values)
         known = {key: name for name, key in chosen._keys.items()}
         given = {}
@@ -128,7 +128,7 @@ class Part:
 
 
 def to_plain(value: Any) -> Any:
-    """Values as JSON has them; a body that another part refers to is told by its name."""
+    """The value in JSON types; a body that another part refers to becomes its name."""
     if isinstance(value, Part):
         return value.name if value._kind == "body" else value.to_dict()
     if isinstance(value, Mapping):

@@ -1,4 +1,4 @@
-"""Figures, with matplotlib if it is there."""
+"""Figures, made with matplotlib if it is installed."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def new_axes(count: int) -> Any:
-    """So many axes over one time, in a figure of their own, without asking for a window."""
+    """`count` axes with a common time, in a new figure that opens no window."""
     size = (7.0, 4.0) if count == 1 else (7.0, 1.2 + 2.2 * count)
     try:
         from matplotlib import pyplot
@@ -27,14 +27,14 @@ def new_axes(count: int) -> Any:
 
 
 def y_label(names: List[str], unit: str) -> str:
-    """What the axis shows, if it is one kind of quantity, and its unit."""
+    """The label of an axis: the kind of quantity, if there is only one, and the unit."""
     kinds = {name.rsplit(".", 1)[-1] for name in names}
     what = kinds.pop().replace("_", " ") if len(kinds) == 1 else ""
     return f"{what} [{unit}]".strip() if unit else what
 
 
 def plot_recording(recording: "Recording", axes: Any, options: Dict[str, Any]) -> Any:
-    """A line for each quantity, axes for each unit."""
+    """Draws a line for each quantity, with separate axes for each unit."""
     by_unit: Dict[str, List[str]] = {}
     for name in recording:
         by_unit.setdefault(recording.units[name], []).append(name)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Recording(AbstractMapping):  # type: ignore[type-arg]
-    """Arrays by the names of quantities, all as long as `time`."""
+    """Arrays by the names of observables, all with the length of `time`."""
 
     def __init__(self, names: List[str], rows: "Array", units: List[str]):
         self._names = names
@@ -26,12 +26,12 @@ class Recording(AbstractMapping):  # type: ignore[type-arg]
 
     @property
     def units(self) -> Mapping[str, str]:
-        """By the same names: "N", "rad/s"; empty for a pure number."""
+        """Units by the same names: "N", "rad/s"; empty for a dimensionless number."""
         return self._units
 
     @property
     def time(self) -> "Array":
-        """[s]"""
+        """The times of the rows [s]."""
         return self._rows[:, 0]
 
     def __getitem__(self, name: str) -> "Array":
@@ -61,10 +61,10 @@ class Recording(AbstractMapping):  # type: ignore[type-arg]
         return pandas.DataFrame(self._rows[:, 1:].copy(), index=index, columns=self._names)
 
     def plot(self, axes: Any = None, **options: Any) -> Any:
-        """Draws all of it over time with matplotlib: axes of their own for each unit.
+        """Draws all observables over time with matplotlib, with separate axes for each unit.
 
-        Gives the axes; several as an array, in the order in which units come. `axes` are as many
-        to draw into. Other options go to matplotlib's plot().
+        Returns the axes; several ones as an array, in the order of the units' first appearance.
+        `axes`: existing axes to draw into, one per unit. Other options go to matplotlib's plot().
         """
         from ._plotting import plot_recording
 

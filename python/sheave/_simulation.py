@@ -1,4 +1,4 @@
-"""A world that lives: python/bindings/ has most of it."""
+"""The Python part of a live simulation; most of it is in python/bindings/."""
 
 from __future__ import annotations
 
@@ -57,40 +57,41 @@ class Things(AbstractMapping, Generic[Thing]):  # type: ignore[type-arg]
 class Simulation(_sheave.Simulation):
     """A world that is stepped, read and steered while it runs.
 
-    Make one with sheave.load(). Bodies, joints and cables are handles that tell when what they
-    refer to is no more. What is set is part of the state: hash, snapshot and restore hold.
+    sheave.load() makes a simulation. Bodies, joints and cables are handles, which raise StaleError
+    once their object has been removed. Control values are part of the state, so hash, snapshot
+    and restore include them.
     """
 
-    __slots__ = ()  # a name that is misspelt must not become an attribute
+    __slots__ = ()  # a misspelt name must not become an attribute
 
     def __init__(self, scene: SceneLike, set: Optional[Mapping[str, Any]] = None):
         super().__init__(*source_of(scene), overrides_of(set))
 
     @property
     def bodies(self) -> "Things[LiveBody]":
-        """By their names."""
+        """The bodies by their names."""
         return Things("bodies", self.body, self._bodies)
 
     @property
     def joints(self) -> "Things[LiveJoint]":
-        """By their names."""
+        """The joints by their names."""
         return Things("joints", self.joint, self._joints)
 
     @property
     def cables(self) -> "Things[LiveCable]":
-        """By their names."""
+        """The cables by their names."""
         return Things("cables", self.cable, self._cables)
 
     def edit(self, changes: Optional[Callable[[Edit], object]] = None) -> Edit:
-        """Changes what the world is made of, all or nothing.
+        """Changes the structure of the world: all changes are made, or none.
 
         >>> with sim.edit() as edit:
         ...     edit.add_body({"name": "ball", "mobility": "free", "mass": 1,
         ...                    "shape": {"type": "sphere", "radius": 0.1}})
         ...     edit.remove_cable("rope")
 
-        or `sim.edit(function)`, which is called with the Edit. What it does to energy and to the
-        lengths of cables stands in its `report`.
+        or `sim.edit(function)`, which calls the function with the Edit. The edit's `report` has its
+        effects on the energy and on the lengths of cables.
         """
         edit = Edit(self._make_changes)
         if changes is None:
@@ -126,11 +127,11 @@ class Simulation(_sheave.Simulation):
         before_step: Optional[Callback] = None,
         before_substep: Optional[Callback] = None,
     ) -> Recording:
-        """Steps, and keeps quantities: those at the start and after every `every` steps.
+        """Steps and records observables at the start and after every `every` steps.
 
-        Without `steps` until the end of the scene's duration. A trigger may end it earlier.
+        `steps` None: until the end of the scene's duration. A trigger may end the run earlier.
         """
-        try:  # once: what gives its items may give others the next time
+        try:  # iterate only once: a second iteration may give other items
             listed = [names] if isinstance(names, str) else list(names)
         except Exception:
             raise ArgumentError(f"names: must be a list of strings, was {shown(names)}") from None
@@ -139,7 +140,7 @@ class Simulation(_sheave.Simulation):
 
     def plot(self, *names: str, steps: Optional[int] = None, every: int = 1, axes: Any = None,
              **options: Any) -> Any:
-        """Records quantities and draws them over time with matplotlib: Recording.plot()."""
+        """Records observables and draws them over time with matplotlib: Recording.plot()."""
         return self.record(list(names), steps, every).plot(axes=axes, **options)
 
     def save_state(self, path: Union[str, "os.PathLike[str]"]) -> None:
@@ -148,14 +149,14 @@ class Simulation(_sheave.Simulation):
             file.write(self.state_bytes())
 
     def load_state(self, path: Union[str, "os.PathLike[str]"]) -> None:
-        """Puts a saved state in."""
+        """Sets the simulation to a state from a file."""
         with open(path, "rb") as file:
             self.set_state_bytes(file.read())
 
     def video(self, path: Union[str, "os.PathLike[str]"], duration: Optional[float] = None,
               fps: float = 60.0, width: int = 1280, height: int = 720,
               progress: Optional[Callable[[float], object]] = None) -> None:
-        """Steps, and writes a video with ffmpeg. `progress` is told what share is done."""
+        """Steps and writes a video with ffmpeg. `progress` is called with the completed share."""
         from ._video import write_video
 
         write_video(self, path, duration, fps, width, height, progress)
@@ -171,7 +172,7 @@ class Simulation(_sheave.Simulation):
 def load(scene: SceneLike, set: Optional[Mapping[str, Any]] = None) -> Simulation:
     """The simulation of a scene, with its controllers and triggers.
 
-    `scene` is the path of a file, a JSON text, a dict or a sheave.Model. `set` replaces settings by
-    their JSON pointers: {"/bodies/drum/mass": 3}. Raises SceneError with all faults.
+    `scene` is the path of a file, a JSON text, a dict or a sheave.Model. `set` maps JSON pointers
+    of settings to new values: {"/bodies/drum/mass": 3}. Raises SceneError with all faults.
     """
     return Simulation(scene, set)

@@ -1,4 +1,4 @@
-"""Videos, by the program ffmpeg."""
+"""Videos, encoded by the program ffmpeg."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def write_video(
     height: int,
     progress: Optional[Callable[[float], object]],
 ) -> None:
-    """Steps the simulation and writes what it looks like. The file appears whole or not at all."""
+    """Steps the simulation and writes a video. The file appears complete or not at all."""
     if not _sheave.has_render:
         raise Error("videos need the renderer, which this build of sheave is without")
     for name, value in (("fps", fps), ("duration", 1.0 if duration is None else duration)):
